@@ -1,0 +1,447 @@
+//! Exact numbers: `p + q√r` over the rationals, with the infinities and NaN of IEEE 754.
+//!
+//! A kernel run takes at most one square root (a normalisation), so one radicand a run suffices;
+//! a second, different one makes the result NaN rather than wrong.
+
+use super::{Real, Vector};
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::Arc;
+
+/// A rational `numerator / denominator * 2^exponent`, never reduced by a gcd: on the short formulas
+/// of a kernel the digits grow less than gcds cost.
+#[derive(Clone, Debug)]
+pub struct Fraction {
+    numerator: BigInt,
+    /// Positive.
+    denominator: BigInt,
+    exponent: i64,
+}
+
+impl Fraction {
+    /// The exact value of a finite float.
+    pub fn from_f64(value: f64) -> Fraction {
+        let bits = value.to_bits();
+        let field = (bits >> 52 & 0x7ff) as i64;
+        let fraction = (bits & ((1 << 52) - 1)) as i64;
+        let (mut digits, mut exponent) =
+            if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+        if digits == 0 {
+            exponent = 0;
+        } else {
+            exponent += i64::from(digits.trailing_zeros());
+            digits >>= digits.trailing_zeros();
+        }
+        let signed = if value.is_sign_negative() { -digits } else { digits };
+        Fraction { numerator: BigInt::from(signed), denominator: BigInt::one(), exponent }
+    }
+
+    /// As a reduced rational.
+    pub fn to_rational(&self) -> BigRational {
+        let power = BigInt::one() << self.exponent.unsigned_abs();
+        if self.exponent < 0 {
+            BigRational::new(self.numerator.clone(), &self.denominator * power)
+        } else {
+            BigRational::new(&self.numerator * power, self.denominator.clone())
+        }
+    }
+
+    fn zero() -> Fraction {
+        Fraction::from_f64(0.0)
+    }
+
+    fn sign(&self) -> Ordering {
+        match self.numerator.sign() {
+            Sign::Minus => Ordering::Less,
+            Sign::NoSign => Ordering::Equal,
+            Sign::Plus => Ordering::Greater,
+        }
+    }
+
+    fn add(&self, other: &Fraction) -> Fraction {
+        let exponent = self.exponent.min(other.exponent);
+        let align = |f: &Fraction| &f.numerator << (f.exponent - exponent);
+        if self.denominator == other.denominator {
+            let numerator = align(self) + align(other);
+            return Fraction { numerator, denominator: self.denominator.clone(), exponent };
+        }
+        Fraction {
+            numerator: align(self) * &other.denominator + align(other) * &self.denominator,
+            denominator: &self.denominator * &other.denominator,
+            exponent,
+        }
+    }
+
+    fn negated(&self) -> Fraction {
+        Fraction { numerator: -&self.numerator, ..self.clone() }
+    }
+
+    fn mul(&self, other: &Fraction) -> Fraction {
+        Fraction {
+            numerator: &self.numerator * &other.numerator,
+            denominator: &self.denominator * &other.denominator,
+            exponent: self.exponent + other.exponent,
+        }
+    }
+
+    /// `1 / self`; `self` is not zero.
+    fn reciprocal(&self) -> Fraction {
+        let numerator = if self.numerator.is_negative() {
+            -&self.denominator
+        } else {
+            self.denominator.clone()
+        };
+        Fraction { numerator, denominator: self.numerator.abs(), exponent: -self.exponent }
+    }
+}
+
+/// An exact number of a kernel run. One zero, whose sign bit reads positive.
+#[derive(Clone, Debug)]
+pub enum Exact {
+    /// Not a number.
+    Nan,
+    /// Positive infinity, or negative if true.
+    Infinite(bool),
+    /// A rational.
+    Rational(Fraction),
+    /// `p + q√r`, with `q` not zero and `r` positive.
+    Root {
+        /// The rational part.
+        p: Fraction,
+        /// The factor of the root.
+        q: Fraction,
+        /// The radicand, shared by a run.
+        r: Arc<Fraction>,
+    },
+}
+
+use Exact::{Infinite, Nan, Rational, Root};
+
+impl Exact {
+    /// The exact value of a float; infinities and NaN stay what they are.
+    pub fn from_f64(value: f64) -> Exact {
+        if value.is_nan() {
+            Nan
+        } else if value.is_infinite() {
+            Infinite(value < 0.0)
+        } else {
+            Rational(Fraction::from_f64(value))
+        }
+    }
+
+    /// The sign of the number; none of NaN.
+    pub fn sign(&self) -> Option<Ordering> {
+        match self {
+            Nan => None,
+            Infinite(negative) => Some(if *negative { Ordering::Less } else { Ordering::Greater }),
+            Rational(p) => Some(p.sign()),
+            Root { p, q, r } => {
+                let (sp, sq) = (p.sign(), q.sign());
+                Some(if sp == Ordering::Equal || sp == sq {
+                    sq
+                } else {
+                    // Opposite signs: the larger square wins. p² - q²r has p's sign if p does.
+                    let squares = p.mul(p).add(&q.mul(q).mul(r).negated());
+                    if sp == Ordering::Greater { squares.sign() } else { squares.sign().reverse() }
+                })
+            }
+        }
+    }
+
+    /// As a reduced rational; none of NaN, the infinities and irrational numbers.
+    pub fn to_rational(&self) -> Option<BigRational> {
+        match self {
+            Rational(p) => Some(p.to_rational()),
+            _ => None,
+        }
+    }
+
+    /// The nearest float, within a few ulps: for people to read, never for a decision.
+    pub fn approximate(&self) -> f64 {
+        let float = |f: &Fraction| f.to_rational().to_f64().unwrap_or(f64::NAN);
+        match self {
+            Nan => f64::NAN,
+            Infinite(negative) => {
+                if *negative {
+                    f64::NEG_INFINITY
+                } else {
+                    f64::INFINITY
+                }
+            }
+            Rational(p) => float(p),
+            Root { p, q, r } => float(p) + float(q) * float(r).sqrt(),
+        }
+    }
+
+    fn combine(p: Fraction, q: Fraction, r: &Arc<Fraction>) -> Exact {
+        if q.numerator.is_zero() { Rational(p) } else { Root { p, q, r: Arc::clone(r) } }
+    }
+
+    fn sum(&self, other: &Exact) -> Exact {
+        match (self, other) {
+            (Nan, _) | (_, Nan) => Nan,
+            (Infinite(a), Infinite(b)) => {
+                if a == b {
+                    Infinite(*a)
+                } else {
+                    Nan
+                }
+            }
+            (Infinite(a), _) | (_, Infinite(a)) => Infinite(*a),
+            (Rational(a), Rational(b)) => Rational(a.add(b)),
+            (Rational(a), Root { p, q, r }) | (Root { p, q, r }, Rational(a)) => {
+                Root { p: p.add(a), q: q.clone(), r: Arc::clone(r) }
+            }
+            (Root { p, q, r }, Root { p: p2, q: q2, r: r2 }) => match same_root(r, r2) {
+                true => Exact::combine(p.add(p2), q.add(q2), r),
+                false => Nan,
+            },
+        }
+    }
+
+    fn negation(&self) -> Exact {
+        match self {
+            Nan => Nan,
+            Infinite(negative) => Infinite(!negative),
+            Rational(p) => Rational(p.negated()),
+            Root { p, q, r } => Root { p: p.negated(), q: q.negated(), r: Arc::clone(r) },
+        }
+    }
+
+    fn product(&self, other: &Exact) -> Exact {
+        match (self, other) {
+            (Nan, _) | (_, Nan) => Nan,
+            (Infinite(_), _) | (_, Infinite(_)) => match (self.sign(), other.sign()) {
+                (Some(Ordering::Equal), _) | (_, Some(Ordering::Equal)) => Nan,
+                (a, b) => Infinite(a != b),
+            },
+            (Rational(a), Rational(b)) => Rational(a.mul(b)),
+            (Rational(a), Root { p, q, r }) | (Root { p, q, r }, Rational(a)) => {
+                Exact::combine(p.mul(a), q.mul(a), r)
+            }
+            (Root { p, q, r }, Root { p: p2, q: q2, r: r2 }) => match same_root(r, r2) {
+                true => {
+                    Exact::combine(p.mul(p2).add(&q.mul(q2).mul(r)), p.mul(q2).add(&q.mul(p2)), r)
+                }
+                false => Nan,
+            },
+        }
+    }
+
+    fn reciprocal(&self) -> Exact {
+        match self {
+            Nan => Nan,
+            Infinite(_) => Rational(Fraction::zero()),
+            // One zero, read as positive, so dividing by it gives positive infinity.
+            _ if self.sign() == Some(Ordering::Equal) => Infinite(false),
+            Rational(p) => Rational(p.reciprocal()),
+            Root { p, q, r } => {
+                // 1/(p + q√r) = (p - q√r) / (p² - q²r). The norm is zero only if √r is rational and
+                // p = q√r; then the number is 2p.
+                let norm = p.mul(p).add(&q.mul(q).mul(r).negated());
+                if norm.numerator.is_zero() {
+                    return Rational(p.add(p).reciprocal());
+                }
+                let inverse = norm.reciprocal();
+                Exact::combine(p.mul(&inverse), q.negated().mul(&inverse), r)
+            }
+        }
+    }
+
+    fn quotient(&self, other: &Exact) -> Exact {
+        match (self, other) {
+            (Infinite(_), Infinite(_)) => Nan,
+            // IEEE 754 divides zero by zero to NaN; infinity by zero stays infinite.
+            (Infinite(negative), _) if other.sign() == Some(Ordering::Equal) => Infinite(*negative),
+            _ => self.product(&other.reciprocal()),
+        }
+    }
+}
+
+fn same_root(a: &Arc<Fraction>, b: &Arc<Fraction>) -> bool {
+    Arc::ptr_eq(a, b) || a.add(&b.negated()).numerator.is_zero()
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
+        impl $trait for Exact {
+            type Output = Exact;
+            fn $method(self, other: Exact) -> Exact {
+                let ($a, $b) = (&self, &other);
+                $body
+            }
+        }
+        impl $trait<&Exact> for Exact {
+            type Output = Exact;
+            fn $method(self, other: &Exact) -> Exact {
+                let ($a, $b) = (&self, other);
+                $body
+            }
+        }
+    };
+}
+
+operator!(Add, add, |a, b| a.sum(b));
+operator!(Sub, sub, |a, b| a.sum(&b.negation()));
+operator!(Mul, mul, |a, b| a.product(b));
+operator!(Div, div, |a, b| a.quotient(b));
+
+impl Neg for Exact {
+    type Output = Exact;
+    fn neg(self) -> Exact {
+        self.negation()
+    }
+}
+
+impl Real for Exact {
+    fn zero() -> Self {
+        Rational(Fraction::zero())
+    }
+    fn one() -> Self {
+        Exact::from_f64(1.0)
+    }
+    fn abs(&self) -> Self {
+        if self.sign() == Some(Ordering::Less) { self.negation() } else { self.clone() }
+    }
+    fn sqrt(&self) -> Self {
+        match (self, self.sign()) {
+            (_, None | Some(Ordering::Less)) => Nan,
+            (_, Some(Ordering::Equal)) => Exact::zero(),
+            (Rational(r), _) => {
+                Root { p: Fraction::zero(), q: Fraction::from_f64(1.0), r: Arc::new(r.clone()) }
+            }
+            (Infinite(_), _) => Infinite(false),
+            // A root of a root: no kernel takes one.
+            _ => Nan,
+        }
+    }
+    fn is_sign_negative(&self) -> bool {
+        self.sign() == Some(Ordering::Less)
+    }
+    fn is_less(&self, other: &Self) -> bool {
+        compare(self, other) == Some(Ordering::Less)
+    }
+    fn is_at_most(&self, other: &Self) -> bool {
+        matches!(compare(self, other), Some(Ordering::Less | Ordering::Equal))
+    }
+    fn is_zero(&self) -> bool {
+        self.sign() == Some(Ordering::Equal)
+    }
+    fn is_nan(&self) -> bool {
+        matches!(self, Nan)
+    }
+    fn is_finite(&self) -> bool {
+        !matches!(self, Nan | Infinite(_))
+    }
+    fn infinity() -> Self {
+        Infinite(false)
+    }
+    fn just_below(&self) -> Self {
+        self.clone()
+    }
+    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+        a.product(b).sum(&c.product(d).negation())
+    }
+    fn largest_accepted(_: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
+        exact()
+    }
+}
+
+fn compare(a: &Exact, b: &Exact) -> Option<Ordering> {
+    match (a, b) {
+        (Nan, _) | (_, Nan) => None,
+        (Infinite(x), Infinite(y)) => Some(y.cmp(x)),
+        _ => a.sum(&b.negation()).sign(),
+    }
+}
+
+/// Three exact numbers.
+#[derive(Clone, Debug)]
+pub struct ExactVector([Exact; 3]);
+
+impl ExactVector {
+    /// The exact value of three floats.
+    pub fn from_f64(values: [f64; 3]) -> ExactVector {
+        ExactVector(values.map(Exact::from_f64))
+    }
+}
+
+impl Vector for ExactVector {
+    type Real = Exact;
+    fn new(x: Exact, y: Exact, z: Exact) -> Self {
+        ExactVector([x, y, z])
+    }
+    fn at(&self, axis: usize) -> Exact {
+        self.0[axis].clone()
+    }
+    fn minus(&self, other: &Self) -> Self {
+        ExactVector(std::array::from_fn(|i| self.0[i].sum(&other.0[i].negation())))
+    }
+    fn plus(&self, other: &Self) -> Self {
+        ExactVector(std::array::from_fn(|i| self.0[i].sum(&other.0[i])))
+    }
+    fn times(&self, factor: &Exact) -> Self {
+        ExactVector(std::array::from_fn(|i| self.0[i].product(factor)))
+    }
+    fn dot(&self, other: &Self) -> Exact {
+        let [x, y, z] = std::array::from_fn(|i| self.0[i].product(&other.0[i]));
+        x + y + z
+    }
+    fn cross(&self, other: &Self) -> Self {
+        ExactVector(std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            self.0[j].product(&other.0[k]).sum(&other.0[j].product(&self.0[k]).negation())
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(value: f64) -> Exact {
+        Exact::from_f64(value)
+    }
+
+    #[test]
+    fn special_values_follow_ieee_754() {
+        let inf = Exact::infinity();
+        assert!((inf.clone() - inf.clone()).is_nan());
+        assert!((inf.clone() * Exact::zero()).is_nan());
+        assert!((Exact::zero() / Exact::zero()).is_nan());
+        assert!((number(-3.0) / Exact::zero()).is_less(&number(-1e300)));
+        assert!((inf.clone() / number(-2.0)).is_less(&number(-1e300)));
+        assert!((number(5.0) / inf).is_zero());
+        assert!(!Nan.is_less(&Nan) && !Nan.is_at_most(&number(0.0)));
+        assert!(number(-1.0).sqrt().is_nan());
+    }
+
+    #[test]
+    fn roots_compare_exactly_where_floats_cannot() {
+        // √2 against its nearest float: the float is the larger of the two.
+        let root = number(2.0).sqrt();
+        assert!(root.is_less(&number(2f64.sqrt())));
+        assert!(number(2f64.sqrt().next_down()).is_less(&root));
+        // (√2)² is 2, 1/√2 is √2/2, and √4 - 2 is zero although 4's root is kept as a root.
+        assert!((root.clone() * &root - number(2.0)).is_zero());
+        assert!((Exact::one() / &root - root.clone() / number(2.0)).is_zero());
+        let two = number(4.0).sqrt();
+        assert!((two.clone() - number(2.0)).is_zero());
+        assert!((Exact::one() / (two + number(2.0)) - number(0.25)).is_zero());
+    }
+
+    #[test]
+    fn arithmetic_agrees_with_num_rational() {
+        let values = [0.1, -3.5, 1e-300, 7e200, 5e-324];
+        for a in values {
+            for b in values {
+                let [ra, rb] = [a, b].map(|v| BigRational::from_float(v).unwrap());
+                let exact = (number(a) + number(b)) * number(a) / number(b);
+                assert_eq!(exact.to_rational().unwrap(), (&ra + &rb) * &ra / &rb);
+            }
+        }
+    }
+}

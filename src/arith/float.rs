@@ -1,0 +1,260 @@
+//! `f32` on glam's `Vec3`, `f64` on glam's `DVec3`: the scalar vectors, never `Vec3A`.
+
+use super::{Real, Vector};
+use glam::{DVec3, Vec3};
+use std::fmt::Display;
+
+/// An IEEE 754 binary float that kernels are judged in: `f32` or `f64`.
+pub trait Float: Real + Copy + PartialOrd + Display + Default {
+    /// The glam vector of this scalar.
+    type Vector: Vector<Real = Self> + Copy + From<[Self; 3]> + Into<[Self; 3]>;
+    /// `f32` or `f64`, as reports name it.
+    const NAME: &'static str;
+    /// Bits in the significand, the hidden one included.
+    const DIGITS: u32;
+    /// Exponent of the smallest positive number: it is 2 to this power.
+    const MIN_EXPONENT: i32;
+    /// Exponent of the largest finite number: it is below 2 to this power plus one.
+    const MAX_EXPONENT: i32;
+    /// The distance from 1 to the next number above.
+    const EPSILON: Self;
+    /// Rounded to nearest, ties to even.
+    fn from_f64(value: f64) -> Self;
+    /// Exactly.
+    fn to_f64(self) -> f64;
+    /// The bit pattern, in the low bits.
+    fn to_bits(self) -> u64;
+    /// From a bit pattern in the low bits.
+    fn from_bits(bits: u64) -> Self;
+    /// The nearest number to a decimal text, correctly rounded; also `inf`, `nan`.
+    fn parse(text: &str) -> Option<Self>;
+    /// The place in the order of all floats, counted from the zeros (which share place 0).
+    fn place(self) -> i64;
+    /// The float at a place; positive zero at place 0.
+    fn from_place(place: i64) -> Self;
+    /// The distance between the neighbours of `|self|`'s binade: the unit in the last place.
+    fn ulp(self) -> Self;
+    /// The bit pattern in hexadecimal, all digits.
+    fn hex(self) -> String;
+
+    /// The float `ulps` places above (below if negative); stops at the infinities; a NaN stays.
+    fn offset_ulps(self, ulps: i64) -> Self {
+        if self.is_nan() {
+            return self;
+        }
+        let end = Self::infinity().place();
+        Self::from_place(self.place().saturating_add(ulps).clamp(-end, end))
+    }
+}
+
+/// A float strictly between two others, halfway in the order of all floats; none between
+/// neighbours.
+pub fn ordered_midpoint<F: Float>(low: F, high: F) -> Option<F> {
+    let (low, high) = (low.place(), high.place());
+    let middle = low + (high - low) / 2;
+    (middle != low && middle != high).then(|| F::from_place(middle))
+}
+
+/// `a*b - c*d` through `f64`, where the products of two `f32` are exact: Woop's fallback.
+fn wide_f32(a: f32, b: f32, c: f32, d: f32) -> f32 {
+    (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32
+}
+
+/// `a*b - c*d` from exact products: each is a rounded product and its exact remainder, and the two
+/// differences are added. Zero exactly when the products are equal (Jeannerod, Louvet and Muller
+/// 2013 bound the error of this scheme by 1.5 ulps, barring underflow of the remainders).
+fn wide_f64(a: f64, b: f64, c: f64, d: f64) -> f64 {
+    let (p, q) = (a * b, c * d);
+    if !(p.is_finite() && q.is_finite()) {
+        return p - q;
+    }
+    (p - q) + (a.mul_add(b, -p) - c.mul_add(d, -q))
+}
+
+macro_rules! float {
+    ($scalar:ident, $vector:ident, $bits:ident, $signed:ident, $wide:expr) => {
+        impl Real for $scalar {
+            #[inline(always)]
+            fn zero() -> Self {
+                0.0
+            }
+            #[inline(always)]
+            fn one() -> Self {
+                1.0
+            }
+            #[inline(always)]
+            fn abs(&self) -> Self {
+                $scalar::abs(*self)
+            }
+            #[inline(always)]
+            fn sqrt(&self) -> Self {
+                $scalar::sqrt(*self)
+            }
+            #[inline(always)]
+            fn is_sign_negative(&self) -> bool {
+                $scalar::is_sign_negative(*self) && !$scalar::is_nan(*self)
+            }
+            #[inline(always)]
+            fn is_less(&self, other: &Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn is_at_most(&self, other: &Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn is_zero(&self) -> bool {
+                *self == 0.0
+            }
+            #[inline(always)]
+            fn is_nan(&self) -> bool {
+                $scalar::is_nan(*self)
+            }
+            #[inline(always)]
+            fn is_finite(&self) -> bool {
+                $scalar::is_finite(*self)
+            }
+            #[inline(always)]
+            fn infinity() -> Self {
+                $scalar::INFINITY
+            }
+            #[inline]
+            fn just_below(&self) -> Self {
+                if *self == $scalar::INFINITY { *self } else { self.next_down() }
+            }
+            #[inline]
+            fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+                $wide(*a, *b, *c, *d)
+            }
+            fn largest_accepted(accepts: impl Fn(&Self) -> bool, _: impl FnOnce() -> Self) -> Self {
+                if accepts(&$scalar::MAX) {
+                    return $scalar::INFINITY;
+                }
+                if !accepts(&$scalar::MIN) {
+                    return $scalar::NEG_INFINITY;
+                }
+                let (mut low, mut high) = ($scalar::MIN, $scalar::MAX);
+                while let Some(middle) = ordered_midpoint(low, high) {
+                    if accepts(&middle) { low = middle } else { high = middle }
+                }
+                low
+            }
+        }
+
+        impl Float for $scalar {
+            type Vector = $vector;
+            const NAME: &'static str = stringify!($scalar);
+            const DIGITS: u32 = $scalar::MANTISSA_DIGITS;
+            const MIN_EXPONENT: i32 = $scalar::MIN_EXP - $scalar::MANTISSA_DIGITS as i32;
+            const MAX_EXPONENT: i32 = $scalar::MAX_EXP - 1;
+            const EPSILON: Self = $scalar::EPSILON;
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                value as $scalar
+            }
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline]
+            fn to_bits(self) -> u64 {
+                u64::from($scalar::to_bits(self))
+            }
+            #[inline]
+            fn from_bits(bits: u64) -> Self {
+                $scalar::from_bits(bits as $bits)
+            }
+            fn parse(text: &str) -> Option<Self> {
+                text.parse().ok()
+            }
+            fn place(self) -> i64 {
+                let magnitude =
+                    i64::from(($scalar::to_bits(self) & !$scalar::to_bits(-0.0)) as $signed);
+                if self.is_sign_negative() { -magnitude } else { magnitude }
+            }
+            fn from_place(place: i64) -> Self {
+                let magnitude = $scalar::from_bits(place.unsigned_abs() as $bits);
+                if place < 0 { -magnitude } else { magnitude }
+            }
+            fn ulp(self) -> Self {
+                let magnitude = self.abs();
+                if !magnitude.is_finite() {
+                    return $scalar::NAN;
+                }
+                if magnitude == $scalar::MAX {
+                    return magnitude - magnitude.next_down();
+                }
+                magnitude.next_up() - magnitude
+            }
+            fn hex(self) -> String {
+                format!("{:0width$x}", $scalar::to_bits(self), width = size_of::<$scalar>() * 2)
+            }
+        }
+
+        impl Vector for $vector {
+            type Real = $scalar;
+            #[inline(always)]
+            fn new(x: $scalar, y: $scalar, z: $scalar) -> Self {
+                $vector::new(x, y, z)
+            }
+            #[inline(always)]
+            fn at(&self, axis: usize) -> $scalar {
+                self.to_array()[axis]
+            }
+            #[inline(always)]
+            fn minus(&self, other: &Self) -> Self {
+                *self - *other
+            }
+            #[inline(always)]
+            fn plus(&self, other: &Self) -> Self {
+                *self + *other
+            }
+            #[inline(always)]
+            fn times(&self, factor: &$scalar) -> Self {
+                *self * *factor
+            }
+            #[inline(always)]
+            fn dot(&self, other: &Self) -> $scalar {
+                $vector::dot(*self, *other)
+            }
+            #[inline(always)]
+            fn cross(&self, other: &Self) -> Self {
+                $vector::cross(*self, *other)
+            }
+        }
+    };
+}
+
+float!(f32, Vec3, u32, i32, wide_f32);
+float!(f64, DVec3, u64, i64, wide_f64);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_count_ulps_through_zero() {
+        assert_eq!((-0.0f32).place(), 0);
+        assert_eq!(f32::from_bits(1).offset_ulps(-2), -f32::from_bits(1));
+        assert_eq!(1.0f64.offset_ulps(1), 1.0 + f64::EPSILON);
+        assert_eq!(f64::MAX.offset_ulps(5), f64::INFINITY);
+        assert_eq!(f32::MIN.offset_ulps(-5), f32::NEG_INFINITY);
+    }
+
+    #[test]
+    fn bisection_finds_the_last_accepted_float() {
+        for target in [-1.5f32, -0.0, 1e-40, 1e-6, 3.0e38] {
+            let found = Real::largest_accepted(|e: &f32| *e <= target, || unreachable!());
+            assert_eq!(found, target);
+        }
+        assert_eq!(<f64 as Real>::largest_accepted(|_| true, || 0.0), f64::INFINITY);
+        assert_eq!(<f64 as Real>::largest_accepted(|_| false, || 0.0), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn the_wide_difference_is_zero_only_for_equal_products() {
+        let (a, b) = (1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
+        assert_eq!(a * b - 1.0, 0.0, "plain products cannot tell these apart");
+        assert_eq!(wide_f64(a, b, 1.0, 1.0), -f64::EPSILON * f64::EPSILON);
+    }
+}

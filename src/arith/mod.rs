@@ -1,0 +1,108 @@
+//! Floor 0: one trait of numbers, one of vectors; glam `f32`, glam `f64`, exact.
+//!
+//! A kernel is written once against [`Real`] and [`Vector`] and runs unchanged in every
+//! arithmetic. Comparisons go through the trait too, so that an interval or an error-tracking
+//! arithmetic can follow without touching a kernel.
+
+#![forbid(unsafe_code)]
+
+mod exact;
+mod float;
+
+pub use exact::{Exact, ExactVector, Fraction};
+pub use float::{Float, ordered_midpoint};
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number a kernel can compute with.
+///
+/// Not `Copy`: exact numbers own their digits. The left operand of an operator is consumed and the
+/// right one may be borrowed, which keeps formulas readable: `(k - n.dot(p)) / n.dot(d)`.
+pub trait Real:
+    Clone
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + for<'a> Add<&'a Self, Output = Self>
+    + for<'a> Sub<&'a Self, Output = Self>
+    + for<'a> Mul<&'a Self, Output = Self>
+    + for<'a> Div<&'a Self, Output = Self>
+{
+    /// Positive zero.
+    fn zero() -> Self;
+    /// One.
+    fn one() -> Self;
+    /// Absolute value.
+    fn abs(&self) -> Self;
+    /// Square root; NaN of a negative number.
+    fn sqrt(&self) -> Self;
+    /// The sign bit, as `f32::is_sign_negative`. An exact zero reads positive, and so does a NaN,
+    /// whose sign bit machines do not agree on.
+    fn is_sign_negative(&self) -> bool;
+    /// `self < other`; false if either is NaN.
+    fn is_less(&self, other: &Self) -> bool;
+    /// `self <= other`; false if either is NaN.
+    fn is_at_most(&self, other: &Self) -> bool;
+    /// `self == 0`; false if NaN.
+    fn is_zero(&self) -> bool;
+    /// Whether this is NaN.
+    fn is_nan(&self) -> bool;
+    /// Whether this is neither NaN nor infinite.
+    fn is_finite(&self) -> bool;
+    /// Positive infinity.
+    fn infinity() -> Self;
+    /// The next number below: for a float the next representable one, for an exact number itself
+    /// (read as "anything below").
+    fn just_below(&self) -> Self;
+    /// `a*b - c*d` in the wider arithmetic that Woop's fallback needs: `f32` through `f64`, `f64`
+    /// by exact products (an addition of this project), exact numbers as they are.
+    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self;
+    /// The largest epsilon at which `accepts` still holds, for a test in which the source rounds
+    /// with the epsilon in it. `accepts` is monotone: once false it stays false as its argument
+    /// grows. `exact` is the threshold of the same test without rounding.
+    ///
+    /// A float searches its ordered bit patterns; an exact number takes `exact`.
+    fn largest_accepted(accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self;
+}
+
+/// Three [`Real`]s.
+pub trait Vector: Clone + Debug + Send + Sync + 'static {
+    /// The coordinates' arithmetic.
+    type Real: Real;
+    /// From coordinates.
+    fn new(x: Self::Real, y: Self::Real, z: Self::Real) -> Self;
+    /// Coordinate 0, 1 or 2.
+    fn at(&self, axis: usize) -> Self::Real;
+    /// `self - other`.
+    fn minus(&self, other: &Self) -> Self;
+    /// `self + other`.
+    fn plus(&self, other: &Self) -> Self;
+    /// `self * factor`.
+    fn times(&self, factor: &Self::Real) -> Self;
+    /// The dot product, summed from the left.
+    fn dot(&self, other: &Self) -> Self::Real;
+    /// The cross product.
+    fn cross(&self, other: &Self) -> Self;
+
+    /// `self * (1 / sqrt(self·self))`, as glm and glam normalise.
+    fn normalize(&self) -> Self {
+        self.times(&(Self::Real::one() / self.dot(self).sqrt()))
+    }
+
+    /// The axis of the coordinate that is largest in absolute value; the first of equals.
+    fn largest_axis(&self) -> usize {
+        let [x, y, z] = [self.at(0).abs(), self.at(1).abs(), self.at(2).abs()];
+        match (x.is_less(&y), x.is_less(&z), y.is_less(&z)) {
+            (false, false, _) => 0,
+            (_, _, false) => 1,
+            _ => 2,
+        }
+    }
+}

@@ -1,0 +1,394 @@
+//! Floor 1: the ray, the triangle, the case, its id, and the counter-based random numbers.
+
+#![forbid(unsafe_code)]
+
+use crate::arith::{Exact, ExactVector, Float, Vector};
+use std::fmt;
+use std::str::FromStr;
+
+/// A ray `origin + t * direction`, asked for hits with t in `[t_min, t_max]`. The direction is a
+/// free vector of any length, used exactly as given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray<V: Vector> {
+    /// Where t = 0. Unit: length.
+    pub origin: V,
+    /// Any length but zero.
+    pub direction: V,
+    /// The start of the interval, in units of the direction.
+    pub t_min: V::Real,
+    /// The end of the interval.
+    pub t_max: V::Real,
+}
+
+/// A triangle; seen from its front, a, b, c run counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle<V> {
+    /// First vertex.
+    pub a: V,
+    /// Second vertex.
+    pub b: V,
+    /// Third vertex.
+    pub c: V,
+}
+
+impl<V> Triangle<V> {
+    /// From its vertices.
+    pub fn new(a: V, b: V, c: V) -> Self {
+        Triangle { a, b, c }
+    }
+
+    /// The vertices, in order.
+    pub fn vertices(self) -> [V; 3] {
+        [self.a, self.b, self.c]
+    }
+}
+
+/// One question to a kernel: does this ray meet this triangle?
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case<F: Float> {
+    /// The ray and its interval.
+    pub ray: Ray<F::Vector>,
+    /// The triangle.
+    pub triangle: Triangle<F::Vector>,
+}
+
+impl<F: Float> Case<F> {
+    /// From arrays, with the default interval `[0, +inf]`.
+    pub fn new(origin: [F; 3], direction: [F; 3], [a, b, c]: [[F; 3]; 3]) -> Self {
+        let ray = Ray {
+            origin: origin.into(),
+            direction: direction.into(),
+            t_min: F::zero(),
+            t_max: F::infinity(),
+        };
+        Case { ray, triangle: Triangle::new(a.into(), b.into(), c.into()) }
+    }
+
+    /// The same case on another interval.
+    pub fn on(mut self, t_min: F, t_max: F) -> Self {
+        (self.ray.t_min, self.ray.t_max) = (t_min, t_max);
+        self
+    }
+
+    /// Origin, direction, a, b, c.
+    pub fn vectors(&self) -> [[F; 3]; 5] {
+        let Triangle { a, b, c } = self.triangle;
+        [self.ray.origin, self.ray.direction, a, b, c].map(Into::into)
+    }
+
+    /// The case in `f64`, which holds every `f32` exactly.
+    pub fn widen(&self) -> Case<f64> {
+        let [origin, direction, a, b, c] = self.vectors().map(|v| v.map(F::to_f64));
+        Case::new(origin, direction, [a, b, c]).on(self.ray.t_min.to_f64(), self.ray.t_max.to_f64())
+    }
+
+    /// The case in exact numbers.
+    pub fn exact(&self) -> (Ray<ExactVector>, Triangle<ExactVector>) {
+        let [origin, direction, a, b, c] =
+            self.vectors().map(|v| ExactVector::from_f64(v.map(F::to_f64)));
+        let [t_min, t_max] = [self.ray.t_min, self.ray.t_max].map(|t| Exact::from_f64(t.to_f64()));
+        (Ray { origin, direction, t_min, t_max }, Triangle { a, b, c })
+    }
+
+    /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.
+    pub fn hex(&self) -> String {
+        let triples = self.vectors().map(|v| v.map(F::hex).join(","));
+        let [o, d, a, b, c] = triples;
+        let (t_min, t_max) = (self.ray.t_min.hex(), self.ray.t_max.hex());
+        format!("o={o} d={d} a={a} b={b} c={c} t={t_min},{t_max}")
+    }
+
+    /// The bits of all seventeen numbers, in the order of [`Case::hex`]: what a digest covers.
+    pub fn bits(&self) -> [u64; 17] {
+        let vectors = self.vectors();
+        std::array::from_fn(|i| match i {
+            15 => self.ray.t_min.to_bits(),
+            16 => self.ray.t_max.to_bits(),
+            _ => vectors[i / 3][i % 3].to_bits(),
+        })
+    }
+}
+
+/// What a family's cases are put through after they are made.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parameters {
+    /// Positions are multiplied by 2 to this power.
+    pub scale: i32,
+    /// The direction is multiplied too.
+    pub scale_direction: bool,
+    /// Added to every position, after scaling.
+    pub offset: [f64; 3],
+    /// The direction is replaced by its rounded unit vector, and that direction is the case.
+    pub unit_direction: bool,
+    /// The digest of the mesh that the cases come from.
+    pub mesh: Option<String>,
+}
+
+impl Parameters {
+    /// Whether the parameters leave each case's truth alone (up to overflow and underflow).
+    pub fn keep_truth(&self) -> bool {
+        self.offset == [0.0; 3] && !self.unit_direction
+    }
+}
+
+impl fmt::Display for Parameters {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut words = Vec::new();
+        if self.scale != 0 {
+            words.push(format!("scale=2^{}", self.scale));
+        }
+        if self.scale_direction {
+            words.push("scale-direction".to_owned());
+        }
+        if self.offset != [0.0; 3] {
+            let [x, y, z] = self.offset;
+            words.push(format!("offset={x:e}:{y:e}:{z:e}"));
+        }
+        if self.unit_direction {
+            words.push("unit".to_owned());
+        }
+        words.extend(self.mesh.iter().map(|digest| format!("mesh={digest}")));
+        f.write_str(if words.is_empty() { "-".to_owned() } else { words.join(",") }.as_str())
+    }
+}
+
+impl FromStr for Parameters {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut parameters = Parameters::default();
+        for word in text.split(',').filter(|word| *word != "-") {
+            let (key, value) = word.split_once('=').unwrap_or((word, ""));
+            match key {
+                "scale" => parameters.scale = parse_power_of_two(value)?,
+                "scale-direction" => parameters.scale_direction = true,
+                "offset" => parameters.offset = parse_offset(value)?,
+                "unit" => parameters.unit_direction = true,
+                "mesh" => parameters.mesh = Some(value.to_owned()),
+                _ => {
+                    let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest";
+                    return Err(format!("unknown parameter '{key}'; there are {known}"));
+                }
+            }
+        }
+        Ok(parameters)
+    }
+}
+
+/// The exponent k of `2^k`; `1` is `2^0`.
+pub fn parse_power_of_two(text: &str) -> Result<i32, String> {
+    let exponent =
+        if text == "1" { Some(0) } else { text.strip_prefix("2^").and_then(|k| k.parse().ok()) };
+    exponent
+        .filter(|k: &i32| k.abs() <= 1100)
+        .ok_or_else(|| format!("'{text}' is not a scale: write 2^k with |k| <= 1100, as 2^-10"))
+}
+
+/// Three finite numbers between colons.
+pub fn parse_offset(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> =
+        text.split(':').map(|n| n.parse().ok().filter(|v: &f64| v.is_finite())).collect();
+    numbers
+        .and_then(|n| n.try_into().ok())
+        .ok_or_else(|| format!("'{text}' is not an offset: write x:y:z, as 1e6:0:0"))
+}
+
+/// A generated case in one string: `family@version/scalar/parameters/seed/index`, and `.k` for
+/// triangle k of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseId {
+    /// The family's name.
+    pub family: String,
+    /// The family's version: it changes whenever its cases do.
+    pub version: u32,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// What the case was put through.
+    pub parameters: Parameters,
+    /// The seed of the set.
+    pub seed: u64,
+    /// The place in the set.
+    pub index: u64,
+    /// Which triangle of a group; the whole group if none.
+    pub triangle: Option<usize>,
+}
+
+impl fmt::Display for CaseId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let CaseId { family, version, scalar, parameters, seed, index, triangle } = self;
+        write!(f, "{family}@{version}/{scalar}/{parameters}/{seed}/{index}")?;
+        triangle.map_or(Ok(()), |k| write!(f, ".{k}"))
+    }
+}
+
+impl FromStr for CaseId {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let shape =
+            || format!("'{text}' is not a case id: family@version/scalar/parameters/seed/index");
+        let [family, scalar, parameters, seed, index] =
+            text.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
+        let (family, version) = family.split_once('@').ok_or_else(shape)?;
+        let (index, triangle) = match index.split_once('.') {
+            Some((index, k)) => (index, Some(k.parse().map_err(|_| shape())?)),
+            None => (index, None),
+        };
+        Ok(CaseId {
+            family: family.to_owned(),
+            version: version.parse().map_err(|_| shape())?,
+            scalar: scalar.to_owned(),
+            parameters: parameters.parse()?,
+            seed: seed.parse().map_err(|_| shape())?,
+            index: index.parse().map_err(|_| shape())?,
+            triangle,
+        })
+    }
+}
+
+/// Random numbers of one case: a stream that depends on (family, seed, index) only, so that case i
+/// never depends on case i-1. SplitMix64 (Steele, Lea and Flood 2014) from a mixed start.
+///
+/// Integers and IEEE + - × ÷ √ only: what libraries differ in never enters a case.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    state: u64,
+}
+
+impl Draw {
+    /// The stream of case `index` of a family's set.
+    pub fn new(family: &str, seed: u64, index: u64) -> Draw {
+        // FNV-1a of the name keeps the families' streams apart.
+        let name = family.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+        });
+        Draw { state: mix(name ^ mix(seed.wrapping_add(mix(index)))) }
+    }
+
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        mix(self.state)
+    }
+
+    /// A uniform integer in `low..=high` (within 2^-32 for the ranges that families use).
+    pub fn integer(&mut self, low: i64, high: i64) -> i64 {
+        let span = u128::from(high.abs_diff(low)) + 1;
+        low + (u128::from(self.bits()) * span >> 64) as i64
+    }
+
+    /// An index below `count`.
+    pub fn below(&mut self, count: usize) -> usize {
+        self.integer(0, count as i64 - 1) as usize
+    }
+
+    /// One of the elements.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
+    }
+
+    /// True once in two.
+    pub fn coin(&mut self) -> bool {
+        self.bits() >> 63 == 1
+    }
+
+    /// A number in [0, 1) on the grid of 2^-53.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    }
+
+    /// A number in (-1, 1) with a full significand at every magnitude.
+    pub fn symmetric<F: Float>(&mut self) -> F {
+        let exponent = -1 - self.bits().trailing_zeros().min(40) as i32;
+        self.with_exponent(exponent)
+    }
+
+    /// A number of either sign with a random significand and a given binary exponent, which lies in
+    /// the scalar's range (subnormals included).
+    pub fn with_exponent<F: Float>(&mut self, exponent: i32) -> F {
+        let significand = 1.0 + (self.bits() >> 12) as f64 * (1.0 / (1u64 << 52) as f64);
+        let value = F::from_f64(scale_by_power_of_two(significand, exponent));
+        if self.coin() { -value } else { value }
+    }
+
+    /// Three of [`Draw::symmetric`].
+    pub fn point<F: Float>(&mut self) -> [F; 3] {
+        std::array::from_fn(|_| self.symmetric())
+    }
+
+    /// Three integers in `-bound..=bound`.
+    pub fn lattice_point(&mut self, bound: i64) -> [i64; 3] {
+        std::array::from_fn(|_| self.integer(-bound, bound))
+    }
+}
+
+fn mix(value: u64) -> u64 {
+    let z = (value ^ value >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ z >> 31
+}
+
+/// `value * 2^exponent`, rounded once (the steps but the last are exact or already zero or
+/// infinite).
+pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
+    while exponent > 1000 {
+        value *= power_of_two(1000);
+        exponent -= 1000;
+    }
+    // Downwards the large step comes last, so that only one product rounds.
+    while exponent < -1000 && value.abs() > power_of_two(1000 - 52) {
+        value *= power_of_two(-900);
+        exponent += 900;
+    }
+    if exponent < -1022 {
+        return value * power_of_two(exponent + 1000) * power_of_two(-1000);
+    }
+    value * power_of_two(exponent)
+}
+
+/// 2 to a power in -1022..=1023.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_survive_their_text() {
+        for text in [
+            "edge-near@1/f32/-/42/17",
+            "fan@3/f64/scale=2^-10,scale-direction,offset=1e6:0e0:-2.5e0,unit/0/5.2",
+            "mesh@1/f32/mesh=0123456789abcdef/7/1000000",
+        ] {
+            assert_eq!(text.parse::<CaseId>().unwrap().to_string(), text);
+        }
+        for bad in
+            ["", "edge-near/f32/-/1/2", "a@1/f32/scale=3/1/2", "a@1/f32/-/1/2.x", "a@1/f32/-/1/2/3"]
+        {
+            assert!(bad.parse::<CaseId>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn scaling_by_powers_of_two_is_exact_or_rounds_once() {
+        assert_eq!(scale_by_power_of_two(1.0, -1074), f64::from_bits(1));
+        assert_eq!(
+            scale_by_power_of_two(f64::MAX, -2000),
+            f64::MAX * 2f64.powi(-1000) * 2f64.powi(-1000)
+        );
+        assert_eq!(scale_by_power_of_two(1.5, 1023), 1.5 * 2f64.powi(1023));
+        assert_eq!(scale_by_power_of_two(f64::from_bits(1), 1100), 2f64.powi(26));
+        assert_eq!(scale_by_power_of_two(-3.0, 0), -3.0);
+    }
+
+    #[test]
+    fn draws_depend_on_family_seed_and_index_only() {
+        let first = Draw::new("edge-near", 1, 2).bits();
+        assert_eq!(first, Draw::new("edge-near", 1, 2).bits());
+        for other in [("edge-exact", 1, 2), ("edge-near", 2, 2), ("edge-near", 1, 3)] {
+            assert_ne!(first, Draw::new(other.0, other.1, other.2).bits());
+        }
+    }
+}

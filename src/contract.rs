@@ -1,0 +1,207 @@
+//! Floor 1: what a kernel promises. Pure data; `judge` turns it and a truth into an obligation.
+
+#![forbid(unsafe_code)]
+
+/// The promise a kernel is judged by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Contract {
+    /// Which part of the line counts.
+    pub extent: Extent,
+    /// Which sides of a triangle can be hit.
+    pub sides: Sides,
+    /// Whether edges and vertices are hits.
+    pub boundary: Boundary,
+    /// Lines in the plane of the triangle.
+    pub coplanar: Demand,
+    /// Triangles without area.
+    pub degenerate: Demand,
+    /// NaN, infinities, a zero direction, an impossible interval.
+    pub invalid: Demand,
+    /// The directions that the kernel promises anything for.
+    pub direction: Direction,
+    /// What it promises about triangles that share an edge or a vertex.
+    pub across: Across,
+    /// A ray that starts at a kernel's own hit point must not hit that triangle again.
+    pub no_self_hit: bool,
+}
+
+/// The part of the line that counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Extent {
+    /// All t.
+    Line,
+    /// t ≥ 0.
+    Ray,
+    /// t in `[t_min, t_max]`.
+    Interval,
+}
+
+/// The sides that can be hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sides {
+    /// Both.
+    Both,
+    /// Only the front: the back must be missed.
+    Front,
+}
+
+/// What edges and vertices are. The ends of a ray or an interval always belong to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Boundary {
+    /// Hits.
+    Closed,
+    /// Misses.
+    Open,
+    /// Either.
+    Free,
+}
+
+/// What is asked of a kernel in a situation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Demand {
+    /// A miss.
+    Miss,
+    /// A hit where there is a common point, else a miss.
+    Hit,
+    /// Nothing.
+    Free,
+}
+
+/// The directions that a kernel promises anything for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// Any length.
+    Any,
+    /// Unit length within this many ulps; other directions are free.
+    Unit {
+        /// The tolerance on the length, in ulps of 1.
+        ulps: u32,
+    },
+}
+
+/// What is promised across triangles that share an edge or a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Across {
+    /// Nothing.
+    Nothing,
+    /// No crack: at least one of the triangles reports the hit.
+    AtLeastOne,
+    /// No crack and no double.
+    ExactlyOne,
+}
+
+impl Contract {
+    /// The closed triangle on a ray, both sides; a coplanar ray, a triangle without area and invalid
+    /// input are missed, as the ray tracing interfaces of graphics libraries rule.
+    pub const CLOSED_RAY: Contract = Contract {
+        extent: Extent::Ray,
+        sides: Sides::Both,
+        boundary: Boundary::Closed,
+        coplanar: Demand::Miss,
+        degenerate: Demand::Miss,
+        invalid: Demand::Miss,
+        direction: Direction::Any,
+        across: Across::Nothing,
+        no_self_hit: false,
+    };
+
+    /// A kernel's own contract starts here: as [`Contract::CLOSED_RAY`], invalid input free.
+    pub const fn of_kernel(extent: Extent, sides: Sides, boundary: Boundary) -> Contract {
+        Contract { extent, sides, boundary, invalid: Demand::Free, ..Contract::CLOSED_RAY }
+    }
+
+    /// The same with other demands on coplanar lines and triangles without area.
+    pub const fn with_flat(self, coplanar: Demand, degenerate: Demand) -> Contract {
+        Contract { coplanar, degenerate, ..self }
+    }
+
+    /// The same with a promise across triangles.
+    pub const fn with_across(self, across: Across) -> Contract {
+        Contract { across, ..self }
+    }
+
+    /// The contract in one line, as reports show it.
+    pub fn describe(&self) -> String {
+        let extent = match self.extent {
+            Extent::Line => "line",
+            Extent::Ray => "ray",
+            Extent::Interval => "interval",
+        };
+        let sides = match self.sides {
+            Sides::Both => "both sides",
+            Sides::Front => "front only",
+        };
+        let boundary = match self.boundary {
+            Boundary::Closed => "closed",
+            Boundary::Open => "open",
+            Boundary::Free => "boundary free",
+        };
+        let demand = |demand| match demand {
+            Demand::Miss => "miss",
+            Demand::Hit => "hit",
+            Demand::Free => "free",
+        };
+        let mut text = format!(
+            "{extent}, {sides}, {boundary}, coplanar {}, degenerate {}, invalid {}",
+            demand(self.coplanar),
+            demand(self.degenerate),
+            demand(self.invalid)
+        );
+        match self.across {
+            Across::Nothing => {}
+            Across::AtLeastOne => text.push_str(", at-least-one across triangles"),
+            Across::ExactlyOne => text.push_str(", exactly-one across triangles"),
+        }
+        if let Direction::Unit { ulps } = self.direction {
+            text.push_str(&format!(", unit directions within {ulps} ulps"));
+        }
+        if self.no_self_hit {
+            text.push_str(", no self-hit");
+        }
+        text
+    }
+}
+
+/// A contract that all kernels can be judged by, for a league table.
+pub struct NamedContract {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// The promise.
+    pub contract: Contract,
+    /// What it is for.
+    pub about: &'static str,
+}
+
+/// One row per named contract.
+pub const NAMED: &[NamedContract] = &[
+    NamedContract {
+        name: "closed-line",
+        contract: Contract { extent: Extent::Line, ..Contract::CLOSED_RAY },
+        about: "the closed triangle, any t",
+    },
+    NamedContract {
+        name: "closed-ray",
+        contract: Contract::CLOSED_RAY,
+        about: "the closed triangle, t >= 0",
+    },
+    NamedContract {
+        name: "closed-interval",
+        contract: Contract { extent: Extent::Interval, ..Contract::CLOSED_RAY },
+        about: "the closed triangle, t in [t_min, t_max]",
+    },
+    NamedContract {
+        name: "open-ray",
+        contract: Contract { boundary: Boundary::Open, ..Contract::CLOSED_RAY },
+        about: "the open triangle (edges and vertices are misses), t >= 0",
+    },
+    NamedContract {
+        name: "front-closed-ray",
+        contract: Contract { sides: Sides::Front, ..Contract::CLOSED_RAY },
+        about: "the closed triangle from its front, t >= 0",
+    },
+    NamedContract {
+        name: "no-self-hit",
+        contract: Contract { no_self_hit: true, ..Contract::CLOSED_RAY },
+        about: "closed-ray, and no second hit on the triangle that the ray starts on (respawn)",
+    },
+];

@@ -1,0 +1,39 @@
+//! Floor 2: cases on disk, and meshes. Takes readers and writers; opens no file itself.
+
+#![forbid(unsafe_code)]
+
+use std::fmt;
+
+/// What is wrong with an input, and where.
+#[derive(Debug)]
+pub struct InputError {
+    /// The file's name as the user gave it; `-` for standard input.
+    pub file: String,
+    /// Counted from 1.
+    pub line: Option<usize>,
+    /// What was found and what was expected, in one line.
+    pub message: String,
+}
+
+impl InputError {
+    /// With a line number.
+    pub fn at(file: &str, line: usize, message: impl Into<String>) -> InputError {
+        InputError { file: file.to_owned(), line: Some(line), message: message.into() }
+    }
+
+    /// About the file as a whole.
+    pub fn of(file: &str, message: impl Into<String>) -> InputError {
+        InputError { file: file.to_owned(), line: None, message: message.into() }
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}:{line}: {}", self.file, self.message),
+            None => write!(f, "{}: {}", self.file, self.message),
+        }
+    }
+}
+
+impl std::error::Error for InputError {}

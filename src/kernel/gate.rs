@@ -1,0 +1,270 @@
+//! Gates, their margins, and the sinks that receive them.
+//!
+//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon
+//! can only refuse more. Its *margin* on a case is the largest representable epsilon at which it
+//! accepts, so one evaluation gives the verdict at every epsilon.
+
+use crate::arith::Real;
+
+/// When a gate refuses a quantity `x` under an epsilon. The form says what a NaN does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refuse {
+    /// `if x < eps { miss }`: a NaN passes.
+    Below,
+    /// `if x <= eps { miss }`: a NaN passes.
+    AtMost,
+    /// `if !(x >= eps) { miss }`: a NaN is refused.
+    UnlessAtLeast,
+    /// `if !(x > eps) { miss }`: a NaN is refused.
+    UnlessAbove,
+}
+
+impl Refuse {
+    /// Whether `x` passes under `epsilon`, by the comparison of the source.
+    #[inline(always)]
+    pub fn passes<R: Real>(self, x: &R, epsilon: &R) -> bool {
+        match self {
+            Refuse::Below => !x.is_less(epsilon),
+            Refuse::AtMost => !x.is_at_most(epsilon),
+            Refuse::UnlessAtLeast => epsilon.is_at_most(x),
+            Refuse::UnlessAbove => epsilon.is_less(x),
+        }
+    }
+
+    /// The largest epsilon under which `x` passes.
+    pub fn margin<R: Real>(self, x: &R) -> R {
+        let nan_passes = matches!(self, Refuse::Below | Refuse::AtMost);
+        match self {
+            _ if x.is_nan() => {
+                if nan_passes {
+                    R::infinity()
+                } else {
+                    -R::infinity()
+                }
+            }
+            Refuse::Below | Refuse::UnlessAtLeast => x.clone(),
+            Refuse::AtMost | Refuse::UnlessAbove => x.just_below(),
+        }
+    }
+}
+
+/// The powers of length and of |d| in a margin. An absolute epsilon on anything but (0, 0) is a
+/// different test at every scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension {
+    /// Power of length.
+    pub length: i8,
+    /// Power of the direction's length.
+    pub direction: i8,
+}
+
+impl Dimension {
+    /// `(length, direction)`.
+    pub const fn new(length: i8, direction: i8) -> Dimension {
+        Dimension { length, direction }
+    }
+}
+
+/// What one gate of a kernel is.
+#[derive(Clone, Copy, Debug)]
+pub struct Gate {
+    /// What `--epsilon NAME=…` calls it.
+    pub name: &'static str,
+    /// The refusal in the source's notation, with `e` for the epsilon.
+    pub refuses: &'static str,
+    /// The margin's dimension.
+    pub dimension: Dimension,
+    /// What epsilons it takes.
+    pub epsilon: Tunable,
+}
+
+/// What epsilons a gate takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tunable {
+    /// None: the gate is a fixed test.
+    Fixed,
+    /// Zero and above; below zero it would refuse nothing that it does not refuse at zero.
+    NonNegative,
+    /// Any; a negative one is a tolerance.
+    Signed,
+}
+
+impl Gate {
+    /// A gate that takes any epsilon.
+    pub const fn signed(
+        name: &'static str,
+        refuses: &'static str,
+        length: i8,
+        direction: i8,
+    ) -> Gate {
+        Gate {
+            name,
+            refuses,
+            dimension: Dimension::new(length, direction),
+            epsilon: Tunable::Signed,
+        }
+    }
+
+    /// A gate `abs(x) < e`.
+    pub const fn non_negative(
+        name: &'static str,
+        refuses: &'static str,
+        length: i8,
+        direction: i8,
+    ) -> Gate {
+        let dimension = Dimension::new(length, direction);
+        Gate { name, refuses, dimension, epsilon: Tunable::NonNegative }
+    }
+
+    /// A test that takes no epsilon.
+    pub const fn fixed(name: &'static str, refuses: &'static str) -> Gate {
+        Gate { name, refuses, dimension: Dimension::new(0, 0), epsilon: Tunable::Fixed }
+    }
+}
+
+/// Receives the quantities of a kernel's gates. Each method returns whether the kernel goes on.
+pub trait Sink<R: Real> {
+    /// A gate on several quantities under one epsilon: at least one clause must pass, and a clause
+    /// passes when all its quantities do.
+    fn gate<const M: usize, const N: usize>(
+        &mut self,
+        gate: usize,
+        refuse: Refuse,
+        clauses: [[&R; N]; M],
+    ) -> bool;
+
+    /// A gate whose source rounds with the epsilon in it. `accepts` is monotone in its argument;
+    /// `exact` is its threshold without rounding.
+    fn rounded(
+        &mut self,
+        gate: usize,
+        accepts: impl Fn(&R) -> bool,
+        exact: impl FnOnce() -> R,
+    ) -> bool;
+
+    /// A test without an epsilon.
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool;
+
+    /// A gate on one quantity.
+    #[inline(always)]
+    fn one(&mut self, gate: usize, refuse: Refuse, x: &R) -> bool {
+        self.gate(gate, refuse, [[x]])
+    }
+}
+
+/// The fast sink: compares as the source does and stops at the first refusal.
+#[derive(Debug)]
+pub struct Deciding<'a, R> {
+    epsilons: &'a [R],
+    /// The gate that refused.
+    pub refused_by: Option<usize>,
+}
+
+impl<'a, R> Deciding<'a, R> {
+    /// With one epsilon a gate.
+    pub fn new(epsilons: &'a [R]) -> Self {
+        Deciding { epsilons, refused_by: None }
+    }
+
+    #[inline(always)]
+    fn record(&mut self, gate: usize, accepts: bool) -> bool {
+        if !accepts {
+            self.refused_by = Some(gate);
+        }
+        accepts
+    }
+}
+
+impl<R: Real> Sink<R> for Deciding<'_, R> {
+    #[inline(always)]
+    fn gate<const M: usize, const N: usize>(
+        &mut self,
+        gate: usize,
+        refuse: Refuse,
+        clauses: [[&R; N]; M],
+    ) -> bool {
+        let epsilon = &self.epsilons[gate];
+        let accepts =
+            clauses.iter().any(|clause| clause.iter().all(|&x| refuse.passes(x, epsilon)));
+        self.record(gate, accepts)
+    }
+
+    #[inline(always)]
+    fn rounded(
+        &mut self,
+        gate: usize,
+        accepts: impl Fn(&R) -> bool,
+        _: impl FnOnce() -> R,
+    ) -> bool {
+        let accepts = accepts(&self.epsilons[gate]);
+        self.record(gate, accepts)
+    }
+
+    #[inline(always)]
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+        self.record(gate, accepts)
+    }
+}
+
+/// The measuring sink: takes every gate's margin and never stops.
+#[derive(Clone, Debug)]
+pub struct Measuring<R> {
+    /// One margin a gate; +inf where the kernel never asked.
+    pub margins: Vec<R>,
+}
+
+impl<R: Real> Measuring<R> {
+    /// For a kernel with this many gates.
+    pub fn new(gates: usize) -> Self {
+        Measuring { margins: vec![R::infinity(); gates] }
+    }
+
+    fn record(&mut self, gate: usize, margin: R) -> bool {
+        if margin.is_less(&self.margins[gate]) {
+            self.margins[gate] = margin;
+        }
+        true
+    }
+
+    /// Whether a kernel with these margins hits under these epsilons.
+    pub fn accepts(&self, epsilons: &[R]) -> bool {
+        self.refused_by(epsilons).is_none()
+    }
+
+    /// The first gate that refuses under these epsilons.
+    pub fn refused_by(&self, epsilons: &[R]) -> Option<usize> {
+        (0..self.margins.len()).find(|&gate| self.margins[gate].is_less(&epsilons[gate]))
+    }
+}
+
+impl<R: Real> Sink<R> for Measuring<R> {
+    fn gate<const M: usize, const N: usize>(
+        &mut self,
+        gate: usize,
+        refuse: Refuse,
+        clauses: [[&R; N]; M],
+    ) -> bool {
+        let smaller = |a: R, b: R| if b.is_less(&a) { b } else { a };
+        let larger = |a: R, b: R| if a.is_less(&b) { b } else { a };
+        let margin = clauses
+            .into_iter()
+            .map(|clause| {
+                clause.into_iter().map(|x: &R| refuse.margin(x)).fold(R::infinity(), smaller)
+            })
+            .fold(-R::infinity(), larger);
+        self.record(gate, margin)
+    }
+
+    fn rounded(
+        &mut self,
+        gate: usize,
+        accepts: impl Fn(&R) -> bool,
+        exact: impl FnOnce() -> R,
+    ) -> bool {
+        self.record(gate, R::largest_accepted(accepts, exact))
+    }
+
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+        self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
+    }
+}

@@ -1,0 +1,58 @@
+//! `half-space`: plane, then three half-spaces of the triangle's own normal.
+//!
+//! Source: S. Marschner, "CS465 Notes: Simple ray-triangle intersection", Cornell University, 2003
+//! (seed 001_b787e9677871fc1f). Its formulas guard neither a parallel ray nor t, although its text
+//! speaks of rays. Its remark that with clockwise vertices no point can be inside is mistaken: n is
+//! made from the same vertices and turns along.
+
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use crate::arith::Vector;
+use crate::case::{Ray, Triangle};
+use crate::contract::{Boundary, Contract, Demand, Extent, Sides};
+
+pub(super) struct HalfSpace;
+
+const EDGE: usize = 0;
+
+impl Kernel for HalfSpace {
+    const INFO: KernelInfo = KernelInfo {
+        name: "half-space",
+        source: "Marschner (2003), CS465 Notes: Simple ray-triangle intersection [seed 001]",
+        contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
+            .with_flat(Demand::Free, Demand::Free),
+        gates: &[Gate::signed(
+            "edge",
+            "!(((b-a)×(x-a))·n >= e), and cyclic, n = (b-a)×(c-a)",
+            4,
+            0,
+        )],
+        epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
+        gives: Gives { t: true, uv: false, facing: false },
+        polygons: false,
+        hits_nan: false,
+    };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin: o, direction: d, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let n = b.minus(a).cross(&c.minus(a));
+        let t = -(o.minus(a).dot(&n) / d.dot(&n));
+        let x = o.plus(&d.times(&t));
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let value = to.minus(from).cross(&x.minus(from)).dot(&n);
+            if !sink.one(EDGE, Refuse::UnlessAtLeast, &value) {
+                return None;
+            }
+        }
+        Some(Hit { t: Some(t), uv: None, facing: None })
+    }
+}

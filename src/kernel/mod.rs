@@ -1,0 +1,139 @@
+//! Floor 2: what is claimed. The kernel trait, gates and margins, the registry, one algorithm a
+//! file.
+//!
+//! Architecture invariant: nothing here knows the oracle.
+//!
+//! To add a kernel: write its file, and give it a row in `registry.rs`.
+
+#![forbid(unsafe_code)]
+
+pub mod gate;
+mod preset;
+mod registry;
+mod subject;
+
+mod baldwin_weber;
+mod cramer;
+mod half_space;
+mod havel_herout;
+mod moller_trumbore;
+mod plane_inside_out;
+mod plane_unit_normal;
+mod plucker;
+mod scalar_triple;
+mod woop_watertight;
+
+pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable};
+pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub use registry::{Entry, KERNELS, Scalar, find, nearest_name};
+pub use subject::{Builtin, Measured, Subject, Verdict};
+
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::Contract;
+use crate::truth::Facing;
+
+/// A ray–triangle kernel, written once for every arithmetic.
+pub trait Kernel: Sync + 'static {
+    /// What it is and what it promises.
+    const INFO: KernelInfo;
+    /// What it stores for a triangle.
+    type Prepared<V: Vector>;
+
+    /// What the source computes for each triangle ahead of any ray.
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Self::Prepared<V>;
+
+    /// The test of the source, its order of operations and its comparisons kept. A sink that does
+    /// not stop at a refusal gets every margin; the result then says nothing about hit or miss.
+    fn test<V: Vector, S: Sink<V::Real>>(
+        prepared: &Self::Prepared<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>>;
+
+    /// The same for a planar convex polygon, if the kernel takes polygons.
+    fn test_polygon<V: Vector, S: Sink<V::Real>>(
+        _vertices: &[V],
+        _ray: &Ray<V>,
+        _sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        None
+    }
+}
+
+/// What a kernel reports of a hit. The weights of a, b and c are 1-u-v, u and v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hit<R> {
+    /// The ray's parameter, in units of the direction.
+    pub t: Option<R>,
+    /// The weights of b and c.
+    pub uv: Option<(R, R)>,
+    /// The side hit.
+    pub facing: Option<Facing>,
+}
+
+/// What a kernel is, where it comes from and what it promises.
+#[derive(Debug)]
+pub struct KernelInfo {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Where its listing was seen.
+    pub source: &'static str,
+    /// What its source promises.
+    pub contract: Contract,
+    /// Its gates, in the order of the test.
+    pub gates: &'static [Gate],
+    /// The epsilon sets of the default plan, one epsilon a gate.
+    pub epsilon_sets: &'static [EpsilonSet],
+    /// Which values of a hit it reports.
+    pub gives: Gives,
+    /// Whether it takes planar convex polygons too.
+    pub polygons: bool,
+    /// Whether it hits when every coordinate is NaN, as its comparisons are written.
+    pub hits_nan: bool,
+}
+
+/// One epsilon a gate, as decimal text; fixed gates ignore theirs.
+#[derive(Clone, Copy, Debug)]
+pub struct EpsilonSet {
+    /// What the set is called in a report: `source`, `zero`, a value.
+    pub name: &'static str,
+    /// In the order of the gates.
+    pub values: &'static [&'static str],
+}
+
+/// Which values a kernel reports.
+#[derive(Clone, Copy, Debug)]
+pub struct Gives {
+    /// The ray's parameter.
+    pub t: bool,
+    /// The weights of b and c.
+    pub uv: bool,
+    /// The side hit.
+    pub facing: bool,
+}
+
+/// `facing` from a number that is positive when the ray comes from the front.
+fn facing_of<R: Real>(front_if_positive: &R) -> Option<Facing> {
+    if R::zero().is_less(front_if_positive) {
+        Some(Facing::Front)
+    } else if front_if_positive.is_less(&R::zero()) {
+        Some(Facing::Back)
+    } else {
+        None
+    }
+}
+
+/// An interval's end times a determinant; an end of zero stays zero whatever the determinant, as
+/// where a source compares with 0.
+#[inline(always)]
+fn end_times<R: Real>(end: &R, determinant: &R) -> R {
+    if end.is_zero() { R::zero() } else { end.clone() * determinant }
+}
+
+/// `a - b`, and zero where a = b even if both are infinite: its sign is the outcome of the source's
+/// comparison of a and b.
+#[inline(always)]
+fn gap<R: Real>(a: &R, b: &R) -> R {
+    if a.is_at_most(b) && b.is_at_most(a) { R::zero() } else { a.clone() - b }
+}

@@ -1,0 +1,128 @@
+//! `moller-trumbore` and `moller-trumbore-culling`.
+//!
+//! Source: T. Möller and B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of
+//! Graphics Tools 2(1), 1997, appendix: both branches of `TEST_CULL`, EPSILON 0.000001. The paper
+//! returns t untested, so the extent is the line.
+
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, facing_of};
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::{Boundary, Contract, Extent, Sides};
+
+pub(super) struct MollerTrumbore;
+pub(super) struct MollerTrumboreCulling;
+
+const PARALLEL: usize = 0;
+const EDGE: usize = 1;
+
+const GIVES: Gives = Gives { t: true, uv: true, facing: true };
+const SETS: &[EpsilonSet] = &[EpsilonSet { name: "source", values: &["1e-6", "0"] }];
+
+impl Kernel for MollerTrumbore {
+    const INFO: KernelInfo = KernelInfo {
+        name: "moller-trumbore",
+        source: "Möller and Trumbore (1997), appendix, non-culling branch",
+        contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed),
+        gates: &[
+            Gate::non_negative("parallel", "abs(det) < e (printed det > -e && det < e)", 2, 1),
+            Gate::signed("edge", "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
+        ],
+        epsilon_sets: SETS,
+        gives: GIVES,
+        polygons: false,
+        hits_nan: true,
+    };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin, direction, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let [edge1, edge2] = [b.minus(a), c.minus(a)];
+        let pvec = direction.cross(&edge2);
+        let det = edge1.dot(&pvec);
+        if !sink.one(PARALLEL, Refuse::Below, &det.abs()) {
+            return None;
+        }
+        let inv_det = V::Real::one() / &det;
+        let tvec = origin.minus(a);
+        let u = tvec.dot(&pvec) * &inv_det;
+        if !sink.one(EDGE, Refuse::Below, &u)
+            || !sink.one(EDGE, Refuse::Below, &(V::Real::one() - &u))
+        {
+            return None;
+        }
+        let qvec = tvec.cross(&edge1);
+        let v = direction.dot(&qvec) * &inv_det;
+        if !sink.one(EDGE, Refuse::Below, &v)
+            || !sink.one(EDGE, Refuse::Below, &(V::Real::one() - (u.clone() + &v)))
+        {
+            return None;
+        }
+        let t = edge2.dot(&qvec) * &inv_det;
+        Some(Hit { t: Some(t), uv: Some((u, v)), facing: facing_of(&det) })
+    }
+}
+
+impl Kernel for MollerTrumboreCulling {
+    const INFO: KernelInfo = KernelInfo {
+        name: "moller-trumbore-culling",
+        source: "Möller and Trumbore (1997), appendix, TEST_CULL branch",
+        contract: Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed),
+        gates: &[
+            Gate::signed("parallel", "det < e", 2, 1),
+            Gate::signed("edge", "u < e, det-u < e, v < e, det-(u+v) < e, undivided", 2, 1),
+        ],
+        epsilon_sets: SETS,
+        gives: GIVES,
+        polygons: false,
+        hits_nan: true,
+    };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin, direction, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let [edge1, edge2] = [b.minus(a), c.minus(a)];
+        let pvec = direction.cross(&edge2);
+        let det = edge1.dot(&pvec);
+        if !sink.one(PARALLEL, Refuse::Below, &det) {
+            return None;
+        }
+        let tvec = origin.minus(a);
+        let u = tvec.dot(&pvec);
+        if !sink.one(EDGE, Refuse::Below, &u) || !sink.one(EDGE, Refuse::Below, &(det.clone() - &u))
+        {
+            return None;
+        }
+        let qvec = tvec.cross(&edge1);
+        let v = direction.dot(&qvec);
+        if !sink.one(EDGE, Refuse::Below, &v)
+            || !sink.one(EDGE, Refuse::Below, &(det.clone() - (u.clone() + &v)))
+        {
+            return None;
+        }
+        let t = edge2.dot(&qvec);
+        let inv_det = V::Real::one() / &det;
+        Some(Hit {
+            t: Some(t * &inv_det),
+            uv: Some((u * &inv_det, v * &inv_det)),
+            facing: facing_of(&det),
+        })
+    }
+}

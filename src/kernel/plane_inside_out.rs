@@ -1,0 +1,216 @@
+//! `plane-inside-out`, its precomputed and strict forms, and `convex-polygon`: plane by the
+//! unnormalised normal, then an inside-outside test at each edge.
+//!
+//! Source: "Ray-Tracing: Rendering a Triangle", geometric solution (seed 004_b6053b2fbf34db3c): the
+//! full listing; its last note (N and D stored per triangle); its earlier pseudo-code (strict
+//! edges, N·R = 0 and t < 0 from its text); its last section (any convex polygon). It gives no value
+//! of kEpsilon: the default plan runs 0 and 1e-6.
+
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::{Boundary, Contract, Extent, Sides};
+
+pub(super) struct PlaneInsideOut;
+pub(super) struct PlaneInsideOutPrecomputed;
+pub(super) struct PlaneInsideOutStrict;
+pub(super) struct ConvexPolygon;
+
+const PARALLEL: usize = 0;
+const T: usize = 1;
+const EDGE: usize = 2;
+
+const GATES: &[Gate] = &[
+    Gate::non_negative("parallel", "abs(N·d) < e, N = (b-a)×(c-a)", 2, 1),
+    Gate::signed("t", "t < e", 1, -1),
+    Gate::signed("edge", "N·((b-a)×(p-a)) < e, and cyclic", 4, 0),
+];
+
+const SETS: &[EpsilonSet] = &[
+    EpsilonSet { name: "zero", values: &["0", "0", "0"] },
+    EpsilonSet { name: "1e-6", values: &["1e-6", "0", "0"] },
+];
+
+const fn info(name: &'static str, source: &'static str) -> KernelInfo {
+    KernelInfo {
+        name,
+        source,
+        contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed),
+        gates: GATES,
+        epsilon_sets: SETS,
+        gives: Gives { t: true, uv: false, facing: false },
+        polygons: false,
+        hits_nan: true,
+    }
+}
+
+/// The plane of the listing: N, and D = -N·v0.
+#[inline(always)]
+fn plane<V: Vector>(v0: &V, v1: &V, v2: &V) -> (V, V::Real) {
+    let n = v1.minus(v0).cross(&v2.minus(v0));
+    let d = -n.dot(v0);
+    (n, d)
+}
+
+/// The listing from its parallel test on, for any polygon.
+#[inline(always)]
+fn inside_out<V: Vector, S: Sink<V::Real>>(
+    vertices: &[V],
+    n: &V,
+    d: &V::Real,
+    ray: &Ray<V>,
+    sink: &mut S,
+) -> Option<Hit<V::Real>> {
+    let n_dot_direction = n.dot(&ray.direction);
+    if !sink.one(PARALLEL, Refuse::Below, &n_dot_direction.abs()) {
+        return None;
+    }
+    let t = -(n.dot(&ray.origin) + d) / &n_dot_direction;
+    if !sink.one(T, Refuse::Below, &t) {
+        return None;
+    }
+    let p = ray.origin.plus(&ray.direction.times(&t));
+    for (i, from) in vertices.iter().enumerate() {
+        let to = if i + 1 < vertices.len() { &vertices[i + 1] } else { &vertices[0] };
+        let c = to.minus(from).cross(&p.minus(from));
+        if !sink.one(EDGE, Refuse::Below, &n.dot(&c)) {
+            return None;
+        }
+    }
+    Some(Hit { t: Some(t), uv: None, facing: None })
+}
+
+impl Kernel for PlaneInsideOut {
+    const INFO: KernelInfo =
+        info("plane-inside-out", "Ray-Tracing: Rendering a Triangle, full listing [seed 004]");
+
+    type Prepared<V: Vector> = [V; 3];
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> [V; 3] {
+        triangle.clone().vertices()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        vertices: &[V; 3],
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let (n, d) = plane(&vertices[0], &vertices[1], &vertices[2]);
+        inside_out(vertices, &n, &d, ray, sink)
+    }
+}
+
+/// The vertices with N and D beside them.
+pub(super) struct WithPlane<V: Vector> {
+    vertices: [V; 3],
+    n: V,
+    d: V::Real,
+}
+
+impl Kernel for PlaneInsideOutPrecomputed {
+    const INFO: KernelInfo = info(
+        "plane-inside-out-precomputed",
+        "Ray-Tracing: Rendering a Triangle, last note: N and D stored per triangle [seed 004]",
+    );
+
+    type Prepared<V: Vector> = WithPlane<V>;
+
+    #[inline(always)]
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> WithPlane<V> {
+        let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
+        WithPlane { vertices: triangle.clone().vertices(), n, d }
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        WithPlane { vertices, n, d }: &WithPlane<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        inside_out(vertices, n, d, ray, sink)
+    }
+}
+
+impl Kernel for PlaneInsideOutStrict {
+    const INFO: KernelInfo = KernelInfo {
+        contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Open),
+        gates: &[
+            Gate::signed("parallel", "abs(N·d) <= e, N = (b-a)×(c-a)", 2, 1),
+            Gate::signed("t", "t < e", 1, -1),
+            Gate::signed("edge", "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
+        ],
+        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
+        hits_nan: false,
+        ..info(
+            "plane-inside-out-strict",
+            "Ray-Tracing: Rendering a Triangle, pseudo-code with strict edges [seed 004]",
+        )
+    };
+
+    type Prepared<V: Vector> = [V; 3];
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> [V; 3] {
+        triangle.clone().vertices()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        [v0, v1, v2]: &[V; 3],
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let (n, d) = plane(v0, v1, v2);
+        let n_dot_direction = n.dot(&ray.direction);
+        if !sink.one(PARALLEL, Refuse::AtMost, &n_dot_direction.abs()) {
+            return None;
+        }
+        let t = -(n.dot(&ray.origin) + &d) / &n_dot_direction;
+        if !sink.one(T, Refuse::Below, &t) {
+            return None;
+        }
+        let p = ray.origin.plus(&ray.direction.times(&t));
+        for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
+            let c = to.minus(from).cross(&p.minus(from));
+            if !sink.one(EDGE, Refuse::UnlessAbove, &n.dot(&c)) {
+                return None;
+            }
+        }
+        Some(Hit { t: Some(t), uv: None, facing: None })
+    }
+}
+
+impl Kernel for ConvexPolygon {
+    const INFO: KernelInfo = KernelInfo {
+        polygons: true,
+        ..info(
+            "convex-polygon",
+            "Ray-Tracing: Rendering a Triangle, last section: any convex polygon [seed 004]",
+        )
+    };
+
+    type Prepared<V: Vector> = [V; 3];
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> [V; 3] {
+        triangle.clone().vertices()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        vertices: &[V; 3],
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        Self::test_polygon(vertices, ray, sink)
+    }
+
+    #[inline(always)]
+    fn test_polygon<V: Vector, S: Sink<V::Real>>(
+        vertices: &[V],
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let (n, d) = plane(&vertices[0], &vertices[1], &vertices[2]);
+        inside_out(vertices, &n, &d, ray, sink)
+    }
+}

@@ -1,0 +1,70 @@
+//! `plane-unit-normal`: plane by unit normal, then three edge tests.
+//!
+//! Source: "Triangle Intersection", 2020-11-22, listing `TriangleFace::IntersectLocal`
+//! (seed 000_3aa116a9c34c9acb). Its text asks each edge value ≥ 0, so edges are hits; its code with
+//! a positive EDGE_EPSILON loses them. It is judged by the text. It gives no epsilon values: the
+//! default plan runs 0 and 1e-6.
+
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use crate::arith::Vector;
+use crate::case::{Ray, Triangle};
+use crate::contract::{Boundary, Contract, Extent, Sides};
+
+pub(super) struct PlaneUnitNormal;
+
+const PARALLEL: usize = 0;
+const T: usize = 1;
+const EDGE: usize = 2;
+
+impl Kernel for PlaneUnitNormal {
+    const INFO: KernelInfo = KernelInfo {
+        name: "plane-unit-normal",
+        source: "Triangle Intersection (2020), listing TriangleFace::IntersectLocal [seed 000]",
+        contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
+            .with_flat(crate::contract::Demand::Miss, crate::contract::Demand::Free),
+        gates: &[
+            Gate::non_negative("parallel", "abs(n·d) < e, n of unit length", 0, 1),
+            Gate::signed("t", "t < e", 1, -1),
+            Gate::signed("edge", "((b-a)×(q-a))·n < e, and cyclic, n of unit length", 2, 0),
+        ],
+        epsilon_sets: &[
+            EpsilonSet { name: "zero", values: &["0", "0", "0"] },
+            EpsilonSet { name: "1e-6", values: &["1e-6", "1e-6", "1e-6"] },
+        ],
+        gives: Gives { t: true, uv: false, facing: false },
+        polygons: false,
+        hits_nan: true,
+    };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        use crate::arith::Real;
+        let n = b.minus(a).cross(&c.minus(a)).normalize();
+        if !sink.one(PARALLEL, Refuse::Below, &n.dot(d).abs()) {
+            return None;
+        }
+        let k = n.dot(a);
+        let t = (k - n.dot(p)) / n.dot(d);
+        if !sink.one(T, Refuse::Below, &t) {
+            return None;
+        }
+        let q = p.plus(&d.times(&t));
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let value = to.minus(from).cross(&q.minus(from)).dot(&n);
+            if !sink.one(EDGE, Refuse::Below, &value) {
+                return None;
+            }
+        }
+        Some(Hit { t: Some(t), uv: None, facing: None })
+    }
+}

@@ -1,0 +1,111 @@
+//! `plucker`: edge tests on Plücker coordinates, shifted so that the ray starts at the origin.
+//!
+//! Source: the modified Plücker intersector of Intel Embree (triangle_intersector_pluecker.h, 2.x
+//! and, with an epsilon of one ulp times |U+V+W|, 3.x; Apache License 2.0), described in Davidovič
+//! et al., "3D Rasterization" (2011), and Kensler and Shirley (2006) on the edge tests. Without
+//! backface culling; t is compared undivided. Its SIMD min and max are read as comparisons: a NaN
+//! refuses. Its "stable normal" picks per axis between two cross products of edges; here the normal is
+//! cross(e1, e0), the line that it replaced.
+
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{end_times, facing_of, gap};
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::{Across, Boundary, Contract, Extent, Sides};
+
+pub(super) struct Plucker;
+
+const EDGE: usize = 0;
+const T: usize = 1;
+const PARALLEL: usize = 2;
+
+impl Kernel for Plucker {
+    const INFO: KernelInfo = KernelInfo {
+        name: "plucker",
+        source: "Embree's modified Plücker intersector (2.x; the 3.x epsilon by edge=-EPSILON)",
+        contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free)
+            .with_across(Across::AtLeastOne),
+        gates: &[
+            Gate::signed("edge", "!(min(U,V,W) >= e*|U+V+W| or max(U,V,W) <= -e*|U+V+W|)", 0, 0),
+            Gate::signed(
+                "t",
+                "!(sT - t_min*|den| >= e), !(t_max*|den| - sT >= e), s = sign of den",
+                3,
+                0,
+            ),
+            Gate::signed("parallel", "abs(den) <= e, den = 2*N·d", 2, 1),
+        ],
+        epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
+        gives: Gives { t: true, uv: true, facing: true },
+        polygons: false,
+        hits_nan: false,
+    };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        triangle: &Triangle<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let direction = &ray.direction;
+        let [v0, v1, v2] =
+            [&triangle.a, &triangle.b, &triangle.c].map(|vertex| vertex.minus(&ray.origin));
+        let (e0, e1, e2) = (v2.minus(&v0), v0.minus(&v1), v1.minus(&v2));
+        // Around edges ca, ab and bc: the weights of b, c and a.
+        let u = v2.plus(&v0).cross(&e0).dot(direction);
+        let v = v0.plus(&v1).cross(&e1).dot(direction);
+        let w = v1.plus(&v2).cross(&e2).dot(direction);
+        let sum = (u.clone() + &v + &w).abs();
+        let all_at_least = |bound: &V::Real| [&u, &v, &w].into_iter().all(|x| bound.is_at_most(x));
+        let all_at_most = |bound: &V::Real| [&u, &v, &w].into_iter().all(|x| x.is_at_most(bound));
+        let accepts = |epsilon: &V::Real| {
+            let bound = end_times(epsilon, &sum);
+            all_at_least(&bound) || all_at_most(&-bound)
+        };
+        if !sink.rounded(EDGE, accepts, || relative_margin(&[&u, &v, &w], &sum)) {
+            return None;
+        }
+        let normal = e1.cross(&e0);
+        let twice_normal = normal.plus(&normal);
+        let den = twice_normal.dot(direction);
+        let t = v0.dot(&twice_normal);
+        let signed_t = if den.is_sign_negative() { -t.clone() } else { t.clone() };
+        let abs_den = den.abs();
+        let (near, far) = (end_times(&ray.t_min, &abs_den), end_times(&ray.t_max, &abs_den));
+        if !sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))
+            || !sink.one(T, Refuse::UnlessAtLeast, &gap(&far, &signed_t))
+        {
+            return None;
+        }
+        if !sink.one(PARALLEL, Refuse::AtMost, &abs_den) {
+            return None;
+        }
+        let rcp_den = V::Real::one() / &den;
+        Some(Hit {
+            t: Some(t * &rcp_den),
+            uv: Some((u * &rcp_den, v * &rcp_den)),
+            facing: facing_of(&den),
+        })
+    }
+}
+
+/// The exact threshold of the edge test: the better of min(U,V,W) and min(-U,-V,-W), over |U+V+W|.
+fn relative_margin<R: Real>(weights: &[&R; 3], sum: &R) -> R {
+    let smallest = |values: [R; 3]| {
+        values.into_iter().reduce(|a, b| if b.is_less(&a) { b } else { a }).expect("three values")
+    };
+    let front = smallest(weights.map(R::clone));
+    let back = smallest(weights.map(|x| -x.clone()));
+    let best = if front.is_less(&back) { back } else { front };
+    match (sum.is_zero(), best.is_sign_negative()) {
+        (false, _) => best / sum,
+        (true, false) => R::infinity(),
+        (true, true) => -R::infinity(),
+    }
+}

@@ -1,0 +1,122 @@
+//! Epsilons in the field: what published libraries use, by gate and form.
+
+use super::{Dimension, Gate, Tunable};
+
+/// The epsilons of a library. A kernel takes one only at a gate of the same name and dimension.
+pub struct Preset {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Where the values come from.
+    pub source: &'static str,
+    /// One entry a gate.
+    pub entries: &'static [PresetEntry],
+}
+
+/// One gate's epsilon in a preset.
+pub struct PresetEntry {
+    /// The gate's name.
+    pub gate: &'static str,
+    /// The dimension of what the library compares.
+    pub dimension: Dimension,
+    /// The comparison in the library's notation.
+    pub form: &'static str,
+    /// The epsilon.
+    pub value: PresetValue,
+}
+
+/// An epsilon, either a number or tied to the scalar.
+#[derive(Clone, Copy, Debug)]
+pub enum PresetValue {
+    /// Decimal text.
+    Decimal(&'static str),
+    /// This many times the scalar's distance from 1 to the next number.
+    MachineEpsilon(f64),
+}
+
+impl PresetEntry {
+    /// Whether a kernel's gate can take this epsilon.
+    pub fn fits(&self, gate: &Gate) -> bool {
+        gate.name == self.gate && gate.dimension == self.dimension && gate.epsilon != Tunable::Fixed
+    }
+}
+
+const DETERMINANT: Dimension = Dimension::new(2, 1);
+const T: Dimension = Dimension::new(1, -1);
+
+const fn parallel(form: &'static str, value: PresetValue) -> PresetEntry {
+    PresetEntry { gate: "parallel", dimension: DETERMINANT, form, value }
+}
+
+const fn t(form: &'static str, value: PresetValue) -> PresetEntry {
+    PresetEntry { gate: "t", dimension: T, form, value }
+}
+
+use PresetValue::{Decimal, MachineEpsilon};
+
+/// One row per library.
+pub const PRESETS: &[Preset] = &[
+    Preset { name: "zero", source: "every gate at 0", entries: &[] },
+    Preset {
+        name: "bvh",
+        source: "Rust crate bvh 0.13.0: det < EPSILON (absolute, culls), t <= EPSILON",
+        entries: &[
+            parallel("det < EPSILON", MachineEpsilon(1.0)),
+            t("t <= EPSILON", MachineEpsilon(1.0)),
+        ],
+    },
+    Preset {
+        name: "bevy",
+        source: "Bevy's mesh picking: abs(det) < f32::EPSILON",
+        entries: &[parallel("abs(det) < EPSILON", MachineEpsilon(1.0))],
+    },
+    Preset {
+        name: "fcpw",
+        source: "fcpw: abs(det) <= FLT_EPSILON",
+        entries: &[parallel("abs(det) <= EPSILON", MachineEpsilon(1.0))],
+    },
+    Preset {
+        name: "jolt",
+        source: "Jolt Physics: abs(det) < 1e-12",
+        entries: &[parallel("abs(det) < e", Decimal("1e-12"))],
+    },
+    Preset {
+        name: "bullet",
+        source: "Bullet: edge tolerance -1e-4 * |n|^2, of the edge function with n",
+        entries: &[PresetEntry {
+            gate: "edge-over-n2",
+            dimension: Dimension::new(0, 0),
+            form: "edge < -1e-4 * |n|^2",
+            value: Decimal("-1e-4"),
+        }],
+    },
+    Preset {
+        name: "godot",
+        source: "Godot: abs(det) < 1e-5, t > 1e-5",
+        entries: &[parallel("abs(det) < e", Decimal("1e-5")), t("!(t > e)", Decimal("1e-5"))],
+    },
+    Preset {
+        name: "three-mesh-bvh",
+        source: "three-mesh-bvh's GLSL: abs(det) < 1e-5",
+        entries: &[parallel("abs(det) < e", Decimal("1e-5"))],
+    },
+    Preset {
+        name: "rayx",
+        source: "rayx: abs(det) < 16 * EPSILON",
+        entries: &[parallel("abs(det) < 16*EPSILON", MachineEpsilon(16.0))],
+    },
+    Preset {
+        name: "manifold-rust",
+        source: "manifold-rust (f64): 1e-9 on det and t",
+        entries: &[parallel("abs(det) < e", Decimal("1e-9")), t("t < e", Decimal("1e-9"))],
+    },
+    Preset {
+        name: "truck",
+        source: "truck (f64): 1e-6 on det",
+        entries: &[parallel("abs(det) < e", Decimal("1e-6"))],
+    },
+    Preset {
+        name: "trimesh",
+        source: "trimesh: distance > -1e-6",
+        entries: &[t("!(distance > e)", Decimal("-1e-6"))],
+    },
+];

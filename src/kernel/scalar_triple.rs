@@ -1,0 +1,154 @@
+//! `scalar-triple`, `scalar-triple-shared`, `scalar-triple-two-sided`: the signs of three scalar
+//! triple products.
+//!
+//! Source: A. Lelievre, "Triangle Intersection" (seed 002_0f264503bb56484c), its three listings,
+//! after C. Ericson, Real-Time Collision Detection, 5.3.4. The listings name the weights of a, b, c
+//! u, v, w; hits here report the weights of b and c. A line, not a ray: no t is computed.
+
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::{Boundary, Contract, Demand, Extent, Sides};
+
+pub(super) struct ScalarTriple;
+pub(super) struct ScalarTripleShared;
+pub(super) struct ScalarTripleTwoSided;
+
+const EDGE: usize = 0;
+
+const fn info(name: &'static str, source: &'static str, two_sided: bool) -> KernelInfo {
+    const ONE_SIDED: &[Gate] = &[Gate::signed("edge", "u < e, v < e, w < e", 2, 1)];
+    const TWO_SIDED: &[Gate] =
+        &[Gate::signed("edge", "!(both > e or both < -e) for (u, v) and (u, w)", 2, 1)];
+    let (sides, boundary) =
+        if two_sided { (Sides::Both, Boundary::Open) } else { (Sides::Front, Boundary::Closed) };
+    KernelInfo {
+        name,
+        source,
+        contract: Contract::of_kernel(Extent::Line, sides, boundary)
+            .with_flat(Demand::Free, Demand::Free),
+        gates: if two_sided { TWO_SIDED } else { ONE_SIDED },
+        epsilon_sets: &[EpsilonSet { name: "source", values: &["0"] }],
+        gives: Gives { t: false, uv: true, facing: false },
+        polygons: false,
+        hits_nan: !two_sided,
+    }
+}
+
+/// `ScalarTriple(a, b, c)` of the source: `dot(cross(a, b), c)`.
+#[inline(always)]
+fn scalar_triple<V: Vector>(a: &V, b: &V, c: &V) -> V::Real {
+    a.cross(b).dot(c)
+}
+
+/// The weights of b and c from the three products, as every listing normalises them.
+#[inline(always)]
+fn weights<R: Real>(u: R, v: R, w: R) -> Option<Hit<R>> {
+    let scale = R::one() / (u + &v + &w);
+    Some(Hit { t: None, uv: Some((v * &scale, w * &scale)), facing: None })
+}
+
+impl Kernel for ScalarTriple {
+    const INFO: KernelInfo =
+        info("scalar-triple", "Lelievre, Triangle Intersection, first listing [seed 002]", false);
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
+        let u = scalar_triple(d, &pc, &pb);
+        if !sink.one(EDGE, Refuse::Below, &u) {
+            return None;
+        }
+        let v = scalar_triple(d, &pa, &pc);
+        if !sink.one(EDGE, Refuse::Below, &v) {
+            return None;
+        }
+        let w = scalar_triple(d, &pb, &pa);
+        if !sink.one(EDGE, Refuse::Below, &w) {
+            return None;
+        }
+        weights(u, v, w)
+    }
+}
+
+impl Kernel for ScalarTripleShared {
+    const INFO: KernelInfo = info(
+        "scalar-triple-shared",
+        "Lelievre, Triangle Intersection, second listing (one shared cross product) [seed 002]",
+        false,
+    );
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
+        let m = d.cross(&pc);
+        let u = pb.dot(&m);
+        if !sink.one(EDGE, Refuse::Below, &u) {
+            return None;
+        }
+        let v = -pa.dot(&m);
+        if !sink.one(EDGE, Refuse::Below, &v) {
+            return None;
+        }
+        let w = scalar_triple(d, &pb, &pa);
+        if !sink.one(EDGE, Refuse::Below, &w) {
+            return None;
+        }
+        weights(u, v, w)
+    }
+}
+
+impl Kernel for ScalarTripleTwoSided {
+    const INFO: KernelInfo = info(
+        "scalar-triple-two-sided",
+        "Lelievre, Triangle Intersection, SameSign listing [seed 002]",
+        true,
+    );
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    #[inline(always)]
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin: p, direction: d, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let [pa, pb, pc] = [a.minus(p), b.minus(p), c.minus(p)];
+        let m = d.cross(&pc);
+        let u = pb.dot(&m);
+        let v = -pa.dot(&m);
+        let minus_u = -u.clone();
+        if !sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &v], [&minus_u, &-v.clone()]]) {
+            return None;
+        }
+        let w = scalar_triple(d, &pb, &pa);
+        if !sink.gate(EDGE, Refuse::UnlessAbove, [[&u, &w], [&minus_u, &-w.clone()]]) {
+            return None;
+        }
+        weights(u, v, w)
+    }
+}

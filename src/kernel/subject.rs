@@ -1,0 +1,131 @@
+//! Kernels behind one object-safe interface: what the audit and users' plug-ins go through.
+
+use super::{Deciding, Hit, Kernel, KernelInfo, Measuring};
+use crate::arith::{Exact, Float};
+use crate::case::{Case, Ray};
+use crate::truth::Facing;
+use std::marker::PhantomData;
+
+/// A kernel's answer. Values that the kernel does not give are NaN; [`KernelInfo::gives`] tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict<F> {
+    /// Hit or miss.
+    pub hit: bool,
+    /// The gate that refused.
+    pub refused_by: Option<u8>,
+    /// The side hit.
+    pub facing: Option<Facing>,
+    /// The ray's parameter.
+    pub t: F,
+    /// The weight of b.
+    pub u: F,
+    /// The weight of c.
+    pub v: F,
+}
+
+impl<F: Float> Verdict<F> {
+    /// A miss at a gate.
+    pub fn miss(refused_by: Option<u8>) -> Self {
+        let nan = F::from_f64(f64::NAN);
+        Verdict { hit: false, refused_by, facing: None, t: nan, u: nan, v: nan }
+    }
+
+    #[inline(always)]
+    fn of(hit: Option<Hit<F>>, refused_by: Option<usize>) -> Self {
+        match hit {
+            None => Verdict::miss(refused_by.map(|gate| gate as u8)),
+            Some(Hit { t, uv, facing }) => {
+                let nan = F::from_f64(f64::NAN);
+                let (u, v) = uv.unwrap_or((nan, nan));
+                Verdict { hit: true, refused_by: None, facing, t: t.unwrap_or(nan), u, v }
+            }
+        }
+    }
+}
+
+/// The margins of one case, and the values computed along the way.
+#[derive(Clone, Debug)]
+pub struct Measured<R> {
+    /// One margin a gate.
+    pub margins: Measuring<R>,
+    /// What a hit would report.
+    pub values: Option<Hit<R>>,
+}
+
+/// A kernel in one scalar.
+pub trait Subject<F: Float>: Sync {
+    /// What it is and what it promises.
+    fn info(&self) -> &'static KernelInfo;
+
+    /// The verdict on each case; `epsilons` has one entry a gate, `verdicts` one a case.
+    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]);
+
+    /// The verdict on a planar convex polygon; a miss if the kernel takes none.
+    fn run_polygon(
+        &self,
+        vertices: &[F::Vector],
+        ray: &Ray<F::Vector>,
+        epsilons: &[F],
+    ) -> Verdict<F>;
+
+    /// Every gate's margin on a case.
+    fn measure(&self, case: &Case<F>) -> Measured<F>;
+
+    /// Every gate's margin on a case, in exact arithmetic.
+    fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
+
+    /// Hit or miss in exact arithmetic, by the source's comparisons.
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> bool;
+}
+
+/// A built-in kernel as a [`Subject`] of either scalar.
+pub struct Builtin<K>(PhantomData<fn() -> K>);
+
+impl<K> Builtin<K> {
+    /// The only value.
+    pub const SUBJECT: Builtin<K> = Builtin(PhantomData);
+}
+
+impl<F: Float, K: Kernel> Subject<F> for Builtin<K> {
+    fn info(&self) -> &'static KernelInfo {
+        &const { K::INFO }
+    }
+
+    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        for (case, verdict) in cases.iter().zip(verdicts) {
+            let mut sink = Deciding::new(epsilons);
+            let hit = K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+            *verdict = Verdict::of(hit, sink.refused_by);
+        }
+    }
+
+    fn run_polygon(
+        &self,
+        vertices: &[F::Vector],
+        ray: &Ray<F::Vector>,
+        epsilons: &[F],
+    ) -> Verdict<F> {
+        let mut sink = Deciding::new(epsilons);
+        let hit = K::test_polygon(vertices, ray, &mut sink);
+        Verdict::of(hit, sink.refused_by)
+    }
+
+    fn measure(&self, case: &Case<F>) -> Measured<F> {
+        let mut margins = Measuring::new(K::INFO.gates.len());
+        let values = K::test(&K::prepare(&case.triangle), &case.ray, &mut margins);
+        Measured { margins, values }
+    }
+
+    fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
+        let (ray, triangle) = case.exact();
+        let mut margins = Measuring::new(K::INFO.gates.len());
+        let values = K::test(&K::prepare(&triangle), &ray, &mut margins);
+        Measured { margins, values }
+    }
+
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> bool {
+        let (ray, triangle) = case.exact();
+        let epsilons: Vec<Exact> = epsilons.iter().map(|e| Exact::from_f64(e.to_f64())).collect();
+        K::test(&K::prepare(&triangle), &ray, &mut Deciding::new(&epsilons)).is_some()
+    }
+}

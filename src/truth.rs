@@ -1,0 +1,238 @@
+//! Floor 1: what the words of a truth mean. Pure data; the oracle fills it, `judge` reads it.
+
+#![forbid(unsafe_code)]
+
+use std::cmp::Ordering;
+use std::fmt;
+
+/// What is the case, exactly. With N = (b-a)×(c-a), D = d·N, T = N·(a-o) and t = T/D.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Truth {
+    /// D ≠ 0: the line crosses the plane at one point.
+    Transversal(Crossing),
+    /// D = 0, N ≠ 0, the line off the plane.
+    Parallel,
+    /// D = 0, N ≠ 0, the line in the plane.
+    Coplanar(Contact),
+    /// N = 0: the triangle is a segment or a point.
+    Degenerate(Contact),
+    /// A NaN or an infinity among the coordinates, d = 0, an interval end NaN, or t_min > t_max.
+    Invalid,
+}
+
+/// A line crossing the plane of a triangle at one point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Crossing {
+    /// Which side the ray comes from.
+    pub facing: Facing,
+    /// Where t lies against the interval.
+    pub place: Place,
+    /// The sign of t, for contracts that ask t ≥ 0.
+    pub t_sign: Ordering,
+    /// Where the point lies in the triangle.
+    pub feature: Feature,
+}
+
+/// The side of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Facing {
+    /// D < 0: the ray comes from the side from which a, b, c run counter-clockwise.
+    Front,
+    /// D > 0.
+    Back,
+}
+
+/// Where t lies against `[t_min, t_max]`; with t_min = t_max = t it is at t_min.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// t < t_min.
+    Before,
+    /// t = t_min.
+    AtMin,
+    /// Between the ends.
+    Within,
+    /// t = t_max.
+    AtMax,
+    /// t > t_max.
+    Beyond,
+}
+
+/// Part of a closed triangle, or its outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Feature {
+    /// Inside, off the boundary.
+    Interior,
+    /// The open edge from a to b.
+    EdgeAb,
+    /// The open edge from b to c.
+    EdgeBc,
+    /// The open edge from c to a.
+    EdgeCa,
+    /// Vertex a.
+    VertexA,
+    /// Vertex b.
+    VertexB,
+    /// Vertex c.
+    VertexC,
+    /// Not in the closed triangle.
+    Outside,
+}
+
+/// How a line in the plane of a triangle, or any line and a triangle without area, meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Contact {
+    /// What the ray on its interval has in common with the closed triangle.
+    pub kind: ContactKind,
+    /// Whether the ray on `[0, inf)` meets the closed triangle.
+    pub meets_ray: bool,
+    /// Whether the whole line does.
+    pub meets_line: bool,
+}
+
+/// The common points of a ray on its interval and a closed triangle that holds part of its line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ContactKind {
+    /// No point.
+    None,
+    /// One point, on this feature.
+    Point(Feature),
+    /// A segment.
+    Segment,
+}
+
+impl Truth {
+    /// Whether the ray on `[t_min, t_max]` meets the closed triangle; none for invalid input.
+    pub fn hits_closed(&self) -> Option<bool> {
+        match self {
+            Truth::Transversal(crossing) => Some(
+                crossing.feature != Feature::Outside
+                    && !matches!(crossing.place, Place::Before | Place::Beyond),
+            ),
+            Truth::Parallel => Some(false),
+            Truth::Coplanar(contact) | Truth::Degenerate(contact) => {
+                Some(contact.kind != ContactKind::None)
+            }
+            Truth::Invalid => None,
+        }
+    }
+
+    /// The crossing of a transversal case.
+    pub fn crossing(&self) -> Option<&Crossing> {
+        match self {
+            Truth::Transversal(crossing) => Some(crossing),
+            _ => None,
+        }
+    }
+
+    /// The class's name.
+    pub fn class_name(&self) -> &'static str {
+        match self {
+            Truth::Transversal(_) => "transversal",
+            Truth::Parallel => "parallel",
+            Truth::Coplanar(_) => "coplanar",
+            Truth::Degenerate(_) => "degenerate",
+            Truth::Invalid => "invalid",
+        }
+    }
+}
+
+impl Feature {
+    /// All of them, in the order of reports.
+    pub const ALL: [Feature; 8] = [
+        Feature::Interior,
+        Feature::EdgeAb,
+        Feature::EdgeBc,
+        Feature::EdgeCa,
+        Feature::VertexA,
+        Feature::VertexB,
+        Feature::VertexC,
+        Feature::Outside,
+    ];
+
+    /// From the signs of the weights of a, b and c, divided by the sign of their sum.
+    pub fn from_weight_signs(signs: [Ordering; 3]) -> Feature {
+        use Ordering::{Equal, Less};
+        if signs.contains(&Less) {
+            return Feature::Outside;
+        }
+        match signs.map(|sign| sign == Equal) {
+            [false, false, false] => Feature::Interior,
+            [true, false, false] => Feature::EdgeBc,
+            [false, true, false] => Feature::EdgeCa,
+            [false, false, true] => Feature::EdgeAb,
+            [false, true, true] => Feature::VertexA,
+            [true, false, true] => Feature::VertexB,
+            // All three weights cannot be zero: their sum is not.
+            [true, true, _] => Feature::VertexC,
+        }
+    }
+
+    /// Whether this is one of the open edges.
+    pub fn is_edge(self) -> bool {
+        matches!(self, Feature::EdgeAb | Feature::EdgeBc | Feature::EdgeCa)
+    }
+
+    /// Whether this is one of the vertices.
+    pub fn is_vertex(self) -> bool {
+        matches!(self, Feature::VertexA | Feature::VertexB | Feature::VertexC)
+    }
+
+    /// The name in corpus files and records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Feature::Interior => "interior",
+            Feature::EdgeAb => "edge_ab",
+            Feature::EdgeBc => "edge_bc",
+            Feature::EdgeCa => "edge_ca",
+            Feature::VertexA => "vertex_a",
+            Feature::VertexB => "vertex_b",
+            Feature::VertexC => "vertex_c",
+            Feature::Outside => "outside",
+        }
+    }
+}
+
+impl Place {
+    /// All of them, along the line.
+    pub const ALL: [Place; 5] =
+        [Place::Before, Place::AtMin, Place::Within, Place::AtMax, Place::Beyond];
+
+    /// The name in corpus files and records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Place::Before => "before",
+            Place::AtMin => "at_min",
+            Place::Within => "within",
+            Place::AtMax => "at_max",
+            Place::Beyond => "beyond",
+        }
+    }
+}
+
+impl Facing {
+    /// The name in corpus files and records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Facing::Front => "front",
+            Facing::Back => "back",
+        }
+    }
+}
+
+impl fmt::Display for Truth {
+    /// One line for people: `transversal, front, t within, edge_ab`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.class_name())?;
+        match self {
+            Truth::Transversal(Crossing { facing, place, feature, .. }) => {
+                write!(f, ", {}, t {}, {}", facing.name(), place.name(), feature.name())
+            }
+            Truth::Coplanar(contact) | Truth::Degenerate(contact) => match contact.kind {
+                ContactKind::None => f.write_str(", no contact"),
+                ContactKind::Point(feature) => write!(f, ", touches {}", feature.name()),
+                ContactKind::Segment => f.write_str(", contact along a segment"),
+            },
+            Truth::Parallel | Truth::Invalid => Ok(()),
+        }
+    }
+}
