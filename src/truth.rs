@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+use num_rational::BigRational;
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -235,4 +236,17 @@ impl fmt::Display for Truth {
             Truth::Parallel | Truth::Invalid => Ok(()),
         }
     }
+}
+
+/// The exact values behind a truth, made on demand. Fields that do not apply are `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExactValues {
+    /// The ray's parameter of a transversal case.
+    pub t: Option<BigRational>,
+    /// The weight of b of a transversal case.
+    pub u: Option<BigRational>,
+    /// The weight of c of a transversal case.
+    pub v: Option<BigRational>,
+    /// First and last t of a contact, cut to the interval; equal for a point.
+    pub contact_t: Option<[BigRational; 2]>,
 }

@@ -45,7 +45,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// A scalar that kernels are registered in.
-pub trait Scalar: Float {
+pub trait Scalar: Float + crate::family::Makes {
     /// The kernel of a row, in this scalar.
     fn subject(entry: &Entry) -> &dyn Subject<Self>;
 }

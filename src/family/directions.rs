@@ -1,0 +1,77 @@
+//! `direction-length`, `axis-aligned`: the same line with other directions, and zeros in them.
+
+use super::control::{aimed, interior_weights};
+use super::integer::{IntegerCase, minus, normal, plus, shuffle, times, triangle_with_edge_point};
+use super::{Made, Recipe};
+use crate::arith::Float;
+use crate::case::{Case, Draw, scale_by_power_of_two};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+
+pub(super) struct DirectionLength;
+pub(super) struct AxisAligned;
+
+impl Recipe for DirectionLength {
+    const NAME: &'static str = "direction-length";
+    const PROMISE: &'static str = "transversal, the direction scaled by 2^-60 to 2^60";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let case = aimed::<F>(draw, &mut |draw| {
+            let s = draw.unit();
+            if draw.coin() { [s, 1.0 - s, 0.0] } else { interior_weights(draw) }
+        });
+        let exponent = draw.integer(-60, 60) as i32;
+        let [origin, direction, a, b, c] = case.vectors();
+        let scale = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), exponent));
+        Made::One(Case::new(origin, direction.map(scale), [a, b, c]))
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| truth.crossing().is_some())
+    }
+}
+
+impl Recipe for AxisAligned {
+    const NAME: &'static str = "axis-aligned";
+    const PROMISE: &'static str = "transversal, along an axis, zeros and negative zeros throughout";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let (triangle, edge_point) = loop {
+            let (triangle, point) = triangle_with_edge_point(draw, 64);
+            if normal(triangle) != [0; 3] {
+                break (shuffle(draw, triangle), point);
+            }
+        };
+        let n = normal(triangle);
+        let axis = loop {
+            let axis = draw.below(3);
+            if n[axis] != 0 {
+                break axis;
+            }
+        };
+        let mut direction = [0; 3];
+        direction[axis] = draw.pick(&[-2, -1, 1, 2]);
+        let target =
+            draw.pick(&[triangle[0], triangle[1], edge_point, plus(edge_point, [0, 1, 0])]);
+        let origin = minus(target, times(direction, draw.integer(1, 4)));
+        // Half of the cases have a vertex at the coordinate origin: zeros in the triangle.
+        let base = if draw.coin() { triangle[0] } else { [0; 3] };
+        let case = IntegerCase {
+            origin: minus(origin, base),
+            direction,
+            triangle: triangle.map(|p| minus(p, base)),
+        };
+        Made::One(with_signed_zeros(draw, case.case()))
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| truth.crossing().is_some())
+    }
+}
+
+/// Gives each zero coordinate a random sign.
+fn with_signed_zeros<F: Float>(draw: &mut Draw, case: Case<F>) -> Case<F> {
+    let [origin, direction, a, b, c] =
+        case.vectors().map(|v| v.map(|x| if x.is_zero() && draw.coin() { -F::zero() } else { x }));
+    Case::new(origin, direction, [a, b, c])
+}

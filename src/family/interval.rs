@@ -1,0 +1,69 @@
+//! `behind`, `interval-ends`: hits that the interval decides.
+
+use super::integer::{
+    IntegerCase, minus, normal, shuffle, times, transversal, triangle_with_edge_point,
+};
+use super::{Made, Recipe};
+use crate::case::Draw;
+use crate::kernel::Scalar;
+use crate::truth::{Feature, Place, Truth};
+use std::cmp::Ordering;
+
+pub(super) struct Behind;
+pub(super) struct IntervalEnds;
+
+/// A lattice ray through a point of a triangle at integer t.
+fn at(draw: &mut Draw, t: i64) -> IntegerCase {
+    let reach = draw.pick(&[64, 2048]);
+    let ([a, b, c], edge_point) = triangle_with_edge_point(draw, reach);
+    let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| times(p, 2));
+    let middle = std::array::from_fn(|i| (c[i] + edge_point[i]) / 2);
+    let triangle = shuffle(draw, [a, b, c]);
+    let target = draw.pick(&[middle, middle, middle, edge_point, c]);
+    let direction = transversal(draw, normal(triangle), reach / 8);
+    IntegerCase { origin: minus(target, times(direction, t)), direction, triangle }
+}
+
+impl Recipe for Behind {
+    const NAME: &'static str = "behind";
+    const PROMISE: &'static str = "transversal, in the closed triangle, at negative t";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let t = -draw.integer(1, 4);
+        at(draw, t).made()
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| {
+            truth.crossing().is_some_and(|crossing| {
+                crossing.t_sign == Ordering::Less && crossing.feature != Feature::Outside
+            })
+        })
+    }
+}
+
+impl Recipe for IntervalEnds {
+    const NAME: &'static str = "interval-ends";
+    const PROMISE: &'static str = "transversal, in the closed triangle, exactly at t_min or t_max";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let t = draw.integer(0, 4);
+        let case = at(draw, t).case::<F>();
+        let end = F::from_f64(t as f64);
+        let room = F::from_f64(draw.integer(0, 4) as f64);
+        Made::One(match draw.below(3) {
+            0 => case.on(end, F::infinity()),
+            1 => case.on(end, end + room),
+            _ => case.on(end - room, end),
+        })
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| {
+            truth.crossing().is_some_and(|crossing| {
+                matches!(crossing.place, Place::AtMin | Place::AtMax)
+                    && crossing.feature != Feature::Outside
+            })
+        })
+    }
+}

@@ -1,0 +1,243 @@
+//! Floor 2: where cases come from. One family a file, each with its promise, which the oracle checks
+//! on every case.
+//!
+//! To add a family: write its file with a [`Recipe`], and give it a row in [`FAMILIES`].
+
+#![forbid(unsafe_code)]
+
+mod boundary;
+mod control;
+mod directions;
+mod flat;
+mod integer;
+mod interval;
+mod lattice;
+mod mesh;
+mod neighbours;
+mod origin;
+mod polygon;
+mod range;
+mod shape;
+mod sizes;
+
+pub use lattice::LATTICE_SIZE;
+pub use mesh::MeshFamily;
+
+use crate::arith::Float;
+use crate::case::{Case, CaseId, Draw, Parameters, scale_by_power_of_two};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+
+/// The triangles that one index of a family makes: one, or a group that shares a ray.
+#[derive(Clone, Debug)]
+pub enum Made<F: Float> {
+    /// One case.
+    One(Case<F>),
+    /// One ray, several triangles.
+    Group(Vec<Case<F>>),
+}
+
+impl<F: Float> Made<F> {
+    /// The cases, in order.
+    pub fn cases(&self) -> &[Case<F>] {
+        match self {
+            Made::One(case) => std::slice::from_ref(case),
+            Made::Group(cases) => cases,
+        }
+    }
+
+    fn cases_mut(&mut self) -> &mut [Case<F>] {
+        match self {
+            Made::One(case) => std::slice::from_mut(case),
+            Made::Group(cases) => cases,
+        }
+    }
+}
+
+/// How the triangles of one index belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grouping {
+    /// One triangle.
+    Single,
+    /// One triangle; the ray starts at a kernel's own hit point on it.
+    Respawn,
+    /// Two triangles on one edge.
+    SharedEdge,
+    /// A closed fan around a vertex.
+    Fan,
+    /// The fan of a planar convex polygon: vertices are the first triangle's, then each last one.
+    Polygon,
+}
+
+/// How a family makes its cases.
+trait Recipe {
+    const NAME: &'static str;
+    /// Raised whenever the cases change.
+    const VERSION: u32 = 1;
+    /// About the truth of its cases, in one line.
+    const PROMISE: &'static str;
+    const GROUPING: Grouping = Grouping::Single;
+    /// Case `index` of the set; `draw` is its own stream.
+    fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
+    /// Whether the truths of one index keep the promise.
+    fn keeps(truths: &[Truth]) -> bool;
+}
+
+/// A row of the table of families.
+pub struct Family {
+    /// The name on the command line and in case ids.
+    pub name: &'static str,
+    /// Part of the case ids.
+    pub version: u32,
+    /// About the truth of its cases, in one line.
+    pub promise: &'static str,
+    /// How the triangles of one index belong together.
+    pub grouping: Grouping,
+    /// The number of its cases, if there are finitely many.
+    pub size: Option<u64>,
+    keeps: fn(&[Truth]) -> bool,
+    make_f32: fn(&mut Draw, u64) -> Made<f32>,
+    make_f64: fn(&mut Draw, u64) -> Made<f64>,
+}
+
+const fn row<R: Recipe>() -> Family {
+    Family {
+        name: R::NAME,
+        version: R::VERSION,
+        promise: R::PROMISE,
+        grouping: R::GROUPING,
+        size: None,
+        keeps: R::keeps,
+        make_f32: R::make::<f32>,
+        make_f64: R::make::<f64>,
+    }
+}
+
+/// Every family but the mesh, in the order of reports.
+pub static FAMILIES: &[Family] = &[
+    row::<control::Interior>(),
+    row::<control::Outside>(),
+    row::<boundary::EdgeExact>(),
+    row::<boundary::EdgeNear>(),
+    row::<boundary::VertexExact>(),
+    row::<boundary::VertexNear>(),
+    row::<flat::ParallelOff>(),
+    row::<flat::Coplanar>(),
+    row::<flat::Grazing>(),
+    row::<origin::OriginOn>(),
+    row::<origin::OriginNear>(),
+    row::<origin::Respawn>(),
+    row::<interval::Behind>(),
+    row::<interval::IntervalEnds>(),
+    row::<shape::Sliver>(),
+    row::<sizes::Tiny>(),
+    row::<sizes::Huge>(),
+    row::<sizes::Far>(),
+    row::<directions::DirectionLength>(),
+    row::<directions::AxisAligned>(),
+    row::<range::MixedScale>(),
+    row::<range::RangeEnds>(),
+    row::<shape::Degenerate>(),
+    row::<range::Invalid>(),
+    row::<neighbours::SharedEdge>(),
+    row::<neighbours::Fan>(),
+    row::<polygon::Polygon>(),
+    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>() },
+];
+
+/// The family of a name.
+pub fn find(name: &str) -> Option<&'static Family> {
+    FAMILIES.iter().find(|family| family.name == name)
+}
+
+impl Family {
+    /// Case `index` of the set of a seed, put through the parameters.
+    pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
+        let mut draw = Draw::new(self.name, seed, index);
+        let index = self.size.map_or(index, |size| lattice::shuffled(index % size, seed));
+        self.made(parameters, &mut draw, index)
+    }
+
+    /// Case `index` in the natural order of a finite family.
+    pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> Made<F> {
+        self.made(parameters, &mut Draw::new(self.name, 0, index), index)
+    }
+
+    fn made<F: Scalar>(&self, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<F> {
+        let mut made = F::make(self, draw, index);
+        for case in made.cases_mut() {
+            apply(parameters, case);
+        }
+        made
+    }
+
+    /// Whether the truths of one index keep the promise.
+    pub fn keeps(&self, truths: &[Truth]) -> bool {
+        (self.keeps)(truths)
+    }
+
+    /// The id of a case.
+    pub fn id<F: Float>(&self, parameters: &Parameters, seed: u64, index: u64) -> CaseId {
+        CaseId {
+            family: self.name.to_owned(),
+            version: self.version,
+            scalar: F::NAME.to_owned(),
+            parameters: parameters.clone(),
+            seed,
+            index,
+            triangle: None,
+        }
+    }
+}
+
+/// A scalar that families make cases in.
+pub trait Makes: Float {
+    /// Calls the family's generator of this scalar.
+    fn make(family: &Family, draw: &mut Draw, index: u64) -> Made<Self>;
+}
+
+impl Makes for f32 {
+    fn make(family: &Family, draw: &mut Draw, index: u64) -> Made<f32> {
+        (family.make_f32)(draw, index)
+    }
+}
+
+impl Makes for f64 {
+    fn make(family: &Family, draw: &mut Draw, index: u64) -> Made<f64> {
+        (family.make_f64)(draw, index)
+    }
+}
+
+/// Scales, moves and normalises a case.
+pub(crate) fn apply<F: Float>(parameters: &Parameters, case: &mut Case<F>) {
+    let Parameters { scale, scale_direction, offset, unit_direction, .. } = parameters;
+    let [origin, direction, a, b, c] = case.vectors();
+    let scaled = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), *scale));
+    let moved = |point: [F; 3]| -> [F; 3] {
+        std::array::from_fn(|i| {
+            let x = if *scale == 0 { point[i] } else { scaled(point[i]) };
+            if offset[i] == 0.0 { x } else { x + F::from_f64(offset[i]) }
+        })
+    };
+    let mut direction = direction;
+    if *scale_direction {
+        direction = direction.map(scaled);
+    }
+    if *unit_direction {
+        direction = unit(direction);
+    }
+    let ray = case.ray;
+    *case = Case::new(moved(origin), direction, [a, b, c].map(moved)).on(ray.t_min, ray.t_max);
+}
+
+/// The rounded unit vector; the zero vector and vectors that are not finite stay.
+fn unit<F: Float>(direction: [F; 3]) -> [F; 3] {
+    let wide = direction.map(F::to_f64);
+    let largest = wide.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 || wide.iter().any(|x| !x.is_finite()) {
+        return direction;
+    }
+    let near_one = wide.map(|x| x / largest);
+    let length = near_one.iter().map(|x| x * x).sum::<f64>().sqrt();
+    near_one.map(|x| F::from_f64(x / length))
+}

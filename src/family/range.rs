@@ -1,0 +1,110 @@
+//! `mixed-scale`, `range-ends`, `invalid`: exponents of all sizes, the ends of the range, and what is
+//! no number at all.
+
+use super::control::{aimed, interior_weights};
+use super::{Made, Recipe};
+use crate::arith::Float;
+use crate::case::{Case, Draw};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+
+pub(super) struct MixedScale;
+pub(super) struct RangeEnds;
+pub(super) struct Invalid;
+
+/// A finite case of coordinates that a closure draws.
+fn drawn<F: Float>(draw: &mut Draw, mut coordinate: impl FnMut(&mut Draw) -> F) -> Made<F> {
+    let mut vector = |draw: &mut Draw| -> [F; 3] { std::array::from_fn(|_| coordinate(draw)) };
+    let [origin, a, b, c] = std::array::from_fn(|_| vector(draw));
+    // At a vertex, at the middle of two, or anywhere.
+    let direction = match draw.below(3) {
+        0 => std::array::from_fn(|i| a[i] - origin[i]),
+        1 => {
+            std::array::from_fn(|i| (a[i] * F::from_f64(0.5) + b[i] * F::from_f64(0.5)) - origin[i])
+        }
+        _ => vector(draw),
+    };
+    let usable = direction.iter().all(|x| x.is_finite()) && direction.iter().any(|x| !x.is_zero());
+    let direction = if usable { direction } else { [F::one(); 3] };
+    Made::One(Case::new(origin, direction, [a, b, c]))
+}
+
+fn all_finite(truths: &[Truth]) -> bool {
+    truths.iter().all(|truth| *truth != Truth::Invalid)
+}
+
+impl Recipe for MixedScale {
+    const NAME: &'static str = "mixed-scale";
+    const PROMISE: &'static str = "finite, each exponent drawn independently in -30..30";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        drawn(draw, |draw| {
+            let exponent = draw.integer(-30, 30) as i32;
+            draw.with_exponent(exponent)
+        })
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        all_finite(truths)
+    }
+}
+
+impl Recipe for RangeEnds {
+    const NAME: &'static str = "range-ends";
+    const PROMISE: &'static str = "finite, subnormals and values near the largest float";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let (lowest, highest) = (F::MIN_EXPONENT, F::MAX_EXPONENT);
+        let digits = F::DIGITS as i32;
+        let (low, high) = draw.pick(&[
+            (lowest, lowest + digits),
+            (lowest, lowest + 2 * digits),
+            (highest - 2, highest),
+            (highest - digits, highest),
+            (lowest, highest),
+        ]);
+        drawn(draw, |draw| {
+            if draw.below(8) == 0 {
+                return F::zero();
+            }
+            let exponent = draw.integer(i64::from(low), i64::from(high)) as i32;
+            let x = draw.with_exponent::<F>(exponent);
+            if x.is_finite() { x } else { F::one() }
+        })
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        all_finite(truths)
+    }
+}
+
+impl Recipe for Invalid {
+    const NAME: &'static str = "invalid";
+    const PROMISE: &'static str = "a NaN, an infinity, a zero direction or an impossible interval";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let case = aimed::<F>(draw, &mut interior_weights);
+        let [nan, infinity] = [F::from_f64(f64::NAN), F::infinity()];
+        match draw.below(8) {
+            0 => return Made::One(case.on(F::one(), F::zero())),
+            1 => return Made::One(case.on(draw.pick(&[nan, F::zero()]), nan)),
+            2 => {
+                let [origin, _, a, b, c] = case.vectors();
+                return Made::One(Case::new(origin, [F::zero(); 3], [a, b, c]));
+            }
+            3 => return Made::One(Case::new([nan; 3], [nan; 3], [[nan; 3]; 3])),
+            _ => {}
+        }
+        let mut vectors = case.vectors();
+        let poison = draw.pick(&[nan, infinity, -infinity]);
+        for _ in 0..draw.integer(1, 3) {
+            vectors[draw.below(5)][draw.below(3)] = poison;
+        }
+        let [origin, direction, a, b, c] = vectors;
+        Made::One(Case::new(origin, direction, [a, b, c]))
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| *truth == Truth::Invalid)
+    }
+}

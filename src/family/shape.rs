@@ -1,0 +1,97 @@
+//! `sliver`, `degenerate`: needles and caps, and triangles without area.
+
+use super::flat::placed;
+use super::integer::{
+    IntegerCase, Point, cross, independent, minus, normal, plus, shuffle, times, transversal,
+};
+use super::{Made, Recipe};
+use crate::arith::Float;
+use crate::case::{Case, Draw, scale_by_power_of_two};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+
+pub(super) struct Sliver;
+pub(super) struct Degenerate;
+
+impl Recipe for Sliver {
+    const NAME: &'static str = "sliver";
+    const PROMISE: &'static str = "transversal, needles and caps of aspect 2^4 to 2^40";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        if draw.coin() { Made::One(level(draw)) } else { tilted(draw).made() }
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| truth.crossing().is_some())
+    }
+}
+
+/// In the plane of two axes, where the thin side can be as small as 2^-40.
+fn level<F: Float>(draw: &mut Draw) -> Case<F> {
+    let axes = draw.pick(&[[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
+    let thickness = scale_by_power_of_two(1.0 + draw.unit(), -(draw.integer(4, 40) as i32));
+    let long = 0.5 + 0.5 * draw.unit();
+    // A needle's third vertex is near an end, a cap's near the middle.
+    let third =
+        if draw.coin() { thickness * draw.unit() } else { long * (0.25 + 0.5 * draw.unit()) };
+    let float = |x: f64| F::from_f64(x);
+    let corner = |x: f64, y: f64| placed(axes, float(x), float(y), F::zero());
+    let triangle = shuffle(draw, [corner(0.0, 0.0), corner(long, 0.0), corner(third, thickness)]);
+    let along = draw.unit() * long;
+    let across = thickness * draw.pick(&[0.0, 0.25, 0.5, 1.0, -0.25]);
+    let [dx, dy] = [draw.symmetric::<F>(), draw.symmetric()];
+    let fall = float(0.25 + 0.75 * draw.unit());
+    let fall = if draw.coin() { fall } else { -fall };
+    let origin = placed(axes, float(along) - dx, float(across) - dy, -fall);
+    Case::new(origin, placed(axes, dx, dy, fall), triangle)
+}
+
+/// Tilted, in integers: a long edge of 2^m steps, and a third vertex one small step beside it.
+fn tilted(draw: &mut Draw) -> IntegerCase {
+    let (a, step) = (draw.lattice_point(8), independent(draw, [0, 0, 1], 4));
+    let aside = independent(draw, step, 4);
+    let m = draw.integer(4, 16);
+    let along = if draw.coin() { 0 } else { 1 << (m - 1) };
+    let [b, c] = [plus(a, times(step, 1 << m)), plus(plus(a, times(step, along)), aside)];
+    let triangle = shuffle(draw, [a, b, c]);
+    let target = plus(a, times(step, draw.integer(0, 1 << m)));
+    let target = if draw.coin() { target } else { plus(target, aside) };
+    let direction = transversal(draw, normal(triangle), 8);
+    IntegerCase { origin: minus(target, times(direction, draw.integer(1, 4))), direction, triangle }
+}
+
+impl Recipe for Degenerate {
+    const NAME: &'static str = "degenerate";
+    const PROMISE: &'static str = "the triangle is a segment or a point";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        let a = draw.lattice_point(16);
+        let step = draw.lattice_point(4);
+        let at = |k: i64| -> Point { plus(a, times(step, k)) };
+        let [i, j, k] = [-3, -3, -3].map(|low| draw.integer(low, 3));
+        let triangle = draw.pick(&[[a, a, a], [a, a, at(i)], [a, at(i), at(j)]]);
+        let triangle = shuffle(draw, triangle);
+        let target = at(k);
+        let direction = if step != [0; 3] && draw.below(3) == 0 {
+            step
+        } else {
+            // Any direction but the segment's own.
+            let other = if step == [0; 3] { [0, 0, 1] } else { step };
+            independent(draw, other, 4)
+        };
+        debug_assert_eq!(
+            cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0])),
+            [0; 3]
+        );
+        IntegerCase {
+            origin: minus(target, times(direction, draw.integer(-1, 3))),
+            direction,
+            triangle,
+        }
+        .made()
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| matches!(truth, Truth::Degenerate(_)))
+    }
+}

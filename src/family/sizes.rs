@@ -1,0 +1,93 @@
+//! `tiny`, `huge`, `far`: triangles of 2^-40 and of 2^40, and small triangles far from the origin.
+
+use super::control::{aimed, interior_weights};
+use super::integer::{minus, normal, plus, times, transversal, triangle_with_edge_point};
+use super::{Made, Recipe, apply};
+use crate::arith::Float;
+use crate::case::{Case, Draw, Parameters};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+
+pub(super) struct Tiny;
+pub(super) struct Huge;
+pub(super) struct Far;
+
+/// Interior, boundary and outside, scaled; the direction is scaled in half of the cases.
+fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
+    let mut case = aimed::<F>(draw, &mut |draw| {
+        let s = draw.unit();
+        match draw.below(4) {
+            0 => [s, 1.0 - s, 0.0],
+            1 => [-s, 1.0, s],
+            _ => interior_weights(draw),
+        }
+    });
+    let parameters = Parameters { scale, scale_direction: draw.coin(), ..Parameters::default() };
+    apply(&parameters, &mut case);
+    Made::One(case)
+}
+
+fn all_transversal(truths: &[Truth]) -> bool {
+    truths.iter().all(|truth| truth.crossing().is_some())
+}
+
+impl Recipe for Tiny {
+    const NAME: &'static str = "tiny";
+    const PROMISE: &'static str = "transversal, triangles of size 2^-40";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        scaled(draw, -40)
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        all_transversal(truths)
+    }
+}
+
+impl Recipe for Huge {
+    const NAME: &'static str = "huge";
+    const PROMISE: &'static str = "transversal, triangles of size 2^40";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        scaled(draw, 40)
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        all_transversal(truths)
+    }
+}
+
+impl Recipe for Far {
+    const NAME: &'static str = "far";
+    const PROMISE: &'static str =
+        "transversal, triangles some hundred ulps wide, far from the origin";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        // All on the integer grid of a large offset, which is exact below 2^DIGITS.
+        let ([a, b, c], edge_point) = triangle_with_edge_point(draw, 64);
+        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| times(p, 2));
+        let middle = std::array::from_fn(|i| (c[i] + edge_point[i]) / 2);
+        let target = draw.pick(&[middle, edge_point, c, plus(c, [1, 0, 0])]);
+        let exponent = draw.integer(10, i64::from(F::DIGITS) - 2);
+        let base = draw.lattice_point(1 << exponent);
+        let direction = transversal(draw, normal([a, b, c]), 32);
+        let origin = minus(target, times(direction, draw.integer(1, 8)));
+        let float = |p: [i64; 3]| plus(p, base).map(|x| F::from_f64(x as f64));
+        // Half of the rays come from the far side of the coordinate system.
+        if draw.coin() {
+            let start = base.map(|x| F::from_f64(-(x as f64)));
+            let goal = float(target);
+            let direction = std::array::from_fn(|i| goal[i] - start[i]);
+            let case = Case::new(start, direction, [a, b, c].map(float));
+            if super::control::is_steep(direction, [a, b, c].map(float)) {
+                return Made::One(case);
+            }
+        }
+        let direction = direction.map(|x| F::from_f64(x as f64));
+        Made::One(Case::new(float(origin), direction, [a, b, c].map(float)))
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        all_transversal(truths)
+    }
+}

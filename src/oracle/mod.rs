@@ -1,0 +1,89 @@
+//! Floor 2: what is true, exactly, for every input.
+//!
+//! The definition is [`define`], written with num-rational: slow and obvious. [`truth`] gives the
+//! same answer faster, in layers that each decide or hand on: a floating-point filter, integers of
+//! 128 bits, integers of any size. A `f32` case is asked in `f64`, which holds it exactly.
+//!
+//! Architecture invariant: nothing here knows a kernel, and no arithmetic is shared with them.
+
+#![forbid(unsafe_code)]
+
+mod contact;
+mod filter;
+mod integer;
+mod rational;
+mod signs;
+
+pub use rational::{Definition, define};
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::truth::Truth;
+
+/// How often each layer decided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layers {
+    /// Input that asks no question: NaN, infinities, a zero direction, an impossible interval.
+    pub invalid: u64,
+    /// The floating-point filter.
+    pub filter: u64,
+    /// Integers of 128 bits.
+    pub small_integer: u64,
+    /// Integers of any size.
+    pub big_integer: u64,
+}
+
+impl Layers {
+    /// Adds another run's counts.
+    pub fn merge(&mut self, other: &Layers) {
+        self.invalid += other.invalid;
+        self.filter += other.filter;
+        self.small_integer += other.small_integer;
+        self.big_integer += other.big_integer;
+    }
+}
+
+/// The truth of a case.
+///
+/// ```
+/// use hairline::case::Case;
+/// use hairline::oracle;
+/// use hairline::truth::{Feature, Truth};
+///
+/// // Straight down onto the middle of edge ab.
+/// let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+/// let case = Case::<f32>::new([1.0, 0.0, 1.0], [0.0, 0.0, -1.0], triangle);
+/// let Truth::Transversal(crossing) = oracle::truth(&case) else { panic!() };
+/// assert_eq!(crossing.feature, Feature::EdgeAb);
+/// ```
+pub fn truth<F: Float>(case: &Case<F>) -> Truth {
+    truth_counted(case, &mut Layers::default())
+}
+
+/// The truth of a case, and a count for the layer that decided it.
+pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
+    let case = case.widen();
+    if !is_valid(&case) {
+        layers.invalid += 1;
+        return Truth::Invalid;
+    }
+    if let Some(truth) = filter::decide(&case) {
+        layers.filter += 1;
+        return truth;
+    }
+    let scaled = integer::Scaled::new(&case);
+    if let Some(truth) = scaled.decide_small() {
+        layers.small_integer += 1;
+        return truth;
+    }
+    layers.big_integer += 1;
+    scaled.decide_big()
+}
+
+/// Finite coordinates, a direction that is not zero, and an interval whose ends are in order.
+fn is_valid(case: &Case<f64>) -> bool {
+    let vectors = case.vectors();
+    let finite = vectors.iter().flatten().all(|x| x.is_finite());
+    let ordered = case.ray.t_min <= case.ray.t_max;
+    finite && ordered && vectors[1] != [0.0; 3]
+}

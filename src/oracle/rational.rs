@@ -1,0 +1,244 @@
+//! The definition of truth, with num-rational: slow, obvious, and the reference for all else.
+
+use super::signs::place;
+use crate::arith::Float;
+use crate::case::Case;
+use crate::truth::{Contact, ContactKind, Crossing, ExactValues, Facing, Feature, Truth};
+use num_rational::BigRational as Rational;
+use num_traits::{Signed, Zero};
+use std::cmp::Ordering;
+
+type Point = [Rational; 3];
+
+/// The truth of a case by definition, with the exact values behind it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Definition {
+    /// The truth.
+    pub truth: Truth,
+    /// t, u, v, or the contact's range of t.
+    pub exact: ExactValues,
+}
+
+/// An end of an interval: a number or an infinity.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
+enum End {
+    MinusInfinity,
+    At(Rational),
+    PlusInfinity,
+}
+
+/// The truth of a case, by definition.
+pub fn define<F: Float>(case: &Case<F>) -> Definition {
+    let invalid = Definition { truth: Truth::Invalid, exact: ExactValues::default() };
+    let case = case.widen();
+    let rational = |x: f64| Rational::from_float(x);
+    let point = |v: [f64; 3]| -> Option<Point> {
+        let [x, y, z] = v.map(rational);
+        Some([x?, y?, z?])
+    };
+    let [Some(o), Some(d), Some(a), Some(b), Some(c)] = case.vectors().map(point) else {
+        return invalid;
+    };
+    let end = |t: f64| match rational(t) {
+        Some(t) => Some(End::At(t)),
+        None if t == f64::INFINITY => Some(End::PlusInfinity),
+        None if t == f64::NEG_INFINITY => Some(End::MinusInfinity),
+        None => None,
+    };
+    let (Some(t_min), Some(t_max)) = (end(case.ray.t_min), end(case.ray.t_max)) else {
+        return invalid;
+    };
+    if t_min > t_max || d.iter().all(Zero::is_zero) {
+        return invalid;
+    }
+
+    let n = cross(&minus(&b, &a), &minus(&c, &a));
+    let capital_d = dot(&d, &n);
+    let capital_t = dot(&n, &minus(&a, &o));
+    if n.iter().all(Zero::is_zero) {
+        let (contact, range) = line_and_segment(&o, &d, [&a, &b, &c], &t_min, &t_max);
+        return flat(Truth::Degenerate(contact), range);
+    }
+    if capital_d.is_zero() {
+        if !capital_t.is_zero() {
+            return Definition { truth: Truth::Parallel, exact: ExactValues::default() };
+        }
+        let (contact, range) = line_in_plane(&o, &d, [&a, &b, &c], &n, &t_min, &t_max);
+        return flat(Truth::Coplanar(contact), range);
+    }
+
+    let t = capital_t / &capital_d;
+    let hit = along(&o, &d, &t);
+    // The weight of a vertex is the area that the hit point spans with the opposite edge.
+    let area = |p: &Point, q: &Point| dot(&n, &cross(&minus(p, &hit), &minus(q, &hit)));
+    let [u, v, w] = [area(&b, &c), area(&c, &a), area(&a, &b)].map(|x| x / dot(&n, &n));
+    let truth = Truth::Transversal(Crossing {
+        facing: if capital_d.is_negative() { Facing::Front } else { Facing::Back },
+        place: place(compare(&t, &t_min), compare(&t, &t_max)),
+        t_sign: t.cmp(&Rational::zero()),
+        feature: Feature::from_weight_signs([&u, &v, &w].map(|x| x.cmp(&Rational::zero()))),
+    });
+    Definition { truth, exact: ExactValues { t: Some(t), u: Some(v), v: Some(w), contact_t: None } }
+}
+
+fn flat(truth: Truth, contact_t: Option<[Rational; 2]>) -> Definition {
+    Definition { truth, exact: ExactValues { contact_t, ..ExactValues::default() } }
+}
+
+/// The common points of a line in the triangle's plane and the triangle: the t at which the three
+/// edge functions, linear in t, are all at least zero.
+fn line_in_plane(
+    o: &Point,
+    d: &Point,
+    [a, b, c]: [&Point; 3],
+    n: &Point,
+    t_min: &End,
+    t_max: &End,
+) -> (Contact, Option<[Rational; 2]>) {
+    // Constant and slope of N·((to - from) × (o + t d - from)).
+    let edges = [(a, b), (b, c), (c, a)].map(|(from, to)| {
+        let edge = minus(to, from);
+        (dot(n, &cross(&edge, &minus(o, from))), dot(n, &cross(&edge, d)))
+    });
+    let solve = |mut low: End, mut high: End| {
+        for (constant, slope) in &edges {
+            let bound = End::At(
+                -constant
+                    / if slope.is_zero() {
+                        Rational::from_integer(1.into())
+                    } else {
+                        slope.clone()
+                    },
+            );
+            match slope.cmp(&Rational::zero()) {
+                Ordering::Greater if low < bound => low = bound,
+                Ordering::Less if bound < high => high = bound,
+                Ordering::Equal if constant.is_negative() => return None,
+                _ => {}
+            }
+        }
+        match (low, high) {
+            (End::At(low), End::At(high)) if low <= high => Some([low, high]),
+            _ => None,
+        }
+    };
+    let feature = |t: &Rational| {
+        let [ab, bc, ca] =
+            [0, 1, 2].map(|i| (&edges[i].0 + &edges[i].1 * t).cmp(&Rational::zero()));
+        Feature::from_weight_signs([bc, ca, ab])
+    };
+    contact(
+        solve(t_min.clone(), t_max.clone()),
+        solve(End::At(Rational::zero()), End::PlusInfinity).is_some(),
+        solve(End::MinusInfinity, End::PlusInfinity).is_some(),
+        feature,
+    )
+}
+
+/// The common points of any line and a triangle without area, which is the segment between two of
+/// its vertices.
+fn line_and_segment(
+    o: &Point,
+    d: &Point,
+    vertices: [&Point; 3],
+    t_min: &End,
+    t_max: &End,
+) -> (Contact, Option<[Rational; 2]>) {
+    let [a, b, c] = vertices;
+    let (p, q) = [(a, b), (b, c), (c, a)]
+        .into_iter()
+        .max_by_key(|(p, q)| dot(&minus(p, q), &minus(p, q)))
+        .expect("three edges");
+    let d_squared = dot(d, d);
+    // The t of the point of the line nearest to a point.
+    let parameter = |x: &Point| dot(&minus(x, o), d) / &d_squared;
+    let on_line = |x: &Point| cross(&minus(x, o), d).iter().all(Zero::is_zero);
+
+    let whole: Option<[Rational; 2]> = if on_line(p) && on_line(q) {
+        let (s, t) = (parameter(p), parameter(q));
+        Some(if s <= t { [s, t] } else { [t, s] })
+    } else {
+        // p + s (q - p) is on the line where (p - o) × d + s (q - p) × d = 0.
+        let (constant, slope) = (cross(&minus(p, o), d), cross(&minus(q, p), d));
+        (0..3).find(|&i| !slope[i].is_zero()).and_then(|i| {
+            let s = -&constant[i] / &slope[i];
+            let point = along(p, &minus(q, p), &s);
+            let inside = !s.is_negative() && s <= Rational::from_integer(1.into());
+            (inside && on_line(&point)).then(|| [parameter(&point), parameter(&point)])
+        })
+    };
+    // A segment that is a point: slope is zero everywhere, and p = q.
+    let whole = whole.or_else(|| (p == q && on_line(p)).then(|| [parameter(p), parameter(p)]));
+
+    let cut = |low: &End, high: &End| {
+        let [s, t] = whole.clone()?;
+        let s = if End::At(s.clone()) < *low { low.clone() } else { End::At(s) };
+        let t = if *high < End::At(t.clone()) { high.clone() } else { End::At(t) };
+        match (s, t) {
+            (End::At(s), End::At(t)) if s <= t => Some([s, t]),
+            _ => None,
+        }
+    };
+    let feature = |t: &Rational| {
+        let x = along(o, d, t);
+        let named = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
+        if let Some(i) = vertices.iter().position(|vertex| **vertex == x) {
+            return named[i];
+        }
+        let between = |p: &Point, q: &Point| !dot(&minus(p, &x), &minus(q, &x)).is_positive();
+        if between(a, b) {
+            Feature::EdgeAb
+        } else if between(b, c) {
+            Feature::EdgeBc
+        } else {
+            Feature::EdgeCa
+        }
+    };
+    contact(
+        cut(t_min, t_max),
+        cut(&End::At(Rational::zero()), &End::PlusInfinity).is_some(),
+        whole.is_some(),
+        feature,
+    )
+}
+
+fn contact(
+    range: Option<[Rational; 2]>,
+    meets_ray: bool,
+    meets_line: bool,
+    feature: impl Fn(&Rational) -> Feature,
+) -> (Contact, Option<[Rational; 2]>) {
+    let kind = match &range {
+        None => ContactKind::None,
+        Some([low, high]) if low == high => ContactKind::Point(feature(low)),
+        Some(_) => ContactKind::Segment,
+    };
+    (Contact { kind, meets_ray, meets_line }, range)
+}
+
+fn compare(t: &Rational, end: &End) -> Ordering {
+    match end {
+        End::MinusInfinity => Ordering::Greater,
+        End::At(end) => t.cmp(end),
+        End::PlusInfinity => Ordering::Less,
+    }
+}
+
+fn minus(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn along(o: &Point, d: &Point, t: &Rational) -> Point {
+    std::array::from_fn(|i| &o[i] + t * &d[i])
+}
+
+fn dot(a: &Point, b: &Point) -> Rational {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn cross(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
