@@ -1,0 +1,21 @@
+//! Floor 4: plans, runs and sums.
+//!
+//! A plan names kernels with their epsilons and sources of cases; a run sends each case once to the
+//! oracle and once to each kernel, lets `judge` compare, and adds up. The sums do not depend on the
+//! number of threads.
+
+#![forbid(unsafe_code)]
+
+mod interval;
+mod plan;
+mod run;
+mod severity;
+mod source;
+mod tally;
+
+pub use interval::{Interval, clopper_pearson};
+pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
+pub use run::{Audit, Cell, Observer, SourceSummary, run, run_scalar};
+pub use severity::{Severity, exact_severity};
+pub use source::{CorpusSet, Source};
+pub use tally::{ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Tally};

@@ -1,0 +1,310 @@
+//! What a run will do: rows of kernels with epsilons, sources of cases, a contract.
+
+use super::source::Source;
+use crate::arith::Float;
+use crate::contract::Contract;
+use crate::kernel::{Entry, Gate, PRESETS, Preset, PresetValue, Tunable, nearest_name};
+use std::fmt;
+
+/// An epsilon before it is rounded to a scalar.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EpsilonText {
+    /// Decimal text, rounded to the nearest number of the scalar.
+    Decimal(String),
+    /// This many times the scalar's distance from 1 to the next number.
+    MachineEpsilon(f64),
+}
+
+impl EpsilonText {
+    /// In a scalar; none if the text is no finite number of it.
+    pub fn value<F: Float>(&self) -> Option<F> {
+        match self {
+            EpsilonText::Decimal(text) => F::parse(text).filter(|value| value.is_finite()),
+            EpsilonText::MachineEpsilon(factor) => Some(F::EPSILON * F::from_f64(*factor)),
+        }
+    }
+}
+
+impl fmt::Display for EpsilonText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EpsilonText::Decimal(text) => f.write_str(text),
+            EpsilonText::MachineEpsilon(factor) if *factor == 1.0 => f.write_str("EPSILON"),
+            EpsilonText::MachineEpsilon(factor) => write!(f, "{factor}*EPSILON"),
+        }
+    }
+}
+
+/// A kernel with its epsilons: a row of every table.
+#[derive(Clone)]
+pub struct Row {
+    /// The kernel.
+    pub entry: &'static Entry,
+    /// What its epsilons are called: `source`, `zero`, `parallel=1e-6`.
+    pub set: String,
+    /// One a gate.
+    pub epsilons: Vec<EpsilonText>,
+    /// The contract it is judged by.
+    pub contract: Contract,
+}
+
+impl Row {
+    /// `kernel (set)`.
+    pub fn label(&self) -> String {
+        format!("{} ({})", self.entry.info.name, self.set)
+    }
+
+    /// The epsilons in a scalar, one a gate. Texts were checked when the row was made.
+    pub fn epsilons<F: Float>(&self) -> Vec<F> {
+        self.epsilons.iter().map(|text| text.value().unwrap_or(F::zero())).collect()
+    }
+
+    /// The gates that take an epsilon, with theirs.
+    pub fn tuned(&self) -> impl Iterator<Item = (&'static Gate, &EpsilonText)> {
+        let gates = self.entry.info.gates.iter().zip(&self.epsilons);
+        gates.filter(|(gate, _)| gate.epsilon != Tunable::Fixed)
+    }
+
+    /// The `--epsilon` argument that makes this row again; none if no gate takes an epsilon.
+    pub fn epsilon_argument(&self) -> Option<String> {
+        let words: Vec<String> =
+            self.tuned().map(|(gate, text)| format!("{}={text}", gate.name)).collect();
+        (!words.is_empty()).then(|| words.join(","))
+    }
+}
+
+/// How a plan's epsilons are chosen.
+#[derive(Clone, Debug)]
+pub enum EpsilonChoice {
+    /// As the sources have it; two rows where a source gives no value.
+    Source,
+    /// A published library's.
+    Preset(String),
+    /// `gate=value` pairs, the other gates as the source has them.
+    Given(Vec<(String, String)>),
+}
+
+/// Kernels, sources and a contract.
+pub struct Plan {
+    /// The kernels with their epsilons.
+    pub rows: Vec<Row>,
+    /// The sources of cases.
+    pub sources: Vec<Source>,
+    /// Whether to run in `f32`, and in `f64`.
+    pub scalars: [bool; 2],
+    /// How many examples of each class of finding to keep, by index.
+    pub examples: usize,
+}
+
+/// Why a plan cannot be made; one line.
+#[derive(Debug, PartialEq)]
+pub struct PlanError(pub String);
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for PlanError {}
+
+impl EpsilonChoice {
+    /// The rows of some kernels under this choice; `contract` overrides each kernel's own.
+    pub fn rows(
+        &self,
+        entries: &[&'static Entry],
+        contract: Option<Contract>,
+    ) -> Result<Vec<Row>, PlanError> {
+        let mut rows = Vec::new();
+        let mut applied = vec![false; self.given().len()];
+        for entry in entries {
+            let contract = contract.unwrap_or(entry.info.contract);
+            let decimals = |values: &[&str]| -> Vec<EpsilonText> {
+                values.iter().map(|text| EpsilonText::Decimal((*text).to_owned())).collect()
+            };
+            let sets = entry.info.epsilon_sets;
+            match self {
+                EpsilonChoice::Source => rows.extend(sets.iter().map(|set| Row {
+                    entry,
+                    set: set.name.to_owned(),
+                    epsilons: decimals(set.values),
+                    contract,
+                })),
+                EpsilonChoice::Preset(name) => {
+                    let preset = find_preset(name)?;
+                    let mut epsilons = decimals(sets[0].values);
+                    if preset.entries.is_empty() {
+                        epsilons.fill(EpsilonText::Decimal("0".to_owned()));
+                    }
+                    let mut fits = preset.entries.is_empty();
+                    for (gate, epsilon) in entry.info.gates.iter().zip(&mut epsilons) {
+                        if let Some(found) = preset.entries.iter().find(|entry| entry.fits(gate)) {
+                            *epsilon = preset_text(found.value);
+                            fits = true;
+                        }
+                    }
+                    if fits {
+                        rows.push(Row { entry, set: name.clone(), epsilons, contract });
+                    }
+                }
+                EpsilonChoice::Given(pairs) => {
+                    let mut epsilons = decimals(sets[0].values);
+                    let mut words = Vec::new();
+                    for (i, (name, text)) in pairs.iter().enumerate() {
+                        let Some(k) = entry.info.gates.iter().position(|gate| gate.name == name)
+                        else {
+                            continue;
+                        };
+                        epsilons[k] = checked(entry.info.name, &entry.info.gates[k], text)?;
+                        applied[i] = true;
+                        words.push(format!("{name}={text}"));
+                    }
+                    let set =
+                        if words.is_empty() { sets[0].name.to_owned() } else { words.join(",") };
+                    rows.push(Row { entry, set, epsilons, contract });
+                }
+            }
+        }
+        if let Some(i) = applied.iter().position(|applied| !applied) {
+            return Err(unknown_gate(&self.given()[i].0, entries));
+        }
+        if rows.is_empty() {
+            let EpsilonChoice::Preset(name) = self else { return Ok(rows) };
+            return Err(PlanError(format!(
+                "preset '{name}' fits no selected kernel: no gate has its name and dimension"
+            )));
+        }
+        Ok(rows)
+    }
+
+    fn given(&self) -> &[(String, String)] {
+        match self {
+            EpsilonChoice::Given(pairs) => pairs,
+            _ => &[],
+        }
+    }
+}
+
+/// The preset of a name.
+fn find_preset(name: &str) -> Result<&'static Preset, PlanError> {
+    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
+        let near = nearest_name(name, PRESETS.iter().map(|preset| preset.name));
+        PlanError(format!(
+            "unknown epsilon preset '{name}'{}",
+            did_you_mean(near, "hairline list presets")
+        ))
+    })
+}
+
+fn preset_text(value: PresetValue) -> EpsilonText {
+    match value {
+        PresetValue::Decimal(text) => EpsilonText::Decimal(text.to_owned()),
+        PresetValue::MachineEpsilon(factor) => EpsilonText::MachineEpsilon(factor),
+    }
+}
+
+/// An epsilon that a gate can take.
+fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanError> {
+    let epsilon =
+        match text.strip_suffix("EPSILON").map(|factor| factor.strip_suffix('*').unwrap_or(factor))
+        {
+            Some("") => EpsilonText::MachineEpsilon(1.0),
+            Some("-") => EpsilonText::MachineEpsilon(-1.0),
+            Some(factor) => EpsilonText::MachineEpsilon(factor.parse().map_err(|_| {
+                PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name))
+            })?),
+            None => EpsilonText::Decimal(text.to_owned()),
+        };
+    let (Some(value), Some(_)) = (epsilon.value::<f64>(), epsilon.value::<f32>()) else {
+        let name = gate.name;
+        return Err(PlanError(format!(
+            "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON"
+        )));
+    };
+    match gate.epsilon {
+        Tunable::Fixed => {
+            Err(PlanError(format!("gate '{}' of {kernel} takes no epsilon", gate.name)))
+        }
+        Tunable::NonNegative if value < 0.0 => Err(PlanError(format!(
+            "gate '{}' of {kernel} refuses where {}: below 0 that is the same as 0, so {text} means nothing",
+            gate.name, gate.refuses
+        ))),
+        _ => Ok(epsilon),
+    }
+}
+
+fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
+    let gates = || entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
+    let near = nearest_name(name, gates());
+    PlanError(format!(
+        "no selected kernel has a gate '{name}'{}",
+        did_you_mean(near, "hairline list kernels")
+    ))
+}
+
+/// `; did you mean 'x'?` or where to look.
+pub(crate) fn did_you_mean(near: Option<&str>, list: &str) -> String {
+    match near {
+        Some(near) => format!("; did you mean '{near}'?"),
+        None => format!("; see `{list}`"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{KERNELS, find};
+
+    fn rows(names: &[&str], choice: EpsilonChoice) -> Result<Vec<Row>, PlanError> {
+        let entries: Vec<_> = names.iter().map(|name| find(name).unwrap()).collect();
+        choice.rows(&entries, None)
+    }
+
+    fn given(pairs: &[(&str, &str)]) -> EpsilonChoice {
+        EpsilonChoice::Given(
+            pairs.iter().map(|(g, v)| ((*g).to_owned(), (*v).to_owned())).collect(),
+        )
+    }
+
+    #[test]
+    fn the_default_plan_has_two_rows_where_a_source_gives_no_value() {
+        let all: Vec<_> = KERNELS.iter().collect();
+        let rows = EpsilonChoice::Source.rows(&all, None).unwrap();
+        let of = |name: &str| rows.iter().filter(|row| row.entry.info.name == name).count();
+        assert_eq!((of("plane-unit-normal"), of("moller-trumbore")), (2, 1));
+    }
+
+    #[test]
+    fn epsilons_go_to_the_gates_that_have_them() {
+        let rows =
+            rows(&["moller-trumbore", "half-space"], given(&[("parallel", "1e-9")])).unwrap();
+        assert_eq!(rows[0].epsilons::<f32>(), [1e-9, 0.0]);
+        assert_eq!(rows[0].set, "parallel=1e-9");
+        assert_eq!(rows[1].set, "source");
+    }
+
+    #[test]
+    fn bad_epsilons_are_refused_with_a_reason() {
+        let message =
+            |names: &[&str], pairs: &[(&str, &str)]| rows(names, given(pairs)).err().unwrap().0;
+        assert!(
+            message(&["moller-trumbore"], &[("paralel", "0")]).contains("did you mean 'parallel'?")
+        );
+        assert!(message(&["moller-trumbore"], &[("parallel", "-1e-6")]).contains("means nothing"));
+        assert!(message(&["moller-trumbore"], &[("edge", "small")]).contains("is not an epsilon"));
+        assert!(message(&["moller-trumbore"], &[("edge", "1e39")]).contains("is not an epsilon"));
+        assert!(message(&["havel-herout"], &[("u", "0")]).contains("takes no epsilon"));
+    }
+
+    #[test]
+    fn presets_go_only_where_the_dimension_is_the_same() {
+        let bvh = EpsilonChoice::Preset("bvh".to_owned());
+        let taken = rows(&["moller-trumbore", "cramer", "woop-watertight"], bvh).unwrap();
+        assert_eq!(taken.len(), 2, "woop's determinant has another dimension");
+        assert_eq!(taken[1].epsilons::<f32>(), [f32::EPSILON, f32::EPSILON, 0.0]);
+        let bullet = EpsilonChoice::Preset("bullet".to_owned());
+        assert!(
+            rows(&["moller-trumbore"], bullet).err().unwrap().0.contains("fits no selected kernel")
+        );
+    }
+}

@@ -1,0 +1,360 @@
+//! The run: each case once to the oracle and once to each kernel.
+
+use super::plan::{Plan, Row};
+use super::severity::approximate;
+use super::source::Source;
+use super::tally::{Place, Tally};
+use crate::case::Case;
+use crate::contract::Contract;
+use crate::family::Grouping;
+use crate::judge::{self, Class, Finding, GroupTruth, Obligation, group_truth, obligation};
+use crate::kernel::{KernelInfo, Scalar, Subject, Verdict};
+use crate::oracle::{self, Layers};
+use crate::truth::{Feature, Truth};
+use rayon::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What a run tells while it goes on, and where it reads a clock.
+pub trait Observer: Sync {
+    /// This many more cases have gone through the oracle and every kernel.
+    fn advance(&self, cases: u64);
+    /// Nanoseconds since some moment.
+    fn now(&self) -> u64;
+}
+
+/// One kernel row on one source in one scalar.
+pub struct Cell {
+    /// The row's place in the plan.
+    pub row: usize,
+    /// The source's place in the plan.
+    pub source: usize,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// What was found.
+    pub tally: Tally,
+    /// Time spent in the kernel, over all threads.
+    pub nanoseconds: u64,
+}
+
+/// What a source gave in one scalar.
+#[derive(Clone)]
+pub struct SourceSummary {
+    /// The source's place in the plan.
+    pub source: usize,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Indices made.
+    pub indices: u64,
+    /// Cases in them: a group has several.
+    pub cases: u64,
+    /// Indices whose truths do not keep the family's promise.
+    pub promise_broken: u64,
+    /// The first of them.
+    pub first_broken: Option<u64>,
+    /// Which layer of the oracle decided.
+    pub layers: Layers,
+    /// Time spent in the oracle, over all threads.
+    pub oracle_nanoseconds: u64,
+}
+
+/// All sums of a run.
+#[derive(Default)]
+pub struct Audit {
+    /// By scalar, source and row, in the order of the plan.
+    pub cells: Vec<Cell>,
+    /// By scalar and source, in the order of the plan.
+    pub sources: Vec<SourceSummary>,
+}
+
+/// Indices that go through a run together.
+const CHUNK: u64 = 1024;
+
+/// Runs a plan.
+pub fn run(plan: &Plan, observer: &dyn Observer) -> Audit {
+    let mut audit = Audit::default();
+    if plan.scalars[0] {
+        run_scalar::<f32>(plan, observer, &mut audit);
+    }
+    if plan.scalars[1] {
+        run_scalar::<f64>(plan, observer, &mut audit);
+    }
+    audit
+}
+
+/// Runs a plan in one scalar.
+pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
+    let runner = Runner::<F>::new(plan, observer);
+    for (number, source) in plan.sources.iter().enumerate() {
+        let count = source.count::<F>();
+        let empty = || Sums::new(plan, number, F::NAME);
+        let sums = (0..count.div_ceil(CHUNK))
+            .into_par_iter()
+            .fold(empty, |mut sums, chunk| {
+                let indices = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
+                runner.add_chunk(source, indices, &mut sums);
+                sums
+            })
+            .reduce(empty, Sums::merged);
+        audit.sources.push(sums.summary);
+        let rows = sums.rows.into_iter().enumerate();
+        audit.cells.extend(rows.map(|(row, (tally, nanoseconds))| Cell {
+            row,
+            source: number,
+            scalar: F::NAME,
+            tally,
+            nanoseconds,
+        }));
+    }
+}
+
+/// What a source adds up to.
+struct Sums {
+    summary: SourceSummary,
+    rows: Vec<(Tally, u64)>,
+}
+
+impl Sums {
+    fn new(plan: &Plan, source: usize, scalar: &'static str) -> Sums {
+        Sums {
+            summary: SourceSummary {
+                source,
+                scalar,
+                indices: 0,
+                cases: 0,
+                promise_broken: 0,
+                first_broken: None,
+                layers: Layers::default(),
+                oracle_nanoseconds: 0,
+            },
+            rows: plan.rows.iter().map(|_| (Tally::new(plan.examples), 0)).collect(),
+        }
+    }
+
+    fn merged(mut self, other: Sums) -> Sums {
+        let (sum, more) = (&mut self.summary, other.summary);
+        sum.indices += more.indices;
+        sum.cases += more.cases;
+        sum.promise_broken += more.promise_broken;
+        sum.first_broken = [sum.first_broken, more.first_broken].into_iter().flatten().min();
+        sum.layers.merge(&more.layers);
+        sum.oracle_nanoseconds += more.oracle_nanoseconds;
+        for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
+            tally.merge(more);
+            *time += more_time;
+        }
+        self
+    }
+}
+
+/// The cases of a chunk, flat, with their groups.
+struct Chunk<F: Scalar> {
+    grouping: Grouping,
+    cases: Vec<Case<F>>,
+    places: Vec<Place>,
+    /// Where each index's cases start, and the end.
+    starts: Vec<usize>,
+    first_index: u64,
+    truths: Vec<Truth>,
+    classes: Vec<Class>,
+}
+
+impl<F: Scalar> Chunk<F> {
+    fn groups(&self) -> impl Iterator<Item = (u64, std::ops::Range<usize>)> {
+        let first = self.first_index;
+        self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
+    }
+}
+
+/// A plan in one scalar, its kernels and epsilons resolved.
+struct Runner<'a, F: Scalar> {
+    rows: Vec<RunnerRow<'a, F>>,
+    /// The distinct contracts of the rows.
+    contracts: Vec<Contract>,
+    observer: &'a dyn Observer,
+}
+
+struct RunnerRow<'a, F> {
+    subject: &'a dyn Subject<F>,
+    info: &'static KernelInfo,
+    epsilons: Vec<F>,
+    contract: usize,
+}
+
+/// What a contract asks on a chunk.
+struct Asked {
+    obligations: Vec<Obligation>,
+    groups: Vec<GroupTruth>,
+}
+
+impl<'a, F: Scalar> Runner<'a, F> {
+    fn new(plan: &'a Plan, observer: &'a dyn Observer) -> Self {
+        let mut contracts: Vec<Contract> = Vec::new();
+        let resolve = |row: &Row| {
+            let known = contracts.iter().position(|contract| *contract == row.contract);
+            let contract = known.unwrap_or_else(|| {
+                contracts.push(row.contract);
+                contracts.len() - 1
+            });
+            let info = row.entry.info;
+            RunnerRow { subject: F::subject(row.entry), info, epsilons: row.epsilons(), contract }
+        };
+        let rows = plan.rows.iter().map(resolve).collect();
+        Runner { rows, contracts, observer }
+    }
+
+    fn add_chunk(&self, source: &Source, indices: std::ops::Range<u64>, sums: &mut Sums) {
+        let chunk = self.make(source, indices, &mut sums.summary);
+        let asked: Vec<Asked> =
+            self.contracts.iter().map(|contract| ask(&chunk, contract)).collect();
+        let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
+        for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
+            let start = self.observer.now();
+            let panicked = row.run(&chunk.cases, &mut verdicts);
+            *time += self.observer.now() - start;
+            row.judge(&chunk, &asked[row.contract], &verdicts, &panicked, tally);
+            if chunk.grouping == Grouping::Polygon && row.info.polygons {
+                row.judge_polygons(&chunk, &self.contracts[row.contract], tally);
+            }
+        }
+        self.observer.advance(chunk.cases.len() as u64);
+    }
+
+    /// Makes the cases and asks the oracle.
+    fn make(
+        &self,
+        source: &Source,
+        indices: std::ops::Range<u64>,
+        summary: &mut SourceSummary,
+    ) -> Chunk<F> {
+        let first_index = indices.start;
+        let (mut cases, mut places, mut starts) = (Vec::new(), Vec::new(), vec![0]);
+        for index in indices {
+            let made = source.make::<F>(index);
+            cases.extend_from_slice(made.cases());
+            let triangles = 0..made.cases().len() as u32;
+            places.extend(triangles.map(|triangle| Place { index, triangle }));
+            starts.push(cases.len());
+        }
+        let start = self.observer.now();
+        let truths: Vec<Truth> =
+            cases.iter().map(|case| oracle::truth_counted(case, &mut summary.layers)).collect();
+        summary.oracle_nanoseconds += self.observer.now() - start;
+        let classes = truths.iter().map(Class::of).collect();
+        let grouping = source.grouping();
+        let chunk = Chunk { grouping, cases, places, starts, first_index, truths, classes };
+        summary.indices += chunk.starts.len() as u64 - 1;
+        summary.cases += chunk.cases.len() as u64;
+        for (index, range) in chunk.groups() {
+            if !source.keeps_promise(&chunk.truths[range]) {
+                summary.promise_broken += 1;
+                summary.first_broken = Some(summary.first_broken.map_or(index, |i| i.min(index)));
+            }
+        }
+        chunk
+    }
+}
+
+fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
+    let respawned = chunk.grouping == Grouping::Respawn;
+    let obligations = chunk.truths.iter().zip(&chunk.cases).map(|(truth, case)| {
+        if judge::promises_direction::<F>(contract.direction, case.ray.direction.into()) {
+            obligation(truth, contract, respawned)
+        } else {
+            Obligation::Free
+        }
+    });
+    let obligations = obligations.collect();
+    let is_group = !matches!(chunk.grouping, Grouping::Single | Grouping::Respawn);
+    let truth_of =
+        |range: std::ops::Range<usize>| group_truth(&chunk.truths[range], contract, chunk.grouping);
+    let groups = if is_group {
+        chunk.groups().map(|(_, range)| truth_of(range)).collect()
+    } else {
+        Vec::new()
+    };
+    Asked { obligations, groups }
+}
+
+impl<F: Scalar> RunnerRow<'_, F> {
+    /// Runs the kernel on all cases; returns the places at which it panicked.
+    fn run(&self, cases: &[Case<F>], verdicts: &mut [Verdict<F>]) -> Vec<usize> {
+        let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
+            catch_unwind(AssertUnwindSafe(|| self.subject.run(cases, &self.epsilons, verdicts)))
+        };
+        if run(cases, verdicts).is_ok() {
+            return Vec::new();
+        }
+        // Once more, one by one, to pin the cases.
+        let mut panicked = Vec::new();
+        for i in 0..cases.len() {
+            if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
+                verdicts[i] = Verdict::miss(None);
+                panicked.push(i);
+            }
+        }
+        panicked
+    }
+
+    fn judge(
+        &self,
+        chunk: &Chunk<F>,
+        asked: &Asked,
+        verdicts: &[Verdict<F>],
+        panicked: &[usize],
+        tally: &mut Tally,
+    ) {
+        for (i, verdict) in verdicts.iter().enumerate() {
+            let (class, truth, obligation) =
+                (chunk.classes[i], &chunk.truths[i], asked.obligations[i]);
+            tally.ask(class, obligation);
+            if verdict.hit {
+                tally.hit(class);
+            }
+            let finding = if panicked.contains(&i) {
+                Some(Finding::Panic)
+            } else {
+                judge::judge(obligation, truth, self.info.gives, verdict)
+            };
+            if let Some(finding) = finding {
+                let severity = approximate(&chunk.cases[i], truth, finding);
+                tally.find(class, finding, chunk.places[i], severity);
+            }
+        }
+        if chunk.grouping == Grouping::Respawn {
+            tally.self_hits.rays += verdicts.len() as u64;
+            tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
+        }
+        for ((index, range), truth) in chunk.groups().zip(&asked.groups) {
+            let hits = verdicts[range].iter().filter(|verdict| verdict.hit).count();
+            tally.group(index, *truth, hits);
+        }
+    }
+
+    /// Asks about each polygon as a whole; the truth is the union of its fan.
+    fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
+        for (_, range) in chunk.groups() {
+            let cases = &chunk.cases[range.clone()];
+            let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
+            vertices.extend(cases.iter().map(|case| case.triangle.c));
+            let truths = &chunk.truths[range];
+            // All triangles cross the same plane at the same t: any that is met speaks for all.
+            let met = truths.iter().find(|truth| {
+                truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
+            });
+            let asked = obligation(met.unwrap_or(&truths[0]), contract, false);
+            let hit = self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
+            let polygons = &mut tally.polygons;
+            match asked {
+                Obligation::MustHit => {
+                    polygons.must_hit += 1;
+                    polygons.false_miss += u64::from(!hit);
+                }
+                Obligation::MustMiss => {
+                    polygons.must_miss += 1;
+                    polygons.false_hit += u64::from(hit);
+                }
+                Obligation::Free => {}
+            }
+        }
+    }
+}

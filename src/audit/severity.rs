@@ -1,0 +1,217 @@
+//! How badly a verdict was wrong: how far the line is from where the verdict would be right.
+//!
+//! Every finding gets an approximate severity in `f64`, by which the worst is chosen; what a report
+//! shows of the chosen ones is computed from exact squares.
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::judge::Finding;
+use crate::oracle::define;
+use crate::truth::{Feature, Place, Truth};
+use num_rational::BigRational as Rational;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+/// The exact distances behind a finding, rounded to floats from exact squares, in units of the
+/// triangle's longest edge (of length, for a triangle that is a point). `None` where a distance does
+/// not apply.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Severity {
+    /// In the plane, from where the line meets it to the triangle's boundary.
+    pub in_plane: Option<f64>,
+    /// In space, from the line to the boundary.
+    pub in_space: f64,
+    /// |t - end|·|d| to the nearest finite end of the interval.
+    pub along: Option<f64>,
+    /// The longest edge in ulps of the largest coordinate of the case's points: a distance times
+    /// this is in ulps.
+    pub edge_in_ulps: f64,
+}
+
+/// The distances of a case; none for invalid input.
+pub fn exact_severity<F: Float>(case: &Case<F>) -> Option<Severity> {
+    let vectors = case.vectors();
+    let [o, d, a, b, c] = vectors.map(exact);
+    let (o, d, a, b, c) = (o?, d?, a?, b?, c?);
+    let d_squared = dot(&d, &d);
+    if d_squared.is_zero() {
+        return None;
+    }
+    let edges = [(&a, &b), (&b, &c), (&c, &a)];
+    let longest = edges.map(|(p, q)| square(&minus(p, q))).into_iter().max().expect("three edges");
+    let unit = if longest.is_zero() { Rational::from_integer(1.into()) } else { longest };
+
+    let t = define(case).exact.t;
+    let in_plane = t.as_ref().map(|t| {
+        let hit = std::array::from_fn(|i| &o[i] + t * &d[i]);
+        smallest(edges.map(|(p, q)| point_to_segment(&hit, p, q)))
+    });
+    let in_space = smallest(edges.map(|(p, q)| line_to_segment(&o, &d, p, q)));
+    let along = t.as_ref().and_then(|t| {
+        let ends = [case.ray.t_min, case.ray.t_max].into_iter();
+        let gaps = ends.filter_map(|end| Rational::from_float(end.to_f64())).map(|end| t - end);
+        gaps.map(|gap| &gap * &gap * &d_squared).min()
+    });
+    let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
+    let largest =
+        points.iter().flatten().map(F::abs).fold(F::zero(), |m, x| if m < x { x } else { m });
+    let ulp = Rational::from_float(largest.ulp().to_f64())?;
+    Some(Severity {
+        in_plane: in_plane.map(|square| root_of_ratio(square, &unit)),
+        in_space: root_of_ratio(in_space, &unit),
+        along: along.map(|square| root_of_ratio(square, &unit)),
+        edge_in_ulps: root_of_ratio(unit.clone(), &(&ulp * &ulp)),
+    })
+}
+
+/// The approximate severity by which the worst finding is chosen, relative to the longest edge:
+/// for a false miss how far inside the line passes, for any other finding how far outside. Zero
+/// where it cannot be computed.
+pub(super) fn approximate<F: Float>(case: &Case<F>, truth: &Truth, finding: Finding) -> f64 {
+    let case = case.widen();
+    let vectors = case.vectors();
+    let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
+    let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    let (size, length) = (largest(points.as_flattened()), largest(&vectors[1]));
+    // Far from overflow and underflow: sizes about 1.
+    let near_one = |v: [f64; 3], unit: f64| glam::DVec3::from(v.map(|x| x / unit));
+    let [o, a, b, c] = points.map(|v| near_one(v, size));
+    let d = near_one(vectors[1], length);
+    let edges = [(a, b), (b, c), (c, a)];
+    let longest = edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q)));
+    let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
+        let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));
+        let s = (-offset.dot(edge) / edge.dot(edge)).clamp(0.0, 1.0);
+        let s = if s.is_nan() { 0.0 } else { s };
+        m.min((offset + edge * s).length() / d.length())
+    });
+    let along = truth.crossing().map(|_| {
+        let n = (b - a).cross(c - a);
+        let t = n.dot(a - o) / n.dot(d);
+        let ends = [case.ray.t_min, case.ray.t_max].map(|end| end * (length / size));
+        ends.iter().fold(f64::INFINITY, |m, end| m.min((t - end).abs() * d.length()))
+    });
+    let distance = match (finding, truth.crossing(), along) {
+        (Finding::FalseMiss, _, Some(along)) => in_space.min(along),
+        (Finding::FalseHit, Some(crossing), Some(along)) => {
+            let off_end = matches!(crossing.place, Place::Before | Place::Beyond);
+            let outside = crossing.feature == Feature::Outside;
+            (if off_end { along } else { 0.0 }).max(if outside { in_space } else { 0.0 })
+        }
+        _ => in_space,
+    };
+    let relative = distance / if longest > 0.0 { longest } else { 1.0 };
+    if relative.is_finite() { relative } else { 0.0 }
+}
+
+type Point = [Rational; 3];
+
+fn exact<F: Float>(v: [F; 3]) -> Option<Point> {
+    let [x, y, z] = v.map(|x| Rational::from_float(x.to_f64()));
+    Some([x?, y?, z?])
+}
+
+fn smallest(squares: [Rational; 3]) -> Rational {
+    squares.into_iter().min().expect("three edges")
+}
+
+/// The square of the distance between a point and a segment.
+fn point_to_segment(x: &Point, p: &Point, q: &Point) -> Rational {
+    let (edge, offset) = (minus(q, p), minus(p, x));
+    let s = nearest_on_segment(-dot(&offset, &edge), square(&edge));
+    square(&std::array::from_fn(|i| &offset[i] + &s * &edge[i]))
+}
+
+/// The square of the distance between a line and a segment: |(p - o + s·(q - p)) × d|² / |d|² at the
+/// s in [0, 1] that makes it least.
+fn line_to_segment(o: &Point, d: &Point, p: &Point, q: &Point) -> Rational {
+    let (offset, slope) = (cross(&minus(p, o), d), cross(&minus(q, p), d));
+    let s = nearest_on_segment(-dot(&offset, &slope), square(&slope));
+    square(&std::array::from_fn(|i| &offset[i] + &s * &slope[i])) / square(d)
+}
+
+/// `numerator / denominator` cut to [0, 1]; 0 if the denominator is zero.
+fn nearest_on_segment(numerator: Rational, denominator: Rational) -> Rational {
+    let one = Rational::from_integer(1.into());
+    if denominator.is_zero() || numerator.is_negative() {
+        return Rational::zero();
+    }
+    (numerator / denominator).min(one)
+}
+
+/// √(square / unit) as a float, without overflow where the root is in range.
+fn root_of_ratio(square: Rational, unit: &Rational) -> f64 {
+    let ratio = square / unit;
+    if ratio.is_zero() {
+        return 0.0;
+    }
+    // An even shift brings the ratio near 1.
+    let bits = ratio.numer().bits() as i64 - ratio.denom().bits() as i64;
+    let half = bits.div_euclid(2);
+    let shift = Rational::from_integer(num_bigint::BigInt::from(1) << (2 * half.unsigned_abs()));
+    let near_one = if half >= 0 { ratio / shift } else { ratio * shift };
+    let root = near_one.to_f64().unwrap_or(f64::NAN).sqrt();
+    crate::case::scale_by_power_of_two(root, half.clamp(-5000, 5000) as i32)
+}
+
+fn minus(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+fn dot(a: &Point, b: &Point) -> Rational {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+fn square(a: &Point) -> Rational {
+    dot(a, a)
+}
+
+fn cross(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::truth;
+
+    const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+
+    #[test]
+    fn distances_are_those_measured_by_hand() {
+        // Down onto (1, 1): 1 from both legs, 1 from the hypotenuse (x/4 + y/3 = 1): 5/12·12/5 = 1.
+        let case = Case::<f64>::new([1.0, 1.0, 2.0], [0.0, 0.0, -1.0], TRIANGLE);
+        let severity = exact_severity(&case).unwrap();
+        assert_eq!(severity.in_plane, Some(0.2));
+        assert_eq!(severity.in_space, 0.2);
+        assert_eq!(severity.along, Some(0.4));
+        // Longest edge 5; the largest coordinate is 4, whose ulp is 2^-50.
+        assert_eq!(severity.edge_in_ulps, 5.0 * 2f64.powi(50));
+    }
+
+    #[test]
+    fn a_slanted_line_is_nearer_in_space_than_in_the_plane() {
+        // Onto (2, -1) in the plane, 45 degrees along y: distance 1 in the plane, 1/√2 in space.
+        let case = Case::<f64>::new([2.0, -3.0, 2.0], [0.0, 1.0, -1.0], TRIANGLE);
+        let severity = exact_severity(&case).unwrap();
+        assert_eq!(severity.in_plane, Some(0.2));
+        assert!((severity.in_space - 0.2 / 2f64.sqrt()).abs() < 1e-16);
+    }
+
+    #[test]
+    fn the_approximation_follows_the_exact_value_at_every_scale() {
+        for scale in [-900, -300, 0, 300] {
+            let by = |x: f64| crate::case::scale_by_power_of_two(x, scale);
+            let case = Case::<f64>::new(
+                [2.0, -3.0, 2.0].map(by),
+                [0.0, 1.0, -1.0],
+                TRIANGLE.map(|v| v.map(by)),
+            );
+            let exact = exact_severity(&case).unwrap().in_space;
+            let near = approximate(&case, &truth(&case), Finding::FalseHit);
+            assert!((near - exact).abs() < 1e-12, "{scale}: {near} {exact}");
+        }
+    }
+}

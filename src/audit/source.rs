@@ -1,0 +1,173 @@
+//! Where a plan's cases come from, by index.
+
+use crate::arith::Float;
+use crate::case::{Case, Parameters};
+use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+use std::sync::Arc;
+
+/// A source of cases.
+pub enum Source {
+    /// A family's set.
+    Family {
+        /// The family.
+        family: &'static Family,
+        /// What its cases are put through.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+        /// Every case of a finite family, in its natural order.
+        exhaustive: bool,
+    },
+    /// Rays at a mesh.
+    Mesh {
+        /// The mesh and its rays.
+        family: Arc<MeshFamily>,
+        /// What the cases are put through.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+    },
+    /// Stored cases.
+    Corpus(CorpusSet),
+}
+
+/// The stored cases of one file.
+#[derive(Default)]
+pub struct CorpusSet {
+    /// The file's name.
+    pub file: String,
+    /// Names and cases in `f32`.
+    pub f32: Vec<(String, Case<f32>)>,
+    /// Names and cases in `f64`.
+    pub f64: Vec<(String, Case<f64>)>,
+}
+
+impl CorpusSet {
+    fn get<F: Float>(&self, index: u64) -> (&str, Case<F>) {
+        // The scalar of the run is F; its cases are stored in full, so the way through f64 is exact.
+        let narrow = |case: Case<f64>| {
+            let [o, d, a, b, c] = case.vectors().map(|v| v.map(F::from_f64));
+            Case::new(o, d, [a, b, c]).on(F::from_f64(case.ray.t_min), F::from_f64(case.ray.t_max))
+        };
+        if F::NAME == f32::NAME {
+            let (name, case) = &self.f32[index as usize];
+            (name, narrow(case.widen()))
+        } else {
+            let (name, case) = &self.f64[index as usize];
+            (name, narrow(*case))
+        }
+    }
+}
+
+impl Source {
+    /// The name in tables.
+    pub fn name(&self) -> String {
+        match self {
+            Source::Family { family, .. } => family.name.to_owned(),
+            Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
+            Source::Corpus(set) => format!("corpus:{}", set.file),
+        }
+    }
+
+    /// The number of indices in a scalar.
+    pub fn count<F: Float>(&self) -> u64 {
+        match self {
+            Source::Family { exhaustive: true, family, .. } => family.size.unwrap_or(LATTICE_SIZE),
+            Source::Family { family, count, .. } => {
+                family.size.map_or(*count, |size| size.min(*count))
+            }
+            Source::Mesh { count, .. } => *count,
+            Source::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
+            Source::Corpus(set) => set.f64.len() as u64,
+        }
+    }
+
+    /// Whether its rates are of a random sample, which has an interval, or of a whole set.
+    pub fn is_sample(&self) -> bool {
+        match self {
+            Source::Family { exhaustive, family, count, .. } => {
+                !exhaustive && family.size.is_none_or(|size| *count < size)
+            }
+            Source::Mesh { .. } => true,
+            Source::Corpus(_) => false,
+        }
+    }
+
+    /// How the triangles of one index belong together.
+    pub fn grouping(&self) -> Grouping {
+        match self {
+            Source::Family { family, .. } => family.grouping,
+            Source::Mesh { .. } | Source::Corpus(_) => Grouping::Single,
+        }
+    }
+
+    /// The cases of an index.
+    pub fn make<F: Scalar>(&self, index: u64) -> Made<F> {
+        match self {
+            Source::Family { family, parameters, exhaustive: true, .. } => {
+                family.make_in_order(parameters, index)
+            }
+            Source::Family { family, parameters, seed, .. } => {
+                family.make(parameters, *seed, index)
+            }
+            Source::Mesh { family, parameters, seed, .. } => {
+                Made::One(family.make(parameters, *seed, index))
+            }
+            Source::Corpus(set) => Made::One(set.get(index).1),
+        }
+    }
+
+    /// Whether the truths of an index keep the family's promise, where the parameters leave it
+    /// standing.
+    pub fn keeps_promise(&self, truths: &[Truth]) -> bool {
+        match self {
+            Source::Family { family, .. } => family.keeps(truths),
+            Source::Mesh { .. } | Source::Corpus(_) => true,
+        }
+    }
+
+    /// Whether the parameters leave the promise standing.
+    pub fn promises(&self) -> bool {
+        match self {
+            // Scaling can leave the range at either end.
+            Source::Family { parameters, .. } => parameters.keep_truth() && parameters.scale == 0,
+            Source::Mesh { .. } | Source::Corpus(_) => true,
+        }
+    }
+
+    /// The id of a case, or of triangle k of a group.
+    pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
+        let id = match self {
+            Source::Family { family, parameters, exhaustive: true, .. } => {
+                // The in-order index of the lattice is its own set, seed "0" of version "all".
+                let mut id = family.id::<F>(parameters, 0, index);
+                id.family = format!("{}-all", family.name);
+                id
+            }
+            Source::Family { family, parameters, seed, .. } => {
+                family.id::<F>(parameters, *seed, index)
+            }
+            Source::Mesh { family, parameters, seed, .. } => {
+                family.id::<F>(parameters, *seed, index)
+            }
+            Source::Corpus(set) => return set.get::<F>(index).0.to_owned(),
+        };
+        crate::case::CaseId { triangle, ..id }.to_string()
+    }
+
+    /// The words after `hairline explain` that show a case again.
+    pub fn explain_arguments<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
+        let id = self.id::<F>(index, triangle);
+        match self {
+            Source::Family { .. } => format!("'{id}'"),
+            Source::Mesh { family, .. } => format!("'{id}' --mesh '{}'", family.path()),
+            Source::Corpus(set) => format!("'{id}' --corpus '{}'", set.file),
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! Sums of findings: a commutative monoid, so that any split of a run adds up to the same.
+
+use crate::judge::{Class, Finding, GroupTruth, Obligation};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// Where a case stands in its source: the index, and the triangle of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The index.
+    pub index: u64,
+    /// The triangle of a group; 0 alone.
+    pub triangle: u32,
+}
+
+/// The counts of one class of truths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ClassCount {
+    /// Cases of the class.
+    pub cases: u64,
+    /// Of these, those that must be hit.
+    pub must_hit: u64,
+    /// Of these, those that must be missed.
+    pub must_miss: u64,
+    /// Hits that the kernel reported.
+    pub hits: u64,
+    /// By [`Finding::ALL`].
+    pub findings: [u64; Finding::ALL.len()],
+}
+
+impl ClassCount {
+    /// The count of a finding.
+    pub fn of(&self, finding: Finding) -> u64 {
+        self.findings[finding as usize]
+    }
+
+    /// How many cases could have shown a finding: the denominator of its rate.
+    pub fn trials(&self, finding: Finding) -> u64 {
+        match finding {
+            Finding::FalseMiss => self.must_hit,
+            Finding::FalseHit => self.must_miss,
+            Finding::BadValue => self.hits - self.of(Finding::FalseHit),
+            Finding::Panic => self.cases,
+        }
+    }
+
+    /// Adds another count.
+    pub fn merge(&mut self, other: &ClassCount) {
+        self.cases += other.cases;
+        self.must_hit += other.must_hit;
+        self.must_miss += other.must_miss;
+        self.hits += other.hits;
+        for (count, more) in self.findings.iter_mut().zip(other.findings) {
+            *count += more;
+        }
+    }
+}
+
+/// Examples of one finding in one class: the first by index, and the worst.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Examples {
+    /// In order of their place.
+    pub first: Vec<Place>,
+    /// The one with the largest approximate severity, the first of equals.
+    pub worst: Option<(f64, Place)>,
+}
+
+impl Examples {
+    fn add(&mut self, place: Place, severity: f64, limit: usize) {
+        if self.first.len() < limit {
+            self.first.push(place);
+        }
+        self.propose((severity, place));
+    }
+
+    fn propose(&mut self, (severity, place): (f64, Place)) {
+        let better = self.worst.is_none_or(|(worst, at)| match severity.total_cmp(&worst) {
+            Ordering::Greater => true,
+            Ordering::Equal => place < at,
+            Ordering::Less => false,
+        });
+        if better {
+            self.worst = Some((severity, place));
+        }
+    }
+
+    fn merge(&mut self, other: Examples, limit: usize) {
+        self.first.extend(other.first);
+        self.first.sort_unstable();
+        self.first.truncate(limit);
+        if let Some(worst) = other.worst {
+            self.propose(worst);
+        }
+    }
+}
+
+/// What the triangles of groups did together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GroupCount {
+    /// Groups in which one hit is right.
+    pub crossings: u64,
+    /// Of these, those without a hit.
+    pub cracks: u64,
+    /// Of these, those with two hits or more.
+    pub doubles: u64,
+    /// Pairs that fold over their edge.
+    pub folds: u64,
+    /// Of these, those whose number of hits has the wrong parity.
+    pub odd_folds: u64,
+    /// Of these, those without a hit where the exact line has two.
+    pub missed_folds: u64,
+    /// The first cracks, by index.
+    pub first_cracks: Vec<u64>,
+    /// The first doubles, by index.
+    pub first_doubles: Vec<u64>,
+}
+
+impl GroupCount {
+    fn add(&mut self, index: u64, truth: GroupTruth, hits: usize, limit: usize) {
+        let note = |list: &mut Vec<u64>| {
+            if list.len() < limit {
+                list.push(index)
+            }
+        };
+        match truth {
+            GroupTruth::Free => {}
+            GroupTruth::Crossing => {
+                self.crossings += 1;
+                if hits == 0 {
+                    self.cracks += 1;
+                    note(&mut self.first_cracks);
+                } else if hits > 1 {
+                    self.doubles += 1;
+                    note(&mut self.first_doubles);
+                }
+            }
+            GroupTruth::Fold { odd } => {
+                self.folds += 1;
+                self.odd_folds += u64::from((hits % 2 == 1) != odd);
+                self.missed_folds += u64::from(hits == 0 && !odd);
+            }
+        }
+    }
+
+    fn merge(&mut self, other: GroupCount, limit: usize) {
+        self.crossings += other.crossings;
+        self.cracks += other.cracks;
+        self.doubles += other.doubles;
+        self.folds += other.folds;
+        self.odd_folds += other.odd_folds;
+        self.missed_folds += other.missed_folds;
+        for (list, more) in [
+            (&mut self.first_cracks, other.first_cracks),
+            (&mut self.first_doubles, other.first_doubles),
+        ] {
+            list.extend(more);
+            list.sort_unstable();
+            list.truncate(limit);
+        }
+    }
+}
+
+/// A polygon kernel's answers about whole polygons.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PolygonCount {
+    /// Polygons that must be hit.
+    pub must_hit: u64,
+    /// Of these, missed.
+    pub false_miss: u64,
+    /// Polygons that must be missed.
+    pub must_miss: u64,
+    /// Of these, hit.
+    pub false_hit: u64,
+}
+
+/// Second hits on the triangle that a ray starts on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SelfHits {
+    /// Rays that start at a kernel's own hit point.
+    pub rays: u64,
+    /// Of these, those that hit that triangle again.
+    pub hits: u64,
+}
+
+/// Everything that is added up for one kernel row on one source in one scalar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tally {
+    /// One a class, by [`Class::number`].
+    pub classes: Vec<ClassCount>,
+    /// Examples by class and finding.
+    pub examples: BTreeMap<(Class, Finding), Examples>,
+    /// What groups did together.
+    pub groups: GroupCount,
+    /// Whole polygons.
+    pub polygons: PolygonCount,
+    /// Second hits on the triangle that a ray starts on.
+    pub self_hits: SelfHits,
+    limit: usize,
+}
+
+impl Tally {
+    /// Empty; keeps this many examples by index of each class and finding.
+    pub fn new(limit: usize) -> Tally {
+        Tally {
+            classes: vec![ClassCount::default(); Class::COUNT],
+            examples: BTreeMap::new(),
+            groups: GroupCount::default(),
+            polygons: PolygonCount::default(),
+            self_hits: SelfHits::default(),
+            limit,
+        }
+    }
+
+    /// Counts what was asked.
+    pub fn ask(&mut self, class: Class, obligation: Obligation) {
+        let count = &mut self.classes[class.number()];
+        count.cases += 1;
+        match obligation {
+            Obligation::MustHit => count.must_hit += 1,
+            Obligation::MustMiss => count.must_miss += 1,
+            Obligation::Free => {}
+        }
+    }
+
+    /// Counts a hit.
+    pub fn hit(&mut self, class: Class) {
+        self.classes[class.number()].hits += 1;
+    }
+
+    /// Counts a finding with its approximate severity.
+    pub fn find(&mut self, class: Class, finding: Finding, place: Place, severity: f64) {
+        self.classes[class.number()].findings[finding as usize] += 1;
+        self.examples.entry((class, finding)).or_default().add(place, severity, self.limit);
+    }
+
+    /// Counts a group.
+    pub fn group(&mut self, index: u64, truth: GroupTruth, hits: usize) {
+        self.groups.add(index, truth, hits, self.limit);
+    }
+
+    /// Adds another tally.
+    pub fn merge(&mut self, other: Tally) {
+        for (count, more) in self.classes.iter_mut().zip(&other.classes) {
+            count.merge(more);
+        }
+        for (key, more) in other.examples {
+            self.examples.entry(key).or_default().merge(more, self.limit);
+        }
+        self.groups.merge(other.groups, self.limit);
+        self.polygons.must_hit += other.polygons.must_hit;
+        self.polygons.false_miss += other.polygons.false_miss;
+        self.polygons.must_miss += other.polygons.must_miss;
+        self.polygons.false_hit += other.polygons.false_hit;
+        self.self_hits.rays += other.self_hits.rays;
+        self.self_hits.hits += other.self_hits.hits;
+    }
+
+    /// All classes together.
+    pub fn total(&self) -> ClassCount {
+        self.classes.iter().fold(ClassCount::default(), |mut total, count| {
+            total.merge(count);
+            total
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_split_adds_up_to_the_same() {
+        let class = Class::all().next().unwrap();
+        let event = |tally: &mut Tally, index: u64| {
+            tally.ask(class, Obligation::MustHit);
+            if index % 3 == 0 {
+                let place = Place { index, triangle: 0 };
+                tally.find(class, Finding::FalseMiss, place, (index * 7 % 11) as f64);
+            }
+            tally.group(index, GroupTruth::Crossing, (index % 4) as usize);
+        };
+        let mut whole = Tally::new(5);
+        (0..100).for_each(|index| event(&mut whole, index));
+        for cut in [0, 1, 17, 50, 99] {
+            let (mut left, mut right) = (Tally::new(5), Tally::new(5));
+            (0..cut).for_each(|index| event(&mut left, index));
+            (cut..100).for_each(|index| event(&mut right, index));
+            let mut swapped = right.clone();
+            swapped.merge(left.clone());
+            left.merge(right);
+            assert_eq!(left, whole);
+            assert_eq!(swapped, whole);
+        }
+        let examples = &whole.examples[&(class, Finding::FalseMiss)];
+        assert_eq!(examples.first.len(), 5);
+        assert_eq!(examples.worst.unwrap().0, 10.0);
+    }
+}

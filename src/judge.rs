@@ -1,0 +1,356 @@
+//! Floor 3: the only place that compares a verdict with a truth under a contract.
+
+#![forbid(unsafe_code)]
+
+use crate::arith::Float;
+use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
+use crate::family::Grouping;
+use crate::kernel::{Gives, Verdict};
+use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
+use num_rational::BigRational;
+use std::cmp::Ordering;
+
+/// What a contract asks of a kernel on a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obligation {
+    /// A hit.
+    MustHit,
+    /// A miss.
+    MustMiss,
+    /// Nothing.
+    Free,
+}
+
+/// A disagreement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Finding {
+    /// It must hit, and missed.
+    FalseMiss,
+    /// It must miss, and hit.
+    FalseHit,
+    /// A hit that is not false, with a value that is not finite or with a wrong facing.
+    BadValue,
+    /// The kernel panicked.
+    Panic,
+}
+
+impl Finding {
+    /// All of them, in the order of reports.
+    pub const ALL: [Finding; 4] =
+        [Finding::FalseMiss, Finding::FalseHit, Finding::BadValue, Finding::Panic];
+
+    /// The name in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Finding::FalseMiss => "false-miss",
+            Finding::FalseHit => "false-hit",
+            Finding::BadValue => "bad-value",
+            Finding::Panic => "panic",
+        }
+    }
+}
+
+/// What the contract asks for this truth. `respawned` says that the ray starts at a kernel's own hit
+/// point on the triangle.
+pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obligation {
+    if contract.no_self_hit && respawned {
+        return Obligation::MustMiss;
+    }
+    match truth {
+        Truth::Invalid => demanded(contract.invalid, false),
+        Truth::Parallel => Obligation::MustMiss,
+        Truth::Coplanar(contact) => demanded(contract.coplanar, touches(contact, contract.extent)),
+        Truth::Degenerate(contact) => {
+            demanded(contract.degenerate, touches(contact, contract.extent))
+        }
+        Truth::Transversal(crossing) => crossing_obligation(crossing, contract),
+    }
+}
+
+fn demanded(demand: Demand, contact: bool) -> Obligation {
+    match (demand, contact) {
+        (Demand::Free, _) => Obligation::Free,
+        (Demand::Hit, true) => Obligation::MustHit,
+        (Demand::Hit, false) | (Demand::Miss, _) => Obligation::MustMiss,
+    }
+}
+
+fn touches(contact: &Contact, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => contact.meets_line,
+        Extent::Ray => contact.meets_ray,
+        Extent::Interval => contact.kind != ContactKind::None,
+    }
+}
+
+fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
+    let culled = contract.sides == Sides::Front && crossing.facing == Facing::Back;
+    if culled || !is_in_extent(crossing, contract.extent) {
+        return Obligation::MustMiss;
+    }
+    match (crossing.feature, contract.boundary) {
+        (Feature::Outside, _) => Obligation::MustMiss,
+        (Feature::Interior, _) | (_, Boundary::Closed) => Obligation::MustHit,
+        (_, Boundary::Open) => Obligation::MustMiss,
+        (_, Boundary::Free) => Obligation::Free,
+    }
+}
+
+fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => true,
+        Extent::Ray => crossing.t_sign != Ordering::Less,
+        Extent::Interval => !matches!(crossing.place, Place::Before | Place::Beyond),
+    }
+}
+
+/// Whether the contract promises anything for a direction.
+pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
+    let Direction::Unit { ulps } = direction else { return true };
+    let Some([x, y, z]) = exact(d) else { return false };
+    let length_squared = &x * &x + &y * &y + &z * &z;
+    let one = BigRational::from_integer(1.into());
+    let tolerance = BigRational::from_integer(ulps.into())
+        * BigRational::from_float(F::EPSILON.to_f64()).expect("finite");
+    let (low, high) = (&one - &tolerance, &one + &tolerance);
+    &low * &low <= length_squared && length_squared <= &high * &high
+}
+
+fn exact<F: Float>(v: [F; 3]) -> Option<[BigRational; 3]> {
+    let [x, y, z] = v.map(|x| BigRational::from_float(x.to_f64()));
+    Some([x?, y?, z?])
+}
+
+/// Compares a verdict with what was asked. Values of hits on invalid input are not judged.
+pub fn judge<F: Float>(
+    obligation: Obligation,
+    truth: &Truth,
+    gives: Gives,
+    verdict: &Verdict<F>,
+) -> Option<Finding> {
+    match (obligation, verdict.hit) {
+        (Obligation::MustHit, false) => Some(Finding::FalseMiss),
+        (Obligation::MustMiss, true) => Some(Finding::FalseHit),
+        (_, true) if *truth != Truth::Invalid && has_bad_value(truth, gives, verdict) => {
+            Some(Finding::BadValue)
+        }
+        _ => None,
+    }
+}
+
+fn has_bad_value<F: Float>(truth: &Truth, gives: Gives, verdict: &Verdict<F>) -> bool {
+    let wrong_facing = gives.facing
+        && truth.crossing().is_some_and(|crossing| verdict.facing != Some(crossing.facing));
+    (gives.t && !verdict.t.is_finite())
+        || (gives.uv && !(verdict.u.is_finite() && verdict.v.is_finite()))
+        || wrong_facing
+}
+
+/// What is asked of the triangles of a group together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GroupTruth {
+    /// All triangles face the ray alike, and the exact line passes through the inside of their union
+    /// within the extent: one hit is right.
+    Crossing,
+    /// Two triangles on one edge that do not face alike: as many hits are right, up to an even
+    /// number, as the exact line has.
+    Fold {
+        /// Whether the exact line meets an odd number of the two.
+        odd: bool,
+    },
+    /// Nothing: a triangle is not transversal, the hit is at an end of the extent or on the rim of
+    /// the union, the union is missed, or the contract does not count the side.
+    Free,
+}
+
+/// What the truths of a group ask together, under a contract's extent and sides.
+pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) -> GroupTruth {
+    let Some(crossings) = truths.iter().map(Truth::crossing).collect::<Option<Vec<_>>>() else {
+        return GroupTruth::Free;
+    };
+    let alike = crossings.iter().all(|crossing| crossing.facing == crossings[0].facing);
+    if contract.sides == Sides::Front && !(alike && crossings[0].facing == Facing::Front) {
+        return GroupTruth::Free;
+    }
+    let met: Vec<&Crossing> =
+        crossings.into_iter().filter(|crossing| crossing.feature != Feature::Outside).collect();
+    let strictly_in_extent = |crossing: &&Crossing| match contract.extent {
+        Extent::Line => true,
+        Extent::Ray => crossing.t_sign == Ordering::Greater,
+        Extent::Interval => crossing.place == Place::Within,
+    };
+    // Off the rim: inside a triangle, on an edge of two, or at the centre of a closed fan.
+    let off_the_rim = met.iter().any(|crossing| crossing.feature == Feature::Interior)
+        || (met.len() >= 2 && met.iter().all(|crossing| crossing.feature.is_edge()))
+        || (grouping == Grouping::Fan && met.len() == truths.len());
+    if !off_the_rim || !met.iter().all(strictly_in_extent) {
+        GroupTruth::Free
+    } else if alike {
+        GroupTruth::Crossing
+    } else if grouping == Grouping::SharedEdge {
+        GroupTruth::Fold { odd: met.len() % 2 == 1 }
+    } else {
+        GroupTruth::Free
+    }
+}
+
+/// A coarse class of truths: what reports count by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Class(u8);
+
+const PARTS: [&str; 4] = ["interior", "edge", "vertex", "outside"];
+const SIDES: [&str; 2] = ["front", "back"];
+const PLACES: [&str; 3] = ["within", "before", "beyond"];
+const FLAT: [&str; 4] = ["parallel", "coplanar", "degenerate", "invalid"];
+
+impl Class {
+    /// The number of classes.
+    pub const COUNT: usize = PARTS.len() * SIDES.len() * PLACES.len() + FLAT.len();
+
+    /// The class of a truth.
+    pub fn of(truth: &Truth) -> Class {
+        let first_flat = Class::COUNT - FLAT.len();
+        let number = match truth {
+            Truth::Transversal(Crossing { facing, place, feature, .. }) => {
+                let part = match feature {
+                    Feature::Interior => 0,
+                    feature if feature.is_edge() => 1,
+                    feature if feature.is_vertex() => 2,
+                    _ => 3,
+                };
+                let side = usize::from(*facing == Facing::Back);
+                let place = match place {
+                    Place::AtMin | Place::Within | Place::AtMax => 0,
+                    Place::Before => 1,
+                    Place::Beyond => 2,
+                };
+                (part * SIDES.len() + side) * PLACES.len() + place
+            }
+            Truth::Parallel => first_flat,
+            Truth::Coplanar(_) => first_flat + 1,
+            Truth::Degenerate(_) => first_flat + 2,
+            Truth::Invalid => first_flat + 3,
+        };
+        Class(number as u8)
+    }
+
+    /// All classes, in the order of reports.
+    pub fn all() -> impl Iterator<Item = Class> {
+        (0..Class::COUNT).map(|number| Class(number as u8))
+    }
+
+    /// A number below [`Class::COUNT`].
+    pub fn number(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// Where the line meets the triangle, or the kind of situation: `edge`, `coplanar`.
+    pub fn part(self) -> &'static str {
+        let per_part = SIDES.len() * PLACES.len();
+        PARTS
+            .get(self.number() / per_part)
+            .copied()
+            .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
+    }
+
+    /// The name in records: `edge/front/within`, `coplanar`.
+    pub fn name(self) -> String {
+        let per_part = SIDES.len() * PLACES.len();
+        if self.number() >= PARTS.len() * per_part {
+            return self.part().to_owned();
+        }
+        let (side, place) =
+            (self.number() / PLACES.len() % SIDES.len(), self.number() % PLACES.len());
+        format!("{}/{}/{}", self.part(), SIDES[side], PLACES[place])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::oracle::truth;
+
+    fn down_at(x: f64, y: f64, z: f64) -> Truth {
+        let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+        truth(&Case::<f64>::new([x, y, z], [0.0, 0.0, -1.0], triangle))
+    }
+
+    #[test]
+    fn contracts_differ_on_edges_sides_and_extents() {
+        use Obligation::{Free, MustHit, MustMiss};
+        let closed = Contract::CLOSED_RAY;
+        let ask = |truth: &Truth, contract: Contract| obligation(truth, &contract, false);
+        let edge = down_at(1.0, 0.0, 1.0);
+        assert_eq!(ask(&edge, closed), MustHit);
+        assert_eq!(ask(&edge, Contract { boundary: Boundary::Open, ..closed }), MustMiss);
+        assert_eq!(ask(&edge, Contract { boundary: Boundary::Free, ..closed }), Free);
+        let behind = down_at(1.0, 1.0, -1.0);
+        assert_eq!(ask(&behind, closed), MustMiss);
+        assert_eq!(ask(&behind, Contract { extent: Extent::Line, ..closed }), MustHit);
+        let start = down_at(1.0, 1.0, 0.0);
+        assert_eq!(ask(&start, closed), MustHit);
+        assert_eq!(obligation(&start, &Contract { no_self_hit: true, ..closed }, true), MustMiss);
+        assert_eq!(ask(&down_at(3.0, 3.0, 1.0), closed), MustMiss);
+        let back = Case::<f64>::new(
+            [1.0, 1.0, -1.0],
+            [0.0, 0.0, 1.0],
+            [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
+        );
+        assert_eq!(ask(&truth(&back), Contract { sides: Sides::Front, ..closed }), MustMiss);
+        assert_eq!(ask(&Truth::Invalid, closed), MustMiss);
+        assert_eq!(ask(&Truth::Invalid, Contract { invalid: Demand::Free, ..closed }), Free);
+    }
+
+    #[test]
+    fn unit_directions_are_measured_exactly() {
+        let unit = Direction::Unit { ulps: 1 };
+        assert!(promises_direction(unit, [0.0f32, -1.0, 0.0]));
+        assert!(promises_direction(unit, [1.0f32 + f32::EPSILON, 0.0, 0.0]));
+        assert!(!promises_direction(unit, [1.0f32 + 2.0 * f32::EPSILON, 0.0, 0.0]));
+        assert!(!promises_direction(unit, [f32::NAN, 0.0, 0.0]));
+        assert!(promises_direction(Direction::Any, [7.0f64, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn class_names_are_unique_and_numbered() {
+        let names: std::collections::HashSet<String> = Class::all().map(Class::name).collect();
+        assert_eq!(names.len(), Class::COUNT);
+        assert_eq!(Class::of(&down_at(1.0, 0.0, 1.0)).name(), "edge/front/within");
+        assert_eq!(Class::of(&down_at(1.0, 1.0, -1.0)).name(), "interior/front/before");
+        assert_eq!(Class::of(&Truth::Invalid).name(), "invalid");
+    }
+
+    #[test]
+    fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
+        let gives = Gives { t: true, uv: true, facing: true };
+        let truth = down_at(1.0, 1.0, 1.0);
+        let good = Verdict {
+            hit: true,
+            refused_by: None,
+            facing: Some(Facing::Front),
+            t: 1.0,
+            u: 0.25,
+            v: 0.25,
+        };
+        let judged = |obligation, verdict: Verdict<f64>| judge(obligation, &truth, gives, &verdict);
+        assert_eq!(judged(Obligation::MustHit, good), None);
+        assert_eq!(judged(Obligation::MustHit, Verdict::miss(None)), Some(Finding::FalseMiss));
+        assert_eq!(
+            judged(Obligation::MustMiss, Verdict { t: f64::NAN, ..good }),
+            Some(Finding::FalseHit)
+        );
+        assert_eq!(
+            judged(Obligation::Free, Verdict { u: f64::NAN, ..good }),
+            Some(Finding::BadValue)
+        );
+        assert_eq!(
+            judged(Obligation::MustHit, Verdict { facing: Some(Facing::Back), ..good }),
+            Some(Finding::BadValue)
+        );
+        assert_eq!(
+            judged(Obligation::MustHit, Verdict { facing: None, ..good }),
+            Some(Finding::BadValue)
+        );
+    }
+}
