@@ -274,7 +274,7 @@ impl Draw {
     /// A uniform integer in `low..=high` (within 2^-32 for the ranges that families use).
     pub fn integer(&mut self, low: i64, high: i64) -> i64 {
         let span = u128::from(high.abs_diff(low)) + 1;
-        low + (u128::from(self.bits()) * span >> 64) as i64
+        low + ((u128::from(self.bits()) * span) >> 64) as i64
     }
 
     /// An index below `count`.

@@ -1,11 +1,45 @@
-//! stub
+//! The truth about ray–triangle kernels: exact orientation predicates against floating-point tests
+//! with epsilons, on the cases where they break.
+//!
+//! ```text
+//! Case ──► Kernel ──► Verdict ─┐
+//!   │                          ├─► judge ──► Finding ──► Tally ──► Record ──► text, JSON
+//!   └────► Oracle ──► Truth ───┘
+//!                       ▲
+//!              Contract ┘  (what the kernel promises: must hit, must miss, free)
+//! ```
+//!
+//! The modules are floors, each knowing only those below it (and its neighbours on the same floor):
+//!
+//! | floor | modules |
+//! |---|---|
+//! | 6 | [`cli`]: one file a command, the only place that prints |
+//! | 5 | [`report`]: the record and its formats |
+//! | 4 | [`audit`]: plans, runs, sums, severity |
+//! | 3 | [`judge`]: the only place that compares a verdict with a truth |
+//! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
+//! | 1 | [`case`], [`truth`], [`contract`]: the words |
+//! | 0 | [`arith`]: `f32` and `f64` on glam's vectors, and exact numbers |
+//!
+//! A new kernel is one file in `kernel/` and one row in its registry; a new family one file in
+//! `family/` and one row; a new format one file in `report/` and one row.
+
 pub mod arith;
-pub mod audit;
+
 pub mod case;
 pub mod contract;
+pub mod truth;
+
 pub mod corpus;
 pub mod family;
-pub mod judge;
 pub mod kernel;
 pub mod oracle;
-pub mod truth;
+
+pub mod judge;
+
+pub mod audit;
+
+pub mod report;
+
+#[cfg(feature = "cli")]
+pub mod cli;

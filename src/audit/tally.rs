@@ -273,7 +273,7 @@ mod tests {
         let class = Class::all().next().unwrap();
         let event = |tally: &mut Tally, index: u64| {
             tally.ask(class, Obligation::MustHit);
-            if index % 3 == 0 {
+            if index.is_multiple_of(3) {
                 let place = Place { index, triangle: 0 };
                 tally.find(class, Finding::FalseMiss, place, (index * 7 % 11) as f64);
             }

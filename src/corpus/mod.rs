@@ -2,6 +2,18 @@
 
 #![forbid(unsafe_code)]
 
+mod case_json;
+mod fan;
+mod json;
+pub mod lines;
+pub mod manifest;
+pub mod mesh;
+pub mod number;
+mod obj;
+pub mod shapes;
+mod stored_truth;
+pub mod truth_json;
+
 use std::fmt;
 
 /// What is wrong with an input, and where.

@@ -107,7 +107,7 @@ fn near<F: Float>(draw: &mut Draw, weights: impl Fn(&mut Draw) -> [f64; 3]) -> C
         let triangle = well_shaped::<F>(draw);
         let target = combination(triangle, weights(draw).map(F::from_f64));
         let origin = draw.point::<F>();
-        let ulps = draw.pick(&[0, 0, 1, 4]);
+        let ulps = draw.pick(&[0, 1, 4, 16]);
         let direction =
             std::array::from_fn(|i| (target[i] - origin[i]).offset_ulps(draw.integer(-ulps, ulps)));
         if is_steep(direction, triangle) {

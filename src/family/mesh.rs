@@ -1,23 +1,120 @@
-//! stub
+//! `mesh`: rays at the edges, vertices and faces of a mesh: near, and exact where such a ray exists on
+//! the float grid. The oracle tells which are; reports give the share.
+
+use super::apply;
+use super::control::combination;
 use crate::arith::Float;
-use crate::case::{Case, CaseId, Parameters};
-/// stub
-pub struct MeshFamily;
+use crate::case::{Case, CaseId, Draw, Parameters};
+use crate::corpus::mesh::Mesh;
+
+const NAME: &str = "mesh";
+const VERSION: u32 = 1;
+
+/// A mesh as a source of cases.
+pub struct MeshFamily {
+    mesh: Mesh,
+    path: String,
+}
+
 impl MeshFamily {
-    /// stub
-    pub fn file_name(&self) -> &str {
-        ""
+    /// Of a mesh read from a path. The mesh has triangles.
+    pub fn new(mesh: Mesh, path: &str) -> MeshFamily {
+        MeshFamily { mesh, path: path.to_owned() }
     }
-    /// stub
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The path as the user gave it.
     pub fn path(&self) -> &str {
-        ""
+        &self.path
     }
-    /// stub
-    pub fn make<F: Float>(&self, _: &Parameters, _: u64, _: u64) -> Case<F> {
-        todo!()
+
+    /// The last part of the path.
+    pub fn file_name(&self) -> &str {
+        self.path.rsplit(['/', '\\']).next().unwrap_or(&self.path)
     }
-    /// stub
-    pub fn id<F: Float>(&self, _: &Parameters, _: u64, _: u64) -> CaseId {
-        todo!()
+
+    /// The id of a case; it holds the mesh's digest.
+    pub fn id<F: Float>(&self, parameters: &Parameters, seed: u64, index: u64) -> CaseId {
+        CaseId {
+            family: NAME.to_owned(),
+            version: VERSION,
+            scalar: F::NAME.to_owned(),
+            parameters: Parameters { mesh: Some(self.mesh.digest.clone()), ..parameters.clone() },
+            seed,
+            index,
+            triangle: None,
+        }
     }
+
+    /// Case `index` of the set of a seed.
+    pub fn make<F: Float>(&self, parameters: &Parameters, seed: u64, index: u64) -> Case<F> {
+        let mut draw = Draw::new(NAME, seed, index);
+        let number = draw.below(self.mesh.triangles.len());
+        let triangle = self.mesh.vertices::<F>(number);
+        let target = target(&mut draw, triangle);
+        let (origin, direction) = if draw.coin() {
+            exact_ray(&mut draw, target)
+        } else {
+            near_ray(&mut draw, target, triangle)
+        };
+        let mut case = Case::new(origin, direction, triangle);
+        apply(parameters, &mut case);
+        case
+    }
+}
+
+/// A vertex, a point of an edge (its middle, if that is a float) or a point of the face.
+fn target<F: Float>(draw: &mut Draw, triangle: [[F; 3]; 3]) -> [F; 3] {
+    let corner = draw.below(3);
+    let (p, q) = (triangle[corner], triangle[(corner + 1) % 3]);
+    let half = F::from_f64(0.5);
+    match draw.below(4) {
+        0 => p,
+        1 => std::array::from_fn(|i| p[i] * half + q[i] * half),
+        2 => {
+            let s = F::from_f64(0.0625 + 0.875 * draw.unit());
+            std::array::from_fn(|i| p[i] + (q[i] - p[i]) * s)
+        }
+        _ => {
+            let weights = super::control::interior_weights(draw);
+            combination(triangle, weights.map(F::from_f64))
+        }
+    }
+}
+
+/// A ray whose point at t = 1 is the target exactly: each coordinate of the direction is a multiple
+/// of the target's ulp, smaller than the target and of its sign, so that the origin is a float.
+fn exact_ray<F: Float>(draw: &mut Draw, target: [F; 3]) -> ([F; 3], [F; 3]) {
+    let largest = target.iter().fold(0.0, |m: f64, x| m.max(x.to_f64().abs()));
+    let direction = target.map(|x| {
+        if x.is_zero() || !x.is_finite() {
+            // Any float will do: the origin is its negative.
+            return F::from_f64(
+                (2.0 * draw.unit() - 1.0) * if largest > 0.0 { largest } else { 1.0 },
+            );
+        }
+        let digits = draw.integer(1, 1 << (F::DIGITS - 2)) as f64;
+        let step = x.ulp() * F::from_f64(digits);
+        if x.is_sign_negative() { -step } else { step }
+    });
+    (std::array::from_fn(|i| target[i] - direction[i]), direction)
+}
+
+/// A ray from about the triangle's size away, aimed at the target and nudged by ulps.
+fn near_ray<F: Float>(draw: &mut Draw, target: [F; 3], [a, b, c]: [[F; 3]; 3]) -> ([F; 3], [F; 3]) {
+    let extent = |p: [F; 3], q: [F; 3]| {
+        (0..3).fold(0.0, |m: f64, i| m.max((p[i].to_f64() - q[i].to_f64()).abs()))
+    };
+    let size = extent(a, b).max(extent(b, c)).max(extent(c, a));
+    let distance = F::from_f64(if size > 0.0 { size } else { 1.0 } * (0.5 + 7.5 * draw.unit()));
+    let away = draw.point::<F>();
+    let origin: [F; 3] = std::array::from_fn(|i| target[i] + away[i] * distance);
+    let ulps = draw.pick(&[0, 0, 1, 4]);
+    let direction =
+        std::array::from_fn(|i| (target[i] - origin[i]).offset_ulps(draw.integer(-ulps, ulps)));
+    (origin, direction)
 }

@@ -54,7 +54,7 @@ fn near_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
         let s = 0.0625 + 0.875 * draw.unit();
         let target = combination([a, b, c], [s, 1.0 - s, 0.0].map(F::from_f64));
         let origin = draw.point::<F>();
-        let ulps = draw.pick(&[0, 0, 1, 4]);
+        let ulps = draw.pick(&[0, 1, 4, 16]);
         let direction =
             std::array::from_fn(|i| (target[i] - origin[i]).offset_ulps(draw.integer(-ulps, ulps)));
         if is_steep(direction, [a, b, c]) && is_steep(direction, second) {
@@ -100,7 +100,7 @@ impl Recipe for Fan {
         // The centre, a point of a spoke (half way, a lattice point of the doubled fan), or near them.
         let target = if draw.coin() { times(center, 2) } else { plus(center, spoke) };
         let origin = minus(target, times(direction, 2));
-        let nudge = draw.pick(&[0, 0, 1, 4]);
+        let nudge = draw.pick(&[0, 1, 4, 16]);
         let float = |p: Point| p.map(|x| F::from_f64(x as f64));
         let doubled = |p: Point| float(times(p, 2));
         let origin = float(origin).map(|x| x.offset_ulps(draw.integer(-nudge, nudge)));

@@ -23,8 +23,8 @@ use crate::truth::Truth;
 use std::cmp::Ordering;
 
 const U: f64 = f64::EPSILON / 2.0;
-/// The largest coordinate for which nothing overflows.
-const LARGEST: f64 = 1.427247692705959881058e45; // 2^150
+/// The largest coordinate for which nothing overflows: 2^150.
+const LARGEST: f64 = f64::from_bits((1023 + 150) << 52);
 /// What underflow can add to an error: 2^-900.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 

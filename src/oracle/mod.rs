@@ -34,6 +34,16 @@ pub struct Layers {
 }
 
 impl Layers {
+    /// Name and count of each layer, the fastest first.
+    pub fn named(&self) -> [(&'static str, u64); 4] {
+        [
+            ("invalid", self.invalid),
+            ("filter", self.filter),
+            ("128-bit integers", self.small_integer),
+            ("big integers", self.big_integer),
+        ]
+    }
+
     /// Adds another run's counts.
     pub fn merge(&mut self, other: &Layers) {
         self.invalid += other.invalid;

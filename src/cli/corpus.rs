@@ -1,0 +1,182 @@
+//! `hairline corpus`: verify or make the stored cases.
+
+use super::exit::{Failure, Status};
+use super::input::{corpus_files, open, read_corpus};
+use super::output::{write_file, write_result};
+use super::select::unknown;
+use crate::case::Parameters;
+use crate::corpus::InputError;
+use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
+use crate::corpus::manifest::{self, ManifestLine};
+use crate::family::{FAMILIES, Family, find};
+use crate::kernel::Scalar;
+use crate::oracle;
+use clap::{Args, Subcommand};
+use std::fs;
+use std::io::{self, BufReader, Write};
+use std::path::Path;
+
+/// The manifest's name in a corpora folder.
+pub const MANIFEST: &str = "manifest.jsonl";
+
+/// What to do with stored cases.
+#[derive(Args)]
+pub struct CorpusArguments {
+    #[command(subcommand)]
+    command: CorpusCommand,
+}
+
+#[derive(Subcommand)]
+enum CorpusCommand {
+    /// Check every stored truth, and make every set and mesh of the manifest again
+    Verify {
+        /// A folder of corpus files, or one of them
+        #[arg(default_value = "corpora", value_name = "FILE|DIR")]
+        path: String,
+    },
+    /// Write the project's meshes and the manifest; or, with --family, that family's cases
+    Generate {
+        /// The folder to write to
+        #[arg(default_value = "corpora", value_name = "DIR")]
+        path: String,
+
+        /// Write the cases of this family as JSON lines instead
+        #[arg(long, value_name = "NAME")]
+        family: Option<String>,
+
+        /// f32 or f64
+        #[arg(long, default_value = "f32", value_name = "SCALAR")]
+        scalar: String,
+
+        /// How many indices
+        #[arg(long, short = 'n', default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+        count: u64,
+
+        /// Which random cases
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+
+        /// Where the family's cases go; - is standard output
+        #[arg(short, long, default_value = "-", value_name = "FILE")]
+        output: String,
+    },
+}
+
+/// Runs the command.
+pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
+    match &arguments.command {
+        CorpusCommand::Verify { path } => verify(path),
+        CorpusCommand::Generate { family: Some(name), scalar, count, seed, output, .. } => {
+            let names = FAMILIES.iter().map(|family| family.name);
+            let family = find(name)
+                .ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
+            write_result(output, |out| match scalar.as_str() {
+                "f32" => write_family::<f32>(out, family, *seed, *count, AnyCase::F32),
+                "f64" => write_family::<f64>(out, family, *seed, *count, AnyCase::F64),
+                other => Err(io::Error::new(io::ErrorKind::InvalidInput, other.to_owned())),
+            })
+            .map_err(|failure| match scalar.as_str() {
+                "f32" | "f64" => failure,
+                other => Failure::usage(format!("unknown scalar '{other}': there are f32 and f64")),
+            })?;
+            Ok(Status::Success)
+        }
+        CorpusCommand::Generate { path, .. } => generate(Path::new(path)),
+    }
+}
+
+fn write_family<F: Scalar>(
+    out: &mut dyn Write,
+    family: &Family,
+    seed: u64,
+    count: u64,
+    wrap: fn(crate::case::Case<F>) -> AnyCase,
+) -> io::Result<()> {
+    let parameters = Parameters::default();
+    for index in 0..count {
+        let made = family.make::<F>(&parameters, seed, index);
+        let several = made.cases().len() > 1;
+        for (k, case) in made.cases().iter().enumerate() {
+            let mut id = family.id::<F>(&parameters, seed, index);
+            id.triangle = several.then_some(k);
+            let mut stored = StoredCase {
+                name: Some(id.to_string()),
+                case: wrap(*case),
+                truth: None,
+                line: 0,
+                why: None,
+                url: None,
+            };
+            stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
+            writeln!(out, "{}", write_case(&stored))?;
+        }
+    }
+    Ok(())
+}
+
+fn verify(path: &str) -> Result<Status, Failure> {
+    let mut report = Vec::new();
+    for file in corpus_files(path)? {
+        let stored = read_corpus(&file)?;
+        let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
+        // read_corpus holds the stored truths to the definition; the fast oracle must agree.
+        for case in &stored {
+            agree(&file, case)?;
+        }
+        report.push(format!("{file}: {} cases, {with_truth} stored truths right", stored.len()));
+    }
+    let manifest_path = Path::new(path).join(MANIFEST);
+    if manifest_path.exists() {
+        let name = manifest_path.display().to_string();
+        let lines = manifest::read(BufReader::new(open(&name)?), &name)?;
+        let folder = manifest_path.parent().unwrap_or(Path::new("."));
+        for (number, line) in &lines {
+            manifest::verify(line, |mesh| fs::read(folder.join("meshes").join(mesh)))
+                .map_err(|message| InputError::at(&name, *number, message))?;
+        }
+        let meshes = lines.iter().filter(|(_, line)| matches!(line, ManifestLine::Mesh(_))).count();
+        let sets = lines.len() - meshes;
+        report
+            .push(format!("{name}: {sets} generated sets and {meshes} meshes are the same again"));
+    }
+    write_result("-", |out| report.iter().try_for_each(|line| writeln!(out, "{line}")))?;
+    Ok(Status::Success)
+}
+
+fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
+    let (fast, slow) = match &stored.case {
+        AnyCase::F32(case) => (oracle::truth(case), oracle::define(case).truth),
+        AnyCase::F64(case) => (oracle::truth(case), oracle::define(case).truth),
+    };
+    if fast == slow {
+        return Ok(());
+    }
+    let message = format!(
+        "{file}:{}: self-check: the oracle says '{fast}', its definition '{slow}'",
+        stored.line
+    );
+    Err(Failure::Message(Status::SelfCheck, message))
+}
+
+fn generate(folder: &Path) -> Result<Status, Failure> {
+    let failed =
+        |path: &Path, error: io::Error| Failure::of_file(&path.display().to_string(), &error);
+    let meshes = folder.join("meshes");
+    fs::create_dir_all(&meshes).map_err(|error| failed(&meshes, error))?;
+    for (name, _, text) in manifest::meshes() {
+        let path = meshes.join(name);
+        write_file(&path, |out| out.write_all(text.as_bytes()))
+            .map_err(|error| failed(&path, error))?;
+    }
+    let path = folder.join(MANIFEST);
+    let lines = manifest::current();
+    write_file(&path, |out| {
+        lines.iter().try_for_each(|line| {
+            serde_json::to_writer(&mut *out, line)?;
+            writeln!(out)
+        })
+    })
+    .map_err(|error| failed(&path, error))?;
+    eprintln!("{}: {} lines; meshes in {}", path.display(), lines.len(), meshes.display());
+    Ok(Status::Success)
+}

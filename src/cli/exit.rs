@@ -1,0 +1,91 @@
+//! Exit codes, and the errors that lead to them.
+
+use crate::audit::PlanError;
+use crate::corpus::InputError;
+use std::io;
+use std::process::ExitCode;
+
+/// How the program ends. The README's table is tested against this one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It ran.
+    Success = 0,
+    /// Unexpected disagreements.
+    Disagreements = 1,
+    /// Wrong usage or configuration.
+    Usage = 2,
+    /// Stale expectations.
+    Stale = 3,
+    /// Nothing was selected.
+    NothingSelected = 4,
+    /// Bad input data.
+    BadInput = 65,
+    /// The tool's own self-check failed.
+    SelfCheck = 70,
+    /// Input or output failed.
+    InputOutput = 74,
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> ExitCode {
+        ExitCode::from(status as u8)
+    }
+}
+
+/// Why a command stops.
+#[derive(Debug)]
+pub enum Failure {
+    /// With a message of one line.
+    Message(Status, String),
+    /// Whoever read the output has left; that is no error.
+    ClosedPipe,
+}
+
+impl Failure {
+    pub(super) fn usage(message: impl Into<String>) -> Failure {
+        Failure::Message(Status::Usage, message.into())
+    }
+
+    /// What to tell the user.
+    pub fn message(&self) -> Option<&str> {
+        match self {
+            Failure::Message(_, message) => Some(message),
+            Failure::ClosedPipe => None,
+        }
+    }
+
+    /// The exit code.
+    pub fn status(&self) -> Status {
+        match self {
+            Failure::Message(status, _) => *status,
+            Failure::ClosedPipe => Status::Success,
+        }
+    }
+
+    /// An error of reading or writing a file.
+    pub(super) fn of_file(file: &str, error: &io::Error) -> Failure {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Failure::ClosedPipe;
+        }
+        Failure::Message(Status::InputOutput, format!("{file}: {error}"))
+    }
+}
+
+impl From<PlanError> for Failure {
+    fn from(error: PlanError) -> Failure {
+        Failure::usage(error.0)
+    }
+}
+
+impl From<InputError> for Failure {
+    fn from(error: InputError) -> Failure {
+        Failure::Message(Status::BadInput, error.to_string())
+    }
+}
+
+impl From<io::Error> for Failure {
+    /// An error of writing to standard output.
+    fn from(error: io::Error) -> Failure {
+        Failure::of_file("standard output", &error)
+    }
+}

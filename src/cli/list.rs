@@ -1,0 +1,104 @@
+//! `hairline list`: the tables that the other commands take names from.
+
+use super::exit::{Failure, Status};
+use super::output::write_result;
+use crate::audit::EpsilonText;
+use crate::contract::NAMED;
+use crate::family::FAMILIES;
+use crate::kernel::{KERNELS, KernelInfo, PRESETS, PresetValue, Tunable};
+use clap::{Args, ValueEnum};
+use std::io::{self, Write};
+
+/// What to list.
+#[derive(Args)]
+pub struct ListArguments {
+    #[arg(value_enum)]
+    what: What,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum What {
+    /// Kernels with their sources, contracts, gates and epsilons
+    Kernels,
+    /// Case families with their promises
+    Families,
+    /// Contracts that all kernels can be judged by
+    Contracts,
+    /// Epsilons of published libraries
+    Presets,
+}
+
+/// Runs the command.
+pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
+    write_result("-", |out| match arguments.what {
+        What::Kernels => KERNELS.iter().try_for_each(|entry| kernel(out, entry.info)),
+        What::Families => FAMILIES
+            .iter()
+            .try_for_each(|family| writeln!(out, "{:<18} {}", family.name, family.promise)),
+        What::Contracts => {
+            writeln!(out, "{:<18} each kernel by what its own source states (the default)", "own")?;
+            NAMED.iter().try_for_each(|named| {
+                writeln!(
+                    out,
+                    "{:<18} {}\n{:<18} {}",
+                    named.name,
+                    named.about,
+                    "",
+                    named.contract.describe()
+                )
+            })
+        }
+        What::Presets => presets(out),
+    })?;
+    Ok(Status::Success)
+}
+
+fn kernel(out: &mut dyn Write, info: &KernelInfo) -> io::Result<()> {
+    writeln!(
+        out,
+        "{}\n    source: {}\n    contract: {}",
+        info.name,
+        info.source,
+        info.contract.describe()
+    )?;
+    for (i, gate) in info.gates.iter().enumerate() {
+        let refuses = gate.refuses;
+        if gate.epsilon == Tunable::Fixed {
+            writeln!(out, "    test {}: refuses where {refuses}; takes no epsilon", gate.name)?;
+            continue;
+        }
+        let sets: Vec<String> = info
+            .epsilon_sets
+            .iter()
+            .map(|set| format!("{} ({})", set.values[i], set.name))
+            .collect();
+        writeln!(
+            out,
+            "    gate {}: refuses where {refuses}; dimension length^{} direction^{}; e = {}",
+            gate.name,
+            gate.dimension.length,
+            gate.dimension.direction,
+            sets.join(", ")
+        )?;
+    }
+    Ok(())
+}
+
+fn presets(out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{:<16} as each kernel's source has them (the default)", "source")?;
+    for preset in PRESETS {
+        writeln!(out, "{:<16} {}", preset.name, preset.source)?;
+        for entry in preset.entries {
+            let value = match entry.value {
+                PresetValue::Decimal(text) => text.to_owned(),
+                PresetValue::MachineEpsilon(k) => EpsilonText::MachineEpsilon(k).to_string(),
+            };
+            writeln!(
+                out,
+                "{:<16} gate {}={value}, dimension length^{} direction^{}: {}",
+                "", entry.gate, entry.dimension.length, entry.dimension.direction, entry.form
+            )?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! Floor 6: one file a command. The only place that prints, opens files and reads a clock.
+
+#![forbid(unsafe_code)]
+
+mod audit;
+mod corpus;
+mod exit;
+mod explain;
+mod input;
+mod list;
+mod output;
+mod progress;
+mod select;
+mod truth;
+
+pub use exit::{Failure, Status};
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Audits ray-triangle kernels and their epsilons against exact predicates.
+#[derive(Parser)]
+#[command(name = "hairline", version, about, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run kernels on families of cases, a mesh or a corpus, and say where they are wrong
+    Audit(Box<audit::AuditArguments>),
+    /// Print the exact truth of cases, one JSON line each
+    Truth(truth::TruthArguments),
+    /// Show one case: its exact truth, and what each gate of each kernel made of it
+    Explain(explain::ExplainArguments),
+    /// List kernels, families, contracts or epsilon presets
+    List(list::ListArguments),
+    /// Verify or make the stored cases
+    Corpus(corpus::CorpusArguments),
+}
+
+/// Runs the program on the process's arguments; the one place where errors become exit codes.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no errors.
+            let code = if error.use_stderr() { Status::Usage } else { Status::Success };
+            let _ = error.print();
+            return code.into();
+        }
+    };
+    let outcome = match arguments.command {
+        Command::Audit(arguments) => audit::run(&arguments),
+        Command::Truth(arguments) => truth::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
+        Command::Corpus(arguments) => corpus::run(&arguments),
+    };
+    match outcome {
+        Ok(status) => status.into(),
+        Err(failure) => {
+            if let Some(message) = failure.message() {
+                eprintln!("hairline: {message}");
+            }
+            failure.status().into()
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Where results go: standard output, or files that appear whole or not at all.
+
+use super::exit::Failure;
+use clap::ValueEnum;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+/// When to colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ColorChoice {
+    /// On a terminal, unless NO_COLOR is set.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl ColorChoice {
+    /// Whether to colour what goes to standard output (or to a file, which is no terminal).
+    pub fn enabled(self, to_stdout: bool) -> bool {
+        let allowed = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+        match self {
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+            ColorChoice::Auto => allowed && to_stdout && io::stdout().is_terminal(),
+        }
+    }
+}
+
+/// Writes one result to standard output (`-`) or to a file, which is written beside and renamed.
+pub fn write_result(
+    path: &str,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    if path == "-" {
+        let mut out = BufWriter::new(io::stdout().lock());
+        write(&mut out)?;
+        out.flush()?;
+        return Ok(());
+    }
+    write_file(Path::new(path), write).map_err(|error| Failure::of_file(path, &error))
+}
+
+/// Writes a file beside its place and renames it; leaves nothing half-written.
+pub fn write_file(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    // A device, a pipe or a socket has no place beside it.
+    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
+        let mut out = BufWriter::new(File::options().write(true).open(path)?);
+        write(&mut out)?;
+        return out.flush();
+    }
+    if path.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a directory"));
+    }
+    let name = path.file_name().ok_or_else(|| io::Error::other("names no file"))?;
+    let mut beside_name = std::ffi::OsString::from(".");
+    beside_name.push(name);
+    beside_name.push(format!(".{}.tmp", std::process::id()));
+    let beside: PathBuf = path.with_file_name(beside_name);
+    let attempt = || -> io::Result<()> {
+        let mut out = BufWriter::new(File::create(&beside)?);
+        write(&mut out)?;
+        out.flush()?;
+        out.get_ref().sync_all()?;
+        fs::rename(&beside, path)
+    };
+    attempt().inspect_err(|_| {
+        let _ = fs::remove_file(&beside);
+    })
+}

@@ -1,0 +1,93 @@
+//! Which kernels, contracts and epsilons a command line names.
+
+use super::exit::Failure;
+use crate::audit::{EpsilonChoice, Row};
+use crate::contract::{Contract, NAMED};
+use crate::kernel::{Entry, KERNELS, find, nearest_name};
+use clap::Args;
+
+/// The flags that choose kernels, their epsilons and the contract.
+#[derive(Args)]
+pub struct KernelArguments {
+    /// A kernel, or several separated by commas [default: all]
+    #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
+    kernel: Vec<String>,
+
+    /// Epsilons by gate, as parallel=1e-6,edge=0; other gates as the source has them
+    #[arg(
+        long,
+        value_name = "GATE=VALUE,...",
+        conflicts_with = "epsilon_preset",
+        allow_hyphen_values = true
+    )]
+    epsilon: Option<String>,
+
+    /// The epsilons of a published library (see `hairline list presets`), or `source`
+    #[arg(long, value_name = "NAME")]
+    epsilon_preset: Option<String>,
+
+    /// One contract for all kernels instead of each one's own (see `hairline list contracts`)
+    #[arg(long, value_name = "NAME")]
+    contract: Option<String>,
+}
+
+impl KernelArguments {
+    /// The rows that the flags ask for.
+    pub fn rows(&self) -> Result<Vec<Row>, Failure> {
+        Ok(self.choice()?.rows(&self.entries()?, self.contract()?)?)
+    }
+
+    fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
+        if self.kernel.is_empty() {
+            return Ok(KERNELS.iter().collect());
+        }
+        self.kernel
+            .iter()
+            .map(|name| {
+                let names = KERNELS.iter().map(|entry| entry.info.name);
+                find(name).ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))
+            })
+            .collect()
+    }
+
+    fn choice(&self) -> Result<EpsilonChoice, Failure> {
+        if let Some(preset) = &self.epsilon_preset {
+            return Ok(match preset.as_str() {
+                "source" => EpsilonChoice::Source,
+                name => EpsilonChoice::Preset(name.to_owned()),
+            });
+        }
+        let Some(text) = &self.epsilon else { return Ok(EpsilonChoice::Source) };
+        let pairs = text.split(',').map(|pair| {
+            let (gate, value) = pair.split_once('=').ok_or_else(|| {
+                Failure::usage(format!("--epsilon: '{pair}' is not GATE=VALUE, as parallel=1e-6"))
+            })?;
+            Ok((gate.trim().to_owned(), value.trim().to_owned()))
+        });
+        Ok(EpsilonChoice::Given(pairs.collect::<Result<_, Failure>>()?))
+    }
+
+    fn contract(&self) -> Result<Option<Contract>, Failure> {
+        let Some(name) = &self.contract else { return Ok(None) };
+        let names = NAMED.iter().map(|named| named.name);
+        match NAMED.iter().find(|named| named.name == name) {
+            Some(named) => Ok(Some(named.contract)),
+            None if name == "own" => Ok(None),
+            None => Err(unknown("contract", name, names, "hairline list contracts")),
+        }
+    }
+}
+
+/// The error for a name that is not in a table.
+pub fn unknown<'a>(
+    what: &str,
+    name: &str,
+    names: impl IntoIterator<Item = &'a str>,
+    list: &str,
+) -> Failure {
+    let advice = match nearest_name(name, names) {
+        Some(near) => format!("; did you mean '{near}'?"),
+        None => format!("; see `{list}`"),
+    };
+    Failure::usage(format!("unknown {what} '{name}'{advice}"))
+}

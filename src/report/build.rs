@@ -1,0 +1,264 @@
+//! From the sums of a run to a record.
+
+use super::record::*;
+use crate::arith::Float;
+use crate::audit::{
+    Audit, Cell, ClassCount, Examples, GroupCount, Place, Plan, Row, Source, SourceSummary, Tally,
+    clopper_pearson, exact_severity,
+};
+use crate::case::Case;
+use crate::contract::Across;
+use crate::corpus::manifest::hex;
+use crate::family::Grouping;
+use crate::judge::{Class, Finding};
+use crate::kernel::Scalar;
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+
+/// What a record says beside the sums.
+pub struct Context {
+    /// Wall-clock seconds of the run.
+    pub seconds: f64,
+    /// Threads used.
+    pub threads: usize,
+}
+
+/// Makes the record of a run.
+pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
+    let results = audit.cells.par_iter().map(|cell| {
+        if cell.scalar == f32::NAME {
+            kernel_result::<f32>(plan, cell)
+        } else {
+            kernel_result::<f64>(plan, cell)
+        }
+    });
+    Record {
+        schema: SCHEMA.to_owned(),
+        result: ResultPart {
+            plan: plan_part(plan),
+            sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
+            results: results.collect(),
+        },
+        provenance: provenance(plan, audit, context),
+    }
+}
+
+fn plan_part(plan: &Plan) -> PlanPart {
+    let row = |row: &Row| RowPart {
+        kernel: row.entry.info.name.to_owned(),
+        set: row.set.clone(),
+        epsilons: row
+            .tuned()
+            .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
+            .collect(),
+        contract: row.contract.describe(),
+    };
+    let source = |source: &Source| PlannedSource {
+        family: source.name(),
+        set: match source {
+            Source::Corpus(set) => set.file.clone(),
+            _ => set_of_id(&source.id::<f64>(0, None)),
+        },
+        count: source.count::<f32>().max(source.count::<f64>()),
+    };
+    let names = [f32::NAME, f64::NAME];
+    let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
+    let mut part = PlanPart {
+        hash: String::new(),
+        rows: plan.rows.iter().map(row).collect(),
+        sources: plan.sources.iter().map(source).collect(),
+        scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
+    };
+    let text = serde_json::to_string(&part).unwrap_or_default();
+    part.hash = hex(&Sha256::digest(text.as_bytes())[..8]);
+    part
+}
+
+/// `family@version/parameters/seed` of an id: without the scalar and the index.
+fn set_of_id(id: &str) -> String {
+    let words: Vec<&str> = id.split('/').collect();
+    match words[..] {
+        [family, _, parameters, seed, _] => format!("{family}/{parameters}/{seed}"),
+        _ => id.to_owned(),
+    }
+}
+
+fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
+    let source = &plan.sources[summary.source];
+    let id = |index| {
+        if summary.scalar == f32::NAME {
+            source.id::<f32>(index, None)
+        } else {
+            source.id::<f64>(index, None)
+        }
+    };
+    SourcePart {
+        scalar: summary.scalar.to_owned(),
+        family: source.name(),
+        sample: source.is_sample(),
+        indices: summary.indices,
+        cases: summary.cases,
+        promise_broken: summary.promise_broken,
+        first_broken: summary.first_broken.map(id),
+    }
+}
+
+/// A rate, with its interval if it is of a random sample.
+fn rate(count: u64, of: u64, sample: bool) -> Rate {
+    let interval = (sample && of > 0).then(|| clopper_pearson(count, of));
+    Rate {
+        count,
+        of,
+        rate: (of > 0).then(|| count as f64 / of as f64),
+        interval: interval.map(|interval| [interval.low, interval.high]),
+    }
+}
+
+fn counts(count: &ClassCount, sample: bool) -> Counts {
+    let of = |finding| rate(count.of(finding), count.trials(finding), sample);
+    Counts {
+        cases: count.cases,
+        free: count.cases - count.must_hit - count.must_miss,
+        hits: count.hits,
+        false_misses: of(Finding::FalseMiss),
+        false_hits: of(Finding::FalseHit),
+        bad_values: of(Finding::BadValue),
+        panics: count.of(Finding::Panic),
+    }
+}
+
+fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
+    let (source, row, tally) = (&plan.sources[cell.source], &plan.rows[cell.row], &cell.tally);
+    let sample = source.is_sample();
+    let classes = Class::all()
+        .filter(|class| tally.classes[class.number()].cases > 0)
+        .map(|class| (class.name(), counts(&tally.classes[class.number()], sample)));
+    let findings = tally.examples.iter().map(|((class, finding), examples)| {
+        let count = &tally.classes[class.number()];
+        finding_part::<F>(source, row, (*class, *finding), count, examples)
+    });
+    let grouping = source.grouping();
+    let is_group = !matches!(grouping, Grouping::Single | Grouping::Respawn);
+    KernelResult {
+        scalar: cell.scalar.to_owned(),
+        kernel: row.entry.info.name.to_owned(),
+        set: row.set.clone(),
+        family: source.name(),
+        total: counts(&tally.total(), sample),
+        classes: classes.collect(),
+        findings: findings.collect(),
+        across: is_group.then(|| across_part::<F>(source, row, &tally.groups)),
+        polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
+            .then(|| polygon_part(tally, sample)),
+        self_hits: (grouping == Grouping::Respawn)
+            .then(|| rate(tally.self_hits.hits, tally.self_hits.rays, sample)),
+    }
+}
+
+fn finding_part<F: Scalar>(
+    source: &Source,
+    row: &Row,
+    (class, finding): (Class, Finding),
+    count: &ClassCount,
+    examples: &Examples,
+) -> FindingPart {
+    let (_, worst) = examples.worst.expect("a finding has a worst example");
+    FindingPart {
+        finding: finding.name().to_owned(),
+        class: class.name(),
+        rate: rate(count.of(finding), count.trials(finding), source.is_sample()),
+        worst: example::<F>(source, row, worst, true),
+        first: examples
+            .first
+            .iter()
+            .map(|place| example::<F>(source, row, *place, false))
+            .collect(),
+    }
+}
+
+fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: bool) -> Example {
+    let made = source.make::<F>(place.index);
+    let case: &Case<F> = &made.cases()[place.triangle as usize];
+    let triangle = (made.cases().len() > 1).then_some(place.triangle as usize);
+    let severity = if with_severity { exact_severity(case) } else { None };
+    let mut command = format!(
+        "hairline explain {} --kernel {}",
+        source.explain_arguments::<F>(place.index, triangle),
+        row.entry.info.name
+    );
+    if let Some(epsilons) = row.epsilon_argument() {
+        command.push_str(&format!(" --epsilon '{epsilons}'"));
+    }
+    Example {
+        case: source.id::<F>(place.index, triangle),
+        bits: case.hex(),
+        severity: severity.map(|severity| SeverityPart {
+            in_plane: severity.in_plane,
+            in_space: severity.in_space,
+            in_space_ulps: severity.in_space * severity.edge_in_ulps,
+            along: severity.along,
+        }),
+        command,
+    }
+}
+
+fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
+    let sample = source.is_sample();
+    let ids = |indices: &[u64]| indices.iter().map(|i| source.id::<F>(*i, None)).collect();
+    AcrossPart {
+        promised: match row.contract.across {
+            Across::Nothing => "nothing",
+            Across::AtLeastOne => "at-least-one",
+            Across::ExactlyOne => "exactly-one",
+        }
+        .to_owned(),
+        cracks: rate(groups.cracks, groups.crossings, sample),
+        doubles: rate(groups.doubles, groups.crossings, sample),
+        odd_folds: rate(groups.odd_folds, groups.folds, sample),
+        missed_folds: rate(groups.missed_folds, groups.folds, sample),
+        first_cracks: ids(&groups.first_cracks),
+        first_doubles: ids(&groups.first_doubles),
+    }
+}
+
+fn polygon_part(tally: &Tally, sample: bool) -> PolygonPart {
+    let polygons = &tally.polygons;
+    PolygonPart {
+        false_misses: rate(polygons.false_miss, polygons.must_hit, sample),
+        false_hits: rate(polygons.false_hit, polygons.must_miss, sample),
+    }
+}
+
+fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
+    let mut provenance = Provenance {
+        tool: format!("hairline {}", env!("CARGO_PKG_VERSION")),
+        target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
+        threads: context.threads,
+        seconds: context.seconds,
+        ..Provenance::default()
+    };
+    let mut cases: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
+    for summary in &audit.sources {
+        let sum = cases.entry(summary.scalar).or_default();
+        sum.0 += summary.oracle_nanoseconds;
+        sum.1 += summary.cases;
+        let layers = provenance.oracle_layers.entry(summary.scalar.to_owned()).or_default();
+        for (name, count) in summary.layers.named() {
+            *layers.entry(name.to_owned()).or_default() += count;
+        }
+    }
+    let per = |time: u64, count: u64| time as f64 / count.max(1) as f64;
+    for (scalar, (time, count)) in &cases {
+        provenance.oracle_nanoseconds.insert((*scalar).to_owned(), per(*time, *count));
+    }
+    let mut times: BTreeMap<(&str, usize), u64> = BTreeMap::new();
+    for cell in &audit.cells {
+        *times.entry((cell.scalar, cell.row)).or_default() += cell.nanoseconds;
+    }
+    for ((scalar, row), time) in times {
+        let by_row = provenance.kernel_nanoseconds.entry(scalar.to_owned()).or_default();
+        by_row.insert(plan.rows[row].label(), per(time, cases[scalar].1));
+    }
+    provenance
+}

@@ -1,0 +1,37 @@
+//! Floor 5: one versioned record, and one exporter a format.
+//!
+//! To add a format: write its file with a `write` function from a [`Record`], and give it a row in
+//! [`FORMATS`].
+
+#![forbid(unsafe_code)]
+
+mod build;
+mod json;
+mod record;
+mod text;
+
+pub use build::{Context, build};
+pub use record::*;
+
+use std::io::{self, Write};
+
+/// How people-facing formats look.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Style {
+    /// Whether to use terminal colours.
+    pub color: bool,
+    /// Whether to list every class of finding of every kernel.
+    pub details: bool,
+}
+
+/// A format that a record can be written in.
+pub struct Format {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Writes a record.
+    pub write: fn(&Record, Style, &mut dyn Write) -> io::Result<()>,
+}
+
+/// One row per format.
+pub const FORMATS: &[Format] =
+    &[Format { name: "text", write: text::write }, Format { name: "json", write: json::write }];

@@ -1,0 +1,248 @@
+//! The versioned record from which every format is made.
+//!
+//! `result` holds integers, and floats recomputed from integers: it is the same bytes whatever the
+//! number of threads. `provenance` says where and how it was made and is never compared.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "hairline-record/1";
+
+/// Everything that a run found.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// What was found.
+    pub result: ResultPart,
+    /// Where and how it was made.
+    pub provenance: Provenance,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultPart {
+    /// What was asked.
+    pub plan: PlanPart,
+    /// The sources of cases, by scalar.
+    pub sources: Vec<SourcePart>,
+    /// One entry for each scalar, source and kernel row.
+    pub results: Vec<KernelResult>,
+}
+
+/// What was asked.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlanPart {
+    /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
+    pub hash: String,
+    /// Kernels with epsilons.
+    pub rows: Vec<RowPart>,
+    /// Sources, each by the id of its set.
+    pub sources: Vec<PlannedSource>,
+    /// `f32`, `f64`.
+    pub scalars: Vec<String>,
+}
+
+/// A kernel with its epsilons.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RowPart {
+    /// The kernel's name.
+    pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// By gate; gates that take none are left out.
+    pub epsilons: BTreeMap<String, String>,
+    /// The contract it is judged by, in words.
+    pub contract: String,
+}
+
+/// A source of cases as planned.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlannedSource {
+    /// The name in tables.
+    pub family: String,
+    /// `family@version`, parameters and seed as in case ids.
+    pub set: String,
+    /// How many indices.
+    pub count: u64,
+}
+
+/// What a source gave in one scalar.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourcePart {
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The name in tables.
+    pub family: String,
+    /// Whether its rates are of a random sample.
+    pub sample: bool,
+    /// Indices made.
+    pub indices: u64,
+    /// Cases in them.
+    pub cases: u64,
+    /// Indices that break the family's promise.
+    pub promise_broken: u64,
+    /// The id of the first of them.
+    pub first_broken: Option<String>,
+}
+
+/// One kernel row on one source in one scalar.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KernelResult {
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The kernel's name.
+    pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// The source's name in tables.
+    pub family: String,
+    /// All classes together.
+    pub total: Counts,
+    /// Each class that occurred.
+    pub classes: BTreeMap<String, Counts>,
+    /// Each class of finding that occurred, with examples.
+    pub findings: Vec<FindingPart>,
+    /// Triangles of a group together.
+    pub across: Option<AcrossPart>,
+    /// Polygons as a whole.
+    pub polygons: Option<PolygonPart>,
+    /// Second hits on the triangle that a ray starts on.
+    pub self_hits: Option<Rate>,
+}
+
+/// Counts and rates of findings.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Counts {
+    /// Cases.
+    pub cases: u64,
+    /// Cases on which the contract asks nothing.
+    pub free: u64,
+    /// Hits that the kernel reported.
+    pub hits: u64,
+    /// Of the cases that must be hit.
+    pub false_misses: Rate,
+    /// Of the cases that must be missed.
+    pub false_hits: Rate,
+    /// Of the hits that are not false.
+    pub bad_values: Rate,
+    /// Cases at which the kernel panicked.
+    pub panics: u64,
+}
+
+/// A count of a number of trials, with its 95 % interval if the trials are a random sample.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rate {
+    /// How many.
+    pub count: u64,
+    /// Of how many.
+    pub of: u64,
+    /// `count / of`; none of nothing.
+    pub rate: Option<f64>,
+    /// Clopper-Pearson, 95 %.
+    pub interval: Option<[f64; 2]>,
+}
+
+/// One finding in one class.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FindingPart {
+    /// `false-miss`, `false-hit`, `bad-value`, `panic`.
+    pub finding: String,
+    /// The class of the truth.
+    pub class: String,
+    /// How often.
+    pub rate: Rate,
+    /// The one with the largest severity.
+    pub worst: Example,
+    /// The first by index.
+    pub first: Vec<Example>,
+}
+
+/// A case that shows a finding.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Example {
+    /// The id or the name.
+    pub case: String,
+    /// Origin, direction, a, b, c, interval: bit patterns in hexadecimal.
+    pub bits: String,
+    /// Distances; of the worst only, and none of invalid input.
+    pub severity: Option<SeverityPart>,
+    /// Shows the case again.
+    pub command: String,
+}
+
+/// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeverityPart {
+    /// In the plane, from where the line meets it to the triangle's boundary.
+    pub in_plane: Option<f64>,
+    /// In space, from the line to the boundary.
+    pub in_space: f64,
+    /// The same in ulps of the largest coordinate.
+    pub in_space_ulps: f64,
+    /// |t - end|·|d| to the nearest finite end of the interval.
+    pub along: Option<f64>,
+}
+
+/// What the triangles of groups did together.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AcrossPart {
+    /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
+    pub promised: String,
+    /// Crossings without a hit.
+    pub cracks: Rate,
+    /// Crossings with two hits or more.
+    pub doubles: Rate,
+    /// Folds whose number of hits has the wrong parity.
+    pub odd_folds: Rate,
+    /// Folds without a hit where the exact line has two.
+    pub missed_folds: Rate,
+    /// Ids of the first cracks.
+    pub first_cracks: Vec<String>,
+    /// Ids of the first doubles.
+    pub first_doubles: Vec<String>,
+}
+
+/// A polygon kernel's answers about whole polygons.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PolygonPart {
+    /// Of the polygons that must be hit.
+    pub false_misses: Rate,
+    /// Of the polygons that must be missed.
+    pub false_hits: Rate,
+}
+
+/// Where and how a record was made.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// `hairline 0.1.0`.
+    pub tool: String,
+    /// `x86_64-linux`.
+    pub target: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// By scalar: nanoseconds a case in the oracle.
+    pub oracle_nanoseconds: BTreeMap<String, f64>,
+    /// By scalar: how often each layer of the oracle decided.
+    pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
+    /// By scalar and row label: nanoseconds a ray in the kernel.
+    pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+}

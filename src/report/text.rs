@@ -1,0 +1,251 @@
+//! The record as text for people: one table a scalar, then the worst findings with the commands that
+//! show them again.
+
+use super::Style;
+use super::record::*;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// Writes the record. The layout is for people and not stable.
+pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let result = &record.result;
+    let families = result.plan.sources.len();
+    writeln!(
+        out,
+        "{}, plan {}: {} kernel rows, {families} {}, {} threads, {:.1} s",
+        record.provenance.tool,
+        result.plan.hash,
+        result.plan.rows.len(),
+        if families == 1 { "family" } else { "families" },
+        record.provenance.threads,
+        record.provenance.seconds
+    )?;
+    for scalar in &result.plan.scalars {
+        write_scalar(record, scalar, style, out)?;
+    }
+    let broken: Vec<&SourcePart> =
+        result.sources.iter().filter(|source| source.promise_broken > 0).collect();
+    for source in broken {
+        let (scalar, family) = (&source.scalar, &source.family);
+        let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
+        let first = source.first_broken.as_deref().unwrap_or("-");
+        writeln!(
+            out,
+            "\n{scalar} {family}: {n} of {of} indices are not what the family's promise says, first {first}"
+        )?;
+    }
+    Ok(())
+}
+
+/// All families of one kernel row in one scalar.
+struct RowView<'a> {
+    part: &'a RowPart,
+    results: Vec<&'a KernelResult>,
+}
+
+impl RowView<'_> {
+    /// Sum over the families of a rate's count and denominator, and the interval if all are samples.
+    fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
+        let rates: Vec<&Rate> = self.results.iter().filter_map(|result| rate(result)).collect();
+        let (count, of) = rates.iter().fold((0, 0), |sum, r| (sum.0 + r.count, sum.1 + r.of));
+        let sample = rates.iter().any(|rate| rate.interval.is_some());
+        let interval = (sample && of > 0).then(|| crate::audit::clopper_pearson(count, of));
+        Rate {
+            count,
+            of,
+            rate: (of > 0).then(|| count as f64 / of as f64),
+            interval: interval.map(|interval| [interval.low, interval.high]),
+        }
+    }
+
+    /// The family with the largest share.
+    fn worst_family(&self, rate: impl Fn(&KernelResult) -> &Rate) -> &str {
+        let share = |result: &KernelResult| rate(result).rate.unwrap_or(0.0);
+        self.results
+            .iter()
+            .filter(|result| rate(result).count > 0)
+            .max_by(|x, y| share(x).total_cmp(&share(y)))
+            .map_or("", |result| &result.family)
+    }
+}
+
+fn write_scalar(
+    record: &Record,
+    scalar: &str,
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let rows: Vec<RowView> = record
+        .result
+        .plan
+        .rows
+        .iter()
+        .map(|part| RowView {
+            part,
+            results: record
+                .result
+                .results
+                .iter()
+                .filter(|r| r.scalar == scalar && r.kernel == part.kernel && r.set == part.set)
+                .collect(),
+        })
+        .collect();
+    let cases: u64 =
+        record.result.sources.iter().filter(|s| s.scalar == scalar).map(|s| s.cases).sum();
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    writeln!(out, "\n{bold}{scalar}{plain}, {} cases for each kernel", group_digits(cases))?;
+    writeln!(
+        out,
+        "{bold}{:<37} {:>20} {:<16} {:>20} {:<16} {:>6} {:>6} {:>6}{plain}",
+        "kernel (epsilons)",
+        "false misses, %",
+        "most in",
+        "false hits, %",
+        "most in",
+        "bad",
+        "cracks",
+        "ns/ray"
+    )?;
+    let times = record.provenance.kernel_nanoseconds.get(scalar);
+    for row in &rows {
+        let misses = row.total(|result| Some(&result.total.false_misses));
+        let hits = row.total(|result| Some(&result.total.false_hits));
+        let bad = row.total(|result| Some(&result.total.bad_values));
+        let cracks = row.total(|result| result.across.as_ref().map(|across| &across.cracks));
+        let label = format!("{} ({})", row.part.kernel, row.part.set);
+        let time = times.and_then(|times| times.get(&label)).copied().unwrap_or(f64::NAN);
+        writeln!(
+            out,
+            "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {time:>6.1}",
+            share_column(&misses, style),
+            row.worst_family(|result| &result.total.false_misses),
+            share_column(&hits, style),
+            row.worst_family(|result| &result.total.false_hits),
+            short_count(bad.count),
+            if cracks.of == 0 { "-".to_owned() } else { short_count(cracks.count) },
+        )?;
+    }
+    write_worst(&rows, style, out)
+}
+
+/// For each row and finding the worst example of each class, or of all classes together.
+fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let by_class = style.details || rows.len() <= 2;
+    let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
+    writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
+    for row in rows {
+        let mut worst: BTreeMap<(&str, &str), (Rate, &FindingPart)> = BTreeMap::new();
+        for finding in row.results.iter().flat_map(|result| &result.findings) {
+            let class = if by_class { finding.class.as_str() } else { "" };
+            let entry = worst
+                .entry((finding.finding.as_str(), class))
+                .or_insert_with(|| (Rate { count: 0, of: 0, rate: None, interval: None }, finding));
+            entry.0.count += finding.rate.count;
+            entry.0.of += finding.rate.of;
+            if severity(entry.1) < severity(finding) {
+                entry.1 = finding;
+            }
+        }
+        let label = format!("{} ({})", row.part.kernel, row.part.set);
+        if worst.is_empty() {
+            writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
+            continue;
+        }
+        writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
+        for ((kind, _), (rate, finding)) in &worst {
+            let distance = describe_severity(&finding.worst);
+            let count = group_digits(rate.count);
+            let class = &finding.class;
+            let share = interval_of(rate.count, rate.of);
+            writeln!(
+                out,
+                "    {kind} {class}: {count} of {}{share}; worst {distance}",
+                group_digits(rate.of)
+            )?;
+            writeln!(out, "        {}", finding.worst.command)?;
+        }
+    }
+    Ok(())
+}
+
+fn severity(finding: &FindingPart) -> f64 {
+    finding.worst.severity.as_ref().map_or(0.0, |severity| severity.in_space)
+}
+
+fn describe_severity(example: &Example) -> String {
+    match &example.severity {
+        None => "on invalid input".to_owned(),
+        Some(severity) => format!(
+            "{:.3e} of the longest edge ({:.3e} ulps) from the boundary",
+            severity.in_space, severity.in_space_ulps
+        ),
+    }
+}
+
+fn interval_of(count: u64, of: u64) -> String {
+    if of == 0 {
+        return String::new();
+    }
+    let interval = crate::audit::clopper_pearson(count, of);
+    format!(
+        " ({} [{}, {}])",
+        percent(count as f64 / of as f64),
+        percent(interval.low),
+        percent(interval.high)
+    )
+}
+
+/// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.
+fn share_column(rate: &Rate, style: Style) -> String {
+    let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
+    let text = match (rate.rate, rate.interval) {
+        (None, _) => "-".to_owned(),
+        (Some(share), None) => number(share),
+        (Some(share), Some([low, high])) => {
+            format!("{} [{}, {}]", number(share), number(low), number(high))
+        }
+    };
+    let padded = format!("{text:>20}");
+    match (style.color, rate.count) {
+        (true, 1..) => format!("\x1b[31m{padded}\x1b[0m"),
+        (true, 0) => format!("\x1b[32m{padded}\x1b[0m"),
+        _ => padded,
+    }
+}
+
+/// `12.3%`, `0.45%`, `3e-4%`.
+fn percent(share: f64) -> String {
+    let value = share * 100.0;
+    if share == 0.0 {
+        "0%".to_owned()
+    } else if value < 0.001 {
+        format!("{value:.0e}%")
+    } else if value < 1.0 {
+        format!("{value:.2}%")
+    } else {
+        format!("{value:.1}%")
+    }
+}
+
+/// A count in at most six columns: 1,234 or 1.2M.
+fn short_count(count: u64) -> String {
+    match count {
+        0..100_000 => group_digits(count),
+        100_000..1_000_000 => format!("{}k", count / 1000),
+        _ => format!("{:.1}M", count as f64 / 1e6),
+    }
+}
+
+/// Digits in groups of three.
+fn group_digits(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
