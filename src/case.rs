@@ -2,7 +2,7 @@
 
 #![forbid(unsafe_code)]
 
-use crate::arith::{Exact, ExactVector, Float, Vector};
+use crate::arith::{Exact, ExactVector, Float, Vector, scale_by_power_of_two};
 use std::fmt;
 use std::str::FromStr;
 
@@ -328,29 +328,6 @@ fn mix(value: u64) -> u64 {
     z ^ z >> 31
 }
 
-/// `value * 2^exponent`, rounded once (the steps but the last are exact or already zero or
-/// infinite).
-pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
-    while exponent > 1000 {
-        value *= power_of_two(1000);
-        exponent -= 1000;
-    }
-    // Downwards the large step comes last, so that only one product rounds.
-    while exponent < -1000 && value.abs() > power_of_two(1000 - 52) {
-        value *= power_of_two(-900);
-        exponent += 900;
-    }
-    if exponent < -1022 {
-        return value * power_of_two(exponent + 1000) * power_of_two(-1000);
-    }
-    value * power_of_two(exponent)
-}
-
-/// 2 to a power in -1022..=1023.
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023) as u64) << 52)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -369,18 +346,6 @@ mod tests {
         {
             assert!(bad.parse::<CaseId>().is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn scaling_by_powers_of_two_is_exact_or_rounds_once() {
-        assert_eq!(scale_by_power_of_two(1.0, -1074), f64::from_bits(1));
-        assert_eq!(
-            scale_by_power_of_two(f64::MAX, -2000),
-            f64::MAX * 2f64.powi(-1000) * 2f64.powi(-1000)
-        );
-        assert_eq!(scale_by_power_of_two(1.5, 1023), 1.5 * 2f64.powi(1023));
-        assert_eq!(scale_by_power_of_two(f64::from_bits(1), 1100), 2f64.powi(26));
-        assert_eq!(scale_by_power_of_two(-3.0, 0), -3.0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! A kernel run takes at most one square root (a normalisation), so one radicand a run suffices;
 //! a second, different one makes the result NaN rather than wrong.
 
-use super::{Real, Vector};
+use super::{Real, Vector, scale_by_power_of_two};
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -87,6 +87,30 @@ impl Fraction {
         }
     }
 
+    /// As a float in [1/2, 2) (or 0) and a power of two.
+    fn significand(&self) -> (f64, i64) {
+        // 63 leading bits of each keep the quotient within a few ulps.
+        let leading = |n: &BigInt| {
+            let shift = n.bits().saturating_sub(63);
+            let digits = (n >> shift).to_f64().unwrap_or(f64::NAN);
+            (digits * (-63f64).exp2(), shift as i64 + 63)
+        };
+        let ((n, i), (d, j)) = (leading(&self.numerator), leading(&self.denominator));
+        (n / d, i - j + self.exponent)
+    }
+
+    fn approximate(&self) -> f64 {
+        let (digits, exponent) = self.significand();
+        scale_by_power_of_two(digits, exponent.clamp(-4000, 4000) as i32)
+    }
+
+    fn approximate_root(&self) -> f64 {
+        let (digits, exponent) = self.significand();
+        let half = exponent.div_euclid(2);
+        let rest = if exponent.rem_euclid(2) == 1 { 2.0 } else { 1.0 };
+        scale_by_power_of_two((digits * rest).sqrt(), half.clamp(-4000, 4000) as i32)
+    }
+
     /// `1 / self`; `self` is not zero.
     fn reciprocal(&self) -> Fraction {
         let numerator = if self.numerator.is_negative() {
@@ -161,18 +185,21 @@ impl Exact {
 
     /// The nearest float, within a few ulps: for people to read, never for a decision.
     pub fn approximate(&self) -> f64 {
-        let float = |f: &Fraction| f.to_rational().to_f64().unwrap_or(f64::NAN);
         match self {
             Nan => f64::NAN,
-            Infinite(negative) => {
-                if *negative {
-                    f64::NEG_INFINITY
-                } else {
-                    f64::INFINITY
-                }
-            }
-            Rational(p) => float(p),
-            Root { p, q, r } => float(p) + float(q) * float(r).sqrt(),
+            Infinite(true) => f64::NEG_INFINITY,
+            Infinite(false) => f64::INFINITY,
+            Rational(p) => p.approximate(),
+            Root { p, q, r } => p.approximate() + q.approximate() * r.approximate_root(),
+        }
+    }
+
+    /// The square root of a rational that is not negative, as a float within a few ulps, even where
+    /// the number itself is out of the floats' range; NaN of any other number.
+    pub fn approximate_root(&self) -> f64 {
+        match self {
+            Rational(p) => p.approximate_root(),
+            _ => f64::NAN,
         }
     }
 

@@ -55,6 +55,29 @@ pub fn ordered_midpoint<F: Float>(low: F, high: F) -> Option<F> {
     (middle != low && middle != high).then(|| F::from_place(middle))
 }
 
+/// `value * 2^exponent`, rounded once (the steps but the last are exact or already zero or
+/// infinite).
+pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
+    while exponent > 1000 {
+        value *= power_of_two(1000);
+        exponent -= 1000;
+    }
+    // Downwards the large step comes last, so that only one product rounds.
+    while exponent < -1000 && value.abs() > power_of_two(1000 - 52) {
+        value *= power_of_two(-900);
+        exponent += 900;
+    }
+    if exponent < -1022 {
+        return value * power_of_two(exponent + 1000) * power_of_two(-1000);
+    }
+    value * power_of_two(exponent)
+}
+
+/// 2 to a power in -1022..=1023.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
 /// `a*b - c*d` through `f64`, where the products of two `f32` are exact: Woop's fallback.
 fn wide_f32(a: f32, b: f32, c: f32, d: f32) -> f32 {
     (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32
@@ -231,6 +254,18 @@ float!(f64, DVec3, u64, i64, wide_f64);
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scaling_by_powers_of_two_is_exact_or_rounds_once() {
+        assert_eq!(scale_by_power_of_two(1.0, -1074), f64::from_bits(1));
+        assert_eq!(
+            scale_by_power_of_two(f64::MAX, -2000),
+            f64::MAX * 2f64.powi(-1000) * 2f64.powi(-1000)
+        );
+        assert_eq!(scale_by_power_of_two(1.5, 1023), 1.5 * 2f64.powi(1023));
+        assert_eq!(scale_by_power_of_two(f64::from_bits(1), 1100), 2f64.powi(26));
+        assert_eq!(scale_by_power_of_two(-3.0, 0), -3.0);
+    }
 
     #[test]
     fn places_count_ulps_through_zero() {

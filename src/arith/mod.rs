@@ -10,7 +10,7 @@ mod exact;
 mod float;
 
 pub use exact::{Exact, ExactVector, Fraction};
-pub use float::{Float, ordered_midpoint};
+pub use float::{Float, ordered_midpoint, scale_by_power_of_two};
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -3,13 +3,10 @@
 //! Every finding gets an approximate severity in `f64`, by which the worst is chosen; what a report
 //! shows of the chosen ones is computed from exact squares.
 
-use crate::arith::Float;
-use crate::case::Case;
+use crate::arith::{Exact, ExactVector, Float, Real, Vector};
+use crate::case::{Case, Ray, Triangle};
 use crate::judge::Finding;
-use crate::oracle::define;
 use crate::truth::{Feature, Place, Truth};
-use num_rational::BigRational as Rational;
-use num_traits::{Signed, ToPrimitive, Zero};
 
 /// The exact distances behind a finding, rounded to floats from exact squares, in units of the
 /// triangle's longest edge (of length, for a triangle that is a point). `None` where a distance does
@@ -30,36 +27,38 @@ pub struct Severity {
 /// The distances of a case; none for invalid input.
 pub fn exact_severity<F: Float>(case: &Case<F>) -> Option<Severity> {
     let vectors = case.vectors();
-    let [o, d, a, b, c] = vectors.map(exact);
-    let (o, d, a, b, c) = (o?, d?, a?, b?, c?);
-    let d_squared = dot(&d, &d);
-    if d_squared.is_zero() {
+    if vectors.iter().flatten().any(|x| !x.is_finite()) || vectors[1].iter().all(F::is_zero) {
         return None;
     }
+    let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = case.exact();
     let edges = [(&a, &b), (&b, &c), (&c, &a)];
-    let longest = edges.map(|(p, q)| square(&minus(p, q))).into_iter().max().expect("three edges");
-    let unit = if longest.is_zero() { Rational::from_integer(1.into()) } else { longest };
+    let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(larger)?;
+    let unit = if longest.is_zero() { Exact::one() } else { longest };
+    let relative = |square: Exact| (square / &unit).approximate_root();
 
-    let t = define(case).exact.t;
-    let in_plane = t.as_ref().map(|t| {
-        let hit = std::array::from_fn(|i| &o[i] + t * &d[i]);
-        smallest(edges.map(|(p, q)| point_to_segment(&hit, p, q)))
+    let n = b.minus(&a).cross(&c.minus(&a));
+    let capital_d = n.dot(&d);
+    let t = (!capital_d.is_zero()).then(|| n.dot(&a.minus(&o)) / capital_d);
+    let in_plane = t.as_ref().and_then(|t| {
+        let hit = o.plus(&d.times(t));
+        edges.map(|(p, q)| point_to_segment(&hit, p, q)).into_iter().reduce(smaller)
     });
-    let in_space = smallest(edges.map(|(p, q)| line_to_segment(&o, &d, p, q)));
-    let along = t.as_ref().and_then(|t| {
-        let ends = [case.ray.t_min, case.ray.t_max].into_iter();
-        let gaps = ends.filter_map(|end| Rational::from_float(end.to_f64())).map(|end| t - end);
-        gaps.map(|gap| &gap * &gap * &d_squared).min()
+    let in_space = edges.map(|(p, q)| line_to_segment(&o, &d, p, q)).into_iter().reduce(smaller)?;
+    let along = t.and_then(|t| {
+        let ends = [case.ray.t_min, case.ray.t_max].into_iter().filter(F::is_finite);
+        let gaps = ends.map(|end| (t.clone() - Exact::from_f64(end.to_f64())).abs());
+        let gap = gaps.reduce(smaller)?;
+        Some(gap.clone() * gap * square(&d))
     });
     let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
     let largest =
         points.iter().flatten().map(F::abs).fold(F::zero(), |m, x| if m < x { x } else { m });
-    let ulp = Rational::from_float(largest.ulp().to_f64())?;
+    let ulp = Exact::from_f64(largest.ulp().to_f64());
     Some(Severity {
-        in_plane: in_plane.map(|square| root_of_ratio(square, &unit)),
-        in_space: root_of_ratio(in_space, &unit),
-        along: along.map(|square| root_of_ratio(square, &unit)),
-        edge_in_ulps: root_of_ratio(unit.clone(), &(&ulp * &ulp)),
+        in_plane: in_plane.map(relative),
+        in_space: relative(in_space),
+        along: along.map(relative),
+        edge_in_ulps: (unit.clone() / (ulp.clone() * ulp)).approximate_root(),
     })
 }
 
@@ -103,73 +102,39 @@ pub(super) fn approximate<F: Float>(case: &Case<F>, truth: &Truth, finding: Find
     if relative.is_finite() { relative } else { 0.0 }
 }
 
-type Point = [Rational; 3];
-
-fn exact<F: Float>(v: [F; 3]) -> Option<Point> {
-    let [x, y, z] = v.map(|x| Rational::from_float(x.to_f64()));
-    Some([x?, y?, z?])
+fn smaller(a: Exact, b: Exact) -> Exact {
+    if b.is_less(&a) { b } else { a }
 }
 
-fn smallest(squares: [Rational; 3]) -> Rational {
-    squares.into_iter().min().expect("three edges")
+fn larger(a: Exact, b: Exact) -> Exact {
+    if a.is_less(&b) { b } else { a }
+}
+
+fn square(v: &ExactVector) -> Exact {
+    v.dot(v)
 }
 
 /// The square of the distance between a point and a segment.
-fn point_to_segment(x: &Point, p: &Point, q: &Point) -> Rational {
-    let (edge, offset) = (minus(q, p), minus(p, x));
-    let s = nearest_on_segment(-dot(&offset, &edge), square(&edge));
-    square(&std::array::from_fn(|i| &offset[i] + &s * &edge[i]))
+fn point_to_segment(x: &ExactVector, p: &ExactVector, q: &ExactVector) -> Exact {
+    let (edge, offset) = (q.minus(p), p.minus(x));
+    let s = nearest_on_segment(-offset.dot(&edge), square(&edge));
+    square(&offset.plus(&edge.times(&s)))
 }
 
 /// The square of the distance between a line and a segment: |(p - o + s·(q - p)) × d|² / |d|² at the
 /// s in [0, 1] that makes it least.
-fn line_to_segment(o: &Point, d: &Point, p: &Point, q: &Point) -> Rational {
-    let (offset, slope) = (cross(&minus(p, o), d), cross(&minus(q, p), d));
-    let s = nearest_on_segment(-dot(&offset, &slope), square(&slope));
-    square(&std::array::from_fn(|i| &offset[i] + &s * &slope[i])) / square(d)
+fn line_to_segment(o: &ExactVector, d: &ExactVector, p: &ExactVector, q: &ExactVector) -> Exact {
+    let (offset, slope) = (p.minus(o).cross(d), q.minus(p).cross(d));
+    let s = nearest_on_segment(-offset.dot(&slope), square(&slope));
+    square(&offset.plus(&slope.times(&s))) / square(d)
 }
 
 /// `numerator / denominator` cut to [0, 1]; 0 if the denominator is zero.
-fn nearest_on_segment(numerator: Rational, denominator: Rational) -> Rational {
-    let one = Rational::from_integer(1.into());
-    if denominator.is_zero() || numerator.is_negative() {
-        return Rational::zero();
+fn nearest_on_segment(numerator: Exact, denominator: Exact) -> Exact {
+    if denominator.is_zero() || numerator.is_sign_negative() {
+        return Exact::zero();
     }
-    (numerator / denominator).min(one)
-}
-
-/// √(square / unit) as a float, without overflow where the root is in range.
-fn root_of_ratio(square: Rational, unit: &Rational) -> f64 {
-    let ratio = square / unit;
-    if ratio.is_zero() {
-        return 0.0;
-    }
-    // An even shift brings the ratio near 1.
-    let bits = ratio.numer().bits() as i64 - ratio.denom().bits() as i64;
-    let half = bits.div_euclid(2);
-    let shift = Rational::from_integer(num_bigint::BigInt::from(1) << (2 * half.unsigned_abs()));
-    let near_one = if half >= 0 { ratio / shift } else { ratio * shift };
-    let root = near_one.to_f64().unwrap_or(f64::NAN).sqrt();
-    crate::case::scale_by_power_of_two(root, half.clamp(-5000, 5000) as i32)
-}
-
-fn minus(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| &a[i] - &b[i])
-}
-
-fn dot(a: &Point, b: &Point) -> Rational {
-    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
-}
-
-fn square(a: &Point) -> Rational {
-    dot(a, a)
-}
-
-fn cross(a: &Point, b: &Point) -> Point {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        &a[j] * &b[k] - &a[k] * &b[j]
-    })
+    smaller(numerator / denominator, Exact::one())
 }
 
 #[cfg(test)]
@@ -203,7 +168,7 @@ mod tests {
     #[test]
     fn the_approximation_follows_the_exact_value_at_every_scale() {
         for scale in [-900, -300, 0, 300] {
-            let by = |x: f64| crate::case::scale_by_power_of_two(x, scale);
+            let by = |x: f64| crate::arith::scale_by_power_of_two(x, scale);
             let case = Case::<f64>::new(
                 [2.0, -3.0, 2.0].map(by),
                 [0.0, 1.0, -1.0],

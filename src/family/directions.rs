@@ -4,7 +4,8 @@ use super::control::{aimed, interior_weights};
 use super::integer::{IntegerCase, minus, normal, plus, shuffle, times, triangle_with_edge_point};
 use super::{Made, Recipe};
 use crate::arith::Float;
-use crate::case::{Case, Draw, scale_by_power_of_two};
+use crate::arith::scale_by_power_of_two;
+use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 

@@ -24,7 +24,8 @@ pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 
 use crate::arith::Float;
-use crate::case::{Case, CaseId, Draw, Parameters, scale_by_power_of_two};
+use crate::arith::scale_by_power_of_two;
+use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 

@@ -6,7 +6,8 @@ use super::integer::{
 };
 use super::{Made, Recipe};
 use crate::arith::Float;
-use crate::case::{Case, Draw, scale_by_power_of_two};
+use crate::arith::scale_by_power_of_two;
+use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
