@@ -33,7 +33,7 @@ pub struct AuditArguments {
     #[arg(
         long,
         short = 'n',
-        default_value = "10000",
+        default_value = "20000",
         value_name = "N",
         allow_hyphen_values = true
     )]

@@ -58,6 +58,21 @@ impl RowView<'_> {
         }
     }
 
+    /// How many cases could have shown a kind of finding: of one class, or of all.
+    fn trials(&self, kind: &str, class: &str) -> u64 {
+        let of = |counts: &Counts| match kind {
+            "false-miss" => counts.false_misses.of,
+            "false-hit" => counts.false_hits.of,
+            "bad-value" => counts.bad_values.of,
+            _ => counts.cases,
+        };
+        let of_result = |result: &&KernelResult| match class {
+            "" => of(&result.total),
+            class => result.classes.get(class).map_or(0, of),
+        };
+        self.results.iter().map(of_result).sum()
+    }
+
     /// The family with the largest share.
     fn worst_family(&self, rate: impl Fn(&KernelResult) -> &Rate) -> &str {
         let share = |result: &KernelResult| rate(result).rate.unwrap_or(0.0);
@@ -125,7 +140,40 @@ fn write_scalar(
             if cracks.of == 0 { "-".to_owned() } else { short_count(cracks.count) },
         )?;
     }
+    write_exact_shares(record, scalar, &rows, out)?;
     write_worst(&rows, style, out)
+}
+
+/// For each mesh the share of its rays that meet an edge or a vertex exactly.
+fn write_exact_shares(
+    record: &Record,
+    scalar: &str,
+    rows: &[RowView],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let Some(row) = rows.first() else { return Ok(()) };
+    let meshes = record
+        .result
+        .sources
+        .iter()
+        .filter(|s| s.scalar == scalar && s.family.starts_with("mesh:"));
+    for source in meshes {
+        let Some(result) = row.results.iter().find(|r| r.family == source.family) else { continue };
+        let of_part = |part: &str| -> u64 {
+            let named = result.classes.iter().filter(|(name, _)| name.starts_with(part));
+            named.map(|(_, counts)| counts.cases).sum()
+        };
+        let (edges, vertices) = (of_part("edge/"), of_part("vertex/"));
+        let share = interval_of(edges + vertices, source.cases);
+        writeln!(
+            out,
+            "{}: {} rays meet an edge and {} a vertex exactly{share}",
+            source.family,
+            group_digits(edges),
+            group_digits(vertices)
+        )?;
+    }
+    Ok(())
 }
 
 /// For each row and finding the worst example of each class, or of all classes together.
@@ -135,14 +183,11 @@ fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Resul
     let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
     writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
     for row in rows {
-        let mut worst: BTreeMap<(&str, &str), (Rate, &FindingPart)> = BTreeMap::new();
+        let mut worst: BTreeMap<(&str, &str), (u64, &FindingPart)> = BTreeMap::new();
         for finding in row.results.iter().flat_map(|result| &result.findings) {
             let class = if by_class { finding.class.as_str() } else { "" };
-            let entry = worst
-                .entry((finding.finding.as_str(), class))
-                .or_insert_with(|| (Rate { count: 0, of: 0, rate: None, interval: None }, finding));
-            entry.0.count += finding.rate.count;
-            entry.0.of += finding.rate.of;
+            let entry = worst.entry((&finding.finding, class)).or_insert((0, finding));
+            entry.0 += finding.rate.count;
             if severity(entry.1) < severity(finding) {
                 entry.1 = finding;
             }
@@ -153,15 +198,16 @@ fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Resul
             continue;
         }
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
-        for ((kind, _), (rate, finding)) in &worst {
+        for ((kind, class), (count, finding)) in &worst {
+            let of = row.trials(kind, class);
+            let share = interval_of(*count, of);
+            let (count, of) = (group_digits(*count), group_digits(of));
             let distance = describe_severity(&finding.worst);
-            let count = group_digits(rate.count);
-            let class = &finding.class;
-            let share = interval_of(rate.count, rate.of);
+            let class = if class.is_empty() { "" } else { &format!(" {class}") };
             writeln!(
                 out,
-                "    {kind} {class}: {count} of {}{share}; worst {distance}",
-                group_digits(rate.of)
+                "    {kind}{class}: {count} of {of}{share}; worst {}, {distance}",
+                finding.class
             )?;
             writeln!(out, "        {}", finding.worst.command)?;
         }
@@ -176,8 +222,9 @@ fn severity(finding: &FindingPart) -> f64 {
 fn describe_severity(example: &Example) -> String {
     match &example.severity {
         None => "on invalid input".to_owned(),
+        Some(severity) if severity.in_space == 0.0 => "exactly on the boundary".to_owned(),
         Some(severity) => format!(
-            "{:.3e} of the longest edge ({:.3e} ulps) from the boundary",
+            "the line {:.2e} of the longest edge ({:.2e} ulps) from the boundary",
             severity.in_space, severity.in_space_ulps
         ),
     }
