@@ -1,1 +1,110 @@
-fn main() {}
+//! What an audit costs beside the kernels it runs: `cargo bench --bench audit`.
+//!
+//! Each line times, in one run on one thread: the bare kernels on cases that lie ready, the oracle
+//! on the same cases, and the whole audit of them (cases made, asked, run, judged, added up). The
+//! figure to watch is the audit's time over the bare kernels'.
+
+use hairline::audit::{EpsilonChoice, Observer, Plan, Source, run};
+use hairline::case::{Case, Parameters};
+use hairline::family::{FAMILIES, Family};
+use hairline::kernel::{KERNELS, Scalar, Verdict};
+use hairline::oracle;
+use std::hint::black_box;
+use std::time::Instant;
+
+struct Clock(Instant);
+
+impl Observer for Clock {
+    fn advance(&self, _: u64) {}
+    fn now(&self) -> u64 {
+        self.0.elapsed().as_nanos() as u64
+    }
+}
+
+/// Median of five, in nanoseconds.
+fn median(mut work: impl FnMut()) -> f64 {
+    let mut times: Vec<f64> = (0..5)
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed().as_nanos() as f64
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[2]
+}
+
+fn plan(families: &[&'static Family], count: u64, scalars: [bool; 2]) -> Plan {
+    let entries: Vec<_> = KERNELS.iter().collect();
+    let source = |family: &&'static Family| Source::Family {
+        family,
+        parameters: Parameters::default(),
+        seed: 1,
+        count,
+        exhaustive: false,
+    };
+    let rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
+    Plan { rows, sources: families.iter().map(source).collect(), scalars, examples: 3 }
+}
+
+fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
+    let plan = plan(families, count, [F::NAME == "f32", F::NAME == "f64"]);
+    let chunks: Vec<Vec<Case<F>>> = families
+        .iter()
+        .flat_map(|family| {
+            let cases: Vec<Case<F>> = (0..count)
+                .flat_map(|i| family.make::<F>(&Parameters::default(), 1, i).cases().to_vec())
+                .collect();
+            cases.chunks(1024).map(<[_]>::to_vec).collect::<Vec<_>>()
+        })
+        .collect();
+    let cases = chunks.iter().map(Vec::len).sum::<usize>() as f64;
+    let kernels = median(|| {
+        for row in &plan.rows {
+            let epsilons = row.epsilons::<F>();
+            for chunk in &chunks {
+                let mut verdicts = vec![Verdict::miss(None); chunk.len()];
+                F::subject(row.entry).run(black_box(chunk), &epsilons, &mut verdicts);
+                black_box(&verdicts);
+            }
+        }
+    });
+    let oracle = median(|| {
+        for case in chunks.iter().flatten() {
+            black_box(oracle::truth(black_box(case)));
+        }
+    });
+    let audit = median(|| {
+        black_box(run(&plan, &Clock(Instant::now())).cells.len());
+    });
+    println!(
+        "{name:<22} {} {:>10.0} {:>10.0} {:>10.0} {:>8.2}",
+        F::NAME,
+        kernels / cases,
+        oracle / cases,
+        audit / cases,
+        audit / kernels
+    );
+}
+
+fn main() {
+    // cargo passes --bench; a filter would be the first other word.
+    let filter = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    pool.install(|| {
+        println!("ns a case, one thread, {} kernels with their default epsilons", KERNELS.len());
+        println!(
+            "{:<26} {:>10} {:>10} {:>10} {:>8}",
+            "family", "kernels", "oracle", "audit", "ratio"
+        );
+        let all: Vec<&'static Family> = FAMILIES.iter().collect();
+        if "all".contains(&filter) {
+            line::<f32>("all families", &all, 2000);
+            line::<f64>("all families", &all, 2000);
+        }
+        for family in FAMILIES.iter().filter(|family| family.name.contains(&filter)) {
+            line::<f32>(family.name, &[family], 5000);
+            line::<f64>(family.name, &[family], 5000);
+        }
+    });
+}
