@@ -1,7 +1,7 @@
 //! Floor 2: where cases come from. One family a file, each with its promise, which the oracle checks
 //! on every case.
 //!
-//! To add a family: write its file with a [`Recipe`], and give it a row in [`FAMILIES`].
+//! To add a family: write its file with a `Recipe`, and give it a row in [`FAMILIES`].
 
 #![forbid(unsafe_code)]
 
