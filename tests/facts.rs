@@ -3,7 +3,7 @@
 use hairline::arith::Float;
 use hairline::audit::{Audit, EpsilonChoice, Observer, Plan, Source, Tally, run};
 use hairline::case::{Case, Parameters};
-use hairline::contract::{Contract, NAMED};
+use hairline::contract::{NAMED, NamedContract};
 use hairline::family;
 use hairline::judge::{Class, Finding};
 use hairline::kernel::{self, KERNELS, Scalar, Verdict};
@@ -21,7 +21,7 @@ impl Observer for Quiet {
 fn audit(
     kernels: &[&str],
     choice: EpsilonChoice,
-    contract: Option<Contract>,
+    contract: Option<&'static NamedContract>,
     name: &str,
     count: Option<u64>,
 ) -> (Plan, Audit) {
@@ -88,7 +88,7 @@ fn false_misses_over_the_whole_lattice_are_those_known() {
 
 #[test]
 fn scalar_triple_two_sided_misses_every_exact_edge_of_the_lattice() {
-    let closed_line = NAMED.iter().find(|named| named.name == "closed-line").unwrap().contract;
+    let closed_line = NAMED.iter().find(|named| named.name == "closed-line").unwrap();
     let kernels = ["scalar-triple-two-sided"];
     let run = audit(&kernels, EpsilonChoice::Source, Some(closed_line), "lattice", None);
     for scalar in ["f32", "f64"] {

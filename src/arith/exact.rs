@@ -3,124 +3,11 @@
 //! A kernel run takes at most one square root (a normalisation), so one radicand a run suffices;
 //! a second, different one makes the result NaN rather than wrong.
 
-use super::{Real, Vector, scale_by_power_of_two};
-use num_bigint::{BigInt, Sign};
+use super::{Fraction, Real, Vector};
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
-
-/// A rational `numerator / denominator * 2^exponent`, never reduced by a gcd: on the short formulas
-/// of a kernel the digits grow less than gcds cost.
-#[derive(Clone, Debug)]
-pub struct Fraction {
-    numerator: BigInt,
-    /// Positive.
-    denominator: BigInt,
-    exponent: i64,
-}
-
-impl Fraction {
-    /// The exact value of a finite float.
-    pub fn from_f64(value: f64) -> Fraction {
-        let bits = value.to_bits();
-        let field = (bits >> 52 & 0x7ff) as i64;
-        let fraction = (bits & ((1 << 52) - 1)) as i64;
-        let (mut digits, mut exponent) =
-            if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
-        if digits == 0 {
-            exponent = 0;
-        } else {
-            exponent += i64::from(digits.trailing_zeros());
-            digits >>= digits.trailing_zeros();
-        }
-        let signed = if value.is_sign_negative() { -digits } else { digits };
-        Fraction { numerator: BigInt::from(signed), denominator: BigInt::one(), exponent }
-    }
-
-    /// As a reduced rational.
-    pub fn to_rational(&self) -> BigRational {
-        let power = BigInt::one() << self.exponent.unsigned_abs();
-        if self.exponent < 0 {
-            BigRational::new(self.numerator.clone(), &self.denominator * power)
-        } else {
-            BigRational::new(&self.numerator * power, self.denominator.clone())
-        }
-    }
-
-    fn zero() -> Fraction {
-        Fraction::from_f64(0.0)
-    }
-
-    fn sign(&self) -> Ordering {
-        match self.numerator.sign() {
-            Sign::Minus => Ordering::Less,
-            Sign::NoSign => Ordering::Equal,
-            Sign::Plus => Ordering::Greater,
-        }
-    }
-
-    fn add(&self, other: &Fraction) -> Fraction {
-        let exponent = self.exponent.min(other.exponent);
-        let align = |f: &Fraction| &f.numerator << (f.exponent - exponent);
-        if self.denominator == other.denominator {
-            let numerator = align(self) + align(other);
-            return Fraction { numerator, denominator: self.denominator.clone(), exponent };
-        }
-        Fraction {
-            numerator: align(self) * &other.denominator + align(other) * &self.denominator,
-            denominator: &self.denominator * &other.denominator,
-            exponent,
-        }
-    }
-
-    fn negated(&self) -> Fraction {
-        Fraction { numerator: -&self.numerator, ..self.clone() }
-    }
-
-    fn mul(&self, other: &Fraction) -> Fraction {
-        Fraction {
-            numerator: &self.numerator * &other.numerator,
-            denominator: &self.denominator * &other.denominator,
-            exponent: self.exponent + other.exponent,
-        }
-    }
-
-    /// As a float in [1/2, 2) (or 0) and a power of two.
-    fn significand(&self) -> (f64, i64) {
-        // 63 leading bits of each keep the quotient within a few ulps.
-        let leading = |n: &BigInt| {
-            let shift = n.bits().saturating_sub(63);
-            let digits = (n >> shift).to_f64().unwrap_or(f64::NAN);
-            (digits * (-63f64).exp2(), shift as i64 + 63)
-        };
-        let ((n, i), (d, j)) = (leading(&self.numerator), leading(&self.denominator));
-        (n / d, i - j + self.exponent)
-    }
-
-    fn approximate(&self) -> f64 {
-        let (digits, exponent) = self.significand();
-        scale_by_power_of_two(digits, exponent.clamp(-4000, 4000) as i32)
-    }
-
-    fn approximate_root(&self) -> f64 {
-        let (digits, exponent) = self.significand();
-        let half = exponent.div_euclid(2);
-        let rest = if exponent.rem_euclid(2) == 1 { 2.0 } else { 1.0 };
-        scale_by_power_of_two((digits * rest).sqrt(), half.clamp(-4000, 4000) as i32)
-    }
-
-    /// `1 / self`; `self` is not zero.
-    fn reciprocal(&self) -> Fraction {
-        let numerator = if self.numerator.is_negative() {
-            -&self.denominator
-        } else {
-            self.denominator.clone()
-        };
-        Fraction { numerator, denominator: self.numerator.abs(), exponent: -self.exponent }
-    }
-}
 
 /// An exact number of a kernel run. One zero, whose sign bit reads positive.
 #[derive(Clone, Debug)]
@@ -204,7 +91,7 @@ impl Exact {
     }
 
     fn combine(p: Fraction, q: Fraction, r: &Arc<Fraction>) -> Exact {
-        if q.numerator.is_zero() { Rational(p) } else { Root { p, q, r: Arc::clone(r) } }
+        if q.is_zero() { Rational(p) } else { Root { p, q, r: Arc::clone(r) } }
     }
 
     fn sum(&self, other: &Exact) -> Exact {
@@ -269,7 +156,7 @@ impl Exact {
                 // 1/(p + q√r) = (p - q√r) / (p² - q²r). The norm is zero only if √r is rational and
                 // p = q√r; then the number is 2p.
                 let norm = p.mul(p).add(&q.mul(q).mul(r).negated());
-                if norm.numerator.is_zero() {
+                if norm.is_zero() {
                     return Rational(p.add(p).reciprocal());
                 }
                 let inverse = norm.reciprocal();
@@ -289,7 +176,7 @@ impl Exact {
 }
 
 fn same_root(a: &Arc<Fraction>, b: &Arc<Fraction>) -> bool {
-    Arc::ptr_eq(a, b) || a.add(&b.negated()).numerator.is_zero()
+    Arc::ptr_eq(a, b) || a.add(&b.negated()).is_zero()
 }
 
 macro_rules! operator {

@@ -8,9 +8,11 @@
 
 mod exact;
 mod float;
+mod fraction;
 
-pub use exact::{Exact, ExactVector, Fraction};
+pub use exact::{Exact, ExactVector};
 pub use float::{Float, ordered_midpoint, scale_by_power_of_two};
+pub use fraction::Fraction;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

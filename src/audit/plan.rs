@@ -2,7 +2,7 @@
 
 use super::source::Source;
 use crate::arith::Float;
-use crate::contract::Contract;
+use crate::contract::{Contract, NamedContract};
 use crate::kernel::{Entry, Gate, PRESETS, Preset, PresetValue, Tunable, nearest_name};
 use std::fmt;
 
@@ -46,6 +46,8 @@ pub struct Row {
     pub epsilons: Vec<EpsilonText>,
     /// The contract it is judged by.
     pub contract: Contract,
+    /// The contract's name, if it is not the kernel's own.
+    pub contract_name: Option<&'static str>,
 }
 
 impl Row {
@@ -109,16 +111,17 @@ impl fmt::Display for PlanError {
 impl std::error::Error for PlanError {}
 
 impl EpsilonChoice {
-    /// The rows of some kernels under this choice; `contract` overrides each kernel's own.
+    /// The rows of some kernels under this choice; a named contract overrides each kernel's own.
     pub fn rows(
         &self,
         entries: &[&'static Entry],
-        contract: Option<Contract>,
+        named: Option<&'static NamedContract>,
     ) -> Result<Vec<Row>, PlanError> {
+        let contract_name = named.map(|named| named.name);
         let mut rows = Vec::new();
         let mut applied = vec![false; self.given().len()];
         for entry in entries {
-            let contract = contract.unwrap_or(entry.info.contract);
+            let contract = named.map_or(entry.info.contract, |named| named.contract);
             let decimals = |values: &[&str]| -> Vec<EpsilonText> {
                 values.iter().map(|text| EpsilonText::Decimal((*text).to_owned())).collect()
             };
@@ -129,6 +132,7 @@ impl EpsilonChoice {
                     set: set.name.to_owned(),
                     epsilons: decimals(set.values),
                     contract,
+                    contract_name,
                 })),
                 EpsilonChoice::Preset(name) => {
                     let preset = find_preset(name)?;
@@ -144,7 +148,13 @@ impl EpsilonChoice {
                         }
                     }
                     if fits {
-                        rows.push(Row { entry, set: name.clone(), epsilons, contract });
+                        rows.push(Row {
+                            entry,
+                            set: name.clone(),
+                            epsilons,
+                            contract,
+                            contract_name,
+                        });
                     }
                 }
                 EpsilonChoice::Given(pairs) => {
@@ -161,7 +171,7 @@ impl EpsilonChoice {
                     }
                     let set =
                         if words.is_empty() { sets[0].name.to_owned() } else { words.join(",") };
-                    rows.push(Row { entry, set, epsilons, contract });
+                    rows.push(Row { entry, set, epsilons, contract, contract_name });
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::exit::Failure;
 use crate::audit::{EpsilonChoice, Row};
-use crate::contract::{Contract, NAMED};
+use crate::contract::{NAMED, NamedContract};
 use crate::kernel::{Entry, KERNELS, find, nearest_name};
 use clap::Args;
 
@@ -67,11 +67,11 @@ impl KernelArguments {
         Ok(EpsilonChoice::Given(pairs.collect::<Result<_, Failure>>()?))
     }
 
-    fn contract(&self) -> Result<Option<Contract>, Failure> {
+    fn contract(&self) -> Result<Option<&'static NamedContract>, Failure> {
         let Some(name) = &self.contract else { return Ok(None) };
         let names = NAMED.iter().map(|named| named.name);
         match NAMED.iter().find(|named| named.name == name) {
-            Some(named) => Ok(Some(named.contract)),
+            Some(named) => Ok(Some(named)),
             None if name == "own" => Ok(None),
             None => Err(unknown("contract", name, names, "hairline list contracts")),
         }

@@ -190,6 +190,9 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
     if let Some(epsilons) = row.epsilon_argument() {
         command.push_str(&format!(" --epsilon '{epsilons}'"));
     }
+    if let Some(contract) = row.contract_name {
+        command.push_str(&format!(" --contract {contract}"));
+    }
     Example {
         case: source.id::<F>(place.index, triangle),
         bits: case.hex(),

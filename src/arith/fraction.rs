@@ -1,0 +1,122 @@
+//! Rationals that are never reduced, with a power of two beside them.
+
+use super::scale_by_power_of_two;
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive};
+use std::cmp::Ordering;
+
+/// A rational `numerator / denominator * 2^exponent`, never reduced by a gcd: on the short formulas
+/// of a kernel the digits grow less than gcds cost.
+#[derive(Clone, Debug)]
+pub struct Fraction {
+    numerator: BigInt,
+    /// Positive.
+    denominator: BigInt,
+    exponent: i64,
+}
+
+impl Fraction {
+    /// The exact value of a finite float.
+    pub fn from_f64(value: f64) -> Fraction {
+        let bits = value.to_bits();
+        let field = (bits >> 52 & 0x7ff) as i64;
+        let fraction = (bits & ((1 << 52) - 1)) as i64;
+        let (mut digits, mut exponent) =
+            if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+        if digits == 0 {
+            exponent = 0;
+        } else {
+            exponent += i64::from(digits.trailing_zeros());
+            digits >>= digits.trailing_zeros();
+        }
+        let signed = if value.is_sign_negative() { -digits } else { digits };
+        Fraction { numerator: BigInt::from(signed), denominator: BigInt::one(), exponent }
+    }
+
+    /// As a reduced rational.
+    pub fn to_rational(&self) -> BigRational {
+        let power = BigInt::one() << self.exponent.unsigned_abs();
+        if self.exponent < 0 {
+            BigRational::new(self.numerator.clone(), &self.denominator * power)
+        } else {
+            BigRational::new(&self.numerator * power, self.denominator.clone())
+        }
+    }
+
+    pub(super) fn zero() -> Fraction {
+        Fraction::from_f64(0.0)
+    }
+
+    pub(super) fn sign(&self) -> Ordering {
+        match self.numerator.sign() {
+            Sign::Minus => Ordering::Less,
+            Sign::NoSign => Ordering::Equal,
+            Sign::Plus => Ordering::Greater,
+        }
+    }
+
+    pub(super) fn add(&self, other: &Fraction) -> Fraction {
+        let exponent = self.exponent.min(other.exponent);
+        let align = |f: &Fraction| &f.numerator << (f.exponent - exponent);
+        if self.denominator == other.denominator {
+            let numerator = align(self) + align(other);
+            return Fraction { numerator, denominator: self.denominator.clone(), exponent };
+        }
+        Fraction {
+            numerator: align(self) * &other.denominator + align(other) * &self.denominator,
+            denominator: &self.denominator * &other.denominator,
+            exponent,
+        }
+    }
+
+    pub(super) fn negated(&self) -> Fraction {
+        Fraction { numerator: -&self.numerator, ..self.clone() }
+    }
+
+    pub(super) fn mul(&self, other: &Fraction) -> Fraction {
+        Fraction {
+            numerator: &self.numerator * &other.numerator,
+            denominator: &self.denominator * &other.denominator,
+            exponent: self.exponent + other.exponent,
+        }
+    }
+
+    /// As a float in [1/2, 2) (or 0) and a power of two.
+    pub(super) fn significand(&self) -> (f64, i64) {
+        // 63 leading bits of each keep the quotient within a few ulps.
+        let leading = |n: &BigInt| {
+            let shift = n.bits().saturating_sub(63);
+            let digits = (n >> shift).to_f64().unwrap_or(f64::NAN);
+            (digits * (-63f64).exp2(), shift as i64 + 63)
+        };
+        let ((n, i), (d, j)) = (leading(&self.numerator), leading(&self.denominator));
+        (n / d, i - j + self.exponent)
+    }
+
+    pub(super) fn approximate(&self) -> f64 {
+        let (digits, exponent) = self.significand();
+        scale_by_power_of_two(digits, exponent.clamp(-4000, 4000) as i32)
+    }
+
+    pub(super) fn approximate_root(&self) -> f64 {
+        let (digits, exponent) = self.significand();
+        let half = exponent.div_euclid(2);
+        let rest = if exponent.rem_euclid(2) == 1 { 2.0 } else { 1.0 };
+        scale_by_power_of_two((digits * rest).sqrt(), half.clamp(-4000, 4000) as i32)
+    }
+
+    /// `1 / self`; `self` is not zero.
+    pub(super) fn reciprocal(&self) -> Fraction {
+        let numerator = if self.numerator.is_negative() {
+            -&self.denominator
+        } else {
+            self.denominator.clone()
+        };
+        Fraction { numerator, denominator: self.numerator.abs(), exponent: -self.exponent }
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        self.sign() == Ordering::Equal
+    }
+}
