@@ -71,9 +71,10 @@ impl<F: Float> Case<F> {
     }
 
     /// Origin, direction, a, b, c.
+    #[inline(always)]
     pub fn vectors(&self) -> [[F; 3]; 5] {
         let Triangle { a, b, c } = self.triangle;
-        [self.ray.origin, self.ray.direction, a, b, c].map(Into::into)
+        [self.ray.origin.into(), self.ray.direction.into(), a.into(), b.into(), c.into()]
     }
 
     /// The case in `f64`, which holds every `f32` exactly.

@@ -1,116 +1,203 @@
-//! The first layer: all signs at once in `f64`, each with an error bound from its permanent.
+//! The first layer: all signs at once in `f64`, each with an error bound from its permanent, and one
+//! branch for "all certain".
 //!
-//! With A = a-o, B = b-o, C = c-o the three cross products are shared: U = d·(C×B), V = d·(A×C),
-//! W = d·(B×A), D = -(U+V+W) and T = A·(B×C).
+//! With A = a-o, B = b-o, C = c-o the three cross products are shared: -U = d·(B×C), -V = d·(C×A),
+//! -W = d·(A×B), D = -U-V-W and T = A·(B×C).
 //!
 //! Error bounds (u = 2^-53 is the unit roundoff). A term of U is a product d_i·(x·y) of one given
 //! and two subtracted numbers. Its computed value passes through 2 subtractions, 1 product, 1
 //! difference, 1 product and 2 sums: 7 roundings, so it carries a factor within (1+u)^±7. The
 //! permanent P (the same sum over absolute values) is computed with as many roundings and is at
 //! least (1-u)^7 times its exact value. Hence
-//! |U_computed - U| ≤ ((1+u)^7 - 1)/(1-u)^7 · P_computed < 8u·P_computed, and the product 8u·P is
-//! exact. T has a third subtracted factor: 8 roundings, below 16u·P. D by U+V+W has 2 further sums
-//! over the sum of the three permanents: 9 roundings, below 16u·(P_U+P_V+P_W).
+//! |U_computed - U| ≤ ((1+u)^7 - 1)/(1-u)^7 · P_computed < 8u·P_computed.
+//! T has a third subtracted factor: 8 roundings, below 16u·P. D by U+V+W has 2 further sums over the
+//! sum of the three permanents: 9 roundings, below 16u·(P_U+P_V+P_W).
 //!
-//! Underflow and overflow: coordinates are at most 2^150 in absolute value, so nothing overflows
-//! (three factors below 2^152, nine terms). A product that underflows is off by at most 2^-1075;
-//! multiplied by the other factors (below 2^151 each) and added up (fewer than 2^6 of them), the
-//! sum is off by less than 2^-900, which is added to each bound; the same holds for the permanents.
+//! Underflow: a product that underflows is off by at most 2^-1075. In U at most two such products
+//! meet each d_i, and three more stand alone; so the values and the permanents are off by less than
+//! 2^-1070·(|d|₁ + 1) in all, and with A for d the same holds for T. 2^-1000 times the same factor is
+//! added to each bound, which also covers the rounding of the bounds themselves.
+//!
+//! Overflow, infinities and NaN need no test: they make a permanent infinite or NaN, and then nothing
+//! is certain. A zero direction makes every weight zero, which is never certain either.
 
 use super::signs::Signs;
+use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
-use std::cmp::Ordering;
+use std::ops::{Add, Mul, Sub};
 
 const U: f64 = f64::EPSILON / 2.0;
-/// The largest coordinate for which nothing overflows: 2^150.
-const LARGEST: f64 = f64::from_bits((1023 + 150) << 52);
-/// What underflow can add to an error: 2^-900.
-const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
+/// More than underflow can add, relative to a vector's length: 2^-1000.
+const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
-/// The truth, if every sign that it depends on is certain.
-#[inline]
-pub(super) fn decide(case: &Case<f64>) -> Option<Truth> {
-    let [o, d, a, b, c] = case.vectors();
-    let largest = [o, d, a, b, c].iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    if largest > LARGEST {
-        return None;
+/// Cases that go through the filter together.
+pub(super) const LANES: usize = 4;
+
+/// One number of each of N cases. Plain loops over fixed arrays: compilers make vector instructions
+/// of them (and calls of `map` and `from_fn`).
+#[derive(Clone, Copy)]
+struct Lanes<const N: usize>([f64; N]);
+
+impl<const N: usize> Lanes<N> {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Lanes([x; N])
     }
-    let [a, b, c] = [a, b, c].map(|p| [p[0] - o[0], p[1] - o[1], p[2] - o[2]]);
+
+    #[inline(always)]
+    fn abs(mut self) -> Self {
+        for x in &mut self.0 {
+            *x = x.abs();
+        }
+        self
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($trait:ident, $method:ident, $operator:tt) => {
+        impl<const N: usize> $trait for Lanes<N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for i in 0..N {
+                    self.0[i] = self.0[i] $operator other.0[i];
+                }
+                self
+            }
+        }
+    };
+}
+
+lane_by_lane!(Add, add, +);
+lane_by_lane!(Sub, sub, -);
+lane_by_lane!(Mul, mul, *);
+
+type Vector<const N: usize> = [Lanes<N>; 3];
+
+/// The computed predicates of some cases, with bounds of their errors.
+struct Computed<const N: usize> {
+    /// -U, -V and -W.
+    weights: [Lanes<N>; 3],
+    weight_errors: [Lanes<N>; 3],
+    t: Lanes<N>,
+    t_error: Lanes<N>,
+    /// D.
+    d: Lanes<N>,
+    d_error: Lanes<N>,
+}
+
+#[inline(always)]
+fn compute<const N: usize>([o, direction, a, b, c]: [Vector<N>; 5]) -> Computed<N> {
+    let from_origin = |p: Vector<N>| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
+    let (a, b, c) = (from_origin(a), from_origin(b), from_origin(c));
+    let abs = |v: Vector<N>| [v[0].abs(), v[1].abs(), v[2].abs()];
+    let (abs_a, abs_d) = (abs(a), abs(direction));
+    let one = Lanes::of(1.0);
+    let d_underflow = Lanes::of(UNDERFLOW) * (abs_d[0] + abs_d[1] + abs_d[2] + one);
+    let a_underflow = Lanes::of(UNDERFLOW) * (abs_a[0] + abs_a[1] + abs_a[2] + one);
     let (bc, bc_permanent) = cross(&b, &c);
     let (ca, ca_permanent) = cross(&c, &a);
     let (ab, ab_permanent) = cross(&a, &b);
-    let abs_d = d.map(f64::abs);
-    let weights = [-dot(&d, &bc), -dot(&d, &ca), -dot(&d, &ab)];
+    let t = dot(&a, &bc);
+    let t_error = Lanes::of(16.0 * U) * dot(&abs_a, &bc_permanent) + a_underflow;
+    let weights = [dot(&direction, &bc), dot(&direction, &ca), dot(&direction, &ab)];
     let permanents =
         [dot(&abs_d, &bc_permanent), dot(&abs_d, &ca_permanent), dot(&abs_d, &ab_permanent)];
-    let capital_t = dot(&a, &bc);
-    let t_permanent = dot(&a.map(f64::abs), &bc_permanent);
-
-    let u = certain(weights[0], 8.0 * U * permanents[0])?;
-    let v = certain(weights[1], 8.0 * U * permanents[1])?;
-    let w = certain(weights[2], 8.0 * U * permanents[2])?;
-    let sum = weights[0] + weights[1] + weights[2];
-    let d_permanent = permanents[0] + permanents[1] + permanents[2];
-    let d_sign =
-        if u == v && v == w { u.reverse() } else { certain(-sum, 16.0 * U * d_permanent)? };
-    let t_error = 16.0 * U * t_permanent;
-    let t = certain(capital_t, t_error)?;
-
-    let compare = |end: f64| {
-        compare_with_end(end, d_sign, t, (capital_t, t_error), (-sum, 16.0 * U * d_permanent))
-    };
-    let (from_min, from_max) = (compare(case.ray.t_min)?, compare(case.ray.t_max)?);
-    Some(Signs { d: d_sign, weights: [u, v, w], t, from_min, from_max }.truth())
+    let bound = |p: Lanes<N>| Lanes::of(8.0 * U) * p + d_underflow;
+    let weight_errors = [bound(permanents[0]), bound(permanents[1]), bound(permanents[2])];
+    let d = weights[0] + weights[1] + weights[2];
+    let all = permanents[0] + permanents[1] + permanents[2];
+    let d_error = Lanes::of(16.0 * U) * all + Lanes::of(4.0) * d_underflow;
+    Computed { weights, weight_errors, t, t_error, d, d_error }
 }
 
-/// The sign of T/D - end.
-#[inline]
-fn compare_with_end(
-    end: f64,
-    d_sign: Ordering,
-    t_sign: Ordering,
-    (t, t_error): (f64, f64),
-    (d, d_error): (f64, f64),
-) -> Option<Ordering> {
-    let relative = |sign: Ordering| if d_sign == Ordering::Less { sign.reverse() } else { sign };
+/// The truths of some cases, each if every sign that it depends on is certain. Plain loops: large
+/// arrays do not go through `map` and `from_fn` without calls.
+#[inline(always)]
+pub(super) fn decide<F: Float, const N: usize>(
+    cases: &[Case<F>; N],
+    truths: &mut [Option<Truth>; N],
+) {
+    let mut lanes = [[Lanes::<N>::of(0.0); 3]; 5];
+    for (k, case) in cases.iter().enumerate() {
+        let vectors = case.vectors();
+        for v in 0..5 {
+            for i in 0..3 {
+                lanes[v][i].0[k] = vectors[v][i].to_f64();
+            }
+        }
+    }
+    let computed = compute(lanes);
+    for (k, truth) in truths.iter_mut().enumerate() {
+        let ray = &cases[k].ray;
+        *truth = computed.truth(k, (ray.t_min.to_f64(), ray.t_max.to_f64()));
+    }
+}
+
+impl<const N: usize> Computed<N> {
+    #[inline(always)]
+    fn truth(&self, k: usize, (t_min, t_max): (f64, f64)) -> Option<Truth> {
+        let at = |lanes: &[Lanes<N>; 3]| [lanes[0].0[k], lanes[1].0[k], lanes[2].0[k]];
+        let ([u, v, w], [u_error, v_error, w_error]) = (at(&self.weights), at(&self.weight_errors));
+        let (t, t_error) = (self.t.0[k], self.t_error.0[k]);
+        let (d, d_error) = (self.d.0[k], self.d_error.0[k]);
+        let certain = (u.abs() > u_error)
+            & (v.abs() > v_error)
+            & (w.abs() > w_error)
+            & (t.abs() > t_error)
+            // With three weights of one sign D has it too, whatever its own bound.
+            & ((d.abs() > d_error) | (same_sign(u, v) & same_sign(v, w)))
+            & (t_min <= t_max);
+        if !certain {
+            return None;
+        }
+        let front = d < 0.0;
+        let positive_t = (t < 0.0) == front;
+        let (past_min, before_max) = if t_min == 0.0 && t_max == f64::INFINITY {
+            (positive_t, true)
+        } else {
+            let compare = |end| is_past(end, (t, t_error), (d, d_error));
+            (compare(t_min)?, !compare(t_max)?)
+        };
+        let inside = [u, v, w].map(|x| (x < 0.0) == front);
+        Some(Signs::certain(front, inside, positive_t, past_min, before_max))
+    }
+}
+
+#[inline(always)]
+fn same_sign(x: f64, y: f64) -> bool {
+    (x > 0.0) == (y > 0.0)
+}
+
+/// Whether T/D > end, if that or its opposite is certain.
+#[inline(never)]
+fn is_past(end: f64, (t, t_error): (f64, f64), (d, d_error): (f64, f64)) -> Option<bool> {
     if end == 0.0 {
-        return Some(relative(t_sign));
+        return Some((t > 0.0) == (d > 0.0));
     }
     if end.is_infinite() {
-        return Some(if end > 0.0 { Ordering::Less } else { Ordering::Greater });
+        return Some(end < 0.0);
     }
-    if end.abs() > LARGEST {
-        return None;
-    }
-    // T - end·D: the product and the difference round once more each, on at most |T| + |end·D|.
+    // T - end·D: the product and the difference round once more each, on at most |T| + |end·D|;
+    // twice the sum of all bounds covers the rounding of the bounds.
     let product = end * d;
-    let error = t_error + end.abs() * d_error + 4.0 * U * (t.abs() + product.abs());
-    // The sum of the bounds rounds too: twice covers it. What underflow adds to D is multiplied.
-    certain(t - product, 2.0 * error + end.abs() * UNDERFLOW).map(relative)
-}
-
-/// The sign of a value known within an error, underflow included; none if it is in doubt.
-#[inline(always)]
-fn certain(value: f64, error: f64) -> Option<Ordering> {
-    let error = error + UNDERFLOW;
-    if value > error {
-        Some(Ordering::Greater)
-    } else if value < -error {
-        Some(Ordering::Less)
-    } else {
-        None
-    }
+    let rounding = 4.0 * U * (t.abs() + product.abs());
+    let error = 2.0 * (t_error + end.abs() * d_error + rounding) + UNDERFLOW;
+    let difference = t - product;
+    (d.abs() > d_error && difference.abs() > error).then_some((difference > 0.0) == (d > 0.0))
 }
 
 #[inline(always)]
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+fn dot<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> Lanes<N> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The cross product and its permanents.
 #[inline(always)]
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
-    let pairs = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| (a[j] * b[k], a[k] * b[j]));
-    (pairs.map(|(p, q)| p - q), pairs.map(|(p, q)| p.abs() + q.abs()))
+fn cross<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> (Vector<N>, Vector<N>) {
+    let (p0, q0) = (a[1] * b[2], a[2] * b[1]);
+    let (p1, q1) = (a[2] * b[0], a[0] * b[2]);
+    let (p2, q2) = (a[0] * b[1], a[1] * b[0]);
+    ([p0 - q0, p1 - q1, p2 - q2], [p0.abs() + q0.abs(), p1.abs() + q1.abs(), p2.abs() + q2.abs()])
 }

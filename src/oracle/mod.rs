@@ -72,16 +72,37 @@ pub fn truth<F: Float>(case: &Case<F>) -> Truth {
 
 /// The truth of a case, and a count for the layer that decided it.
 pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
-    let case = case.widen();
-    if !is_valid(&case) {
+    let mut decided = [None];
+    filter::decide(std::array::from_ref(case), &mut decided);
+    layers.filter += 1;
+    decided[0].unwrap_or_else(|| exactly(&case.widen(), layers))
+}
+
+/// The truths of many cases, in order; `truths` is cleared first.
+pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut Layers) {
+    truths.clear();
+    let mut decided = [None; filter::LANES];
+    let (groups, rest) = cases.as_chunks::<{ filter::LANES }>();
+    for group in groups {
+        filter::decide(group, &mut decided);
+        for (decided, case) in std::iter::zip(&decided, group) {
+            truths.push(decided.unwrap_or_else(|| exactly(&case.widen(), layers)));
+        }
+    }
+    layers.filter += (cases.len() - rest.len()) as u64;
+    truths.extend(rest.iter().map(|case| truth_counted(case, layers)));
+}
+
+/// The layers behind the filter.
+#[inline(never)]
+fn exactly(case: &Case<f64>, layers: &mut Layers) -> Truth {
+    // Counted for the filter with its batch.
+    layers.filter = layers.filter.wrapping_sub(1);
+    if !is_valid(case) {
         layers.invalid += 1;
         return Truth::Invalid;
     }
-    if let Some(truth) = filter::decide(&case) {
-        layers.filter += 1;
-        return truth;
-    }
-    let scaled = integer::Scaled::new(&case);
+    let scaled = integer::Scaled::new(case);
     if let Some(truth) = scaled.decide_small() {
         layers.small_integer += 1;
         return truth;

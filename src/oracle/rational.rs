@@ -68,10 +68,11 @@ pub fn define<F: Float>(case: &Case<F>) -> Definition {
     }
 
     let t = capital_t / &capital_d;
-    let hit = along(&o, &d, &t);
-    // The weight of a vertex is the area that the hit point spans with the opposite edge.
-    let area = |p: &Point, q: &Point| dot(&n, &cross(&minus(p, &hit), &minus(q, &hit)));
-    let [u, v, w] = [area(&b, &c), area(&c, &a), area(&a, &b)].map(|x| x / dot(&n, &n));
+    // U, V, W: d with (c-o, b-o), (a-o, c-o), (b-o, a-o). Their sum is -D.
+    let [ra, rb, rc] = [&a, &b, &c].map(|p| minus(p, &o));
+    let triple = |p: &Point, q: &Point| dot(&d, &cross(p, q));
+    let [u, v, w] =
+        [triple(&rc, &rb), triple(&ra, &rc), triple(&rb, &ra)].map(|weight| -weight / &capital_d);
     let truth = Truth::Transversal(Crossing {
         facing: if capital_d.is_negative() { Facing::Front } else { Facing::Back },
         place: place(compare(&t, &t_min), compare(&t, &t_max)),

@@ -29,6 +29,29 @@ impl Signs {
             feature: Feature::from_weight_signs(self.weights.map(relative)),
         })
     }
+
+    /// The same where no sign is zero, without branches: `front` is D < 0, `inside` says of each
+    /// weight whether it has the sign of their sum, and t is not at an end.
+    #[inline(always)]
+    pub fn certain(
+        front: bool,
+        inside: [bool; 3],
+        positive_t: bool,
+        past_min: bool,
+        before_max: bool,
+    ) -> Truth {
+        // Tables, since these signs are as random as the cases.
+        const FACINGS: [Facing; 2] = [Facing::Back, Facing::Front];
+        const PLACES: [Place; 4] = [Place::Before, Place::Before, Place::Beyond, Place::Within];
+        const SIGNS: [Ordering; 2] = [Ordering::Less, Ordering::Greater];
+        const FEATURES: [Feature; 2] = [Feature::Outside, Feature::Interior];
+        Truth::Transversal(Crossing {
+            facing: FACINGS[usize::from(front)],
+            place: PLACES[2 * usize::from(past_min) + usize::from(before_max)],
+            t_sign: SIGNS[usize::from(positive_t)],
+            feature: FEATURES[usize::from(inside[0] & inside[1] & inside[2])],
+        })
+    }
 }
 
 /// Where t lies; t_min comes before t_max where both are met.
