@@ -181,7 +181,7 @@ pub fn parse_power_of_two(text: &str) -> Result<i32, String> {
     let exponent =
         if text == "1" { Some(0) } else { text.strip_prefix("2^").and_then(|k| k.parse().ok()) };
     exponent
-        .filter(|k: &i32| k.abs() <= 1100)
+        .filter(|k: &i32| (-1100..=1100).contains(k))
         .ok_or_else(|| format!("'{text}' is not a scale: write 2^k with |k| <= 1100, as 2^-10"))
 }
 
@@ -298,7 +298,7 @@ impl Draw {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// A number in (-1, 1) with a full significand at every magnitude.
+    /// A number in [-1, 1] with a full significand at every magnitude.
     pub fn symmetric<F: Float>(&mut self) -> F {
         let exponent = -1 - self.bits().trailing_zeros().min(40) as i32;
         self.with_exponent(exponent)

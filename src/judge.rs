@@ -53,7 +53,7 @@ impl Finding {
 /// What the contract asks for this truth. `respawned` says that the ray starts at a kernel's own hit
 /// point on the triangle.
 pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obligation {
-    if contract.no_self_hit && respawned {
+    if contract.no_self_hit && respawned && *truth != Truth::Invalid {
         return Obligation::MustMiss;
     }
     match truth {
@@ -112,7 +112,8 @@ pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
     let one = BigRational::from_integer(1.into());
     let tolerance = BigRational::from_integer(ulps.into())
         * BigRational::from_float(F::EPSILON.to_f64()).expect("finite");
-    let (low, high) = (&one - &tolerance, &one + &tolerance);
+    let zero = BigRational::from_integer(0.into());
+    let (low, high) = ((&one - &tolerance).max(zero), &one + &tolerance);
     &low * &low <= length_squared && length_squared <= &high * &high
 }
 
@@ -179,18 +180,44 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
         Extent::Ray => crossing.t_sign == Ordering::Greater,
         Extent::Interval => crossing.place == Place::Within,
     };
-    // Off the rim: inside a triangle, on an edge of two, or at the centre of a closed fan.
-    let off_the_rim = met.iter().any(|crossing| crossing.feature == Feature::Interior)
+    if !is_off_the_rim(&met, truths.len(), grouping) || !met.iter().all(strictly_in_extent) {
+        return GroupTruth::Free;
+    }
+    if alike {
+        return GroupTruth::Crossing;
+    }
+    // Over a fold the rims of the two triangles pass through each other's inside: the number of hits
+    // is owed only where no triangle is met on an edge of its own.
+    let inside = met.iter().filter(|crossing| crossing.feature == Feature::Interior).count();
+    let on_shared_edge = inside == 0 && met.len() == 2 && met[0].place == met[1].place;
+    if grouping == Grouping::SharedEdge && (inside == met.len() || on_shared_edge) {
+        return GroupTruth::Fold { odd: met.len() % 2 == 1 };
+    }
+    GroupTruth::Free
+}
+
+/// Whether the line passes through the inside of the triangles' union: inside a triangle, on an edge
+/// of two, or at the centre of a closed fan.
+fn is_off_the_rim(met: &[&Crossing], triangles: usize, grouping: Grouping) -> bool {
+    met.iter().any(|crossing| crossing.feature == Feature::Interior)
         || (met.len() >= 2 && met.iter().all(|crossing| crossing.feature.is_edge()))
-        || (grouping == Grouping::Fan && met.len() == truths.len());
-    if !off_the_rim || !met.iter().all(strictly_in_extent) {
-        GroupTruth::Free
-    } else if alike {
-        GroupTruth::Crossing
-    } else if grouping == Grouping::SharedEdge {
-        GroupTruth::Fold { odd: met.len() % 2 == 1 }
-    } else {
-        GroupTruth::Free
+        || (grouping == Grouping::Fan && !met.is_empty() && met.len() == triangles)
+}
+
+/// The truth of a planar convex polygon, from the truths of its fan's triangles: a point on a diagonal
+/// is inside. All triangles cross the same plane at the same t, so any that is met speaks for all.
+pub fn polygon_truth(truths: &[Truth]) -> Truth {
+    let met: Vec<&Crossing> = truths
+        .iter()
+        .filter_map(Truth::crossing)
+        .filter(|crossing| crossing.feature != Feature::Outside)
+        .collect();
+    match met.first() {
+        None => truths[0],
+        Some(first) if is_off_the_rim(&met, truths.len(), Grouping::Polygon) => {
+            Truth::Transversal(Crossing { feature: Feature::Interior, ..**first })
+        }
+        Some(first) => Truth::Transversal(**first),
     }
 }
 
@@ -352,5 +379,40 @@ mod tests {
             judged(Obligation::MustHit, Verdict { facing: None, ..good }),
             Some(Finding::BadValue)
         );
+    }
+
+    #[test]
+    fn a_point_on_a_polygons_diagonal_is_inside_and_one_on_its_rim_is_not() {
+        let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+        let fan = [[0, 1, 2], [0, 2, 3]];
+        let polygon = |x: f64, y: f64| -> Vec<Truth> {
+            let case = |k: [usize; 3]| {
+                Case::<f64>::new([x, y, 1.0], [0.0, 0.0, -1.0], k.map(|i| corners[i]))
+            };
+            fan.map(|k| truth(&case(k))).to_vec()
+        };
+        let feature =
+            |x, y| polygon_truth(&polygon(x, y)).crossing().map(|crossing| crossing.feature);
+        assert_eq!(feature(2.0, 2.0), Some(Feature::Interior));
+        assert!(feature(2.0, 0.0).is_some_and(Feature::is_edge));
+        assert_eq!(feature(5.0, 2.0), Some(Feature::Outside));
+        let asked = |x, y| group_truth(&polygon(x, y), &Contract::CLOSED_RAY, Grouping::Polygon);
+        assert_eq!(asked(2.0, 2.0), GroupTruth::Crossing);
+        assert_eq!(asked(2.0, 0.0), GroupTruth::Free, "the rim is nobody's");
+    }
+
+    #[test]
+    fn a_fold_asks_for_the_parity_of_the_exact_line() {
+        let pair = |x: f64, y: f64| -> Vec<Truth> {
+            let [a, b, c, d] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 2.0, 4.0]];
+            let case = |t| truth(&Case::<f64>::new([x, y, 8.0], [0.0, 0.0, -1.0], t));
+            vec![case([a, b, c]), case([b, a, d])]
+        };
+        let asked = |x, y| group_truth(&pair(x, y), &Contract::CLOSED_RAY, Grouping::SharedEdge);
+        assert_eq!(asked(1.0, 0.0), GroupTruth::Fold { odd: false }, "on the shared edge");
+        assert_eq!(asked(1.0, 0.5), GroupTruth::Fold { odd: false }, "inside both");
+        assert_eq!(asked(0.5, 3.0), GroupTruth::Fold { odd: true }, "inside the first alone");
+        assert_eq!(asked(1.0, 1.5), GroupTruth::Free, "on a rim of the second");
+        assert_eq!(asked(-1.0, 1.0), GroupTruth::Free, "outside");
     }
 }

@@ -51,7 +51,7 @@ pub trait Float: Real + Copy + PartialOrd + Display + Default {
 /// neighbours.
 pub fn ordered_midpoint<F: Float>(low: F, high: F) -> Option<F> {
     let (low, high) = (low.place(), high.place());
-    let middle = low + (high - low) / 2;
+    let middle = low.midpoint(high);
     (middle != low && middle != high).then(|| F::from_place(middle))
 }
 
@@ -66,6 +66,10 @@ pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
     while exponent < -1000 && value.abs() > power_of_two(1000 - 52) {
         value *= power_of_two(-900);
         exponent += 900;
+    }
+    if exponent < -2022 {
+        // Not above 2^948 by now, so it rounds to zero.
+        return value * 0.0;
     }
     if exponent < -1022 {
         return value * power_of_two(exponent + 1000) * power_of_two(-1000);
@@ -265,6 +269,8 @@ mod tests {
         assert_eq!(scale_by_power_of_two(1.5, 1023), 1.5 * 2f64.powi(1023));
         assert_eq!(scale_by_power_of_two(f64::from_bits(1), 1100), 2f64.powi(26));
         assert_eq!(scale_by_power_of_two(-3.0, 0), -3.0);
+        assert_eq!(scale_by_power_of_two(1.0, -2100), 0.0);
+        assert_eq!(scale_by_power_of_two(1e300, -4000), 0.0);
     }
 
     #[test]
@@ -278,6 +284,8 @@ mod tests {
 
     #[test]
     fn bisection_finds_the_last_accepted_float() {
+        let half = Real::largest_accepted(|e: &f64| *e <= 0.5, || unreachable!());
+        assert_eq!(half, 0.5);
         for target in [-1.5f32, -0.0, 1e-40, 1e-6, 3.0e38] {
             let found = Real::largest_accepted(|e: &f32| *e <= target, || unreachable!());
             assert_eq!(found, target);

@@ -19,9 +19,10 @@ impl EpsilonText {
     /// In a scalar; none if the text is no finite number of it.
     pub fn value<F: Float>(&self) -> Option<F> {
         match self {
-            EpsilonText::Decimal(text) => F::parse(text).filter(|value| value.is_finite()),
+            EpsilonText::Decimal(text) => F::parse(text),
             EpsilonText::MachineEpsilon(factor) => Some(F::EPSILON * F::from_f64(*factor)),
         }
+        .filter(F::is_finite)
     }
 }
 
@@ -119,7 +120,9 @@ impl EpsilonChoice {
     ) -> Result<Vec<Row>, PlanError> {
         let contract_name = named.map(|named| named.name);
         let mut rows = Vec::new();
-        let mut applied = vec![false; self.given().len()];
+        // Each given epsilon must reach a gate of some kernel.
+        let missing = |(name, _): &(String, String)| Err(unknown_gate(name, entries));
+        let mut applied: Vec<Result<(), PlanError>> = self.given().iter().map(missing).collect();
         for entry in entries {
             let contract = named.map_or(entry.info.contract, |named| named.contract);
             let decimals = |values: &[&str]| -> Vec<EpsilonText> {
@@ -165,9 +168,16 @@ impl EpsilonChoice {
                         else {
                             continue;
                         };
-                        epsilons[k] = checked(entry.info.name, &entry.info.gates[k], text)?;
-                        applied[i] = true;
-                        words.push(format!("{name}={text}"));
+                        match checked(entry.info.name, &entry.info.gates[k], text) {
+                            Ok(epsilon) => {
+                                epsilons[k] = epsilon;
+                                applied[i] = Ok(());
+                                words.push(format!("{name}={text}"));
+                            }
+                            // Another kernel may take it.
+                            Err(error) if applied[i].is_err() => applied[i] = Err(error),
+                            Err(_) => {}
+                        }
                     }
                     let set =
                         if words.is_empty() { sets[0].name.to_owned() } else { words.join(",") };
@@ -175,9 +185,7 @@ impl EpsilonChoice {
                 }
             }
         }
-        if let Some(i) = applied.iter().position(|applied| !applied) {
-            return Err(unknown_gate(&self.given()[i].0, entries));
-        }
+        applied.into_iter().collect::<Result<(), PlanError>>()?;
         if rows.is_empty() {
             let EpsilonChoice::Preset(name) = self else { return Ok(rows) };
             return Err(PlanError(format!(
@@ -304,6 +312,12 @@ mod tests {
         assert!(message(&["moller-trumbore"], &[("edge", "small")]).contains("is not an epsilon"));
         assert!(message(&["moller-trumbore"], &[("edge", "1e39")]).contains("is not an epsilon"));
         assert!(message(&["havel-herout"], &[("u", "0")]).contains("takes no epsilon"));
+        assert!(
+            message(&["moller-trumbore"], &[("edge", "nan*EPSILON")]).contains("is not an epsilon")
+        );
+        // A kernel that cannot take a value does not keep the others from taking it.
+        let rows = rows(&["havel-herout", "cramer"], given(&[("t", "1e-6")])).unwrap();
+        assert_eq!((rows[0].set.as_str(), rows[1].set.as_str()), ("source", "t=1e-6"));
     }
 
     #[test]

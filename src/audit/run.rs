@@ -5,12 +5,14 @@ use super::severity::approximate;
 use super::source::Source;
 use super::tally::{Place, Tally};
 use crate::case::Case;
-use crate::contract::Contract;
+use crate::contract::{Contract, Extent};
 use crate::family::Grouping;
-use crate::judge::{self, Class, Finding, GroupTruth, Obligation, group_truth, obligation};
+use crate::judge::{
+    self, Class, Finding, GroupTruth, Obligation, group_truth, obligation, polygon_truth,
+};
 use crate::kernel::{KernelInfo, Scalar, Subject, Verdict};
 use crate::oracle::{self, Layers};
-use crate::truth::{Feature, Truth};
+use crate::truth::Truth;
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -211,9 +213,11 @@ impl<'a, F: Scalar> Runner<'a, F> {
             let start = self.observer.now();
             let panicked = row.run(&chunk.cases, &mut verdicts);
             *time += self.observer.now() - start;
-            row.judge(&chunk, &asked[row.contract], &verdicts, &panicked, tally);
-            if chunk.grouping == Grouping::Polygon && row.info.polygons {
-                row.judge_polygons(&chunk, &self.contracts[row.contract], tally);
+            let contract = &self.contracts[row.contract];
+            row.judge(&chunk, &asked[row.contract], &verdicts, &panicked, contract.extent, tally);
+            // Rounded polygons are not planar, and have no truth as a whole.
+            if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
+                row.judge_polygons(&chunk, contract, tally);
             }
         }
         self.observer.advance(chunk.cases.len() as u64);
@@ -301,6 +305,7 @@ impl<F: Scalar> RunnerRow<'_, F> {
         asked: &Asked,
         verdicts: &[Verdict<F>],
         panicked: &[usize],
+        extent: Extent,
         tally: &mut Tally,
     ) {
         for (i, verdict) in verdicts.iter().enumerate() {
@@ -308,7 +313,7 @@ impl<F: Scalar> RunnerRow<'_, F> {
                 (chunk.classes[i], &chunk.truths[i], asked.obligations[i]);
             tally.ask(class, obligation);
             if verdict.hit {
-                tally.hit(class);
+                tally.hit(class, *truth != Truth::Invalid);
             }
             let finding = if panicked.contains(&i) {
                 Some(Finding::Panic)
@@ -316,7 +321,7 @@ impl<F: Scalar> RunnerRow<'_, F> {
                 judge::judge(obligation, truth, self.info.gives, verdict)
             };
             if let Some(finding) = finding {
-                let severity = approximate(&chunk.cases[i], truth, finding);
+                let severity = approximate(&chunk.cases[i], truth, finding, extent);
                 tally.find(class, finding, chunk.places[i], severity);
             }
         }
@@ -325,6 +330,9 @@ impl<F: Scalar> RunnerRow<'_, F> {
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
         for ((index, range), truth) in chunk.groups().zip(&asked.groups) {
+            if panicked.iter().any(|i| range.contains(i)) {
+                continue;
+            }
             let hits = verdicts[range].iter().filter(|verdict| verdict.hit).count();
             tally.group(index, *truth, hits);
         }
@@ -336,13 +344,9 @@ impl<F: Scalar> RunnerRow<'_, F> {
             let cases = &chunk.cases[range.clone()];
             let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
             vertices.extend(cases.iter().map(|case| case.triangle.c));
-            let truths = &chunk.truths[range];
-            // All triangles cross the same plane at the same t: any that is met speaks for all.
-            let met = truths.iter().find(|truth| {
-                truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
-            });
-            let asked = obligation(met.unwrap_or(&truths[0]), contract, false);
-            let hit = self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
+            let asked = obligation(&polygon_truth(&chunk.truths[range]), contract, false);
+            let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
+            let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
             let polygons = &mut tally.polygons;
             match asked {
                 Obligation::MustHit => {

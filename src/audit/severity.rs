@@ -5,8 +5,10 @@
 
 use crate::arith::{Exact, ExactVector, Float, Real, Vector};
 use crate::case::{Case, Ray, Triangle};
+use crate::contract::Extent;
 use crate::judge::Finding;
 use crate::truth::{Feature, Place, Truth};
+use std::cmp::Ordering;
 
 /// The exact distances behind a finding, rounded to floats from exact squares, in units of the
 /// triangle's longest edge (of length, for a triangle that is a point). `None` where a distance does
@@ -17,7 +19,7 @@ pub struct Severity {
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
     pub in_space: f64,
-    /// |t - end|·|d| to the nearest finite end of the interval.
+    /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
     /// The longest edge in ulps of the largest coordinate of the case's points: a distance times
     /// this is in ulps.
@@ -25,7 +27,7 @@ pub struct Severity {
 }
 
 /// The distances of a case; none for invalid input.
-pub fn exact_severity<F: Float>(case: &Case<F>) -> Option<Severity> {
+pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severity> {
     let vectors = case.vectors();
     if vectors.iter().flatten().any(|x| !x.is_finite()) || vectors[1].iter().all(F::is_zero) {
         return None;
@@ -45,7 +47,7 @@ pub fn exact_severity<F: Float>(case: &Case<F>) -> Option<Severity> {
     });
     let in_space = edges.map(|(p, q)| line_to_segment(&o, &d, p, q)).into_iter().reduce(smaller)?;
     let along = t.and_then(|t| {
-        let ends = [case.ray.t_min, case.ray.t_max].into_iter().filter(F::is_finite);
+        let ends = ends(case, extent).into_iter().filter(F::is_finite);
         let gaps = ends.map(|end| (t.clone() - Exact::from_f64(end.to_f64())).abs());
         let gap = gaps.reduce(smaller)?;
         Some(gap.clone() * gap * square(&d))
@@ -65,7 +67,12 @@ pub fn exact_severity<F: Float>(case: &Case<F>) -> Option<Severity> {
 /// The approximate severity by which the worst finding is chosen, relative to the longest edge:
 /// for a false miss how far inside the line passes, for any other finding how far outside. Zero
 /// where it cannot be computed.
-pub(super) fn approximate<F: Float>(case: &Case<F>, truth: &Truth, finding: Finding) -> f64 {
+pub(super) fn approximate<F: Float>(
+    case: &Case<F>,
+    truth: &Truth,
+    finding: Finding,
+    extent: Extent,
+) -> f64 {
     let case = case.widen();
     let vectors = case.vectors();
     let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
@@ -86,13 +93,17 @@ pub(super) fn approximate<F: Float>(case: &Case<F>, truth: &Truth, finding: Find
     let along = truth.crossing().map(|_| {
         let n = (b - a).cross(c - a);
         let t = n.dot(a - o) / n.dot(d);
-        let ends = [case.ray.t_min, case.ray.t_max].map(|end| end * (length / size));
+        let ends = ends(&case, extent).map(|end| end * (length / size));
         ends.iter().fold(f64::INFINITY, |m, end| m.min((t - end).abs() * d.length()))
     });
     let distance = match (finding, truth.crossing(), along) {
         (Finding::FalseMiss, _, Some(along)) => in_space.min(along),
         (Finding::FalseHit, Some(crossing), Some(along)) => {
-            let off_end = matches!(crossing.place, Place::Before | Place::Beyond);
+            let off_end = match extent {
+                Extent::Line => false,
+                Extent::Ray => crossing.t_sign == Ordering::Less,
+                Extent::Interval => matches!(crossing.place, Place::Before | Place::Beyond),
+            };
             let outside = crossing.feature == Feature::Outside;
             (if off_end { along } else { 0.0 }).max(if outside { in_space } else { 0.0 })
         }
@@ -100,6 +111,15 @@ pub(super) fn approximate<F: Float>(case: &Case<F>, truth: &Truth, finding: Find
     };
     let relative = distance / if longest > 0.0 { longest } else { 1.0 };
     if relative.is_finite() { relative } else { 0.0 }
+}
+
+/// Where an extent begins and ends, in units of the direction.
+fn ends<F: Float>(case: &Case<F>, extent: Extent) -> [F; 2] {
+    match extent {
+        Extent::Line => [-F::infinity(), F::infinity()],
+        Extent::Ray => [F::zero(), F::infinity()],
+        Extent::Interval => [case.ray.t_min, case.ray.t_max],
+    }
 }
 
 fn smaller(a: Exact, b: Exact) -> Exact {
@@ -148,7 +168,7 @@ mod tests {
     fn distances_are_those_measured_by_hand() {
         // Down onto (1, 1): 1 from both legs, 1 from the hypotenuse (x/4 + y/3 = 1): 5/12·12/5 = 1.
         let case = Case::<f64>::new([1.0, 1.0, 2.0], [0.0, 0.0, -1.0], TRIANGLE);
-        let severity = exact_severity(&case).unwrap();
+        let severity = exact_severity(&case, Extent::Interval).unwrap();
         assert_eq!(severity.in_plane, Some(0.2));
         assert_eq!(severity.in_space, 0.2);
         assert_eq!(severity.along, Some(0.4));
@@ -160,7 +180,7 @@ mod tests {
     fn a_slanted_line_is_nearer_in_space_than_in_the_plane() {
         // Onto (2, -1) in the plane, 45 degrees along y: distance 1 in the plane, 1/√2 in space.
         let case = Case::<f64>::new([2.0, -3.0, 2.0], [0.0, 1.0, -1.0], TRIANGLE);
-        let severity = exact_severity(&case).unwrap();
+        let severity = exact_severity(&case, Extent::Interval).unwrap();
         assert_eq!(severity.in_plane, Some(0.2));
         assert!((severity.in_space - 0.2 / 2f64.sqrt()).abs() < 1e-16);
     }
@@ -174,8 +194,8 @@ mod tests {
                 [0.0, 1.0, -1.0],
                 TRIANGLE.map(|v| v.map(by)),
             );
-            let exact = exact_severity(&case).unwrap().in_space;
-            let near = approximate(&case, &truth(&case), Finding::FalseHit);
+            let exact = exact_severity(&case, Extent::Interval).unwrap().in_space;
+            let near = approximate(&case, &truth(&case), Finding::FalseHit, Extent::Interval);
             assert!((near - exact).abs() < 1e-12, "{scale}: {near} {exact}");
         }
     }

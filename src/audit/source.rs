@@ -141,6 +141,16 @@ impl Source {
         }
     }
 
+    /// Whether the parameters leave truths alone, but for the ends of the range.
+    pub fn keeps_truth(&self) -> bool {
+        match self {
+            Source::Family { parameters, .. } | Source::Mesh { parameters, .. } => {
+                parameters.keep_truth()
+            }
+            Source::Corpus(_) => true,
+        }
+    }
+
     /// The id of a case, or of triangle k of a group.
     pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
         let id = match self {

@@ -24,6 +24,8 @@ pub struct ClassCount {
     pub must_miss: u64,
     /// Hits that the kernel reported.
     pub hits: u64,
+    /// Of these, those whose values are judged: all but those on invalid input.
+    pub valued_hits: u64,
     /// By [`Finding::ALL`].
     pub findings: [u64; Finding::ALL.len()],
 }
@@ -39,7 +41,7 @@ impl ClassCount {
         match finding {
             Finding::FalseMiss => self.must_hit,
             Finding::FalseHit => self.must_miss,
-            Finding::BadValue => self.hits - self.of(Finding::FalseHit),
+            Finding::BadValue => self.valued_hits.saturating_sub(self.of(Finding::FalseHit)),
             Finding::Panic => self.cases,
         }
     }
@@ -50,6 +52,7 @@ impl ClassCount {
         self.must_hit += other.must_hit;
         self.must_miss += other.must_miss;
         self.hits += other.hits;
+        self.valued_hits += other.valued_hits;
         for (count, more) in self.findings.iter_mut().zip(other.findings) {
             *count += more;
         }
@@ -222,9 +225,11 @@ impl Tally {
         }
     }
 
-    /// Counts a hit.
-    pub fn hit(&mut self, class: Class) {
-        self.classes[class.number()].hits += 1;
+    /// Counts a hit, and whether its values are judged.
+    pub fn hit(&mut self, class: Class, valued: bool) {
+        let count = &mut self.classes[class.number()];
+        count.hits += 1;
+        count.valued_hits += u64::from(valued);
     }
 
     /// Counts a finding with its approximate severity.

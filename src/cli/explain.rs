@@ -7,6 +7,7 @@ use super::select::{KernelArguments, unknown};
 use crate::arith::{Exact, Float};
 use crate::audit::{Row, exact_severity};
 use crate::case::{Case, CaseId};
+use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::{FAMILIES, Made, MeshFamily, find};
 use crate::judge::{Obligation, judge, obligation, promises_direction};
@@ -123,6 +124,9 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<(Vec<Case<F>>, 
         );
         return Err(Failure::Message(Status::BadInput, message));
     }
+    if in_order && family.size.is_none_or(|size| id.index >= size) {
+        return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
+    }
     let made: Made<F> = if in_order {
         family.make_in_order(&id.parameters, id.index)
     } else {
@@ -179,7 +183,7 @@ fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io:
     let stored = StoredCase { name: None, case: kind, truth: None, line: 1, why: None, url: None };
     let line = serde_json::to_string(&truth_line(&stored)).unwrap_or_default();
     writeln!(out, "    {line}")?;
-    if let Some(severity) = exact_severity(case) {
+    if let Some(severity) = exact_severity(case, Extent::Interval) {
         let (space, ulps) = (severity.in_space, severity.in_space * severity.edge_in_ulps);
         writeln!(
             out,

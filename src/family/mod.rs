@@ -80,6 +80,8 @@ trait Recipe {
     const GROUPING: Grouping = Grouping::Single;
     /// Case `index` of the set; `draw` is its own stream.
     fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
+    /// What is left to do once the parameters are applied.
+    fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
     /// Whether the truths of one index keep the promise.
     fn keeps(truths: &[Truth]) -> bool;
 }
@@ -97,8 +99,8 @@ pub struct Family {
     /// The number of its cases, if there are finitely many.
     pub size: Option<u64>,
     keeps: fn(&[Truth]) -> bool,
-    make_f32: fn(&mut Draw, u64) -> Made<f32>,
-    make_f64: fn(&mut Draw, u64) -> Made<f64>,
+    make_f32: fn(&Parameters, &mut Draw, u64) -> Made<f32>,
+    make_f64: fn(&Parameters, &mut Draw, u64) -> Made<f64>,
 }
 
 const fn row<R: Recipe>() -> Family {
@@ -109,9 +111,19 @@ const fn row<R: Recipe>() -> Family {
         grouping: R::GROUPING,
         size: None,
         keeps: R::keeps,
-        make_f32: R::make::<f32>,
-        make_f64: R::make::<f64>,
+        make_f32: made::<R, f32>,
+        make_f64: made::<R, f64>,
     }
+}
+
+/// A recipe's cases, put through the parameters.
+fn made<R: Recipe, F: Scalar>(parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<F> {
+    let mut made = R::make::<F>(draw, index);
+    for case in made.cases_mut() {
+        apply(parameters, case);
+    }
+    R::finish(draw, parameters, &mut made);
+    made
 }
 
 /// Every family but the mesh, in the order of reports.
@@ -156,20 +168,12 @@ impl Family {
     pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
         let mut draw = Draw::new(self.name, seed, index);
         let index = self.size.map_or(index, |size| lattice::shuffled(index % size, seed));
-        self.made(parameters, &mut draw, index)
+        F::make(self, parameters, &mut draw, index)
     }
 
     /// Case `index` in the natural order of a finite family.
     pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> Made<F> {
-        self.made(parameters, &mut Draw::new(self.name, 0, index), index)
-    }
-
-    fn made<F: Scalar>(&self, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<F> {
-        let mut made = F::make(self, draw, index);
-        for case in made.cases_mut() {
-            apply(parameters, case);
-        }
-        made
+        F::make(self, parameters, &mut Draw::new(self.name, 0, index), index)
     }
 
     /// Whether the truths of one index keep the promise.
@@ -194,41 +198,46 @@ impl Family {
 /// A scalar that families make cases in.
 pub trait Makes: Float {
     /// Calls the family's generator of this scalar.
-    fn make(family: &Family, draw: &mut Draw, index: u64) -> Made<Self>;
+    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<Self>;
 }
 
 impl Makes for f32 {
-    fn make(family: &Family, draw: &mut Draw, index: u64) -> Made<f32> {
-        (family.make_f32)(draw, index)
+    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<f32> {
+        (family.make_f32)(parameters, draw, index)
     }
 }
 
 impl Makes for f64 {
-    fn make(family: &Family, draw: &mut Draw, index: u64) -> Made<f64> {
-        (family.make_f64)(draw, index)
+    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<f64> {
+        (family.make_f64)(parameters, draw, index)
     }
 }
 
-/// Scales, moves and normalises a case.
+/// Scales, moves and normalises a case. Where only positions are scaled, t and the ends of the
+/// interval scale with them.
 pub(crate) fn apply<F: Float>(parameters: &Parameters, case: &mut Case<F>) {
-    let Parameters { scale, scale_direction, offset, unit_direction, .. } = parameters;
+    let Parameters { scale, scale_direction, offset, .. } = parameters;
     let [origin, direction, a, b, c] = case.vectors();
-    let scaled = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), *scale));
     let moved = |point: [F; 3]| -> [F; 3] {
         std::array::from_fn(|i| {
-            let x = if *scale == 0 { point[i] } else { scaled(point[i]) };
+            let x = scaled(point[i], *scale);
             if offset[i] == 0.0 { x } else { x + F::from_f64(offset[i]) }
         })
     };
-    let mut direction = direction;
-    if *scale_direction {
-        direction = direction.map(scaled);
-    }
-    if *unit_direction {
-        direction = unit(direction);
-    }
-    let ray = case.ray;
-    *case = Case::new(moved(origin), direction, [a, b, c].map(moved)).on(ray.t_min, ray.t_max);
+    let end = |t: F| if *scale_direction { t } else { scaled(t, *scale) };
+    let (t_min, t_max) = (end(case.ray.t_min), end(case.ray.t_max));
+    let direction = apply_to_direction(parameters, direction);
+    *case = Case::new(moved(origin), direction, [a, b, c].map(moved)).on(t_min, t_max);
+}
+
+fn apply_to_direction<F: Float>(parameters: &Parameters, direction: [F; 3]) -> [F; 3] {
+    let power = if parameters.scale_direction { parameters.scale } else { 0 };
+    let direction = direction.map(|x| scaled(x, power));
+    if parameters.unit_direction { unit(direction) } else { direction }
+}
+
+fn scaled<F: Float>(x: F, power: i32) -> F {
+    if power == 0 { x } else { F::from_f64(scale_by_power_of_two(x.to_f64(), power)) }
 }
 
 /// The rounded unit vector; the zero vector and vectors that are not finite stay.

@@ -3,9 +3,9 @@
 use super::boundary::toward;
 use super::control::{combination, interior_weights, is_steep, well_shaped};
 use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
-use super::{Grouping, Made, Recipe};
+use super::{Grouping, Made, Recipe, apply_to_direction};
 use crate::arith::Vector;
-use crate::case::{Case, Draw};
+use crate::case::{Case, Draw, Parameters};
 use crate::kernel::{Scalar, find};
 use crate::truth::{Feature, Truth};
 use std::cmp::Ordering;
@@ -72,30 +72,41 @@ impl Recipe for Respawn {
     const PROMISE: &'static str = "transversal, from a kernel's own rounded hit point on this triangle into either half-space";
     const GROUPING: Grouping = Grouping::Respawn;
 
+    /// The first ray: its hit point is where the case's ray starts.
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        let kernel = F::subject(find("moller-trumbore").expect("a built-in kernel"));
         loop {
             let triangle = well_shaped::<F>(draw);
             let target = combination(triangle, interior_weights(draw).map(F::from_f64));
             let origin = draw.point::<F>();
             let direction = toward(origin, target);
-            if !is_steep(direction, triangle) {
-                continue;
-            }
-            let first = Case::new(origin, direction, triangle);
-            let Some(hit) = kernel.measure(&first).values else { continue };
-            let (Some(t), Some((u, v))) = (hit.t, hit.uv) else { continue };
-            // The two ways in which renderers form the hit point.
-            let point: [F; 3] = if draw.coin() {
-                first.ray.origin.plus(&first.ray.direction.times(&t)).into()
-            } else {
-                combination(triangle, [F::one() - u - v, u, v])
-            };
-            let next = draw.point();
-            if is_steep(next, triangle) {
-                return Made::One(Case::new(point, next, triangle));
+            if is_steep(direction, triangle) {
+                return Made::One(Case::new(origin, direction, triangle));
             }
         }
+    }
+
+    fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut Made<F>) {
+        let Made::One(case) = made else { return };
+        let kernel = F::subject(find("moller-trumbore").expect("a built-in kernel"));
+        let triangle = case.triangle.vertices().map(Into::into);
+        let hit = kernel.measure(case).values;
+        let (t, (u, v)) =
+            hit.and_then(|hit| hit.t.zip(hit.uv)).expect("a kernel that gives t, u, v");
+        // The two ways in which renderers form the hit point.
+        let point: [F; 3] = if draw.coin() {
+            case.ray.origin.plus(&case.ray.direction.times(&t)).into()
+        } else {
+            combination(triangle, [F::one() - u - v, u, v])
+        };
+        // Steep for a triangle of any size; at the ends of the range none may be found.
+        let mut next = draw.point();
+        for _ in 0..64 {
+            if is_steep(next, triangle) {
+                break;
+            }
+            next = draw.point();
+        }
+        *case = Case::new(point, apply_to_direction(parameters, next), triangle);
     }
 
     fn keeps(truths: &[Truth]) -> bool {

@@ -77,7 +77,8 @@ impl Kernel for Plucker {
         let t = v0.dot(&twice_normal);
         let signed_t = if den.is_sign_negative() { -t.clone() } else { t.clone() };
         let abs_den = den.abs();
-        let (near, far) = (end_times(&ray.t_min, &abs_den), end_times(&ray.t_max, &abs_den));
+        let near = ray.t_min.clone() * &abs_den;
+        let far = ray.t_max.clone() * &abs_den;
         if !sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))
             || !sink.one(T, Refuse::UnlessAtLeast, &gap(&far, &signed_t))
         {
@@ -97,6 +98,9 @@ impl Kernel for Plucker {
 
 /// The exact threshold of the edge test: the better of min(U,V,W) and min(-U,-V,-W), over |U+V+W|.
 fn relative_margin<R: Real>(weights: &[&R; 3], sum: &R) -> R {
+    if weights.iter().any(|x| x.is_nan()) {
+        return -R::infinity();
+    }
     let smallest = |values: [R; 3]| {
         values.into_iter().reduce(|a, b| if b.is_less(&a) { b } else { a }).expect("three values")
     };

@@ -93,7 +93,8 @@ impl Kernel for WoopWatertight {
         } else {
             (t.clone(), det.clone())
         };
-        let (near, far) = (end_times(&ray.t_min, &abs_det), end_times(&ray.t_max, &abs_det));
+        // The appendix compares with 0 where t_min stands here, and multiplies hit.t.
+        let (near, far) = (end_times(&ray.t_min, &abs_det), ray.t_max.clone() * &abs_det);
         if !sink.one(T, Refuse::Below, &gap(&signed_t, &near))
             || !sink.one(T, Refuse::Below, &gap(&far, &signed_t))
         {

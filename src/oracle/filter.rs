@@ -61,7 +61,7 @@ macro_rules! lane_by_lane {
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
                 for i in 0..N {
-                    self.0[i] = self.0[i] $operator other.0[i];
+                    self.0[i] $operator other.0[i];
                 }
                 self
             }
@@ -69,9 +69,9 @@ macro_rules! lane_by_lane {
     };
 }
 
-lane_by_lane!(Add, add, +);
-lane_by_lane!(Sub, sub, -);
-lane_by_lane!(Mul, mul, *);
+lane_by_lane!(Add, add, +=);
+lane_by_lane!(Sub, sub, -=);
+lane_by_lane!(Mul, mul, *=);
 
 type Vector<const N: usize> = [Lanes<N>; 3];
 

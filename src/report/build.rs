@@ -181,7 +181,7 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
     let made = source.make::<F>(place.index);
     let case: &Case<F> = &made.cases()[place.triangle as usize];
     let triangle = (made.cases().len() > 1).then_some(place.triangle as usize);
-    let severity = if with_severity { exact_severity(case) } else { None };
+    let severity = if with_severity { exact_severity(case, row.contract.extent) } else { None };
     let mut command = format!(
         "hairline explain {} --kernel {}",
         source.explain_arguments::<F>(place.index, triangle),

@@ -193,7 +193,7 @@ pub struct SeverityPart {
     pub in_space: f64,
     /// The same in ulps of the largest coordinate.
     pub in_space_ulps: f64,
-    /// |t - end|·|d| to the nearest finite end of the interval.
+    /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
 }
 
