@@ -5,7 +5,7 @@
 //! one component s that does not vanish identically tells the side of each vertex. An edge whose
 //! ends have opposite s crosses the line at a point whose t is a fraction of the ends' values.
 
-use super::integer::{Integer, Scaled, Triple, cross};
+use super::integer::{Integer, Interval, Triple, cross};
 use crate::truth::{Contact, ContactKind, Feature};
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -31,110 +31,122 @@ impl<I: Integer> Touch<I> {
     }
 
     fn compare(&self, other: &Touch<I>) -> Ordering {
-        let left = self.numerator.clone() * &other.denominator;
-        left.cmp(&(other.numerator.clone() * &self.denominator))
+        I::compare_products(
+            &self.numerator,
+            &other.denominator,
+            &other.numerator,
+            &self.denominator,
+        )
     }
 }
 
 /// The contact of the line with the triangle whose vertices, relative to the origin, are `r`. Either
 /// `n` is zero (no area) or the line lies in the plane of `n`.
 pub(super) fn decide<I: Integer>(
-    scaled: &Scaled,
+    interval: &Interval,
     d: &Triple<I>,
     r: [&Triple<I>; 3],
     n: &Triple<I>,
 ) -> Contact {
     let offsets = r.map(|r| cross(d, r));
     let touches = touches(d, r, &offsets, n);
-    let (Some(first), Some(last)) =
-        (touches.iter().min_by(|a, b| a.compare(b)), touches.iter().max_by(|a, b| a.compare(b)))
-    else {
+    let Some(mut first) = touches.iter().next() else {
         return Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
     };
-    let (t_min, t_max) = scaled.interval();
-    let against =
-        |touch: &Touch<I>, end: f64| scaled.compare_t(&touch.numerator, &touch.denominator, end);
-    let low_cut = against(first, t_min) == Ordering::Less;
-    let high_cut = against(last, t_max) == Ordering::Greater;
-    let kind = if against(first, t_max) == Ordering::Greater
-        || against(last, t_min) == Ordering::Less
-    {
-        ContactKind::None
-    } else if first.compare(last) == Ordering::Equal
-        || against(first, t_max) == Ordering::Equal
-        || against(last, t_min) == Ordering::Equal
-        || (low_cut && high_cut && t_min == t_max)
-    {
-        // One point: at a touch if it has that t, else between touches at t_min = t_max.
-        let at =
-            if against(first, t_max) == Ordering::Equal || first.compare(last) == Ordering::Equal {
-                first_feature(&touches, |touch| touch.compare(first))
-            } else if against(last, t_min) == Ordering::Equal {
-                first_feature(&touches, |touch| touch.compare(last))
-            } else {
-                None
-            };
-        let at = at.or_else(|| first_feature(&touches, |touch| against(touch, t_min)));
-        ContactKind::Point(at.unwrap_or_else(|| {
-            // Strictly between touches: on the first edge whose ends lie on both sides of t_min, if
-            // all of that edge is on the line, else inside.
-            let place = |vertex: usize| {
-                let touch = touches.iter().find(|touch| touch.feature == VERTICES[vertex]);
-                touch.map(|touch| against(touch, t_min))
-            };
-            let holds = |(_, i, j): &&(Feature, usize, usize)| {
-                matches!((place(*i), place(*j)), (Some(x), Some(y)) if x != y)
-            };
-            EDGES.iter().find(holds).map_or(Feature::Interior, |(edge, ..)| *edge)
-        }))
-    } else {
-        ContactKind::Segment
+    let mut last = first;
+    for touch in touches.iter().skip(1) {
+        if touch.compare(first) == Ordering::Less {
+            first = touch;
+        }
+        if touch.compare(last) == Ordering::Greater {
+            last = touch;
+        }
+    }
+    let start = |touch: &Touch<I>| interval.compare_start(&touch.numerator, &touch.denominator);
+    let end = |touch: &Touch<I>| interval.compare_end(&touch.numerator, &touch.denominator);
+    let one_point = std::ptr::eq(first, last) || first.compare(last) == Ordering::Equal;
+    // first ≤ last, and t_min ≤ t_max.
+    let kind = match (end(first), start(last), one_point) {
+        (Ordering::Greater, ..) | (_, Ordering::Less, _) => ContactKind::None,
+        (Ordering::Equal, ..) | (.., true) => {
+            ContactKind::Point(feature_at(&touches, |touch| touch.compare(first)))
+        }
+        (_, Ordering::Equal, _) => {
+            ContactKind::Point(feature_at(&touches, |touch| touch.compare(last)))
+        }
+        // Strictly between the touches.
+        _ if interval.is_point() => ContactKind::Point(feature_at(&touches, start)),
+        _ => ContactKind::Segment,
     };
     let meets_ray = last.numerator.sign() != Ordering::Less;
     Contact { kind, meets_ray, meets_line: true }
 }
 
-/// The feature of the first touch that compares equal: vertices come before edges, in the order of
-/// their letters.
-fn first_feature<I>(
-    touches: &[Touch<I>],
-    compare: impl Fn(&Touch<I>) -> Ordering,
-) -> Option<Feature> {
-    touches.iter().find(|touch| compare(touch) == Ordering::Equal).map(|touch| touch.feature)
+/// The feature of the line's point that touches are compared with: that of the first touch there
+/// (vertices come before edges, in the order of their letters), else the first edge that lies on the
+/// line and whose ends are on both sides of the point, else the interior.
+fn feature_at<I>(touches: &Touches<I>, compare: impl Fn(&Touch<I>) -> Ordering) -> Feature {
+    if let Some(touch) = touches.iter().find(|touch| compare(touch) == Ordering::Equal) {
+        return touch.feature;
+    }
+    let side = |vertex: usize| {
+        touches.iter().find(|touch| touch.feature == VERTICES[vertex]).map(&compare)
+    };
+    let holds = |(_, i, j): &&(Feature, usize, usize)| matches!((side(*i), side(*j)), (Some(x), Some(y)) if x != y);
+    EDGES.iter().find(holds).map_or(Feature::Interior, |(edge, ..)| *edge)
 }
 
-/// The vertices on the line and the crossings of the line with open edges.
+/// The vertices on the line, then the crossings of the line with open edges.
+struct Touches<I> {
+    vertices: [Option<Touch<I>>; 3],
+    edges: [Option<Touch<I>>; 3],
+}
+
+impl<I> Touches<I> {
+    fn iter(&self) -> impl Iterator<Item = &Touch<I>> {
+        self.vertices.iter().chain(&self.edges).flatten()
+    }
+}
+
 fn touches<I: Integer>(
     d: &Triple<I>,
     r: [&Triple<I>; 3],
     offsets: &[Triple<I>; 3],
     n: &Triple<I>,
-) -> Vec<Touch<I>> {
+) -> Touches<I> {
     // t of a point of the line is r_m / d_m for any m with d_m ≠ 0.
     let m = (0..3).find(|&m| !d[m].is_zero()).expect("a direction that is not zero");
-    let mut touches = Vec::with_capacity(6);
-    for (i, offset) in offsets.iter().enumerate() {
-        if offset.iter().all(Zero::is_zero) {
-            touches.push(Touch::new(r[i][m].clone(), d[m].clone(), VERTICES[i]));
-        }
-    }
-    let component = if n.iter().all(Zero::is_zero) {
-        (0..3).find(|&k| offsets[0][k] != offsets[1][k] || offsets[1][k] != offsets[2][k])
-    } else {
+    let has_area = !n.iter().all(Zero::is_zero);
+    // In a plane one component of the offsets tells all; without one that differs, all vertices are
+    // equally far from the line.
+    let component = if has_area {
         (0..3).find(|&k| !n[k].is_zero())
+    } else {
+        (0..3).find(|&k| offsets[0][k] != offsets[1][k] || offsets[1][k] != offsets[2][k])
     };
-    // Without a component that differs, all vertices are equally far from the line.
-    let Some(k) = component else { return touches };
-    for (edge, i, j) in EDGES {
+    let on_line = |offset: &Triple<I>| match (has_area, component) {
+        (true, Some(k)) => offset[k].is_zero(),
+        _ => offset.iter().all(Zero::is_zero),
+    };
+    let vertex = |i: usize| {
+        on_line(&offsets[i]).then(|| Touch::new(r[i][m].clone(), d[m].clone(), VERTICES[i]))
+    };
+    let edge = |(edge, i, j): (Feature, usize, usize)| {
+        let k = component?;
         let (x, y) = (&offsets[i][k], &offsets[j][k]);
-        if x.sign() != y.sign().reverse() || x.is_zero() {
-            continue;
+        if x.is_zero() || x.sign() != y.sign().reverse() {
+            return None;
         }
-        let meets = (0..3).all(|l| I::minor(y, &offsets[i][l], x, &offsets[j][l]).is_zero());
-        if meets {
+        // Without area the other components need not vanish along with this one.
+        let meets =
+            has_area || (0..3).all(|l| I::minor(y, &offsets[i][l], x, &offsets[j][l]).is_zero());
+        meets.then(|| {
             let numerator = I::minor(y, &r[i][m], x, &r[j][m]);
-            touches.push(Touch::new(numerator, (y.clone() - x) * &d[m], edge));
-        }
+            Touch::new(numerator, (y.clone() - x) * &d[m], edge)
+        })
+    };
+    Touches {
+        vertices: [vertex(0), vertex(1), vertex(2)],
+        edges: [edge(EDGES[0]), edge(EDGES[1]), edge(EDGES[2])],
     }
-    touches
 }

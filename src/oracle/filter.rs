@@ -21,10 +21,12 @@
 //! Overflow, infinities and NaN need no test: they make a permanent infinite or NaN, and then nothing
 //! is certain. A zero direction makes every weight zero, which is never certain either.
 
+use super::determinant::Determinant;
 use super::signs::Signs;
 use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
+use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 
 const U: f64 = f64::EPSILON / 2.0;
@@ -76,7 +78,7 @@ lane_by_lane!(Mul, mul, *=);
 type Vector<const N: usize> = [Lanes<N>; 3];
 
 /// The computed predicates of some cases, with bounds of their errors.
-struct Computed<const N: usize> {
+pub(super) struct Computed<const N: usize> {
     /// -U, -V and -W.
     weights: [Lanes<N>; 3],
     weight_errors: [Lanes<N>; 3],
@@ -135,6 +137,28 @@ pub(super) fn decide<F: Float, const N: usize>(
     }
 }
 
+/// The computed predicates of one case.
+pub(super) fn compute_one(case: &Case<f64>) -> Computed<1> {
+    compute(case.vectors().map(|v| v.map(|x| Lanes([x]))))
+}
+
+impl Computed<1> {
+    /// The sign of a determinant, if it is certain.
+    pub fn sign(&self, determinant: Determinant) -> Option<Ordering> {
+        let (value, error) = match determinant {
+            Determinant::Weight(k) => (-self.weights[k].0[0], self.weight_errors[k].0[0]),
+            Determinant::D => (self.d.0[0], self.d_error.0[0]),
+            Determinant::T => (self.t.0[0], self.t_error.0[0]),
+        };
+        (value.abs() > error).then(|| value.total_cmp(&0.0))
+    }
+
+    /// Whether t lies past an end of the interval, if that or its opposite is certain.
+    pub fn is_past(&self, end: f64) -> Option<bool> {
+        is_past(end, (self.t.0[0], self.t_error.0[0]), (self.d.0[0], self.d_error.0[0]))
+    }
+}
+
 impl<const N: usize> Computed<N> {
     #[inline(always)]
     fn truth(&self, k: usize, (t_min, t_max): (f64, f64)) -> Option<Truth> {
@@ -173,9 +197,6 @@ fn same_sign(x: f64, y: f64) -> bool {
 /// Whether T/D > end, if that or its opposite is certain.
 #[inline(never)]
 fn is_past(end: f64, (t, t_error): (f64, f64), (d, d_error): (f64, f64)) -> Option<bool> {
-    if end == 0.0 {
-        return Some((t > 0.0) == (d > 0.0));
-    }
     if end.is_infinite() {
         return Some(end < 0.0);
     }

@@ -1,15 +1,15 @@
-//! The exact layers: the predicates in integers, of 128 bits where they fit, of any size where not.
+//! The last layer: the predicates in integers of any size; and what the integer layers share.
 //!
 //! Positions are multiples of 2^p and the direction of 2^q for the smallest exponents p, q of their
 //! lowest bits, so that all coordinates become integers. U, V, W and D are then multiples of
 //! 2^(2p+q), T of 2^(3p), and t = T/D carries 2^(p-q).
 
 use super::contact;
-use super::signs::Signs;
+use super::determinant::Determinant;
 use crate::case::Case;
 use crate::truth::Truth;
 use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -23,10 +23,10 @@ pub(super) trait Integer:
     + for<'a> Sub<&'a Self, Output = Self>
     + for<'a> Mul<&'a Self, Output = Self>
 {
-    /// `digits * 2^shift`.
-    fn shifted(digits: i64, shift: u32) -> Self;
     /// In any size.
     fn big(&self) -> BigInt;
+    /// The order of `a*b` and `c*d`.
+    fn compare_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Ordering;
 
     /// Less, equal or greater than zero.
     fn sign(&self) -> Ordering {
@@ -40,147 +40,142 @@ pub(super) trait Integer:
 }
 
 impl Integer for i128 {
-    fn shifted(digits: i64, shift: u32) -> i128 {
-        i128::from(digits) << shift
-    }
     fn big(&self) -> BigInt {
         BigInt::from(*self)
+    }
+    fn compare_products(a: &i128, b: &i128, c: &i128, d: &i128) -> Ordering {
+        match (a.checked_mul(*b), c.checked_mul(*d)) {
+            (Some(left), Some(right)) => left.cmp(&right),
+            _ => BigInt::compare_products(&a.big(), &b.big(), &c.big(), &d.big()),
+        }
     }
 }
 
 impl Integer for BigInt {
-    fn shifted(digits: i64, shift: u32) -> BigInt {
-        BigInt::from(digits) << shift
-    }
     fn big(&self) -> BigInt {
         self.clone()
+    }
+    fn compare_products(a: &BigInt, b: &BigInt, c: &BigInt, d: &BigInt) -> Ordering {
+        (a * b).cmp(&(c * d))
     }
 }
 
 /// An integer vector.
 pub(super) type Triple<I> = [I; 3];
 
-/// A case's numbers as integers times a power of two.
-pub(super) struct Scaled {
-    /// Origin, a, b, c: digits and left shift.
-    positions: [[(i64, u32); 3]; 4],
-    direction: [(i64, u32); 3],
-    /// Bits of the largest position and of the largest direction coordinate.
-    position_bits: u32,
-    direction_bits: u32,
-    /// p - q.
-    t_exponent: i64,
+/// The interval of a case whose t = numerator / denominator carries a power of two.
+pub(super) struct Interval {
     t_min: f64,
     t_max: f64,
+    exponent: i64,
+}
+
+impl Interval {
+    /// With t = numerator / denominator * 2^exponent.
+    pub fn new(case: &Case<f64>, exponent: i64) -> Interval {
+        Interval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
+    }
+
+    /// Whether the interval is one point.
+    pub fn is_point(&self) -> bool {
+        self.t_min == self.t_max
+    }
+
+    /// The sign of t - t_min; the denominator is not zero.
+    pub fn compare_start<I: Integer>(&self, numerator: &I, denominator: &I) -> Ordering {
+        self.compare(numerator, denominator, self.t_min)
+    }
+
+    /// The sign of t - t_max; the denominator is not zero.
+    pub fn compare_end<I: Integer>(&self, numerator: &I, denominator: &I) -> Ordering {
+        self.compare(numerator, denominator, self.t_max)
+    }
+
+    #[inline]
+    fn compare<I: Integer>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
+        let negative = denominator.sign() == Ordering::Less;
+        let relative = |sign: Ordering| if negative { sign.reverse() } else { sign };
+        if end == 0.0 {
+            return relative(numerator.sign());
+        }
+        if end.is_infinite() {
+            return if end > 0.0 { Ordering::Less } else { Ordering::Greater };
+        }
+        let (digits, exponent) = decompose(end);
+        let (mut left, mut right) = (numerator.big(), denominator.big() * digits);
+        let shift = self.exponent - exponent;
+        if shift >= 0 {
+            left <<= shift
+        } else {
+            right <<= -shift
+        }
+        relative(left.cmp(&right))
+    }
+}
+
+/// A case's numbers as integers of any size.
+pub(super) struct Scaled {
+    origin: Triple<BigInt>,
+    direction: Triple<BigInt>,
+    vertices: [Triple<BigInt>; 3],
+    /// Of t = T/D.
+    t_exponent: i64,
 }
 
 impl Scaled {
     /// Of a valid case.
     pub fn new(case: &Case<f64>) -> Scaled {
         let [o, d, a, b, c] = case.vectors();
-        let (positions, position_bits, p) = align([o, a, b, c]);
-        let ([direction], direction_bits, q) = align([d]);
-        let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-        Scaled {
-            positions,
-            direction,
-            position_bits,
-            direction_bits,
-            t_exponent: p - q,
-            t_min,
-            t_max,
-        }
+        let ([origin, a, b, c], p) = align([o, a, b, c]);
+        let ([direction], q) = align([d]);
+        Scaled { origin, direction, vertices: [a, b, c], t_exponent: p - q }
     }
 
-    /// In 128 bits, where every intermediate fits.
-    pub fn decide_small(&self) -> Option<Truth> {
-        // Differences gain a bit; T sums six products of three of them; contact compares fractions
-        // of degree 2+1 by 1+2 in positions and directions, with two bits for its sums.
-        let (p, q) = (self.position_bits + 1, self.direction_bits);
-        let transversal = (3 * p + 3).max(2 * p + q + 4) <= 126;
-        let contact = 3 * (p + 1) + 3 * q + 8 <= 126;
-        if !transversal {
-            return None;
-        }
-        self.decide::<i128>(contact)
-    }
-
-    /// In integers of any size.
-    pub fn decide_big(&self) -> Truth {
-        self.decide::<BigInt>(true).expect("integers of any size decide everything")
-    }
-
-    /// None if the contact would be needed and does not fit.
-    fn decide<I: Integer>(&self, contact_fits: bool) -> Option<Truth> {
-        let integer = |(digits, shift): (i64, u32)| I::shifted(digits, shift);
-        let [o, a, b, c] = self.positions.map(|point| point.map(integer));
-        let d = self.direction.map(integer);
-        let n = cross(&minus(&b, &a), &minus(&c, &a));
-        let [a, b, c] = [minus(&a, &o), minus(&b, &o), minus(&c, &o)];
-        let capital_d = dot(&d, &n);
-        if capital_d.is_zero() {
-            let degenerate = n.iter().all(Zero::is_zero);
-            if !degenerate && !dot(&n, &a).is_zero() {
-                return Some(Truth::Parallel);
-            }
-            if !contact_fits {
-                return None;
-            }
-            let contact = contact::decide(self, &d, [&a, &b, &c], &n);
-            return Some(if degenerate {
-                Truth::Degenerate(contact)
-            } else {
-                Truth::Coplanar(contact)
-            });
-        }
-        let capital_t = dot(&n, &a);
-        let weights = [(&c, &b), (&a, &c), (&b, &a)].map(|(x, y)| dot(&d, &cross(x, y)).sign());
-        let compare = |end: f64| self.compare_t(&capital_t, &capital_d, end);
-        let signs = Signs {
-            d: capital_d.sign(),
-            weights,
-            t: capital_t.sign(),
-            from_min: compare(self.t_min),
-            from_max: compare(self.t_max),
+    /// The sign of one determinant.
+    pub fn sign(&self, determinant: Determinant) -> Ordering {
+        let [a, b, c] = &self.vertices;
+        let from_origin = |x, y| cross(&minus(x, &self.origin), &minus(y, &self.origin));
+        let value = match determinant {
+            Determinant::Weight(0) => dot(&self.direction, &from_origin(c, b)),
+            Determinant::Weight(1) => dot(&self.direction, &from_origin(a, c)),
+            Determinant::Weight(_) => dot(&self.direction, &from_origin(b, a)),
+            Determinant::D => self.capital_d(),
+            Determinant::T => self.capital_t(),
         };
-        Some(signs.truth())
+        Integer::sign(&value)
     }
 
-    /// The sign of `numerator / denominator * 2^(p-q) - end`; the denominator is not zero.
-    pub fn compare_t<I: Integer>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
-        let relative = |sign: Ordering| {
-            if denominator.sign() == Ordering::Less { sign.reverse() } else { sign }
-        };
-        if end.is_infinite() {
-            return if end > 0.0 { Ordering::Less } else { Ordering::Greater };
-        }
-        if end == 0.0 {
-            return relative(numerator.sign());
-        }
-        let (digits, exponent) = decompose(end);
-        let (mut left, mut right) = (numerator.big(), denominator.big() * digits);
-        let shift = self.t_exponent - exponent;
-        if shift >= 0 {
-            left <<= shift
-        } else {
-            right <<= -shift
-        }
-        relative((left - right).signum().sign_ordering())
+    fn normal(&self) -> Triple<BigInt> {
+        let [a, b, c] = &self.vertices;
+        cross(&minus(b, a), &minus(c, a))
     }
 
-    /// The interval.
-    pub fn interval(&self) -> (f64, f64) {
-        (self.t_min, self.t_max)
+    fn capital_d(&self) -> BigInt {
+        dot(&self.direction, &self.normal())
     }
-}
 
-trait SignOrdering {
-    fn sign_ordering(&self) -> Ordering;
-}
+    fn capital_t(&self) -> BigInt {
+        dot(&self.normal(), &minus(&self.vertices[0], &self.origin))
+    }
 
-impl SignOrdering for BigInt {
-    fn sign_ordering(&self) -> Ordering {
-        self.cmp(&BigInt::zero())
+    /// The signs of t - t_min and t - t_max, where D is not zero.
+    pub fn place(&self, case: &Case<f64>) -> (Ordering, Ordering) {
+        let (t, d) = (self.capital_t(), self.capital_d());
+        let interval = Interval::new(case, self.t_exponent);
+        (interval.compare_start(&t, &d), interval.compare_end(&t, &d))
+    }
+
+    /// The truth where D is zero.
+    pub fn flat(&self, case: &Case<f64>) -> Truth {
+        let n = self.normal();
+        let degenerate = n.iter().all(Zero::is_zero);
+        if !degenerate && !self.capital_t().is_zero() {
+            return Truth::Parallel;
+        }
+        let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));
+        let interval = Interval::new(case, self.t_exponent);
+        let contact = contact::decide(&interval, &self.direction, [&a, &b, &c], &n);
+        if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
     }
 }
 
@@ -199,20 +194,16 @@ fn decompose(value: f64) -> (i64, i64) {
     (if value < 0.0 { -odd } else { odd }, exponent + i64::from(zeros))
 }
 
-/// Points on a common grid: digits and shifts, the bits of the largest, and the grid's exponent.
-fn align<const N: usize>(points: [[f64; 3]; N]) -> ([[(i64, u32); 3]; N], u32, i64) {
+/// Points as integers on a common grid, and the grid's exponent.
+fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64) {
     let parts = points.map(|point| point.map(decompose));
-    let nonzero = || parts.iter().flatten().filter(|(digits, _)| *digits != 0);
-    let grid = nonzero().map(|(_, exponent)| *exponent).min().unwrap_or(0);
-    let shift = |exponent: i64| (exponent - grid) as u32;
-    let bits = nonzero()
-        .map(|(digits, exponent)| 64 - digits.unsigned_abs().leading_zeros() + shift(*exponent))
-        .max()
-        .unwrap_or(0);
-    let aligned = parts.map(|point| {
-        point.map(|(digits, exponent)| if digits == 0 { (0, 0) } else { (digits, shift(exponent)) })
-    });
-    (aligned, bits, grid)
+    let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
+    let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
+    let integer = |(digits, exponent): (i64, i64)| match digits {
+        0 => BigInt::zero(),
+        _ => BigInt::from(digits) << (exponent - grid),
+    };
+    (parts.map(|point| point.map(integer)), grid)
 }
 
 pub(super) fn minus<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {

@@ -1,0 +1,248 @@
+//! The sign of one determinant where the filter is in doubt: double-double arithmetic with a bound,
+//! then `robust`'s adaptive predicate where its conditions hold, then integers of any size.
+
+use super::Layer;
+use super::integer::Scaled;
+use crate::case::Case;
+use robust::{Coord3D, orient3d};
+use std::cmp::Ordering;
+use std::ops::{Add, Mul, Sub};
+
+/// The determinants that decide a truth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Determinant {
+    /// U, V or W: the weight of vertex 0, 1 or 2.
+    Weight(usize),
+    /// D = d·((b-a)×(c-a)).
+    D,
+    /// T = (a-o)·((b-o)×(c-o)).
+    T,
+}
+
+type Point = [f64; 3];
+
+/// The sign of a determinant of a case, and the layer that found it. `near_one` is the same case with
+/// its axes scaled, for the double-doubles.
+pub(super) fn sign(
+    determinant: Determinant,
+    case: &Case<f64>,
+    near_one: &Case<f64>,
+) -> (Ordering, Layer) {
+    if let Some(sign) = double_double(determinant, near_one) {
+        return (sign, Layer::DoubleDouble);
+    }
+    if let Some(sign) = by_robust(determinant, case) {
+        return (sign, Layer::Robust);
+    }
+    (Scaled::new(case).sign(determinant), Layer::BigInteger)
+}
+
+/// The rows of a determinant first·(second × third): d or a point, and points from which a base is
+/// subtracted. D and the weights have d first.
+fn rows(determinant: Determinant, case: &Case<f64>) -> (Point, Point, Point, Point) {
+    let [o, d, a, b, c] = case.vectors();
+    match determinant {
+        Determinant::Weight(0) => (d, c, b, o),
+        Determinant::Weight(1) => (d, a, c, o),
+        Determinant::Weight(_) => (d, b, a, o),
+        Determinant::D => (d, b, c, a),
+        Determinant::T => (a, b, c, o),
+    }
+}
+
+/// An unevaluated sum of two floats, the second at most half an ulp of the first.
+#[derive(Clone, Copy)]
+struct Double {
+    high: f64,
+    low: f64,
+}
+
+/// Exact (Knuth).
+#[inline(always)]
+fn two_sum(a: f64, b: f64) -> Double {
+    let high = a + b;
+    let part = high - a;
+    Double { high, low: (a - (high - part)) + (b - part) }
+}
+
+/// Exact where |a| ≥ |b| (Dekker).
+#[inline(always)]
+fn fast_two_sum(a: f64, b: f64) -> Double {
+    let high = a + b;
+    Double { high, low: b - (high - a) }
+}
+
+/// Exact without overflow and underflow (Veltkamp's splitting, Dekker's product).
+#[inline(always)]
+fn two_product(a: f64, b: f64) -> Double {
+    let split = |x: f64| {
+        let scaled = 134_217_729.0 * x;
+        let high = scaled - (scaled - x);
+        (high, x - high)
+    };
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let high = a * b;
+    let low = a_low * b_low - (((high - a_high * b_high) - a_low * b_high) - a_high * b_low);
+    Double { high, low }
+}
+
+impl Add for Double {
+    type Output = Double;
+    /// Off by at most 4u²·(|x| + |y|): the low parts' sum and its addition round once each.
+    #[inline(always)]
+    fn add(self, other: Double) -> Double {
+        let sum = two_sum(self.high, other.high);
+        fast_two_sum(sum.high, sum.low + (self.low + other.low))
+    }
+}
+
+impl Sub for Double {
+    type Output = Double;
+    #[inline(always)]
+    fn sub(self, other: Double) -> Double {
+        self + Double { high: -other.high, low: -other.low }
+    }
+}
+
+impl Mul for Double {
+    type Output = Double;
+    /// Off by at most 8u²·|xy|: the product of the low parts is left out (u²), and the products of
+    /// high and low parts (at most u each) and their sums round.
+    #[inline(always)]
+    fn mul(self, other: Double) -> Double {
+        let product = two_product(self.high, other.high);
+        let mixed = self.high * other.low + self.low * other.high;
+        fast_two_sum(product.high, product.low + mixed)
+    }
+}
+
+/// The largest coordinate for which nothing overflows and underflow stays below [`UNDERFLOW`].
+const LARGEST: f64 = f64::from_bits((1023 + 300) << 52);
+/// A low part that underflows is off by 2^-1074, and is multiplied by at most 2^301 afterwards.
+const UNDERFLOW: f64 = f64::from_bits((1023 - 700) << 52);
+
+/// The sign, if double-doubles are certain of it.
+///
+/// Differences are exact. With P the permanent, six products cost 8u²P, three differences 4u²P, three
+/// products 8u²P and two sums 8u²P: below 28u²P. The bound 64u²·P = 2^-100·P also covers P's own
+/// rounding.
+fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
+    let (first, p, q, base) = rows(determinant, case);
+    let largest = [first, p, q, base].as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest > LARGEST {
+        return None;
+    }
+    let difference = |x: Point| [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
+    let (p, q) = (difference(p), difference(q));
+    let first = match determinant {
+        Determinant::T => difference(first),
+        _ => first.map(|high| Double { high, low: 0.0 }),
+    };
+    let mut value = Double { high: 0.0, low: 0.0 };
+    let mut permanent = 0.0;
+    for (factor, (j, k)) in first.into_iter().zip([(1, 2), (2, 0), (0, 1)]) {
+        let (x, y) = (p[j] * q[k], p[k] * q[j]);
+        value = value + factor * (x - y);
+        permanent += factor.high.abs() * (x.high.abs() + y.high.abs());
+    }
+    let error = permanent * (-100f64).exp2() + UNDERFLOW;
+    (value.high.abs() > error).then(|| value.high.total_cmp(&0.0))
+}
+
+/// `robust` computes with Shewchuk's expansions, which are exact as long as no product of three
+/// coordinates (of their lowest bits) underflows or overflows. With every coordinate zero or within
+/// 2^±300 in absolute value, lowest bits are at least 2^-352 and products of three of them at least
+/// 2^-1056, above the smallest subnormal; products of three sums stay below 2^910.
+fn robust_holds(points: &[Point]) -> bool {
+    let range = (1.0 / LARGEST)..=LARGEST;
+    points.as_flattened().iter().all(|x| *x == 0.0 || range.contains(&x.abs()))
+}
+
+/// The sign by `robust::orient3d`, where it is exact. It takes points; for d·(P×Q) the differences P
+/// and Q must be exact, which their rounding errors tell.
+fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
+    let (first, p, q, base) = rows(determinant, case);
+    let points = if determinant == Determinant::T {
+        [first, p, q, base]
+    } else {
+        let exact = |x: Point| -> Option<Point> {
+            let differences = [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
+            differences.iter().all(|x| x.low == 0.0).then(|| differences.map(|x| x.high))
+        };
+        [first, exact(p)?, exact(q)?, [0.0; 3]]
+    };
+    if !robust_holds(&points) {
+        return None;
+    }
+    let [a, b, c, d] = points.map(|[x, y, z]| Coord3D { x, y, z });
+    orient3d(a, b, c, d).partial_cmp(&0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::scale_by_power_of_two;
+    use crate::case::Draw;
+
+    const ALL: [Determinant; 5] = [
+        Determinant::Weight(0),
+        Determinant::Weight(1),
+        Determinant::Weight(2),
+        Determinant::D,
+        Determinant::T,
+    ];
+
+    /// Cases with exact zeros and near ones among their determinants.
+    fn case(index: u64, scale: i32) -> Case<f64> {
+        let mut draw = Draw::new("determinant", 1, index);
+        let by = |v: [f64; 3]| v.map(|x| scale_by_power_of_two(x, scale));
+        let lattice = draw.coin();
+        let mut point = || -> [f64; 3] {
+            if lattice { draw.lattice_point(2).map(|x| x as f64) } else { draw.point::<f64>() }
+        };
+        let [o, d, a, b, c] = std::array::from_fn(|_| point());
+        let s = draw.unit();
+        let d =
+            if draw.coin() { std::array::from_fn(|i| a[i] + s * (b[i] - a[i]) - o[i]) } else { d };
+        Case::new(by(o), by(d), [by(a), by(b), by(c)])
+    }
+
+    #[test]
+    fn each_layer_agrees_with_big_integers_or_hands_on() {
+        for scale in [-400, -303, -299, -100, 0, 100, 299, 303, 320] {
+            let (mut doubles, mut robusts) = (0, 0);
+            for index in 0..400 {
+                let case = case(index, scale);
+                let exact = Scaled::new(&case);
+                for determinant in ALL {
+                    let expected = exact.sign(determinant);
+                    if let Some(sign) = double_double(determinant, &case) {
+                        doubles += 1;
+                        assert_eq!(
+                            sign, expected,
+                            "double-double {determinant:?} 2^{scale} {case:?}"
+                        );
+                    }
+                    if let Some(sign) = by_robust(determinant, &case) {
+                        robusts += 1;
+                        assert_eq!(sign, expected, "robust {determinant:?} 2^{scale} {case:?}");
+                    }
+                }
+            }
+            // Both are open inside their ranges and shut outside.
+            assert_eq!(robusts > 0, scale.abs() < 300, "2^{scale}");
+            assert_eq!(doubles > 0, (-230..300).contains(&scale), "2^{scale}");
+        }
+    }
+
+    #[test]
+    fn the_guard_shuts_where_robust_is_wrong() {
+        let h = scale_by_power_of_two(1.0, -359);
+        let points = [[h, 0.0, 0.0], [0.0, h, 0.0], [0.0, 0.0, h], [0.0; 3]];
+        assert!(!robust_holds(&points));
+        let [a, b, c, d] = points.map(|[x, y, z]| Coord3D { x, y, z });
+        assert_eq!(orient3d(a, b, c, d), 0.0, "which is wrong: the determinant is positive");
+        let case = Case::<f64>::new([0.0; 3], [1.0, 0.0, 0.0], [points[0], points[1], points[2]]);
+        assert_eq!(sign(Determinant::T, &case, &case), (Ordering::Greater, Layer::BigInteger));
+    }
+}

@@ -1,0 +1,83 @@
+//! Sign by sign, where the filter could not decide all at once.
+
+use super::Layer;
+use super::determinant::{self, Determinant};
+use super::filter;
+use super::integer::Scaled;
+use super::signs::Signs;
+use crate::arith::scale_by_power_of_two;
+use crate::case::Case;
+use crate::truth::Truth;
+use std::cmp::Ordering;
+
+/// The truth of a valid case, and the last layer that it needed.
+pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
+    let near_one = scaled_axes(case);
+    let computed = filter::compute_one(&near_one);
+    let mut deepest = Layer::ScaledFilter;
+    let mut sign = |wanted: Determinant| {
+        computed.sign(wanted).unwrap_or_else(|| {
+            let (sign, layer) = determinant::sign(wanted, case, &near_one);
+            deepest = deepest.max(layer);
+            sign
+        })
+    };
+    let weights = [0, 1, 2].map(|k| sign(Determinant::Weight(k)));
+    // U+V+W = -D: weights that agree need no D, and zero weights with them.
+    let (any_less, any_greater) =
+        (weights.contains(&Ordering::Less), weights.contains(&Ordering::Greater));
+    let d = match (any_less, any_greater) {
+        (true, false) => Ordering::Greater,
+        (false, true) => Ordering::Less,
+        (false, false) => Ordering::Equal,
+        (true, true) => sign(Determinant::D),
+    };
+    if d == Ordering::Equal {
+        return (Scaled::new(case).flat(case), Layer::BigInteger);
+    }
+    let t = sign(Determinant::T);
+    let (from_min, from_max) = match place(case, d, t) {
+        Some(place) => place,
+        None => {
+            deepest = Layer::BigInteger;
+            Scaled::new(case).place(case)
+        }
+    };
+    (Signs { d, weights, t, from_min, from_max }.truth(), deepest)
+}
+
+/// The signs of t - t_min and t - t_max, where the sign of t or the filter tells.
+fn place(case: &Case<f64>, d: Ordering, t: Ordering) -> Option<(Ordering, Ordering)> {
+    let t_sign = if d == Ordering::Less { t.reverse() } else { t };
+    let computed = filter::compute_one(case);
+    let compare = |end: f64| {
+        if end == 0.0 {
+            return Some(t_sign);
+        }
+        let past = computed.is_past(end)?;
+        Some(if past { Ordering::Greater } else { Ordering::Less })
+    };
+    Some((compare(case.ray.t_min)?, compare(case.ray.t_max)?))
+}
+
+/// The case with each axis scaled by a power of two so that its largest position is about 1, and the
+/// direction with them and then so that its largest coordinate is. Scaling an axis multiplies every
+/// determinant by a positive number, so all signs stay. What underflows is off by less than 2^-1074,
+/// which the layers' bounds allow for; t changes, so the interval means nothing here.
+fn scaled_axes(case: &Case<f64>) -> Case<f64> {
+    let [o, d, a, b, c] = case.vectors();
+    let exponent = |x: f64| if x == 0.0 { None } else { Some(exponent_of(x)) };
+    let axis = [0, 1, 2].map(|i| [o[i], a[i], b[i], c[i]].into_iter().filter_map(exponent).max());
+    let shift = axis.map(|largest| -largest.unwrap_or(0));
+    let longest = (0..3).filter_map(|i| exponent(d[i]).map(|e| e + shift[i])).max().unwrap_or(0);
+    let by = |x: f64, power: i32| if x == 0.0 { x } else { scale_by_power_of_two(x, power) };
+    let position = |p: [f64; 3]| [0, 1, 2].map(|i| by(p[i], shift[i]));
+    let direction = [0, 1, 2].map(|i| by(d[i], shift[i] - longest));
+    Case::new(position(o), direction, [position(a), position(b), position(c)])
+}
+
+/// The binary exponent of a number that is not zero.
+fn exponent_of(x: f64) -> i32 {
+    let field = (x.abs().to_bits() >> 52) as i32;
+    if field == 0 { -1011 - x.abs().to_bits().leading_zeros() as i32 } else { field - 1023 }
+}
