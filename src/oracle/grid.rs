@@ -6,10 +6,11 @@
 //! determinants below 2^96 (128 bits).
 
 use super::contact;
-use super::integer::{Interval, dot};
+use super::integer::Interval;
 use super::signs::Signs;
 use crate::case::Case;
-use crate::truth::Truth;
+use crate::truth::{Contact, ContactKind, Feature, Truth};
+use std::cmp::Ordering;
 
 /// Bits of a coordinate.
 const BITS: i32 = 30;
@@ -48,15 +49,65 @@ pub(super) fn decide(case: &Case<f64>) -> Option<Truth> {
 /// Lines parallel to the plane, and triangles without area.
 #[inline(never)]
 fn flat(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], capital_t: i128) -> Truth {
-    let [a, b, c] = vertices.map(|v| v.map(i128::from));
-    let n = super::integer::cross(&super::integer::minus(&b, &a), &super::integer::minus(&c, &a));
+    let [a, b, c] = vertices;
+    let n = cross(minus(b, a), minus(c, a));
     let degenerate = n == [0; 3];
     if !degenerate && capital_t != 0 {
-        debug_assert_ne!(dot(&n, &a), 0);
         return Truth::Parallel;
     }
-    let contact = contact::decide(interval, &d.map(i128::from), [&a, &b, &c], &n);
+    if !degenerate && interval.is_default() {
+        return Truth::Coplanar(coplanar_contact(d, vertices, n));
+    }
+    let wide = |v: [i64; 3]| v.map(i128::from);
+    let contact = contact::decide(interval, &wide(d), [&wide(a), &wide(b), &wide(c)], &wide(n));
     if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
+}
+
+/// The contact on [0, inf) of a line in the plane of a triangle with area. The line meets the boundary
+/// nowhere, at one vertex, or at two points of different t, so the signs of their t tell all.
+fn coplanar_contact(d: [i64; 3], vertices: [[i64; 3]; 3], n: [i64; 3]) -> Contact {
+    const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
+    const EDGES: [(Feature, usize, usize); 3] =
+        [(Feature::EdgeAb, 0, 1), (Feature::EdgeBc, 1, 2), (Feature::EdgeCa, 2, 0)];
+    let k = (0..3).find(|&k| n[k] != 0).expect("a triangle with area");
+    let m = (0..3).find(|&m| d[m] != 0).expect("a direction that is not zero");
+    // The side of the line that each vertex is on: component k of d × vertex.
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let side = vertices.map(|v| d[i] * v[j] - d[j] * v[i]);
+    let mut touches: [Option<(Ordering, Feature)>; 2] = [None; 2];
+    let mut found = 0;
+    let mut touch = |t: Ordering, feature: Feature| {
+        touches[found] = Some((t, feature));
+        found += 1;
+    };
+    let of_d = d[m].signum();
+    for (v, feature) in VERTICES.into_iter().enumerate() {
+        if side[v] == 0 {
+            touch((vertices[v][m].signum() * of_d).cmp(&0), feature);
+        }
+    }
+    for (feature, v, w) in EDGES {
+        if side[v].signum() * side[w].signum() < 0 {
+            let (x, y) = (i128::from(side[v]), i128::from(side[w]));
+            let numerator = y * i128::from(vertices[v][m]) - x * i128::from(vertices[w][m]);
+            let sign = numerator.signum() as i64 * (side[w] - side[v]).signum() * of_d;
+            touch(sign.cmp(&0), feature);
+        }
+    }
+    let kind = match touches {
+        [None, _] => ContactKind::None,
+        // One vertex; or the first of two points, the other of which is behind the origin.
+        [Some((Ordering::Less, _)), None] => ContactKind::None,
+        [Some((_, feature)), None] => ContactKind::Point(feature),
+        [Some((Ordering::Less, _)), Some((Ordering::Less, _))] => ContactKind::None,
+        [Some((Ordering::Equal, feature)), Some((Ordering::Less, _))]
+        | [Some((Ordering::Less, _)), Some((Ordering::Equal, feature))] => {
+            ContactKind::Point(feature)
+        }
+        _ => ContactKind::Segment,
+    };
+    let meets_ray = kind != ContactKind::None;
+    Contact { kind, meets_ray, meets_line: touches[0].is_some() }
 }
 
 /// Numbers as integers below 2^30 times a power of two, and its exponent.

@@ -76,6 +76,11 @@ impl Interval {
         Interval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
     }
 
+    /// Whether the interval is `[0, +inf]`.
+    pub fn is_default(&self) -> bool {
+        self.t_min == 0.0 && self.t_max == f64::INFINITY
+    }
+
     /// Whether the interval is one point.
     pub fn is_point(&self) -> bool {
         self.t_min == self.t_max
