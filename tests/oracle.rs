@@ -1,101 +1,42 @@
-//! The oracle against things that know nothing of it: integer arithmetic written here, the stored
-//! truths, the definition, and laws that any truth obeys.
+//! The oracle against integer arithmetic, its definition, and laws that any truth obeys.
 
 use hairline::arith::scale_by_power_of_two;
-use hairline::case::{Case, Draw, Parameters};
+use hairline::case::{Case, Parameters};
 use hairline::family::{FAMILIES, find};
-use hairline::oracle::{define, truth};
+use hairline::oracle::{Layer, define, truth};
+use hairline::selfcheck;
 use hairline::truth::{Crossing, Facing, Feature, Place, Truth};
 use proptest::prelude::*;
-use std::cmp::Ordering;
-
-type Point = [i64; 3];
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn determinant(a: Point, b: Point, c: Point) -> i64 {
-    a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1]
-        - a[2] * b[1] * c[0]
-        - a[1] * b[0] * c[2]
-        - a[0] * b[2] * c[1]
-}
-
-/// The crossing of a line with a lattice triangle, from determinants of 64-bit integers; none if the
-/// case is not transversal.
-fn crossing(o: Point, d: Point, [a, b, c]: [Point; 3]) -> Option<Crossing> {
-    let (e1, e2) = (minus(b, a), minus(c, a));
-    // Cramer's rule for o + t d = a + u e1 + v e2, with columns (-d, e1, e2).
-    let negative_d = minus([0; 3], d);
-    let whole = determinant(negative_d, e1, e2);
-    if whole == 0 {
-        return None;
-    }
-    let s = minus(o, a);
-    let [t, u, v] =
-        [determinant(s, e1, e2), determinant(negative_d, s, e2), determinant(negative_d, e1, s)];
-    let positive = |x: i64| x * whole.signum();
-    let [t, u, v] = [positive(t), positive(u), positive(v)];
-    let w = whole.abs() - u - v;
-    let feature = match (w.signum(), u.signum(), v.signum()) {
-        (-1, ..) | (_, -1, _) | (.., -1) => Feature::Outside,
-        (1, 1, 1) => Feature::Interior,
-        (0, 1, 1) => Feature::EdgeBc,
-        (1, 0, 1) => Feature::EdgeCa,
-        (1, 1, 0) => Feature::EdgeAb,
-        (1, 0, 0) => Feature::VertexA,
-        (0, 1, 0) => Feature::VertexB,
-        _ => Feature::VertexC,
-    };
-    Some(Crossing {
-        // whole = -d·(e1×e2) = -D.
-        facing: if whole > 0 { Facing::Front } else { Facing::Back },
-        place: match t.cmp(&0) {
-            Ordering::Less => Place::Before,
-            Ordering::Equal => Place::AtMin,
-            Ordering::Greater => Place::Within,
-        },
-        t_sign: t.cmp(&0),
-        feature,
-    })
-}
 
 #[test]
 fn every_lattice_case_agrees_with_integer_arithmetic() {
-    let lattice = find("lattice").unwrap();
-    let mut transversal = 0u64;
-    for index in 0..lattice.size.unwrap() {
-        let made = lattice.make_in_order::<f32>(&Parameters::default(), index);
-        let case = made.cases()[0];
-        let [o, d, a, b, c] = case.vectors().map(|v| v.map(|x| x as i64));
-        let expected = if d == [0; 3] {
-            Truth::Invalid
-        } else if let Some(crossing) = crossing(o, d, [a, b, c]) {
-            transversal += 1;
-            Truth::Transversal(crossing)
-        } else {
-            let n = minus(b, a);
-            let flat = (0..3).all(|i| {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                let e = minus(c, a);
-                n[j] * e[k] == n[k] * e[j]
-            });
-            let off_plane = determinant(minus(a, o), minus(b, o), minus(c, o)) != 0;
-            match (flat, off_plane) {
-                (false, true) => Truth::Parallel,
-                // Contacts are held to the definition, below.
-                (flat, _) => {
-                    let found = truth(&case);
-                    let class = if flat { "degenerate" } else { "coplanar" };
-                    assert_eq!(found.class_name(), class, "index {index}");
-                    found
-                }
-            }
-        };
-        assert_eq!(truth(&case), expected, "index {index}: {case:?}");
+    let check = selfcheck::lattice(&|_| {});
+    assert!(check.cases == 14_348_907, "{}", check.cases);
+    assert_eq!((check.differences, check.first), (0, None));
+}
+
+#[test]
+fn cases_over_the_whole_range_agree_with_the_definition() {
+    let narrow = selfcheck::whole_range::<f32>(7, 1000, &|_| {});
+    let wide = selfcheck::whole_range::<f64>(7, 1000, &|_| {});
+    assert_eq!((narrow.differences, narrow.first), (0, None));
+    assert_eq!((wide.differences, wide.first), (0, None));
+    // Every layer had its turn.
+    for layer in [Layer::Filter, Layer::ScaledFilter, Layer::DoubleDouble, Layer::BigInteger] {
+        assert!(wide.layers.of(layer) > 0, "{layer:?}");
     }
-    assert!(transversal > 5_000_000, "{transversal}");
+}
+
+#[test]
+fn families_agree_with_the_definition_at_the_intervals_ends_too() {
+    for row in FAMILIES {
+        for check in [
+            selfcheck::family::<f32>(row, 3, 200, &|_| {}),
+            selfcheck::family::<f64>(row, 3, 200, &|_| {}),
+        ] {
+            assert_eq!((check.differences, check.first), (0, None), "{}", row.name);
+        }
+    }
 }
 
 #[test]
@@ -121,33 +62,6 @@ fn lattice_contacts_agree_with_the_definition() {
         }
     }
     assert!(contacts > 10_000, "{contacts}");
-}
-
-#[test]
-fn wild_cases_agree_with_the_definition() {
-    // Coordinates from a small set of troublesome numbers, so that coincidences are common.
-    let numbers = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        0.1,
-        1e-310,
-        -5e-324,
-        1e308,
-        f64::MAX,
-        3.0,
-        2f64.powi(-500),
-        1.0 + f64::EPSILON,
-    ];
-    for index in 0..1000 {
-        let mut draw = Draw::new("wild", 1, index);
-        let mut vector = || -> [f64; 3] { std::array::from_fn(|_| draw.pick(&numbers)) };
-        let [o, d, a, b, c] = std::array::from_fn(|_| vector());
-        let (x, y) = (draw.pick(&numbers), draw.pick(&numbers));
-        let case = Case::<f64>::new(o, d, [a, b, c]).on(x.min(y), x.max(y));
-        assert_eq!(truth(&case), define(&case).truth, "{case:?}");
-    }
 }
 
 fn family_case() -> impl Strategy<Value = Case<f64>> {

@@ -11,6 +11,7 @@ mod list;
 mod output;
 mod progress;
 mod select;
+mod selfcheck;
 mod truth;
 
 pub use exit::{Failure, Status};
@@ -36,6 +37,8 @@ enum Command {
     Explain(explain::ExplainArguments),
     /// List kernels, families, contracts or epsilon presets
     List(list::ListArguments),
+    /// Hold the oracle to its definition and to integer arithmetic
+    Selfcheck(selfcheck::SelfcheckArguments),
     /// Verify or make the stored cases
     Corpus(corpus::CorpusArguments),
 }
@@ -56,6 +59,7 @@ pub fn main() -> ExitCode {
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
+        Command::Selfcheck(arguments) => selfcheck::run(&arguments),
         Command::Corpus(arguments) => corpus::run(&arguments),
     };
     match outcome {
