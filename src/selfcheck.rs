@@ -4,7 +4,7 @@
 
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
-use crate::family::{Family, LATTICE_SIZE, find};
+use crate::family::{Family, LATTICE_SIZE, apply, find};
 use crate::kernel::Scalar;
 use crate::oracle::{Definition, Layers, define, truth_counted};
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
@@ -71,8 +71,9 @@ fn over(
     (0..indices.div_ceil(CHUNK)).into_par_iter().map(chunk).reduce(Check::default, Check::merged)
 }
 
-/// A family's set against the definition; every fourth index also with the interval's ends at the
-/// crossing, exact where a float is, and some ulps beside it.
+/// A family's set against the definition. Every fourth index also with the interval's ends at the
+/// crossing, exact where a float is, and some ulps beside it; every fourth also scaled to where
+/// products of two or three coordinates overflow or underflow in part.
 pub fn family<F: Scalar>(
     family: &Family,
     seed: u64,
@@ -83,6 +84,18 @@ pub fn family<F: Scalar>(
         let made = family.make::<F>(&Parameters::default(), seed, index);
         for case in made.cases() {
             against_definition(index, case, check);
+            if index % 4 == 1 {
+                let mut draw = Draw::new("scaled", seed, index);
+                let third = F::MAX_EXPONENT.div_euclid(3);
+                let spread = i64::from(F::DIGITS) * 2;
+                let towards = if draw.coin() { third } else { -third };
+                let scale = towards + draw.integer(-spread, spread) as i32;
+                let scale_direction = draw.coin();
+                let mut scaled = *case;
+                let parameters = Parameters { scale, scale_direction, ..Parameters::default() };
+                apply(&parameters, &mut scaled);
+                check.compare(index, &scaled, define(&scaled).truth);
+            }
         }
     })
 }

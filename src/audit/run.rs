@@ -3,7 +3,7 @@
 use super::plan::{Plan, Row};
 use super::severity::approximate;
 use super::source::Source;
-use super::tally::{Place, Tally};
+use super::tally::{ClassCount, Place, Tally};
 use crate::case::Case;
 use crate::contract::{Contract, Extent};
 use crate::family::Grouping;
@@ -185,6 +185,8 @@ struct RunnerRow<'a, F> {
 /// What a contract asks on a chunk.
 struct Asked {
     obligations: Vec<Obligation>,
+    /// What was asked, by class.
+    classes: Vec<ClassCount>,
     groups: Vec<GroupTruth>,
 }
 
@@ -240,8 +242,8 @@ impl<'a, F: Scalar> Runner<'a, F> {
             starts.push(cases.len());
         }
         let start = self.observer.now();
-        let truths: Vec<Truth> =
-            cases.iter().map(|case| oracle::truth_counted(case, &mut summary.layers)).collect();
+        let mut truths = Vec::with_capacity(cases.len());
+        oracle::truths(&cases, &mut truths, &mut summary.layers);
         summary.oracle_nanoseconds += self.observer.now() - start;
         let classes = truths.iter().map(Class::of).collect();
         let grouping = source.grouping();
@@ -267,7 +269,11 @@ fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
             Obligation::Free
         }
     });
-    let obligations = obligations.collect();
+    let obligations: Vec<Obligation> = obligations.collect();
+    let mut classes = vec![ClassCount::default(); Class::COUNT];
+    for (class, obligation) in chunk.classes.iter().zip(&obligations) {
+        classes[class.number()].ask(*obligation);
+    }
     let is_group = !matches!(chunk.grouping, Grouping::Single | Grouping::Respawn);
     let truth_of =
         |range: std::ops::Range<usize>| group_truth(&chunk.truths[range], contract, chunk.grouping);
@@ -276,7 +282,7 @@ fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
     } else {
         Vec::new()
     };
-    Asked { obligations, groups }
+    Asked { obligations, classes, groups }
 }
 
 impl<F: Scalar> RunnerRow<'_, F> {
@@ -308,21 +314,20 @@ impl<F: Scalar> RunnerRow<'_, F> {
         extent: Extent,
         tally: &mut Tally,
     ) {
+        tally.ask(&asked.classes);
         for (i, verdict) in verdicts.iter().enumerate() {
-            let (class, truth, obligation) =
-                (chunk.classes[i], &chunk.truths[i], asked.obligations[i]);
-            tally.ask(class, obligation);
+            let (truth, obligation) = (&chunk.truths[i], asked.obligations[i]);
             if verdict.hit {
-                tally.hit(class, *truth != Truth::Invalid);
+                tally.hit(chunk.classes[i], *truth != Truth::Invalid);
             }
-            let finding = if panicked.contains(&i) {
+            let finding = if !panicked.is_empty() && panicked.contains(&i) {
                 Some(Finding::Panic)
             } else {
                 judge::judge(obligation, truth, self.info.gives, verdict)
             };
             if let Some(finding) = finding {
                 let severity = approximate(&chunk.cases[i], truth, finding, extent);
-                tally.find(class, finding, chunk.places[i], severity);
+                tally.find(chunk.classes[i], finding, chunk.places[i], severity);
             }
         }
         if chunk.grouping == Grouping::Respawn {

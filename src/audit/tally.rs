@@ -46,6 +46,16 @@ impl ClassCount {
         }
     }
 
+    /// Counts a case and what was asked of it.
+    pub fn ask(&mut self, obligation: Obligation) {
+        self.cases += 1;
+        match obligation {
+            Obligation::MustHit => self.must_hit += 1,
+            Obligation::MustMiss => self.must_miss += 1,
+            Obligation::Free => {}
+        }
+    }
+
     /// Adds another count.
     pub fn merge(&mut self, other: &ClassCount) {
         self.cases += other.cases;
@@ -214,14 +224,10 @@ impl Tally {
         }
     }
 
-    /// Counts what was asked.
-    pub fn ask(&mut self, class: Class, obligation: Obligation) {
-        let count = &mut self.classes[class.number()];
-        count.cases += 1;
-        match obligation {
-            Obligation::MustHit => count.must_hit += 1,
-            Obligation::MustMiss => count.must_miss += 1,
-            Obligation::Free => {}
+    /// Adds what was asked, by class.
+    pub fn ask(&mut self, classes: &[ClassCount]) {
+        for (count, more) in self.classes.iter_mut().zip(classes) {
+            count.merge(more);
         }
     }
 
@@ -277,7 +283,7 @@ mod tests {
     fn any_split_adds_up_to_the_same() {
         let class = Class::all().next().unwrap();
         let event = |tally: &mut Tally, index: u64| {
-            tally.ask(class, Obligation::MustHit);
+            tally.classes[class.number()].ask(Obligation::MustHit);
             if index.is_multiple_of(3) {
                 let place = Place { index, triangle: 0 };
                 tally.find(class, Finding::FalseMiss, place, (index * 7 % 11) as f64);
