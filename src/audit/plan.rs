@@ -144,20 +144,21 @@ impl EpsilonChoice {
                         epsilons.fill(EpsilonText::Decimal("0".to_owned()));
                     }
                     let mut fits = preset.entries.is_empty();
+                    let mut taken = Vec::new();
                     for (gate, epsilon) in entry.info.gates.iter().zip(&mut epsilons) {
                         if let Some(found) = preset.entries.iter().find(|entry| entry.fits(gate)) {
                             *epsilon = preset_text(found.value);
+                            taken.push(gate.name);
                             fits = true;
                         }
                     }
                     if fits {
-                        rows.push(Row {
-                            entry,
-                            set: name.clone(),
-                            epsilons,
-                            contract,
-                            contract_name,
-                        });
+                        let set = if taken.is_empty() {
+                            name.clone()
+                        } else {
+                            format!("{name}: {}", taken.join("+"))
+                        };
+                        rows.push(Row { entry, set, epsilons, contract, contract_name });
                     }
                 }
                 EpsilonChoice::Given(pairs) => {

@@ -173,11 +173,16 @@ impl Source {
 
     /// The words after `hairline explain` that show a case again.
     pub fn explain_arguments<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
-        let id = self.id::<F>(index, triangle);
+        let id = quoted(&self.id::<F>(index, triangle));
         match self {
-            Source::Family { .. } => format!("'{id}'"),
-            Source::Mesh { family, .. } => format!("'{id}' --mesh '{}'", family.path()),
-            Source::Corpus(set) => format!("'{id}' --corpus '{}'", set.file),
+            Source::Family { .. } => id,
+            Source::Mesh { family, .. } => format!("{id} --mesh {}", quoted(family.path())),
+            Source::Corpus(set) => format!("{id} --corpus {}", quoted(&set.file)),
         }
     }
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    format!("'{}'", word.replace('\'', "'\\''"))
 }

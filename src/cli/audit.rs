@@ -161,6 +161,11 @@ impl AuditArguments {
             found.ok_or_else(|| unknown("format", name, names, "hairline audit --help"))
         });
         let formats = formats.collect::<Result<Vec<_>, _>>()?;
+        if let Some(i) =
+            (1..self.output.len()).find(|&i| self.output[..i].contains(&self.output[i]))
+        {
+            return Err(Failure::usage(format!("-o {} is given twice", self.output[i])));
+        }
         match (formats.len(), self.output.len()) {
             (1, 0) => Ok(vec![(formats[0], "-")]),
             (n, m) if n == m => {
@@ -195,8 +200,16 @@ impl AuditArguments {
 
     fn sources(&self) -> Result<Vec<Source>, Failure> {
         let (count, parameters, seed) = (self.count()?, self.parameters()?, self.seed);
+        if !self.corpus.is_empty() && parameters != Parameters::default() {
+            let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
+            return Err(Failure::usage(message));
+        }
         let mut sources = Vec::new();
-        for family in self.families()? {
+        let families = self.families()?;
+        if self.exhaustive && families.iter().all(|family| family.size.is_none()) {
+            return Err(Failure::usage("--exhaustive: only the family 'lattice' is finite"));
+        }
+        for family in families {
             let exhaustive = self.exhaustive && family.size.is_some();
             sources.push(Source::Family {
                 family,

@@ -9,8 +9,8 @@ use crate::audit::{Row, exact_severity};
 use crate::case::{Case, CaseId};
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::family::{FAMILIES, Made, MeshFamily, find};
-use crate::judge::{Obligation, judge, obligation, promises_direction};
+use crate::family::{FAMILIES, Grouping, Made, MeshFamily, find};
+use crate::judge::{GroupTruth, Obligation, group_truth, judge, obligation, promises_direction};
 use crate::kernel::{Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
@@ -38,8 +38,8 @@ pub struct ExplainArguments {
 
 /// Cases in one of the scalars: one, or the triangles of a group.
 enum Cases {
-    F32(Vec<Case<f32>>, bool),
-    F64(Vec<Case<f64>>, bool),
+    F32(Vec<Case<f32>>, Grouping),
+    F64(Vec<Case<f64>>, Grouping),
 }
 
 /// Runs the command.
@@ -47,8 +47,8 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     let cases = arguments.cases()?;
     write_result("-", |out| match &cases {
-        Cases::F32(cases, respawned) => write_cases(out, &arguments.case, cases, *respawned, &rows),
-        Cases::F64(cases, respawned) => write_cases(out, &arguments.case, cases, *respawned, &rows),
+        Cases::F32(cases, grouping) => write_cases(out, &arguments.case, cases, *grouping, &rows),
+        Cases::F64(cases, grouping) => write_cases(out, &arguments.case, cases, *grouping, &rows),
     })?;
     Ok(Status::Success)
 }
@@ -90,13 +90,16 @@ impl ExplainArguments {
 
 fn stored_cases(stored: StoredCase) -> Cases {
     match stored.case {
-        AnyCase::F32(case) => Cases::F32(vec![case], false),
-        AnyCase::F64(case) => Cases::F64(vec![case], false),
+        AnyCase::F32(case) => Cases::F32(vec![case], Grouping::Single),
+        AnyCase::F64(case) => Cases::F64(vec![case], Grouping::Single),
     }
 }
 
-/// The cases of an id, and whether they start at a kernel's own hit point.
-fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<(Vec<Case<F>>, bool), Failure> {
+/// The cases of an id, and how they belong together.
+fn from_id<F: Scalar>(
+    id: &CaseId,
+    mesh: Option<&str>,
+) -> Result<(Vec<Case<F>>, Grouping), Failure> {
     if let Some(digest) = &id.parameters.mesh {
         let path = mesh.ok_or_else(|| {
             Failure::usage(format!("'{id}' is a case of a mesh: add --mesh FILE"))
@@ -108,7 +111,7 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<(Vec<Case<F>>, 
             return Err(Failure::Message(Status::BadInput, message));
         }
         let family = MeshFamily::new(mesh, path);
-        return Ok((vec![family.make(&id.parameters, id.seed, id.index)], false));
+        return Ok((vec![family.make(&id.parameters, id.seed, id.index)], Grouping::Single));
     }
     let (name, in_order) = match id.family.strip_suffix("-all") {
         Some(name) => (name, true),
@@ -124,7 +127,7 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<(Vec<Case<F>>, 
         );
         return Err(Failure::Message(Status::BadInput, message));
     }
-    if in_order && family.size.is_none_or(|size| id.index >= size) {
+    if family.size.map_or(in_order, |size| id.index >= size) {
         return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
     }
     let made: Made<F> = if in_order {
@@ -140,16 +143,17 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<(Vec<Case<F>>, 
         })?;
         cases = vec![case];
     }
-    Ok((cases, family.grouping == crate::family::Grouping::Respawn))
+    Ok((cases, family.grouping))
 }
 
 fn write_cases<F: Scalar>(
     out: &mut dyn Write,
     name: &str,
     cases: &[Case<F>],
-    respawned: bool,
+    grouping: Grouping,
     rows: &[Row],
 ) -> io::Result<()> {
+    let respawned = grouping == Grouping::Respawn;
     for (i, case) in cases.iter().enumerate() {
         if cases.len() > 1 {
             writeln!(out, "triangle {i} of {}", cases.len())?;
@@ -160,7 +164,38 @@ fn write_cases<F: Scalar>(
             write_row(out, case, &truth, respawned, row)?;
         }
     }
+    if cases.len() > 1 {
+        writeln!(out, "together")?;
+        for row in rows {
+            write_group(out, cases, grouping, row)?;
+        }
+    }
     Ok(())
+}
+
+/// What a contract asks of the triangles together, and what the kernel made of it.
+fn write_group<F: Scalar>(
+    out: &mut dyn Write,
+    cases: &[Case<F>],
+    grouping: Grouping,
+    row: &Row,
+) -> io::Result<()> {
+    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let mut verdicts = vec![Verdict::miss(None); cases.len()];
+    F::subject(row.entry).run(cases, &row.epsilons::<F>(), &mut verdicts);
+    let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
+    let asked = group_truth(&truths, &row.contract, grouping);
+    let judged = match (asked, hits) {
+        (GroupTruth::Free, _) => "nothing is asked of the group",
+        (GroupTruth::Crossing, 0) => "one hit is right: CRACK",
+        (GroupTruth::Crossing, 1) => "one hit is right",
+        (GroupTruth::Crossing, _) => "one hit is right: DOUBLE",
+        (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) == odd => {
+            "at a fold: the parity is right"
+        }
+        (GroupTruth::Fold { .. }, _) => "at a fold: the parity is WRONG",
+    };
+    writeln!(out, "{}: {hits} of {} triangles hit; {judged}", row.label(), cases.len())
 }
 
 fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()> {
@@ -213,7 +248,8 @@ fn write_row<F: Scalar>(
     let [verdict] = verdict;
     let measured = subject.measure(case);
     let exact = subject.measure_exact(case);
-    let exact_hit = subject.run_exact(case, &epsilons);
+    let exact_gates = subject.run_exact(case, &epsilons);
+    let exact_hit = exact_gates.iter().all(|passes| *passes);
 
     let asked = if promises_direction::<F>(row.contract.direction, case.ray.direction.into()) {
         obligation(truth, &row.contract, respawned)
@@ -233,28 +269,27 @@ fn write_row<F: Scalar>(
     for (i, gate) in info.gates.iter().enumerate() {
         let (margin, exact_margin) = (measured.margins.margins[i], &exact.margins.margins[i]);
         let decided = verdict.refused_by == Some(i as u8);
-        let decision = if margin < epsilons[i] { "refuses" } else { "passes" };
+        let word = |passes: bool| if passes { "passes" } else { "refuses" };
+        let decision = word(margin >= epsilons[i]);
+        let should = word(exact_gates[i]);
         let mark = if decided { " <- decides" } else { "" };
+        let wrong = if decision == should { "" } else { ", WRONG" };
         if gate.epsilon == Tunable::Fixed {
-            let exactly = if crate::arith::Real::is_sign_negative(exact_margin) {
-                "refuses"
-            } else {
-                "passes"
-            };
+            let name = gate.name;
             writeln!(
                 out,
-                "    {:<10} {decision} (exactly: {exactly}){mark}   [{}]",
-                gate.name, gate.refuses
+                "    {name:<10} {decision} (exactly: {should}{wrong}){mark}   [refuses {}]",
+                gate.refuses
             )?;
             continue;
         }
         writeln!(
             out,
-            "    {:<10} margin {:>13} (exactly {:>13}) at e = {:<8} {decision}{mark}   [{}]",
+            "    {:<10} margin {:>13} (exactly {:>13}) at e = {}: {decision} (exactly: {should}{wrong}){mark}   [refuses {}]",
             gate.name,
             format!("{:.6e}", margin.to_f64()),
             describe(exact_margin),
-            row.epsilons[i].to_string(),
+            row.epsilons[i],
             gate.refuses
         )?;
     }

@@ -64,7 +64,11 @@ impl KernelArguments {
             })?;
             Ok((gate.trim().to_owned(), value.trim().to_owned()))
         });
-        Ok(EpsilonChoice::Given(pairs.collect::<Result<_, Failure>>()?))
+        let pairs: Vec<(String, String)> = pairs.collect::<Result<_, Failure>>()?;
+        if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
+            return Err(Failure::usage(format!("--epsilon: gate '{}' is given twice", pairs[i].0)));
+        }
+        Ok(EpsilonChoice::Given(pairs))
     }
 
     fn contract(&self) -> Result<Option<&'static NamedContract>, Failure> {

@@ -268,3 +268,51 @@ impl<R: Real> Sink<R> for Measuring<R> {
         self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
     }
 }
+
+/// The watching sink: decides each gate under given epsilons as the source does, and never stops.
+#[derive(Clone, Debug)]
+pub struct Watching<'a, R> {
+    epsilons: &'a [R],
+    /// Whether each gate passed; true where the kernel never asked.
+    pub passed: Vec<bool>,
+}
+
+impl<'a, R> Watching<'a, R> {
+    /// With one epsilon a gate.
+    pub fn new(epsilons: &'a [R]) -> Self {
+        Watching { epsilons, passed: vec![true; epsilons.len()] }
+    }
+
+    fn record(&mut self, gate: usize, accepts: bool) -> bool {
+        self.passed[gate] &= accepts;
+        true
+    }
+}
+
+impl<R: Real> Sink<R> for Watching<'_, R> {
+    fn gate<const M: usize, const N: usize>(
+        &mut self,
+        gate: usize,
+        refuse: Refuse,
+        clauses: [[&R; N]; M],
+    ) -> bool {
+        let epsilon = &self.epsilons[gate];
+        let accepts =
+            clauses.iter().any(|clause| clause.iter().all(|&x| refuse.passes(x, epsilon)));
+        self.record(gate, accepts)
+    }
+
+    fn rounded(
+        &mut self,
+        gate: usize,
+        accepts: impl Fn(&R) -> bool,
+        _: impl FnOnce() -> R,
+    ) -> bool {
+        let accepts = accepts(&self.epsilons[gate]);
+        self.record(gate, accepts)
+    }
+
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+        self.record(gate, accepts)
+    }
+}

@@ -1,6 +1,6 @@
 //! Kernels behind one object-safe interface: what the audit and users' plug-ins go through.
 
-use super::{Deciding, Hit, Kernel, KernelInfo, Measuring};
+use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
 use crate::arith::{Exact, Float};
 use crate::case::{Case, Ray};
 use crate::truth::Facing;
@@ -74,8 +74,8 @@ pub trait Subject<F: Float>: Sync {
     /// Every gate's margin on a case, in exact arithmetic.
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
 
-    /// Hit or miss in exact arithmetic, by the source's comparisons.
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> bool;
+    /// Whether each gate passes in exact arithmetic, by the source's comparisons: a hit if all do.
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Vec<bool>;
 }
 
 /// A built-in kernel as a [`Subject`] of either scalar.
@@ -123,9 +123,11 @@ impl<F: Float, K: Kernel> Subject<F> for Builtin<K> {
         Measured { margins, values }
     }
 
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> bool {
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Vec<bool> {
         let (ray, triangle) = case.exact();
         let epsilons: Vec<Exact> = epsilons.iter().map(|e| Exact::from_f64(e.to_f64())).collect();
-        K::test(&K::prepare(&triangle), &ray, &mut Deciding::new(&epsilons)).is_some()
+        let mut gates = Watching::new(&epsilons);
+        K::test(&K::prepare(&triangle), &ray, &mut gates);
+        gates.passed
     }
 }

@@ -199,7 +199,7 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
         severity: severity.map(|severity| SeverityPart {
             in_plane: severity.in_plane,
             in_space: severity.in_space,
-            in_space_ulps: severity.in_space * severity.edge_in_ulps,
+            edge_in_ulps: severity.edge_in_ulps,
             along: severity.along,
         }),
         command,

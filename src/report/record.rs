@@ -191,8 +191,8 @@ pub struct SeverityPart {
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
     pub in_space: f64,
-    /// The same in ulps of the largest coordinate.
-    pub in_space_ulps: f64,
+    /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
+    pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
 }

@@ -58,6 +58,29 @@ impl RowView<'_> {
         }
     }
 
+    /// The flag that sets the row's epsilons.
+    fn epsilon_flag(&self) -> String {
+        let pairs: Vec<String> =
+            self.part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
+        if pairs.is_empty() { String::new() } else { format!(" --epsilon '{}'", pairs.join(",")) }
+    }
+
+    /// Hits on NaN, infinities, zero directions and impossible intervals.
+    fn hits_on_invalid(&self) -> u64 {
+        self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()
+    }
+
+    /// A family's first groups that no triangle reported, by id.
+    fn first_cracks(&self) -> Vec<(&str, &str)> {
+        self.results
+            .iter()
+            .filter_map(|result| {
+                let across = result.across.as_ref()?;
+                Some((result.family.as_str(), across.first_cracks.first()?.as_str()))
+            })
+            .collect()
+    }
+
     /// How many cases could have shown a kind of finding: of one class, or of all.
     fn trials(&self, kind: &str, class: &str) -> u64 {
         let of = |counts: &Counts| match kind {
@@ -111,13 +134,14 @@ fn write_scalar(
     writeln!(out, "\n{bold}{scalar}{plain}, {} cases for each kernel", group_digits(cases))?;
     writeln!(
         out,
-        "{bold}{:<37} {:>20} {:<16} {:>20} {:<16} {:>6} {:>6} {:>6}{plain}",
+        "{bold}{:<37} {:>20} {:<16} {:>20} {:<16} {:>6} {:>6} {:>6} {:>6}{plain}",
         "kernel (epsilons)",
         "false misses, %",
         "most in",
         "false hits, %",
         "most in",
         "bad",
+        "on NaN",
         "cracks",
         "ns/ray"
     )?;
@@ -131,12 +155,13 @@ fn write_scalar(
         let time = times.and_then(|times| times.get(&label)).copied().unwrap_or(f64::NAN);
         writeln!(
             out,
-            "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {time:>6.1}",
+            "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {:>6} {time:>6.1}",
             share_column(&misses, style),
             row.worst_family(|result| &result.total.false_misses),
             share_column(&hits, style),
             row.worst_family(|result| &result.total.false_hits),
             short_count(bad.count),
+            short_count(row.hits_on_invalid()),
             if cracks.of == 0 { "-".to_owned() } else { short_count(cracks.count) },
         )?;
     }
@@ -193,41 +218,80 @@ fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Resul
             }
         }
         let label = format!("{} ({})", row.part.kernel, row.part.set);
-        if worst.is_empty() {
+        let cracks = row.first_cracks();
+        if worst.is_empty() && cracks.is_empty() {
             writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
             continue;
         }
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
         for ((kind, class), (count, finding)) in &worst {
             let of = row.trials(kind, class);
-            let share = interval_of(*count, of);
+            let sampled = finding.rate.interval.is_some();
+            let share = if sampled { interval_of(*count, of) } else { String::new() };
             let (count, of) = (group_digits(*count), group_digits(of));
-            let distance = describe_severity(&finding.worst);
-            let class = if class.is_empty() { "" } else { &format!(" {class}") };
+            let distance = describe_severity(finding);
+            let (named, worst) = match *class {
+                "" => (String::new(), format!("{}, ", finding.class)),
+                class => (format!(" {class}"), String::new()),
+            };
+            writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
+            writeln!(out, "        {}", finding.worst.command)?;
+        }
+        for (family, id) in cracks {
             writeln!(
                 out,
-                "    {kind}{class}: {count} of {of}{share}; worst {}, {distance}",
-                finding.class
+                "    crack, first of {family}: no triangle of the group reports the hit"
             )?;
-            writeln!(out, "        {}", finding.worst.command)?;
+            writeln!(
+                out,
+                "        hairline explain '{id}' --kernel {}{}",
+                row.part.kernel,
+                row.epsilon_flag()
+            )?;
         }
     }
     Ok(())
 }
 
-fn severity(finding: &FindingPart) -> f64 {
-    finding.worst.severity.as_ref().map_or(0.0, |severity| severity.in_space)
+/// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
+/// before or beyond the extent it is.
+fn severity_of(finding: &FindingPart) -> (f64, bool) {
+    let Some(severity) = &finding.worst.severity else { return (0.0, false) };
+    let off_end = finding.class.ends_with("/before") || finding.class.ends_with("/beyond");
+    match severity.along {
+        Some(along) if finding.finding == "false-hit" && off_end => {
+            let outside = finding.class.starts_with("outside");
+            let in_space = if outside { severity.in_space } else { 0.0 };
+            if along > in_space { (along, true) } else { (in_space, false) }
+        }
+        Some(along) if finding.finding == "false-miss" && along < severity.in_space => {
+            (along, true)
+        }
+        _ => (severity.in_space, false),
+    }
 }
 
-fn describe_severity(example: &Example) -> String {
-    match &example.severity {
-        None => "on invalid input".to_owned(),
-        Some(severity) if severity.in_space == 0.0 => "exactly on the boundary".to_owned(),
-        Some(severity) => format!(
-            "the line {:.2e} of the longest edge ({:.2e} ulps) from the boundary",
-            severity.in_space, severity.in_space_ulps
-        ),
+fn severity(finding: &FindingPart) -> f64 {
+    severity_of(finding).0
+}
+
+fn describe_severity(finding: &FindingPart) -> String {
+    let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };
+    let (distance, along) = severity_of(finding);
+    if distance == 0.0 {
+        return if along {
+            "exactly at an end".to_owned()
+        } else {
+            "exactly on the boundary".to_owned()
+        };
     }
+    let ulps = distance * severity.edge_in_ulps;
+    let what = if along {
+        "of the longest edge from an end of the extent"
+    } else {
+        "of the longest edge from the boundary"
+    };
+    format!("by {distance:.2e} {what} ({ulps:.2e} ulps of the largest coordinate)")
 }
 
 fn interval_of(count: u64, of: u64) -> String {
@@ -266,7 +330,7 @@ fn percent(share: f64) -> String {
     let value = share * 100.0;
     if share == 0.0 {
         "0%".to_owned()
-    } else if value < 0.001 {
+    } else if value < 0.01 {
         format!("{value:.0e}%")
     } else if value < 1.0 {
         format!("{value:.2}%")
