@@ -21,6 +21,10 @@
 //! | 1 | [`case`], [`truth`], [`contract`]: the words |
 //! | 0 | [`arith`]: `f32` and `f64` on glam's vectors, and exact numbers |
 //!
+//! Orientation predicates are kernels of a kind of their own: points instead of rays, a sign instead
+//! of a hit. [`orientation`] holds them beside floors 2 to 4, with their table, families, exact
+//! determinant and audit; it takes only `arith`, [`case::Draw`] and the audit's clock from the rest.
+//!
 //! A new kernel is one file in `kernel/` and one row in its registry; a new family one file in
 //! `family/` and one row; a new format one file in `report/` and one row.
 
@@ -39,6 +43,8 @@ pub mod judge;
 
 pub mod audit;
 pub mod selfcheck;
+
+pub mod orientation;
 
 pub mod report;
 

@@ -8,6 +8,7 @@ mod exit;
 mod explain;
 mod input;
 mod list;
+mod orient;
 mod output;
 mod progress;
 mod select;
@@ -39,6 +40,8 @@ enum Command {
     List(list::ListArguments),
     /// Hold the oracle to its definition and to integer arithmetic
     Selfcheck(selfcheck::SelfcheckArguments),
+    /// Run orientation predicates on families of points, and say where their sign is wrong
+    Orient(Box<orient::OrientArguments>),
     /// Verify or make the stored cases
     Corpus(corpus::CorpusArguments),
 }
@@ -60,6 +63,7 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),
+        Command::Orient(arguments) => orient::run(&arguments),
         Command::Corpus(arguments) => corpus::run(&arguments),
     };
     match outcome {

@@ -149,13 +149,19 @@ fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering>
     (value.high.abs() > error).then(|| value.high.total_cmp(&0.0))
 }
 
+/// The exponents between which `robust` is used.
+const ROBUST_RANGE: u64 = 250;
+
 /// `robust` computes with Shewchuk's expansions, which are exact as long as no product of three
-/// coordinates (of their lowest bits) underflows or overflows. With every coordinate zero or within
-/// 2^±300 in absolute value, lowest bits are at least 2^-352 and products of three of them at least
-/// 2^-1056, above the smallest subnormal; products of three sums stay below 2^910.
+/// coordinates underflows or overflows, and with a filter whose bound is relative. With every
+/// coordinate zero or within 2^±250 in absolute value, lowest bits are at least 2^-302, differences
+/// that are not zero too, and products of three of them at least 2^-906: the filter's bound, 2^-50
+/// times such a product, is far above what underflow can add. Products of three sums stay below
+/// 2^760.
 fn robust_holds(points: &[Point]) -> bool {
-    let range = (1.0 / LARGEST)..=LARGEST;
-    points.as_flattened().iter().all(|x| *x == 0.0 || range.contains(&x.abs()))
+    const LOW: f64 = f64::from_bits((1023 - ROBUST_RANGE) << 52);
+    const HIGH: f64 = f64::from_bits((1023 + ROBUST_RANGE) << 52);
+    points.as_flattened().iter().all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
 }
 
 /// The sign by `robust::orient3d`, where it is exact. It takes points; for d·(P×Q) the differences P
@@ -181,7 +187,7 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arith::scale_by_power_of_two;
+    use crate::arith::{Float, scale_by_power_of_two};
     use crate::case::Draw;
 
     const ALL: [Determinant; 5] = [
@@ -209,7 +215,7 @@ mod tests {
 
     #[test]
     fn each_layer_agrees_with_big_integers_or_hands_on() {
-        for scale in [-400, -303, -299, -100, 0, 100, 299, 303, 320] {
+        for scale in [-400, -253, -249, -100, 0, 100, 249, 253, 299, 303] {
             let (mut doubles, mut robusts) = (0, 0);
             for index in 0..400 {
                 let case = case(index, scale);
@@ -230,8 +236,26 @@ mod tests {
                 }
             }
             // Both are open inside their ranges and shut outside.
-            assert_eq!(robusts > 0, scale.abs() < 300, "2^{scale}");
+            assert_eq!(robusts > 0, scale.abs() < 250, "2^{scale}");
             assert_eq!(doubles > 0, (-230..300).contains(&scale), "2^{scale}");
+        }
+    }
+
+    #[test]
+    fn differences_that_cancel_far_down_are_left_to_integers_or_right() {
+        // Points some ulps apart near the guard's lower end: differences are 2^-50 of coordinates.
+        for scale in [-300, -251, -249, -240] {
+            for index in 0..500 {
+                let mut draw = Draw::new("far", 1, index);
+                let base = draw.point::<f64>();
+                let mut near = || [0, 1, 2].map(|i| base[i].offset_ulps(draw.integer(-9, 9)));
+                let points = [near(), near(), near(), near()];
+                let [o, a, b, c] = points.map(|p| p.map(|x| scale_by_power_of_two(x, scale)));
+                let case = Case::<f64>::new(o, [1.0, 0.0, 0.0], [a, b, c]);
+                if let Some(sign) = by_robust(Determinant::T, &case) {
+                    assert_eq!(sign, Scaled::new(&case).sign(Determinant::T), "2^{scale} {index}");
+                }
+            }
         }
     }
 

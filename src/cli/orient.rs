@@ -1,0 +1,269 @@
+//! `hairline orient`: orientation predicates on families of points, one case again, known cases.
+
+mod text;
+
+use super::exit::{Failure, Status};
+use super::output::write_result;
+use super::progress::Progress;
+use super::select::unknown;
+use crate::arith::Float;
+use crate::orientation::{
+    self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, PointsId, Record, Row, SCHEMA, Scalar,
+    build, default_rows, find_family, find_known, show,
+};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The most cases of one family: beyond it a run would take years.
+const MOST_CASES: u64 = 1_000_000_000_000;
+
+/// What to run, and how to report it.
+#[derive(Args)]
+pub struct OrientArguments {
+    /// Points of the plane, of space, or both
+    #[arg(long, value_delimiter = ',', value_name = "2|3", default_value = "2,3")]
+    dimension: Vec<String>,
+
+    /// f32, f64 or both
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
+    scalar: Vec<String>,
+
+    /// Epsilons of the plain determinants, a row for each: 0 where abs(det) <= E
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "E",
+        default_value = "0,1e-6",
+        allow_hyphen_values = true
+    )]
+    epsilon: Vec<String>,
+
+    /// Cases for each family
+    #[arg(
+        long,
+        short = 'n',
+        default_value = "20000",
+        value_name = "N",
+        allow_hyphen_values = true
+    )]
+    count: String,
+
+    /// Which random cases
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Show one case again: an id, or the name of a known case
+    #[arg(long, value_name = "ID", conflicts_with_all = ["known", "dimension", "scalar", "count", "seed"])]
+    case: Option<String>,
+
+    /// Show the known cases on which robust's predicates are wrong
+    #[arg(long, conflicts_with_all = ["dimension", "scalar", "count", "seed"])]
+    known: bool,
+
+    /// How to write it
+    #[arg(long, value_enum, default_value_t)]
+    format: OutputFormat,
+
+    /// Where to write; - is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: String,
+
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum OutputFormat {
+    /// For people; not stable
+    #[default]
+    Text,
+    /// One object, its schema versioned
+    Json,
+}
+
+/// Single cases as JSON.
+#[derive(Serialize)]
+struct CasesRecord<'a> {
+    schema: &'static str,
+    cases: &'a [CasePart],
+}
+
+/// Runs the command.
+pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
+    let scalars = arguments.scalars()?;
+    let rows = arguments.rows(scalars)?;
+    if arguments.known {
+        let cases: Vec<(CasePart, Option<&Known>)> = KNOWN
+            .iter()
+            .map(|known| Ok((known_case(known, &rows)?, Some(known))))
+            .collect::<Result<_, Failure>>()?;
+        return arguments.write_cases(&cases);
+    }
+    if let Some(text) = &arguments.case {
+        return arguments.write_cases(&[one_case(text, &rows)?]);
+    }
+    let plan = Plan {
+        rows,
+        dimensions: arguments.dimensions()?,
+        scalars,
+        count: arguments.count()?,
+        seed: arguments.seed,
+    };
+    let progress = Progress::new(plan.cases(), "cases", arguments.quiet);
+    let sums = orientation::run(&plan, &progress);
+    progress.finish();
+    let record = build(&plan, &sums, progress.seconds(), rayon::current_num_threads());
+    write_result(&arguments.output, |out| match arguments.format {
+        OutputFormat::Text => text::write(&record, out),
+        OutputFormat::Json => write_json(&record, out),
+    })?;
+    self_check(&record)
+}
+
+fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    writeln!(out)
+}
+
+/// A family that breaks its own promise is a fault of this tool.
+fn self_check(record: &Record) -> Result<Status, Failure> {
+    match record.result.sets.iter().find(|set| set.promise_broken > 0) {
+        None => Ok(Status::Success),
+        Some(set) => {
+            let first = set.first_broken.as_deref().unwrap_or("-");
+            let message =
+                format!("self-check: family '{}' breaks its promise, first at {first}", set.family);
+            Err(Failure::Message(Status::SelfCheck, message))
+        }
+    }
+}
+
+/// A curated case, whose stored sign is checked.
+fn known_case(known: &Known, rows: &[Row]) -> Result<CasePart, Failure> {
+    let case = shown(known.name.to_owned(), &known.points(), rows)?;
+    if case.sign != orientation::Answer::from(known.sign).symbol() {
+        let message = format!("self-check: the stored sign of '{}' is wrong", known.name);
+        return Err(Failure::Message(Status::SelfCheck, message));
+    }
+    Ok(case)
+}
+
+/// The case of an id or of a name.
+fn one_case(text: &str, rows: &[Row]) -> Result<(CasePart, Option<&'static Known>), Failure> {
+    if let Some(known) = find_known(text) {
+        return Ok((known_case(known, rows)?, Some(known)));
+    }
+    if !text.contains(['/', ':', '@']) {
+        let names = KNOWN.iter().map(|known| known.name);
+        return Err(unknown("case", text, names, "hairline orient --known"));
+    }
+    let id: PointsId = text.parse().map_err(|error: String| Failure::usage(error))?;
+    let case = match id.scalar.as_str() {
+        "f32" => case_of_id::<f32>(&id, rows)?,
+        "f64" => case_of_id::<f64>(&id, rows)?,
+        other => return Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
+    };
+    Ok((case, None))
+}
+
+fn case_of_id<F: Scalar>(id: &PointsId, rows: &[Row]) -> Result<CasePart, Failure> {
+    let names = FAMILIES.iter().map(|family| family.name);
+    let family = find_family(&id.family)
+        .ok_or_else(|| unknown("family", &id.family, names, "hairline orient"))?;
+    if family.version != id.version {
+        let (name, version) = (family.name, family.version);
+        return Err(Failure::usage(format!("'{id}': family '{name}' is at version {version}")));
+    }
+    let points = family.make::<F>(id.dimension, id.seed, id.index);
+    shown(id.to_string(), &points, rows)
+}
+
+fn shown<F: Scalar>(
+    id: String,
+    points: &orientation::Points<F>,
+    rows: &[Row],
+) -> Result<CasePart, Failure> {
+    let message = format!("self-check: the points of '{id}' are not finite");
+    show(id, points, rows).ok_or(Failure::Message(Status::SelfCheck, message))
+}
+
+impl OrientArguments {
+    fn write_cases(&self, cases: &[(CasePart, Option<&Known>)]) -> Result<Status, Failure> {
+        write_result(&self.output, |out| match self.format {
+            OutputFormat::Text => cases.iter().try_for_each(|(case, known)| {
+                if let Some(known) = known {
+                    writeln!(out, "{}", known.why)?;
+                }
+                text::write_case(case, "", out)?;
+                if cases.len() > 1 { writeln!(out) } else { Ok(()) }
+            }),
+            OutputFormat::Json => {
+                let cases: Vec<CasePart> = cases.iter().map(|(case, _)| case.clone()).collect();
+                write_json(&CasesRecord { schema: SCHEMA, cases: &cases }, out)
+            }
+        })?;
+        Ok(Status::Success)
+    }
+
+    fn dimensions(&self) -> Result<Vec<Dimension>, Failure> {
+        let known = |name: &String| match name.as_str() {
+            "2" => Ok(Dimension::Two),
+            "3" => Ok(Dimension::Three),
+            other => Err(Failure::usage(format!("unknown dimension '{other}': there are 2 and 3"))),
+        };
+        let mut dimensions = self.dimension.iter().map(known).collect::<Result<Vec<_>, _>>()?;
+        dimensions.sort();
+        dimensions.dedup();
+        Ok(dimensions)
+    }
+
+    fn scalars(&self) -> Result<[bool; 2], Failure> {
+        let mut scalars = [false; 2];
+        for name in &self.scalar {
+            match name.as_str() {
+                "f32" => scalars[0] = true,
+                "f64" => scalars[1] = true,
+                other => {
+                    let message = format!("unknown scalar '{other}': there are f32 and f64");
+                    return Err(Failure::usage(message));
+                }
+            }
+        }
+        Ok(scalars)
+    }
+
+    /// All predicates, the plain ones once with each epsilon.
+    fn rows(&self, scalars: [bool; 2]) -> Result<Vec<Row>, Failure> {
+        let mut epsilons: Vec<String> = Vec::new();
+        for text in &self.epsilon {
+            let text = text.trim();
+            let fits = (!scalars[0] || is_epsilon::<f32>(text))
+                && (!scalars[1] || is_epsilon::<f64>(text));
+            if !fits {
+                return Err(Failure::usage(format!(
+                    "--epsilon: '{text}' is not a finite number from 0 in every chosen scalar"
+                )));
+            }
+            if !epsilons.iter().any(|other| other == text) {
+                epsilons.push(text.to_owned());
+            }
+        }
+        Ok(default_rows(&epsilons))
+    }
+
+    fn count(&self) -> Result<u64, Failure> {
+        let count = self.count.replace('_', "").parse().ok();
+        count.filter(|count| (1..=MOST_CASES).contains(count)).ok_or_else(|| {
+            Failure::usage(format!(
+                "--count: '{}' is not a number of cases from 1 to 10^12",
+                self.count
+            ))
+        })
+    }
+}
+
+fn is_epsilon<F: Float>(text: &str) -> bool {
+    F::parse(text).is_some_and(|e| e.is_finite() && e >= F::zero())
+}
