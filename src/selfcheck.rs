@@ -2,7 +2,7 @@
 
 #![forbid(unsafe_code)]
 
-use crate::arith::Float;
+use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw, Parameters};
 use crate::family::{Family, LATTICE_SIZE, apply, find};
 use crate::kernel::Scalar;
@@ -116,13 +116,16 @@ pub fn whole_range<F: Float>(seed: u64, indices: u64, advance: &(dyn Fn(u64) + S
         F::one() + F::EPSILON,
         F::from_f64(3.0),
         smallest.offset_ulps(1 << 20),
+        F::from_f64(scale_by_power_of_two(1.0, F::MAX_EXPONENT)),
     ];
     over(indices, advance, |index, check| {
         let mut draw = Draw::new("whole-range", seed, index);
         let coincide = draw.coin();
+        // Few numbers a case: more coincidences.
+        let palette = [0; 4].map(|_| draw.pick(&numbers));
         let number = |draw: &mut Draw| {
             if coincide {
-                return draw.pick(&numbers);
+                return draw.pick(&palette);
             }
             loop {
                 let x = F::from_bits(draw.bits() & (F::infinity().to_bits() << 1 | 1));
