@@ -4,16 +4,13 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_files, corpus_set, read_mesh};
 use super::output::{ColorChoice, write_result};
 use super::progress::Progress;
-use super::select::{KernelArguments, unknown};
+use super::select::{KernelArguments, case_count, chosen_scalars, unknown};
 use crate::audit::{self, Plan, Source};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use crate::report::{Context, FORMATS, Format, Record, Style, build};
 use clap::Args;
 use std::sync::Arc;
-
-/// The most cases of one family: beyond it a run would take years.
-const MOST_CASES: u64 = 1_000_000_000_000;
 
 /// What to run, and how to report it.
 #[derive(Args)]
@@ -178,18 +175,7 @@ impl AuditArguments {
     }
 
     fn plan(&self) -> Result<Plan, Failure> {
-        let mut scalars = [false; 2];
-        for name in &self.scalar {
-            match name.as_str() {
-                "f32" => scalars[0] = true,
-                "f64" => scalars[1] = true,
-                _ => {
-                    return Err(Failure::usage(format!(
-                        "unknown scalar '{name}': there are f32 and f64"
-                    )));
-                }
-            }
-        }
+        let scalars = chosen_scalars(&self.scalar)?;
         Ok(Plan {
             rows: self.kernels.rows()?,
             sources: self.sources()?,
@@ -199,7 +185,7 @@ impl AuditArguments {
     }
 
     fn sources(&self) -> Result<Vec<Source>, Failure> {
-        let (count, parameters, seed) = (self.count()?, self.parameters()?, self.seed);
+        let (count, parameters, seed) = (case_count(&self.count)?, self.parameters()?, self.seed);
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
@@ -243,17 +229,6 @@ impl AuditArguments {
                 find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))
             })
             .collect()
-    }
-
-    fn count(&self) -> Result<u64, Failure> {
-        let digits = self.count.replace('_', "");
-        let count = digits.parse().ok().filter(|count| (1..=MOST_CASES).contains(count));
-        count.ok_or_else(|| {
-            Failure::usage(format!(
-                "--count: '{}' is not a number of cases from 1 to 10^12",
-                self.count
-            ))
-        })
     }
 
     fn parameters(&self) -> Result<Parameters, Failure> {

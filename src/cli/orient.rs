@@ -5,7 +5,7 @@ mod text;
 use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::progress::Progress;
-use super::select::unknown;
+use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, PointsId, Record, Row, SCHEMA, Scalar,
@@ -14,9 +14,6 @@ use crate::orientation::{
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::{self, Write};
-
-/// The most cases of one family: beyond it a run would take years.
-const MOST_CASES: u64 = 1_000_000_000_000;
 
 /// What to run, and how to report it.
 #[derive(Args)]
@@ -92,7 +89,7 @@ struct CasesRecord<'a> {
 
 /// Runs the command.
 pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
-    let scalars = arguments.scalars()?;
+    let scalars = chosen_scalars(&arguments.scalar)?;
     let rows = arguments.rows(scalars)?;
     if arguments.known {
         let cases: Vec<(CasePart, Option<&Known>)> = KNOWN
@@ -108,7 +105,7 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         rows,
         dimensions: arguments.dimensions()?,
         scalars,
-        count: arguments.count()?,
+        count: case_count(&arguments.count)?,
         seed: arguments.seed,
     };
     let progress = Progress::new(plan.cases(), "cases", arguments.quiet);
@@ -219,21 +216,6 @@ impl OrientArguments {
         Ok(dimensions)
     }
 
-    fn scalars(&self) -> Result<[bool; 2], Failure> {
-        let mut scalars = [false; 2];
-        for name in &self.scalar {
-            match name.as_str() {
-                "f32" => scalars[0] = true,
-                "f64" => scalars[1] = true,
-                other => {
-                    let message = format!("unknown scalar '{other}': there are f32 and f64");
-                    return Err(Failure::usage(message));
-                }
-            }
-        }
-        Ok(scalars)
-    }
-
     /// All predicates, the plain ones once with each epsilon.
     fn rows(&self, scalars: [bool; 2]) -> Result<Vec<Row>, Failure> {
         let mut epsilons: Vec<String> = Vec::new();
@@ -251,16 +233,6 @@ impl OrientArguments {
             }
         }
         Ok(default_rows(&epsilons))
-    }
-
-    fn count(&self) -> Result<u64, Failure> {
-        let count = self.count.replace('_', "").parse().ok();
-        count.filter(|count| (1..=MOST_CASES).contains(count)).ok_or_else(|| {
-            Failure::usage(format!(
-                "--count: '{}' is not a number of cases from 1 to 10^12",
-                self.count
-            ))
-        })
     }
 }
 

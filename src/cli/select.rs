@@ -95,3 +95,30 @@ pub fn unknown<'a>(
     };
     Failure::usage(format!("unknown {what} '{name}'{advice}"))
 }
+
+/// The most cases of one family: beyond it a run would take years.
+const MOST_CASES: u64 = 1_000_000_000_000;
+
+/// A number of cases.
+pub fn case_count(text: &str) -> Result<u64, Failure> {
+    let count = text.replace('_', "").parse().ok();
+    count.filter(|count| (1..=MOST_CASES).contains(count)).ok_or_else(|| {
+        Failure::usage(format!("--count: '{text}' is not a number of cases from 1 to 10^12"))
+    })
+}
+
+/// Whether `f32`, and whether `f64`, is named.
+pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
+    let mut scalars = [false; 2];
+    for name in names {
+        match name.as_str() {
+            "f32" => scalars[0] = true,
+            "f64" => scalars[1] = true,
+            other => {
+                let message = format!("unknown scalar '{other}': there are f32 and f64");
+                return Err(Failure::usage(message));
+            }
+        }
+    }
+    Ok(scalars)
+}

@@ -22,11 +22,12 @@ pub(super) enum Determinant {
 type Point = [f64; 3];
 
 /// The sign of a determinant of a case, and the layer that found it. `near_one` is the same case with
-/// its axes scaled, for the double-doubles.
+/// its axes scaled, for the double-doubles; `scaled` is made where it is needed first.
 pub(super) fn sign(
     determinant: Determinant,
     case: &Case<f64>,
     near_one: &Case<f64>,
+    scaled: &mut Option<Scaled>,
 ) -> (Ordering, Layer) {
     if let Some(sign) = double_double(determinant, near_one) {
         return (sign, Layer::DoubleDouble);
@@ -34,7 +35,8 @@ pub(super) fn sign(
     if let Some(sign) = by_robust(determinant, case) {
         return (sign, Layer::Robust);
     }
-    (Scaled::new(case).sign(determinant), Layer::BigInteger)
+    let scaled = scaled.get_or_insert_with(|| Scaled::new(case));
+    (scaled.sign(determinant), Layer::BigInteger)
 }
 
 /// The rows of a determinant first·(second × third): d or a point, and points from which a base is
@@ -267,6 +269,9 @@ mod tests {
         let [a, b, c, d] = points.map(|[x, y, z]| Coord3D { x, y, z });
         assert_eq!(orient3d(a, b, c, d), 0.0, "which is wrong: the determinant is positive");
         let case = Case::<f64>::new([0.0; 3], [1.0, 0.0, 0.0], [points[0], points[1], points[2]]);
-        assert_eq!(sign(Determinant::T, &case, &case), (Ordering::Greater, Layer::BigInteger));
+        assert_eq!(
+            sign(Determinant::T, &case, &case, &mut None),
+            (Ordering::Greater, Layer::BigInteger)
+        );
     }
 }

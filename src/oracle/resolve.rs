@@ -15,9 +15,10 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     let near_one = scaled_axes(case);
     let computed = filter::compute_one(&near_one);
     let mut deepest = Layer::ScaledFilter;
+    let mut scaled = None;
     let mut sign = |wanted: Determinant| {
         computed.sign(wanted).unwrap_or_else(|| {
-            let (sign, layer) = determinant::sign(wanted, case, &near_one);
+            let (sign, layer) = determinant::sign(wanted, case, &near_one, &mut scaled);
             deepest = deepest.max(layer);
             sign
         })
@@ -33,14 +34,15 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
         (true, true) => sign(Determinant::D),
     };
     if d == Ordering::Equal {
-        return (Scaled::new(case).flat(case), Layer::BigInteger);
+        let scaled = scaled.unwrap_or_else(|| Scaled::new(case));
+        return (scaled.flat(case), Layer::BigInteger);
     }
     let t = sign(Determinant::T);
     let (from_min, from_max) = match place(case, d, t) {
         Some(place) => place,
         None => {
             deepest = Layer::BigInteger;
-            Scaled::new(case).place(case)
+            scaled.unwrap_or_else(|| Scaled::new(case)).place(case)
         }
     };
     (Signs { d, weights, t, from_min, from_max }.truth(), deepest)

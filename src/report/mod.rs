@@ -35,3 +35,16 @@ pub struct Format {
 /// One row per format.
 pub const FORMATS: &[Format] =
     &[Format { name: "text", write: text::write }, Format { name: "json", write: json::write }];
+
+/// Digits in groups of three.
+pub(crate) fn group_digits(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}

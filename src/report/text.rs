@@ -1,8 +1,8 @@
 //! The record as text for people: one table a scalar, then the worst findings with the commands that
 //! show them again.
 
-use super::Style;
 use super::record::*;
+use super::{Style, group_digits};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -346,17 +346,4 @@ fn short_count(count: u64) -> String {
         100_000..1_000_000 => format!("{}k", count / 1000),
         _ => format!("{:.1}M", count as f64 / 1e6),
     }
-}
-
-/// Digits in groups of three.
-fn group_digits(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -1,6 +1,7 @@
 //! A record of orientation predicates as text for people. The layout is not stable.
 
 use crate::orientation::{CasePart, Rate, Record};
+use crate::report::group_digits;
 use std::io::{self, Write};
 
 /// Writes one table for each dimension and scalar, then the first examples.
@@ -113,18 +114,6 @@ pub(super) fn write_case(case: &CasePart, indent: &str, out: &mut dyn Write) -> 
 /// The shortest text that reads back as the number in its scalar.
 fn number(value: f64, scalar: &str) -> String {
     if scalar == "f32" { format!("{:?}", value as f32) } else { format!("{value:?}") }
-}
-
-fn group_digits(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 #[cfg(test)]
