@@ -2,6 +2,10 @@
 
 #![forbid(unsafe_code)]
 
+mod class;
+
+pub use class::Class;
+
 use crate::arith::Float;
 use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use crate::family::Grouping;
@@ -218,77 +222,6 @@ pub fn polygon_truth(truths: &[Truth]) -> Truth {
             Truth::Transversal(Crossing { feature: Feature::Interior, ..**first })
         }
         Some(first) => Truth::Transversal(**first),
-    }
-}
-
-/// A coarse class of truths: what reports count by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Class(u8);
-
-const PARTS: [&str; 4] = ["interior", "edge", "vertex", "outside"];
-const SIDES: [&str; 2] = ["front", "back"];
-const PLACES: [&str; 3] = ["within", "before", "beyond"];
-const FLAT: [&str; 4] = ["parallel", "coplanar", "degenerate", "invalid"];
-
-impl Class {
-    /// The number of classes.
-    pub const COUNT: usize = PARTS.len() * SIDES.len() * PLACES.len() + FLAT.len();
-
-    /// The class of a truth.
-    pub fn of(truth: &Truth) -> Class {
-        let first_flat = Class::COUNT - FLAT.len();
-        let number = match truth {
-            Truth::Transversal(Crossing { facing, place, feature, .. }) => {
-                let part = match feature {
-                    Feature::Interior => 0,
-                    feature if feature.is_edge() => 1,
-                    feature if feature.is_vertex() => 2,
-                    _ => 3,
-                };
-                let side = usize::from(*facing == Facing::Back);
-                let place = match place {
-                    Place::AtMin | Place::Within | Place::AtMax => 0,
-                    Place::Before => 1,
-                    Place::Beyond => 2,
-                };
-                (part * SIDES.len() + side) * PLACES.len() + place
-            }
-            Truth::Parallel => first_flat,
-            Truth::Coplanar(_) => first_flat + 1,
-            Truth::Degenerate(_) => first_flat + 2,
-            Truth::Invalid => first_flat + 3,
-        };
-        Class(number as u8)
-    }
-
-    /// All classes, in the order of reports.
-    pub fn all() -> impl Iterator<Item = Class> {
-        (0..Class::COUNT).map(|number| Class(number as u8))
-    }
-
-    /// A number below [`Class::COUNT`].
-    pub fn number(self) -> usize {
-        usize::from(self.0)
-    }
-
-    /// Where the line meets the triangle, or the kind of situation: `edge`, `coplanar`.
-    pub fn part(self) -> &'static str {
-        let per_part = SIDES.len() * PLACES.len();
-        PARTS
-            .get(self.number() / per_part)
-            .copied()
-            .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
-    }
-
-    /// The name in records: `edge/front/within`, `coplanar`.
-    pub fn name(self) -> String {
-        let per_part = SIDES.len() * PLACES.len();
-        if self.number() >= PARTS.len() * per_part {
-            return self.part().to_owned();
-        }
-        let (side, place) =
-            (self.number() / PLACES.len() % SIDES.len(), self.number() % PLACES.len());
-        format!("{}/{}/{}", self.part(), SIDES[side], PLACES[place])
     }
 }
 

@@ -1,7 +1,7 @@
 //! The run: each case once to the oracle and once to each kernel.
 
 use super::plan::{Plan, Row};
-use super::severity::approximate;
+use super::severity::Distances;
 use super::source::Source;
 use super::tally::{ClassCount, Place, Tally};
 use crate::case::Case;
@@ -184,6 +184,7 @@ struct RunnerRow<'a, F> {
 
 /// What a contract asks on a chunk.
 struct Asked {
+    extent: Extent,
     obligations: Vec<Obligation>,
     /// What was asked, by class.
     classes: Vec<ClassCount>,
@@ -211,12 +212,14 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let asked: Vec<Asked> =
             self.contracts.iter().map(|contract| ask(&chunk, contract)).collect();
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
+        let mut distances = vec![None; chunk.cases.len()];
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
             let start = self.observer.now();
             let panicked = row.run(&chunk.cases, &mut verdicts);
             *time += self.observer.now() - start;
             let contract = &self.contracts[row.contract];
-            row.judge(&chunk, &asked[row.contract], &verdicts, &panicked, contract.extent, tally);
+            let asked = &asked[row.contract];
+            row.judge(&chunk, asked, &verdicts, &panicked, &mut distances, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
@@ -282,7 +285,7 @@ fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
     } else {
         Vec::new()
     };
-    Asked { obligations, classes, groups }
+    Asked { extent: contract.extent, obligations, classes, groups }
 }
 
 impl<F: Scalar> RunnerRow<'_, F> {
@@ -311,7 +314,7 @@ impl<F: Scalar> RunnerRow<'_, F> {
         asked: &Asked,
         verdicts: &[Verdict<F>],
         panicked: &[usize],
-        extent: Extent,
+        distances: &mut [Option<Distances>],
         tally: &mut Tally,
     ) {
         tally.ask(&asked.classes);
@@ -326,7 +329,9 @@ impl<F: Scalar> RunnerRow<'_, F> {
                 judge::judge(obligation, truth, self.info.gives, verdict)
             };
             if let Some(finding) = finding {
-                let severity = approximate(&chunk.cases[i], truth, finding, extent);
+                // Kernels tend to be wrong on the same cases.
+                let distances = distances[i].get_or_insert_with(|| Distances::of(&chunk.cases[i]));
+                let severity = distances.severity(truth, finding, asked.extent);
                 tally.find(chunk.classes[i], finding, chunk.places[i], severity);
             }
         }

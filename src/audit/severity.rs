@@ -64,53 +64,68 @@ pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severi
     })
 }
 
-/// The approximate severity by which the worst finding is chosen, relative to the longest edge:
-/// for a false miss how far inside the line passes, for any other finding how far outside. Zero
-/// where it cannot be computed.
-pub(super) fn approximate<F: Float>(
-    case: &Case<F>,
-    truth: &Truth,
-    finding: Finding,
-    extent: Extent,
-) -> f64 {
-    let case = case.widen();
-    let vectors = case.vectors();
-    let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
-    let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    let (size, length) = (largest(points.as_flattened()), largest(&vectors[1]));
-    // Far from overflow and underflow: sizes about 1.
-    let near_one = |v: [f64; 3], unit: f64| glam::DVec3::from(v.map(|x| x / unit));
-    let [o, a, b, c] = points.map(|v| near_one(v, size));
-    let d = near_one(vectors[1], length);
-    let edges = [(a, b), (b, c), (c, a)];
-    let longest = edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q)));
-    let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
-        let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));
-        let s = (-offset.dot(edge) / edge.dot(edge)).clamp(0.0, 1.0);
-        let s = if s.is_nan() { 0.0 } else { s };
-        m.min((offset + edge * s).length() / d.length())
-    });
-    let along = truth.crossing().map(|_| {
+/// Approximate distances of a case, from which the severity of any kernel's finding on it follows.
+#[derive(Clone, Copy)]
+pub(super) struct Distances {
+    /// From the line to the triangle's boundary, in units of the longest edge.
+    in_space: f64,
+    /// |t - end|·|d| for ends 0, t_min and t_max, in the same units; NaN where the line does not cross
+    /// the plane.
+    along: [f64; 3],
+}
+
+impl Distances {
+    /// Of a case.
+    pub fn of<F: Float>(case: &Case<F>) -> Distances {
+        let case = case.widen();
+        let vectors = case.vectors();
+        let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
+        let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let (size, length) = (largest(points.as_flattened()), largest(&vectors[1]));
+        // Far from overflow and underflow: sizes about 1.
+        let near_one = |v: [f64; 3], unit: f64| glam::DVec3::from(v.map(|x| x / unit));
+        let [o, a, b, c] = points.map(|v| near_one(v, size));
+        let d = near_one(vectors[1], length);
+        let edges = [(a, b), (b, c), (c, a)];
+        let longest = edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q)));
+        let unit = if longest > 0.0 { longest } else { 1.0 };
+        let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
+            let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));
+            let s = (-offset.dot(edge) / edge.dot(edge)).clamp(0.0, 1.0);
+            let s = if s.is_nan() { 0.0 } else { s };
+            m.min((offset + edge * s).length() / d.length())
+        });
         let n = (b - a).cross(c - a);
         let t = n.dot(a - o) / n.dot(d);
-        let ends = ends(&case, extent).map(|end| end * (length / size));
-        ends.iter().fold(f64::INFINITY, |m, end| m.min((t - end).abs() * d.length()))
-    });
-    let distance = match (finding, truth.crossing(), along) {
-        (Finding::FalseMiss, _, Some(along)) => in_space.min(along),
-        (Finding::FalseHit, Some(crossing), Some(along)) => {
-            let off_end = match extent {
-                Extent::Line => false,
-                Extent::Ray => crossing.t_sign == Ordering::Less,
-                Extent::Interval => matches!(crossing.place, Place::Before | Place::Beyond),
-            };
-            let outside = crossing.feature == Feature::Outside;
-            (if off_end { along } else { 0.0 }).max(if outside { in_space } else { 0.0 })
-        }
-        _ => in_space,
-    };
-    let relative = distance / if longest > 0.0 { longest } else { 1.0 };
-    if relative.is_finite() { relative } else { 0.0 }
+        let along = [0.0, case.ray.t_min, case.ray.t_max]
+            .map(|end| (t - end * (length / size)).abs() * d.length() / unit);
+        Distances { in_space: in_space / unit, along }
+    }
+
+    /// The approximate severity by which the worst finding is chosen: for a false miss how far inside
+    /// the line passes, for any other finding how far outside. Zero where it cannot be computed.
+    pub fn severity(&self, truth: &Truth, finding: Finding, extent: Extent) -> f64 {
+        let along = match extent {
+            Extent::Line => f64::INFINITY,
+            Extent::Ray => self.along[0],
+            Extent::Interval => self.along[1].min(self.along[2]),
+        };
+        let distance = match (finding, truth.crossing()) {
+            (Finding::FalseMiss, Some(_)) => self.in_space.min(along),
+            (Finding::FalseHit, Some(crossing)) => {
+                let off_end = match extent {
+                    Extent::Line => false,
+                    Extent::Ray => crossing.t_sign == Ordering::Less,
+                    Extent::Interval => matches!(crossing.place, Place::Before | Place::Beyond),
+                };
+                let outside = crossing.feature == Feature::Outside;
+                let along = if off_end { along } else { 0.0 };
+                along.max(if outside { self.in_space } else { 0.0 })
+            }
+            _ => self.in_space,
+        };
+        if distance.is_finite() { distance } else { 0.0 }
+    }
 }
 
 /// Where an extent begins and ends, in units of the direction.
@@ -195,7 +210,8 @@ mod tests {
                 TRIANGLE.map(|v| v.map(by)),
             );
             let exact = exact_severity(&case, Extent::Interval).unwrap().in_space;
-            let near = approximate(&case, &truth(&case), Finding::FalseHit, Extent::Interval);
+            let distances = Distances::of(&case);
+            let near = distances.severity(&truth(&case), Finding::FalseHit, Extent::Interval);
             assert!((near - exact).abs() < 1e-12, "{scale}: {near} {exact}");
         }
     }
