@@ -147,4 +147,14 @@ proptest! {
         let longer = Case::new(o, scaled, [a, b, c]).on(ends[0], ends[1]);
         prop_assert_eq!(truth(&longer), truth(&case));
     }
+
+    #[test]
+    fn an_offset_changes_nothing_where_every_sum_is_exact(index in 0..10_000u64, offset in [-1000..1000i64, -1000..1000, -1000..1000]) {
+        // Lattice coordinates and integer offsets: every sum is exact.
+        let row = FAMILIES.iter().find(|row| row.name == "edge-exact").unwrap();
+        let case = row.make::<f64>(&Parameters::default(), 5, index).cases()[0];
+        let [o, d, a, b, c] = case.vectors();
+        let moved = |p: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| p[i] + offset[i] as f64) };
+        prop_assert_eq!(truth(&Case::new(moved(o), d, [a, b, c].map(moved))), truth(&case));
+    }
 }

@@ -114,7 +114,14 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
         let message = "nothing to run: the sources have no case in the chosen scalars".to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
-    let progress = Progress::new(total, "cases", arguments.quiet);
+    if !arguments.quiet {
+        let (rows, sources) = (plan.rows.len(), plan.sources.len());
+        let scalars = arguments.scalar.join(" and ");
+        eprintln!(
+            "{rows} kernel rows on {sources} sources of cases in {scalars}: {total} indices, {threads} threads"
+        );
+    }
+    let progress = Progress::new(total, "indices", arguments.quiet);
     let sums = audit::run(&plan, &progress);
     progress.finish();
     let seconds = progress.seconds();

@@ -236,6 +236,7 @@ fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Resul
             };
             writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
             writeln!(out, "        {}", finding.worst.command)?;
+            writeln!(out, "        {}", finding.worst.bits)?;
         }
         for (family, id) in cracks {
             writeln!(
