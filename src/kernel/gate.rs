@@ -31,6 +31,16 @@ impl Refuse {
         }
     }
 
+    /// Whether all quantities of at least one clause pass.
+    #[inline(always)]
+    fn passes_any<R: Real, const M: usize, const N: usize>(
+        self,
+        clauses: [[&R; N]; M],
+        epsilon: &R,
+    ) -> bool {
+        clauses.iter().any(|clause| clause.iter().all(|&x| self.passes(x, epsilon)))
+    }
+
     /// The largest epsilon under which `x` passes.
     pub fn margin<R: Real>(self, x: &R) -> R {
         let nan_passes = matches!(self, Refuse::Below | Refuse::AtMost);
@@ -183,9 +193,7 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
         refuse: Refuse,
         clauses: [[&R; N]; M],
     ) -> bool {
-        let epsilon = &self.epsilons[gate];
-        let accepts =
-            clauses.iter().any(|clause| clause.iter().all(|&x| refuse.passes(x, epsilon)));
+        let accepts = refuse.passes_any(clauses, &self.epsilons[gate]);
         self.record(gate, accepts)
     }
 
@@ -296,9 +304,7 @@ impl<R: Real> Sink<R> for Watching<'_, R> {
         refuse: Refuse,
         clauses: [[&R; N]; M],
     ) -> bool {
-        let epsilon = &self.epsilons[gate];
-        let accepts =
-            clauses.iter().any(|clause| clause.iter().all(|&x| refuse.passes(x, epsilon)));
+        let accepts = refuse.passes_any(clauses, &self.epsilons[gate]);
         self.record(gate, accepts)
     }
 
