@@ -6,6 +6,7 @@
 
 #![forbid(unsafe_code)]
 
+mod chunk;
 mod interval;
 mod plan;
 mod run;
@@ -13,9 +14,10 @@ mod severity;
 mod source;
 mod tally;
 
+pub use chunk::SourceSummary;
 pub use interval::{Interval, clopper_pearson};
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
-pub use run::{Audit, Cell, Observer, SourceSummary, run, run_scalar};
+pub use run::{Audit, Cell, Observer, run, run_scalar};
 pub use severity::{Severity, exact_severity};
 pub use source::{CorpusSet, Source};
 pub use tally::{ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Tally};

@@ -1,17 +1,15 @@
 //! The run: each case once to the oracle and once to each kernel.
 
+use super::chunk::{CHUNK, Chunk, SourceSummary};
 use super::plan::{Plan, Row};
 use super::severity::Distances;
 use super::source::Source;
-use super::tally::{ClassCount, Place, Tally};
+use super::tally::{ClassCount, Tally};
 use crate::case::Case;
 use crate::contract::{Contract, Extent};
 use crate::family::Grouping;
-use crate::judge::{
-    self, Class, Finding, GroupTruth, Obligation, group_truth, obligation, polygon_truth,
-};
+use crate::judge::{self, Class, Finding, GroupTruth, Obligation, obligation, polygon_truth};
 use crate::kernel::{KernelInfo, Scalar, Subject, Verdict};
-use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -38,27 +36,6 @@ pub struct Cell {
     pub nanoseconds: u64,
 }
 
-/// What a source gave in one scalar.
-#[derive(Clone)]
-pub struct SourceSummary {
-    /// The source's place in the plan.
-    pub source: usize,
-    /// `f32` or `f64`.
-    pub scalar: &'static str,
-    /// Indices made.
-    pub indices: u64,
-    /// Cases in them: a group has several.
-    pub cases: u64,
-    /// Indices whose truths do not keep the family's promise.
-    pub promise_broken: u64,
-    /// The first of them.
-    pub first_broken: Option<u64>,
-    /// Which layer of the oracle decided.
-    pub layers: Layers,
-    /// Time spent in the oracle, over all threads.
-    pub oracle_nanoseconds: u64,
-}
-
 /// All sums of a run.
 #[derive(Default)]
 pub struct Audit {
@@ -67,9 +44,6 @@ pub struct Audit {
     /// By scalar and source, in the order of the plan.
     pub sources: Vec<SourceSummary>,
 }
-
-/// Indices that go through a run together.
-const CHUNK: u64 = 1024;
 
 /// Runs a plan.
 pub fn run(plan: &Plan, observer: &dyn Observer) -> Audit {
@@ -118,52 +92,18 @@ struct Sums {
 impl Sums {
     fn new(plan: &Plan, source: usize, scalar: &'static str) -> Sums {
         Sums {
-            summary: SourceSummary {
-                source,
-                scalar,
-                indices: 0,
-                cases: 0,
-                promise_broken: 0,
-                first_broken: None,
-                layers: Layers::default(),
-                oracle_nanoseconds: 0,
-            },
+            summary: SourceSummary::new(source, scalar),
             rows: plan.rows.iter().map(|_| (Tally::new(plan.examples), 0)).collect(),
         }
     }
 
     fn merged(mut self, other: Sums) -> Sums {
-        let (sum, more) = (&mut self.summary, other.summary);
-        sum.indices += more.indices;
-        sum.cases += more.cases;
-        sum.promise_broken += more.promise_broken;
-        sum.first_broken = [sum.first_broken, more.first_broken].into_iter().flatten().min();
-        sum.layers.merge(&more.layers);
-        sum.oracle_nanoseconds += more.oracle_nanoseconds;
+        self.summary.merge(&other.summary);
         for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
             tally.merge(more);
             *time += more_time;
         }
         self
-    }
-}
-
-/// The cases of a chunk, flat, with their groups.
-struct Chunk<F: Scalar> {
-    grouping: Grouping,
-    cases: Vec<Case<F>>,
-    places: Vec<Place>,
-    /// Where each index's cases start, and the end.
-    starts: Vec<usize>,
-    first_index: u64,
-    truths: Vec<Truth>,
-    classes: Vec<Class>,
-}
-
-impl<F: Scalar> Chunk<F> {
-    fn groups(&self) -> impl Iterator<Item = (u64, std::ops::Range<usize>)> {
-        let first = self.first_index;
-        self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
     }
 }
 
@@ -208,7 +148,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
     }
 
     fn add_chunk(&self, source: &Source, indices: std::ops::Range<u64>, sums: &mut Sums) {
-        let chunk = self.make(source, indices, &mut sums.summary);
+        let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
         let asked: Vec<Asked> =
             self.contracts.iter().map(|contract| ask(&chunk, contract)).collect();
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
@@ -227,64 +167,15 @@ impl<'a, F: Scalar> Runner<'a, F> {
         }
         self.observer.advance(chunk.cases.len() as u64);
     }
-
-    /// Makes the cases and asks the oracle.
-    fn make(
-        &self,
-        source: &Source,
-        indices: std::ops::Range<u64>,
-        summary: &mut SourceSummary,
-    ) -> Chunk<F> {
-        let first_index = indices.start;
-        let (mut cases, mut places, mut starts) = (Vec::new(), Vec::new(), vec![0]);
-        for index in indices {
-            let made = source.make::<F>(index);
-            cases.extend_from_slice(made.cases());
-            let triangles = 0..made.cases().len() as u32;
-            places.extend(triangles.map(|triangle| Place { index, triangle }));
-            starts.push(cases.len());
-        }
-        let start = self.observer.now();
-        let mut truths = Vec::with_capacity(cases.len());
-        oracle::truths(&cases, &mut truths, &mut summary.layers);
-        summary.oracle_nanoseconds += self.observer.now() - start;
-        let classes = truths.iter().map(Class::of).collect();
-        let grouping = source.grouping();
-        let chunk = Chunk { grouping, cases, places, starts, first_index, truths, classes };
-        summary.indices += chunk.starts.len() as u64 - 1;
-        summary.cases += chunk.cases.len() as u64;
-        for (index, range) in chunk.groups() {
-            if !source.keeps_promise(&chunk.truths[range]) {
-                summary.promise_broken += 1;
-                summary.first_broken = Some(summary.first_broken.map_or(index, |i| i.min(index)));
-            }
-        }
-        chunk
-    }
 }
 
 fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
-    let respawned = chunk.grouping == Grouping::Respawn;
-    let obligations = chunk.truths.iter().zip(&chunk.cases).map(|(truth, case)| {
-        if judge::promises_direction::<F>(contract.direction, case.ray.direction.into()) {
-            obligation(truth, contract, respawned)
-        } else {
-            Obligation::Free
-        }
-    });
-    let obligations: Vec<Obligation> = obligations.collect();
+    let obligations = chunk.obligations(contract);
     let mut classes = vec![ClassCount::default(); Class::COUNT];
     for (class, obligation) in chunk.classes.iter().zip(&obligations) {
         classes[class.number()].ask(*obligation);
     }
-    let is_group = !matches!(chunk.grouping, Grouping::Single | Grouping::Respawn);
-    let truth_of =
-        |range: std::ops::Range<usize>| group_truth(&chunk.truths[range], contract, chunk.grouping);
-    let groups = if is_group {
-        chunk.groups().map(|(_, range)| truth_of(range)).collect()
-    } else {
-        Vec::new()
-    };
+    let groups = chunk.group_truths(contract);
     Asked { extent: contract.extent, obligations, classes, groups }
 }
 

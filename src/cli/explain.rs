@@ -267,7 +267,7 @@ fn write_row<F: Scalar>(
     writeln!(out, "{}: {said}; its contract asks {asked}: {judged}", row.label())?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
     for (i, gate) in info.gates.iter().enumerate() {
-        let (margin, exact_margin) = (measured.margins.margins[i], &exact.margins.margins[i]);
+        let (margin, exact_margin) = (measured.margins[i], &exact.margins[i]);
         let decided = verdict.refused_by == Some(i as u8);
         let word = |passes: bool| if passes { "passes" } else { "refuses" };
         let decision = word(margin >= epsilons[i]);

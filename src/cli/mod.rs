@@ -13,6 +13,7 @@ mod output;
 mod progress;
 mod select;
 mod selfcheck;
+mod sources;
 mod truth;
 
 pub use exit::{Failure, Status};

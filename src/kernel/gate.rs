@@ -215,37 +215,34 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
 }
 
 /// The measuring sink: takes every gate's margin and never stops.
-#[derive(Clone, Debug)]
-pub struct Measuring<R> {
-    /// One margin a gate; +inf where the kernel never asked.
-    pub margins: Vec<R>,
+#[derive(Debug)]
+pub struct Measuring<'a, R> {
+    margins: &'a mut [R],
 }
 
-impl<R: Real> Measuring<R> {
-    /// For a kernel with this many gates.
-    pub fn new(gates: usize) -> Self {
-        Measuring { margins: vec![R::infinity(); gates] }
+impl<'a, R: Real> Measuring<'a, R> {
+    /// With one place a gate; it stays +inf where the kernel never asks.
+    pub fn new(margins: &'a mut [R]) -> Self {
+        margins.fill(R::infinity());
+        Measuring { margins }
     }
 
+    #[inline(always)]
     fn record(&mut self, gate: usize, margin: R) -> bool {
         if margin.is_less(&self.margins[gate]) {
             self.margins[gate] = margin;
         }
         true
     }
-
-    /// Whether a kernel with these margins hits under these epsilons.
-    pub fn accepts(&self, epsilons: &[R]) -> bool {
-        self.refused_by(epsilons).is_none()
-    }
-
-    /// The first gate that refuses under these epsilons.
-    pub fn refused_by(&self, epsilons: &[R]) -> Option<usize> {
-        (0..self.margins.len()).find(|&gate| self.margins[gate].is_less(&epsilons[gate]))
-    }
 }
 
-impl<R: Real> Sink<R> for Measuring<R> {
+/// The first gate that refuses a case of these margins under these epsilons.
+pub fn refused_by<R: Real>(margins: &[R], epsilons: &[R]) -> Option<usize> {
+    (0..margins.len()).find(|&gate| margins[gate].is_less(&epsilons[gate]))
+}
+
+impl<R: Real> Sink<R> for Measuring<'_, R> {
+    #[inline(always)]
     fn gate<const M: usize, const N: usize>(
         &mut self,
         gate: usize,
@@ -263,6 +260,7 @@ impl<R: Real> Sink<R> for Measuring<R> {
         self.record(gate, margin)
     }
 
+    #[inline(always)]
     fn rounded(
         &mut self,
         gate: usize,
@@ -272,6 +270,7 @@ impl<R: Real> Sink<R> for Measuring<R> {
         self.record(gate, R::largest_accepted(accepts, exact))
     }
 
+    #[inline(always)]
     fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
         self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
     }

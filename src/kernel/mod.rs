@@ -23,7 +23,7 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching};
+pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use registry::{Entry, KERNELS, Scalar, find, nearest_name};
 pub use subject::{Builtin, Measured, Subject, Verdict};

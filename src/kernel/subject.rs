@@ -1,8 +1,8 @@
 //! Kernels behind one object-safe interface: what the audit and users' plug-ins go through.
 
 use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
-use crate::arith::{Exact, Float};
-use crate::case::{Case, Ray};
+use crate::arith::{Exact, Float, Real, Vector};
+use crate::case::{Case, Ray, Triangle};
 use crate::truth::Facing;
 use std::marker::PhantomData;
 
@@ -46,10 +46,16 @@ impl<F: Float> Verdict<F> {
 /// The margins of one case, and the values computed along the way.
 #[derive(Clone, Debug)]
 pub struct Measured<R> {
-    /// One margin a gate.
-    pub margins: Measuring<R>,
+    /// One margin a gate; +inf where the kernel never asked.
+    pub margins: Vec<R>,
     /// What a hit would report.
     pub values: Option<Hit<R>>,
+}
+
+fn measure<K: Kernel, V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Measured<V::Real> {
+    let mut margins = vec![V::Real::zero(); K::INFO.gates.len()];
+    let values = K::test(&K::prepare(triangle), ray, &mut Measuring::new(&mut margins));
+    Measured { margins, values }
 }
 
 /// A kernel in one scalar.
@@ -68,7 +74,10 @@ pub trait Subject<F: Float>: Sync {
         epsilons: &[F],
     ) -> Verdict<F>;
 
-    /// Every gate's margin on a case.
+    /// Every gate's margin on each case; `margins` has one entry a gate for each case in turn.
+    fn margins(&self, cases: &[Case<F>], margins: &mut [F]);
+
+    /// Every gate's margin on a case, and the values of a hit.
     fn measure(&self, case: &Case<F>) -> Measured<F>;
 
     /// Every gate's margin on a case, in exact arithmetic.
@@ -110,17 +119,20 @@ impl<F: Float, K: Kernel> Subject<F> for Builtin<K> {
         Verdict::of(hit, sink.refused_by)
     }
 
+    fn margins(&self, cases: &[Case<F>], margins: &mut [F]) {
+        for (case, margins) in cases.iter().zip(margins.chunks_exact_mut(K::INFO.gates.len())) {
+            let mut sink = Measuring::new(margins);
+            K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+        }
+    }
+
     fn measure(&self, case: &Case<F>) -> Measured<F> {
-        let mut margins = Measuring::new(K::INFO.gates.len());
-        let values = K::test(&K::prepare(&case.triangle), &case.ray, &mut margins);
-        Measured { margins, values }
+        measure::<K, F::Vector>(&case.ray, &case.triangle)
     }
 
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
         let (ray, triangle) = case.exact();
-        let mut margins = Measuring::new(K::INFO.gates.len());
-        let values = K::test(&K::prepare(&triangle), &ray, &mut margins);
-        Measured { margins, values }
+        measure::<K, _>(&ray, &triangle)
     }
 
     fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Vec<bool> {

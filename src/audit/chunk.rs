@@ -1,0 +1,141 @@
+//! Some indices of a source together: their cases, truths and groups.
+
+use super::run::Observer;
+use super::source::Source;
+use super::tally::Place;
+use crate::case::Case;
+use crate::contract::Contract;
+use crate::family::Grouping;
+use crate::judge::{self, Class, GroupTruth, Obligation, group_truth, obligation};
+use crate::kernel::Scalar;
+use crate::oracle::{self, Layers};
+use crate::truth::Truth;
+use std::ops::Range;
+
+/// Indices that go through a run together.
+pub(crate) const CHUNK: u64 = 1024;
+
+/// What a source gave in one scalar.
+#[derive(Clone)]
+pub struct SourceSummary {
+    /// The source's place in the plan.
+    pub source: usize,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Indices made.
+    pub indices: u64,
+    /// Cases in them: a group has several.
+    pub cases: u64,
+    /// Indices whose truths do not keep the family's promise.
+    pub promise_broken: u64,
+    /// The first of them.
+    pub first_broken: Option<u64>,
+    /// Which layer of the oracle decided.
+    pub layers: Layers,
+    /// Time spent in the oracle, over all threads.
+    pub oracle_nanoseconds: u64,
+}
+
+impl SourceSummary {
+    /// Of nothing yet.
+    pub fn new(source: usize, scalar: &'static str) -> SourceSummary {
+        SourceSummary {
+            source,
+            scalar,
+            indices: 0,
+            cases: 0,
+            promise_broken: 0,
+            first_broken: None,
+            layers: Layers::default(),
+            oracle_nanoseconds: 0,
+        }
+    }
+
+    /// Adds what another part of the same source gave.
+    pub fn merge(&mut self, other: &SourceSummary) {
+        self.indices += other.indices;
+        self.cases += other.cases;
+        self.promise_broken += other.promise_broken;
+        self.first_broken = [self.first_broken, other.first_broken].into_iter().flatten().min();
+        self.layers.merge(&other.layers);
+        self.oracle_nanoseconds += other.oracle_nanoseconds;
+    }
+}
+
+/// The cases of some indices, flat, with their groups.
+pub(crate) struct Chunk<F: Scalar> {
+    pub grouping: Grouping,
+    pub cases: Vec<Case<F>>,
+    pub places: Vec<Place>,
+    pub truths: Vec<Truth>,
+    pub classes: Vec<Class>,
+    /// Where each index's cases start, and the end.
+    starts: Vec<usize>,
+    first_index: u64,
+}
+
+impl<F: Scalar> Chunk<F> {
+    /// Makes the cases and asks the oracle.
+    pub fn make(
+        source: &Source,
+        indices: Range<u64>,
+        observer: &dyn Observer,
+        summary: &mut SourceSummary,
+    ) -> Chunk<F> {
+        let first_index = indices.start;
+        let (mut cases, mut places, mut starts) = (Vec::new(), Vec::new(), vec![0]);
+        for index in indices {
+            let made = source.make::<F>(index);
+            cases.extend_from_slice(made.cases());
+            let triangles = 0..made.cases().len() as u32;
+            places.extend(triangles.map(|triangle| Place { index, triangle }));
+            starts.push(cases.len());
+        }
+        let start = observer.now();
+        let mut truths = Vec::with_capacity(cases.len());
+        oracle::truths(&cases, &mut truths, &mut summary.layers);
+        summary.oracle_nanoseconds += observer.now() - start;
+        let classes = truths.iter().map(Class::of).collect();
+        let grouping = source.grouping();
+        let chunk = Chunk { grouping, cases, places, truths, classes, starts, first_index };
+        summary.indices += chunk.starts.len() as u64 - 1;
+        summary.cases += chunk.cases.len() as u64;
+        for (index, range) in chunk.groups() {
+            if !source.keeps_promise(&chunk.truths[range]) {
+                summary.promise_broken += 1;
+                summary.first_broken = Some(summary.first_broken.map_or(index, |i| i.min(index)));
+            }
+        }
+        chunk
+    }
+
+    /// Each index with the range of its cases.
+    pub fn groups(&self) -> impl Iterator<Item = (u64, Range<usize>)> {
+        let first = self.first_index;
+        self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
+    }
+
+    /// What a contract asks of each case.
+    pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
+        let respawned = self.grouping == Grouping::Respawn;
+        let ask = |(truth, case): (&Truth, &Case<F>)| {
+            if judge::promises_direction::<F>(contract.direction, case.ray.direction.into()) {
+                obligation(truth, contract, respawned)
+            } else {
+                Obligation::Free
+            }
+        };
+        self.truths.iter().zip(&self.cases).map(ask).collect()
+    }
+
+    /// What a contract asks of each group; empty if the source's cases stand alone.
+    pub fn group_truths(&self, contract: &Contract) -> Vec<GroupTruth> {
+        if matches!(self.grouping, Grouping::Single | Grouping::Respawn) {
+            return Vec::new();
+        }
+        let ask = |(_, range): (u64, Range<usize>)| {
+            group_truth(&self.truths[range], contract, self.grouping)
+        };
+        self.groups().map(ask).collect()
+    }
+}

@@ -1,0 +1,174 @@
+//! Which cases a command line names, and on how many threads they run.
+
+use super::exit::{Failure, Status};
+use super::input::{corpus_files, corpus_set, read_mesh};
+use super::select::{case_count, chosen_scalars, unknown};
+use crate::audit::Source;
+use crate::case::{Parameters, parse_offset, parse_power_of_two};
+use crate::family::{FAMILIES, Family, MeshFamily, find};
+use clap::Args;
+use std::sync::Arc;
+
+/// The flags that choose cases.
+#[derive(Args)]
+pub struct SourceArguments {
+    /// f32, f64 or both
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
+    scalar: Vec<String>,
+
+    /// A case family, or several separated by commas [default: all, or none with --mesh or --corpus]
+    #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
+    family: Vec<String>,
+
+    /// Cases for each family
+    #[arg(
+        long,
+        short = 'n',
+        default_value = "20000",
+        value_name = "N",
+        allow_hyphen_values = true
+    )]
+    count: String,
+
+    /// Every case of the lattice family instead of a sample
+    #[arg(long)]
+    exhaustive: bool,
+
+    /// Which random cases
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Multiply all positions by a power of two, as 2^-10
+    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true)]
+    scale: String,
+
+    /// Multiply the direction too
+    #[arg(long)]
+    scale_direction: bool,
+
+    /// Add a vector to all positions, as 1e6:0:0
+    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true)]
+    offset: Option<String>,
+
+    /// `unit`: replace each direction by its rounded unit vector
+    #[arg(long, value_name = "unit")]
+    direction: Option<String>,
+
+    /// Rays at the edges, vertices and faces of an OBJ file; may be repeated
+    #[arg(long, value_name = "FILE")]
+    mesh: Vec<String>,
+
+    /// Stored cases: a JSON lines file, or a folder of them; may be repeated
+    #[arg(long, value_name = "FILE|DIR")]
+    corpus: Vec<String>,
+}
+
+impl SourceArguments {
+    /// Whether in `f32`, and whether in `f64`.
+    pub fn scalars(&self) -> Result<[bool; 2], Failure> {
+        chosen_scalars(&self.scalar)
+    }
+
+    /// The scalars as given, joined by a word.
+    pub fn scalar_names(&self, between: &str) -> String {
+        self.scalar.join(between)
+    }
+
+    /// The sources, meshes and corpora read.
+    pub fn sources(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
+        let (count, parameters, seed) = (case_count(&self.count)?, self.parameters()?, self.seed);
+        if !self.corpus.is_empty() && parameters != Parameters::default() {
+            let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
+            return Err(Failure::usage(message));
+        }
+        let mut sources = Vec::new();
+        let families = self.families()?;
+        if self.exhaustive && families.iter().all(|family| family.size.is_none()) {
+            return Err(Failure::usage("--exhaustive: only the family 'lattice' is finite"));
+        }
+        for family in families {
+            let exhaustive = self.exhaustive && family.size.is_some();
+            sources.push(Source::Family {
+                family,
+                parameters: parameters.clone(),
+                seed,
+                count,
+                exhaustive,
+            });
+        }
+        for path in &self.mesh {
+            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+            sources.push(Source::Mesh { family, parameters: parameters.clone(), seed, count });
+        }
+        for path in &self.corpus {
+            for file in corpus_files(path)? {
+                sources.push(Source::Corpus(corpus_set(&file)?));
+            }
+        }
+        Ok(sources)
+    }
+
+    fn families(&self) -> Result<Vec<&'static Family>, Failure> {
+        if self.family.is_empty() {
+            let others = !self.mesh.is_empty() || !self.corpus.is_empty();
+            return Ok(if others { Vec::new() } else { FAMILIES.iter().collect() });
+        }
+        self.family
+            .iter()
+            .map(|name| {
+                let names = FAMILIES.iter().map(|family| family.name);
+                find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))
+            })
+            .collect()
+    }
+
+    fn parameters(&self) -> Result<Parameters, Failure> {
+        let unit_direction = match self.direction.as_deref() {
+            None => false,
+            Some("unit") => true,
+            Some(other) => {
+                return Err(Failure::usage(format!(
+                    "--direction: unknown '{other}'; there is 'unit'"
+                )));
+            }
+        };
+        let offset = self.offset.as_deref().map_or(Ok([0.0; 3]), parse_offset);
+        Ok(Parameters {
+            scale: parse_power_of_two(&self.scale)
+                .map_err(|e| Failure::usage(format!("--scale: {e}")))?,
+            scale_direction: self.scale_direction,
+            offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
+            unit_direction,
+            mesh: None,
+        })
+    }
+}
+
+/// The indices of a run; an error if there are none.
+pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
+    let count = |source: &Source| {
+        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
+        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
+    };
+    match sources.iter().map(count).sum() {
+        0 => {
+            let message = "nothing to run: the sources have no case in the chosen scalars";
+            Err(Failure::Message(Status::NothingSelected, message.to_owned()))
+        }
+        total => Ok(total),
+    }
+}
+
+/// Sets the number of threads, all cores if none is given; returns how many there are.
+pub fn set_threads(threads: Option<usize>) -> Result<usize, Failure> {
+    if let Some(threads) = threads {
+        if threads == 0 || threads > 4096 {
+            return Err(Failure::usage(format!("--threads: {threads} is not from 1 to 4096")));
+        }
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(|error| Failure::Message(Status::InputOutput, error.to_string()))?;
+    }
+    Ok(rayon::current_num_threads())
+}
