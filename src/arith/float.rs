@@ -2,10 +2,10 @@
 
 use super::{Real, Vector};
 use glam::{DVec3, Vec3};
-use std::fmt::Display;
+use std::fmt::{Display, LowerExp};
 
 /// An IEEE 754 binary float that kernels are judged in: `f32` or `f64`.
-pub trait Float: Real + Copy + PartialOrd + Display + Default {
+pub trait Float: Real + Copy + PartialOrd + Display + LowerExp + Default {
     /// The glam vector of this scalar.
     type Vector: Vector<Real = Self> + Copy + From<[Self; 3]> + Into<[Self; 3]>;
     /// `f32` or `f64`, as reports name it.

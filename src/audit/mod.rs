@@ -15,6 +15,7 @@ mod source;
 mod tally;
 
 pub use chunk::SourceSummary;
+pub(crate) use chunk::{CHUNK, Chunk};
 pub use interval::{Interval, clopper_pearson};
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
 pub use run::{Audit, Cell, Observer, run, run_scalar};
