@@ -147,7 +147,7 @@ impl EpsilonChoice {
                     let mut taken = Vec::new();
                     for (gate, epsilon) in entry.info.gates.iter().zip(&mut epsilons) {
                         if let Some(found) = preset.entries.iter().find(|entry| entry.fits(gate)) {
-                            *epsilon = preset_text(found.value);
+                            *epsilon = found.value.into();
                             taken.push(gate.name);
                             fits = true;
                         }
@@ -215,10 +215,12 @@ fn find_preset(name: &str) -> Result<&'static Preset, PlanError> {
     })
 }
 
-fn preset_text(value: PresetValue) -> EpsilonText {
-    match value {
-        PresetValue::Decimal(text) => EpsilonText::Decimal(text.to_owned()),
-        PresetValue::MachineEpsilon(factor) => EpsilonText::MachineEpsilon(factor),
+impl From<PresetValue> for EpsilonText {
+    fn from(value: PresetValue) -> EpsilonText {
+        match value {
+            PresetValue::Decimal(text) => EpsilonText::Decimal(text.to_owned()),
+            PresetValue::MachineEpsilon(factor) => EpsilonText::MachineEpsilon(factor),
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use crate::truth::Truth;
 use std::sync::Arc;
 
 /// A source of cases.
+#[derive(Clone)]
 pub enum Source {
     /// A family's set.
     Family {
@@ -38,7 +39,7 @@ pub enum Source {
 }
 
 /// The stored cases of one file.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct CorpusSet {
     /// The file's name.
     pub file: String,

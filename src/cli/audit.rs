@@ -1,12 +1,12 @@
 //! `hairline audit`: kernels on families of cases, a mesh or a corpus.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, write_result};
+use super::output::{ColorChoice, paired_outputs, write_result};
 use super::progress::Progress;
-use super::select::{KernelArguments, unknown};
+use super::select::KernelArguments;
 use super::sources::{SourceArguments, set_threads, total_indices};
 use crate::audit::{self, Plan, Source};
-use crate::report::{Context, FORMATS, Format, Record, Style, build};
+use crate::report::{Context, FORMATS, Record, Style, build};
 use clap::Args;
 
 /// What to run, and how to report it.
@@ -49,7 +49,8 @@ pub struct AuditArguments {
 
 /// Runs the command.
 pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
-    let outputs = arguments.outputs()?;
+    let outputs =
+        paired_outputs(FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
     let plan = arguments.plan()?;
     let threads = set_threads(arguments.threads)?;
     let total = total_indices(&plan.sources, plan.scalars)?;
@@ -96,34 +97,10 @@ fn self_check(plan: &Plan, record: &Record) -> Result<Status, Failure> {
 }
 
 impl AuditArguments {
-    /// Formats with where they go.
-    fn outputs(&self) -> Result<Vec<(&'static Format, &str)>, Failure> {
-        let formats = self.format.iter().map(|name| {
-            let names = FORMATS.iter().map(|format| format.name);
-            let found = FORMATS.iter().find(|format| format.name == name);
-            found.ok_or_else(|| unknown("format", name, names, "hairline audit --help"))
-        });
-        let formats = formats.collect::<Result<Vec<_>, _>>()?;
-        if let Some(i) =
-            (1..self.output.len()).find(|&i| self.output[..i].contains(&self.output[i]))
-        {
-            return Err(Failure::usage(format!("-o {} is given twice", self.output[i])));
-        }
-        match (formats.len(), self.output.len()) {
-            (1, 0) => Ok(vec![(formats[0], "-")]),
-            (n, m) if n == m => {
-                Ok(formats.into_iter().zip(self.output.iter().map(String::as_str)).collect())
-            }
-            (n, m) => Err(Failure::usage(format!(
-                "{n} formats but {m} outputs: give -o once for each format, in the same order"
-            ))),
-        }
-    }
-
     fn plan(&self) -> Result<Plan, Failure> {
         Ok(Plan {
             rows: self.kernels.rows()?,
-            sources: self.sources.sources(self.quiet)?,
+            sources: self.sources.sources(self.quiet, |_| true)?,
             scalars: self.sources.scalars()?,
             examples: self.examples,
         })

@@ -4,6 +4,7 @@
 
 mod audit;
 mod corpus;
+mod epsilon;
 mod exit;
 mod explain;
 mod input;
@@ -33,6 +34,8 @@ struct Arguments {
 enum Command {
     /// Run kernels on families of cases, a mesh or a corpus, and say where they are wrong
     Audit(Box<audit::AuditArguments>),
+    /// Say what every epsilon of a kernel would do, and which to use
+    Epsilon(Box<epsilon::EpsilonArguments>),
     /// Print the exact truth of cases, one JSON line each
     Truth(truth::TruthArguments),
     /// Show one case: its exact truth, and what each gate of each kernel made of it
@@ -60,6 +63,7 @@ pub fn main() -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Audit(arguments) => audit::run(&arguments),
+        Command::Epsilon(arguments) => epsilon::run(&arguments),
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::List(arguments) => list::run(&arguments),

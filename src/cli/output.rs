@@ -1,6 +1,7 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
+use super::select::unknown;
 use clap::ValueEnum;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -27,6 +28,34 @@ impl ColorChoice {
             ColorChoice::Never => false,
             ColorChoice::Auto => allowed && to_stdout && io::stdout().is_terminal(),
         }
+    }
+}
+
+/// Formats with where they go: each named format to its output, one alone to standard output.
+pub fn paired_outputs<'a, T>(
+    table: &'static [T],
+    name_of: fn(&T) -> &'static str,
+    formats: &[String],
+    outputs: &'a [String],
+) -> Result<Vec<(&'static T, &'a str)>, Failure> {
+    let find = |name: &String| {
+        let found = table.iter().find(|format| name_of(format) == name);
+        found.ok_or_else(|| {
+            unknown("format", name, table.iter().map(name_of), "the command's --help")
+        })
+    };
+    let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+    if let Some(i) = (1..outputs.len()).find(|&i| outputs[..i].contains(&outputs[i])) {
+        return Err(Failure::usage(format!("-o {} is given twice", outputs[i])));
+    }
+    match (formats.len(), outputs.len()) {
+        (1, 0) => Ok(vec![(formats[0], "-")]),
+        (n, m) if n == m => {
+            Ok(formats.into_iter().zip(outputs.iter().map(String::as_str)).collect())
+        }
+        (n, m) => Err(Failure::usage(format!(
+            "{n} formats but {m} outputs: give -o once for each format, in the same order"
+        ))),
     }
 }
 

@@ -37,6 +37,11 @@ impl KernelArguments {
         Ok(self.choice()?.rows(&self.entries()?, self.contract()?)?)
     }
 
+    /// Whether any kernel is named.
+    pub fn names_kernels(&self) -> bool {
+        !self.kernel.is_empty()
+    }
+
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         if self.kernel.is_empty() {
             return Ok(KERNELS.iter().collect());

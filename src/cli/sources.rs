@@ -75,14 +75,19 @@ impl SourceArguments {
     }
 
     /// The sources, meshes and corpora read.
-    pub fn sources(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
+    /// `usual` picks the families that are run if nothing is named.
+    pub fn sources(
+        &self,
+        quiet: bool,
+        usual: impl Fn(&Family) -> bool,
+    ) -> Result<Vec<Source>, Failure> {
         let (count, parameters, seed) = (case_count(&self.count)?, self.parameters()?, self.seed);
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
         }
         let mut sources = Vec::new();
-        let families = self.families()?;
+        let families = self.families(usual)?;
         if self.exhaustive && families.iter().all(|family| family.size.is_none()) {
             return Err(Failure::usage("--exhaustive: only the family 'lattice' is finite"));
         }
@@ -108,10 +113,14 @@ impl SourceArguments {
         Ok(sources)
     }
 
-    fn families(&self) -> Result<Vec<&'static Family>, Failure> {
+    fn families(&self, usual: impl Fn(&Family) -> bool) -> Result<Vec<&'static Family>, Failure> {
         if self.family.is_empty() {
             let others = !self.mesh.is_empty() || !self.corpus.is_empty();
-            return Ok(if others { Vec::new() } else { FAMILIES.iter().collect() });
+            return Ok(if others {
+                Vec::new()
+            } else {
+                FAMILIES.iter().filter(|family| usual(family)).collect()
+            });
         }
         self.family
             .iter()

@@ -61,6 +61,22 @@ impl Class {
             .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
     }
 
+    /// Whether the line is parallel to the plane, or the triangle has no area.
+    pub fn is_flat(self) -> bool {
+        matches!(self.part(), "parallel" | "coplanar" | "degenerate")
+    }
+
+    /// Whether the line crosses the plane from behind.
+    pub fn is_back(self) -> bool {
+        self.name().contains("/back/")
+    }
+
+    /// Whether the line crosses the plane before or beyond the interval.
+    pub fn is_off_the_interval(self) -> bool {
+        let name = self.name();
+        name.ends_with("/before") || name.ends_with("/beyond")
+    }
+
     /// The name in records: `edge/front/within`, `coplanar`.
     pub fn name(self) -> String {
         let per_part = SIDES.len() * PLACES.len();

@@ -126,6 +126,12 @@ impl Gate {
         Gate { name, refuses, dimension, epsilon: Tunable::NonNegative }
     }
 
+    /// Whether it compares t, so that its epsilon is what keeps a ray from hitting the triangle that
+    /// it starts on.
+    pub fn guards_start(&self) -> bool {
+        self.dimension == Dimension::new(1, -1)
+    }
+
     /// A test that takes no epsilon.
     pub const fn fixed(name: &'static str, refuses: &'static str) -> Gate {
         Gate { name, refuses, dimension: Dimension::new(0, 0), epsilon: Tunable::Fixed }

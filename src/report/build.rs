@@ -54,25 +54,29 @@ fn plan_part(plan: &Plan) -> PlanPart {
             .collect(),
         contract: row.contract.describe(),
     };
-    let source = |source: &Source| PlannedSource {
+    let names = [f32::NAME, f64::NAME];
+    let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
+    let mut part = PlanPart {
+        hash: String::new(),
+        rows: plan.rows.iter().map(row).collect(),
+        sources: plan.sources.iter().map(planned_source).collect(),
+        scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
+    };
+    let text = serde_json::to_string(&part).unwrap_or_default();
+    part.hash = hex(&Sha256::digest(text.as_bytes())[..8]);
+    part
+}
+
+/// A source as the plan names it.
+pub(super) fn planned_source(source: &Source) -> PlannedSource {
+    PlannedSource {
         family: source.name(),
         set: match source {
             Source::Corpus(set) => set.file.clone(),
             _ => set_of_id(&source.id::<f64>(0, None)),
         },
         count: source.count::<f32>().max(source.count::<f64>()),
-    };
-    let names = [f32::NAME, f64::NAME];
-    let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
-    let mut part = PlanPart {
-        hash: String::new(),
-        rows: plan.rows.iter().map(row).collect(),
-        sources: plan.sources.iter().map(source).collect(),
-        scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
-    };
-    let text = serde_json::to_string(&part).unwrap_or_default();
-    part.hash = hex(&Sha256::digest(text.as_bytes())[..8]);
-    part
+    }
 }
 
 /// `family@version/parameters/seed` of an id: without the scalar and the index.
@@ -105,7 +109,7 @@ fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
 }
 
 /// A rate, with its interval if it is of a random sample.
-fn rate(count: u64, of: u64, sample: bool) -> Rate {
+pub(super) fn rate(count: u64, of: u64, sample: bool) -> Rate {
     let interval = (sample && of > 0).then(|| clopper_pearson(count, of));
     Rate {
         count,
@@ -182,17 +186,6 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
     let case: &Case<F> = &made.cases()[place.triangle as usize];
     let triangle = (made.cases().len() > 1).then_some(place.triangle as usize);
     let severity = if with_severity { exact_severity(case, row.contract.extent) } else { None };
-    let mut command = format!(
-        "hairline explain {} --kernel {}",
-        source.explain_arguments::<F>(place.index, triangle),
-        row.entry.info.name
-    );
-    if let Some(epsilons) = row.epsilon_argument() {
-        command.push_str(&format!(" --epsilon '{epsilons}'"));
-    }
-    if let Some(contract) = row.contract_name {
-        command.push_str(&format!(" --contract {contract}"));
-    }
     Example {
         case: source.id::<F>(place.index, triangle),
         bits: case.hex(),
@@ -202,7 +195,7 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
             edge_in_ulps: severity.edge_in_ulps,
             along: severity.along,
         }),
-        command,
+        command: explain_command::<F>(source, row, place.index, triangle),
     }
 }
 
@@ -264,4 +257,25 @@ fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
         by_row.insert(plan.rows[row].label(), per(time, cases[scalar].1));
     }
     provenance
+}
+
+/// The command that shows a case with a row again.
+pub(super) fn explain_command<F: Scalar>(
+    source: &Source,
+    row: &Row,
+    index: u64,
+    triangle: Option<usize>,
+) -> String {
+    let mut command = format!(
+        "hairline explain {} --kernel {}",
+        source.explain_arguments::<F>(index, triangle),
+        row.entry.info.name
+    );
+    if let Some(epsilons) = row.epsilon_argument() {
+        command.push_str(&format!(" --epsilon '{epsilons}'"));
+    }
+    if let Some(contract) = row.contract_name {
+        command.push_str(&format!(" --contract {contract}"));
+    }
+    command
 }

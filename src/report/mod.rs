@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod build;
+pub mod epsilon;
 mod json;
 mod record;
 mod text;

@@ -30,7 +30,7 @@ impl<F: Float> Axis<F> {
                 }
             }
         }
-        edges.sort_by(|a, b| a.place().cmp(&b.place()));
+        edges.sort_by_key(|edge| edge.place());
         edges.dedup_by(|a, b| *a == *b);
         let mut starts = vec![0; 2 * half::<F>() + 1];
         for edge in &edges[..edges.len() - 1] {

@@ -17,16 +17,20 @@ pub enum Question {
     Double,
     /// Rays that start at a kernel's own hit point: a second hit on that triangle.
     SelfHit,
+    /// Of the false hits, those that this gate is there to refuse; for a gate on t every second hit
+    /// on the triangle that a ray starts on is one.
+    OwnFalseHit,
 }
 
 impl Question {
     /// In the order of reports.
-    pub const ALL: [Question; 5] = [
+    pub const ALL: [Question; 6] = [
         Question::FalseMiss,
         Question::FalseHit,
         Question::Crack,
         Question::Double,
         Question::SelfHit,
+        Question::OwnFalseHit,
     ];
 
     /// The name in tables and records.
@@ -37,6 +41,7 @@ impl Question {
             Question::Crack => "cracks",
             Question::Double => "doubles",
             Question::SelfHit => "self-hits",
+            Question::OwnFalseHit => "own false hits",
         }
     }
 
@@ -86,33 +91,38 @@ pub struct Curve<F> {
     pub always: u64,
     /// The others, by margin, in order; no empty cells.
     pub cells: Vec<Cell<F>>,
-    /// The margin at which the count of wrong answers first changes, and where: the smallest of what
-    /// is wrong if refused, the largest of what is wrong if accepted.
+    /// By cell: the margins below it.
+    below: Vec<u64>,
+    /// The lowest epsilon that the gate takes.
+    pub floor: F,
+    /// The margin at which the count of wrong answers first changes, and where: of those from the
+    /// floor up, the smallest of what is wrong if refused, the largest of what is wrong if accepted.
     pub decisive: Option<(F, Place)>,
 }
 
 impl<F: Float> Curve<F> {
     /// Of nothing.
-    pub fn new(question: Question) -> Curve<F> {
-        Curve { question, total: 0, never: 0, always: 0, cells: Vec::new(), decisive: None }
+    pub fn new(question: Question, floor: F) -> Curve<F> {
+        let (cells, below) = (Vec::new(), vec![0]);
+        Curve { question, total: 0, never: 0, always: 0, cells, below, floor, decisive: None }
     }
 
     /// How many are refused under an epsilon.
     fn refused(&self, epsilon: F) -> Bracket {
-        let mut count = Bracket { low: self.never, high: self.never };
-        for cell in self.cells.iter().take_while(|cell| cell.low < epsilon) {
-            // Every margin of the cell is below the epsilon, or some may be.
-            if cell.end <= epsilon {
-                count.low += cell.count;
-            }
-            count.high += cell.count;
-        }
+        let whole = self.cells.partition_point(|cell| cell.end <= epsilon);
+        let low = self.never + self.below[whole];
+        // Of one cell some margins may be below the epsilon.
+        let cut = self.cells.get(whole).filter(|cell| cell.low < epsilon);
+        let mut count = Bracket { low, high: low + cut.map_or(0, |cell| cell.count) };
         // The decisive margin is known wherever it falls in its cell.
-        if self.question.is_wrong_if_refused() && self.decisive.is_none_or(|(m, _)| epsilon <= m) {
-            count.high = self.never;
-        }
-        if !self.question.is_wrong_if_refused() && self.decisive.is_none_or(|(m, _)| m < epsilon) {
-            count.low = self.total - self.always;
+        if self.floor <= epsilon {
+            if self.question.is_wrong_if_refused() {
+                if self.decisive.is_none_or(|(m, _)| epsilon <= m) {
+                    count.high = count.low;
+                }
+            } else if self.decisive.is_none_or(|(m, _)| m < epsilon) {
+                count.low = count.high;
+            }
         }
         count
     }
@@ -152,6 +162,7 @@ impl<F: Float> Curve<F> {
             });
         }
         merged.extend(left.chain(right));
+        self.below = sums(&merged);
         self.cells = merged;
         if let Some(decisive) = other.decisive {
             propose(&mut self.decisive, self.question, decisive, false);
@@ -181,6 +192,7 @@ pub(super) struct Lane<F> {
     question: Question,
     never: u64,
     always: u64,
+    floor: F,
     decisive: Option<(F, Place)>,
     margins: Margins<F>,
 }
@@ -194,9 +206,9 @@ enum Margins<F> {
 }
 
 impl<F: Float> Lane<F> {
-    pub fn new(question: Question, keep: bool) -> Lane<F> {
+    pub fn new(question: Question, floor: F, keep: bool) -> Lane<F> {
         let margins = if keep { Margins::Kept(Vec::new()) } else { Margins::Counted(Vec::new()) };
-        Lane { question, never: 0, always: 0, decisive: None, margins }
+        Lane { question, never: 0, always: 0, floor, decisive: None, margins }
     }
 
     #[inline]
@@ -215,7 +227,9 @@ impl<F: Float> Lane<F> {
             }
             Margins::Kept(margins) => margins.push(margin),
         }
-        propose(&mut self.decisive, self.question, (margin, place), true);
+        if self.floor <= margin {
+            propose(&mut self.decisive, self.question, (margin, place), true);
+        }
     }
 
     pub fn merge(&mut self, other: Lane<F>) {
@@ -247,10 +261,22 @@ impl<F: Float> Lane<F> {
             total,
             never: self.never,
             always: self.always,
+            below: sums(&cells),
             cells,
+            floor: self.floor,
             decisive: self.decisive,
         }
     }
+}
+
+/// The margins below each cell, and all at the end.
+fn sums<F>(cells: &[Cell<F>]) -> Vec<u64> {
+    let mut sum = 0;
+    let counts = cells.iter().map(|cell| {
+        sum += cell.count;
+        sum
+    });
+    std::iter::once(0).chain(counts).collect()
 }
 
 fn counted<F: Float>(axis: &Axis<F>, counts: &[u64]) -> Vec<Cell<F>> {
@@ -301,9 +327,11 @@ mod tests {
         let axis = Axis::new(&[1e-6, -1e-6]);
         let mut draw = Draw::new("curve", 1, 0);
         let margins: Vec<f32> = (0..3000).map(|_| margin(&mut draw)).collect();
-        for question in Question::ALL {
+        for (question, floor) in
+            Question::ALL.into_iter().flat_map(|question| [(question, -f32::MAX), (question, 0.0)])
+        {
             let lane = |keep: bool, margins: &[f32], from: u64| {
-                let mut lane = Lane::new(question, keep);
+                let mut lane = Lane::new(question, floor, keep);
                 for (margin, index) in margins.iter().zip(from..) {
                     lane.add(&axis, *margin, Place { index, triangle: 0 });
                 }

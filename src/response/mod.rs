@@ -6,12 +6,22 @@
 
 #![forbid(unsafe_code)]
 
+mod advice;
 mod axis;
 mod curve;
+mod duty;
+mod map;
 mod relative;
 mod run;
+mod scaling;
+mod study;
 
+pub use advice::{Side, Trade, candidates, decades, total};
 pub use axis::Axis;
 pub use curve::{Bracket, Cell, Curve, Question};
+pub use duty::Duty;
+pub use map::{Map, map};
 pub use relative::{scale_free_form, unit_of_length};
-pub use run::{Request, Response, SourceResponse, run, tunable_gates};
+pub use run::{Request, Response, SourceResponse, floor, run, tunable_gates};
+pub use scaling::{AtScale, at_scales, common, scaled, slope};
+pub use study::{GateStudy, Price, Study, StudyPlan, own_false_hits, study};

@@ -23,52 +23,8 @@ impl<F: Float> Scales<F> {
         if !margin.is_finite() {
             return margin;
         }
-        let accepts = |e: F| e * unit <= margin;
-        let largest = F::infinity().offset_ulps(-1);
-        let quotient = margin / unit;
-        let mut e = if quotient.is_finite() {
-            quotient
-        } else if quotient < F::zero() {
-            -largest
-        } else {
-            largest
-        };
-        // The quotient is within an ulp or two, but for products that underflow.
-        let mut step = 1;
-        while !accepts(e) {
-            let Some(lower) = lowered(e, step) else { return -F::infinity() };
-            (e, step) = (lower, step * 2);
-        }
-        // Bisect up: the first number above `e` that is refused.
-        let mut high = e;
-        step = 1;
-        loop {
-            match lowered(-high, step).map(|x| -x) {
-                None => return F::infinity(),
-                Some(higher) if accepts(higher) => (high, step) = (higher, step * 2),
-                Some(higher) => return last_accepted(high, higher, accepts),
-            }
-        }
+        F::largest_accepted(|e| *e * unit <= margin, || margin / unit)
     }
-}
-
-/// `x` some ulps lower; none below the lowest finite number.
-fn lowered<F: Float>(x: F, ulps: i64) -> Option<F> {
-    let lowest = -F::infinity().offset_ulps(-1);
-    let room = x.place() - lowest.place();
-    (room > 0).then(|| x.offset_ulps(-ulps.min(room)))
-}
-
-fn last_accepted<F: Float>(mut low: F, mut high: F, accepts: impl Fn(F) -> bool) -> F {
-    while high.place() - low.place() > 1 {
-        let middle = F::from_place(low.place() + (high.place() - low.place()) / 2);
-        if accepts(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }
 
 fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
@@ -104,12 +60,14 @@ pub fn scale_free_form(dimension: Dimension) -> Option<String> {
     Some(text)
 }
 
-/// What L or M stands for in [`scale_free_form`].
+/// What L or M stands for in [`scale_free_form`]; empty if neither is in it.
 pub fn unit_of_length(dimension: Dimension) -> &'static str {
     if dimension == Dimension::new(1, -1) {
         "M = the largest coordinate of the ray's origin and the triangle"
-    } else {
+    } else if dimension.length != 0 {
         "L = the triangle's longest edge"
+    } else {
+        ""
     }
 }
 

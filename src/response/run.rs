@@ -2,7 +2,9 @@
 
 use super::axis::Axis;
 use super::curve::{Curve, Lane, Question};
+use super::duty::Duty;
 use super::relative::Scales;
+use crate::arith::Float;
 use crate::audit::{CHUNK, Chunk, Observer, Place, Row, Source, SourceSummary};
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation};
@@ -11,6 +13,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// A kernel whose response is asked for.
+#[derive(Clone, Copy)]
 pub struct Request<'a, F> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.
     pub row: &'a Row,
@@ -65,6 +68,14 @@ pub fn tunable_gates(gates: &[Gate]) -> Vec<usize> {
     (0..gates.len()).filter(|&gate| gates[gate].epsilon != Tunable::Fixed).collect()
 }
 
+/// The lowest epsilon that a gate takes.
+pub fn floor<F: Float>(gate: &Gate) -> F {
+    match gate.epsilon {
+        Tunable::Signed => -F::infinity().offset_ulps(-1),
+        Tunable::NonNegative | Tunable::Fixed => F::zero(),
+    }
+}
+
 /// Runs a request over sources, in their order.
 pub fn run<F: Scalar>(
     request: &Request<'_, F>,
@@ -82,6 +93,7 @@ struct Pass<'a, F: Scalar> {
     subject: &'a dyn Subject<F>,
     gates: &'static [Gate],
     epsilons: Vec<F>,
+    duties: Vec<Duty>,
     observer: &'a dyn Observer,
 }
 
@@ -93,7 +105,7 @@ struct Sums<F> {
 }
 
 struct GateSums<F> {
-    lanes: [Lane<F>; 5],
+    lanes: [Lane<F>; Question::ALL.len()],
     refused_by_others: Vec<u64>,
     /// By case of the chunk: the margin, or -inf where another gate refuses.
     effective: Vec<F>,
@@ -104,7 +116,9 @@ impl<'a, F: Scalar> Pass<'a, F> {
         let Row { entry, .. } = request.row;
         let epsilons = request.row.epsilons();
         let (subject, gates) = (F::subject(entry), entry.info.gates);
-        Pass { request, subject, gates, epsilons, observer }
+        let duty = |gate| Duty::of(gates, gate, &request.row.contract);
+        let duties = (0..gates.len()).map(duty).collect();
+        Pass { request, subject, gates, epsilons, duties, observer }
     }
 
     fn over(&self, number: usize, source: &Source) -> SourceResponse<F> {
@@ -129,8 +143,11 @@ impl<'a, F: Scalar> Pass<'a, F> {
     }
 
     fn empty(&self, source: usize) -> Sums<F> {
-        let gate = |_: &usize| GateSums {
-            lanes: Question::ALL.map(|question| Lane::new(question, self.request.exact)),
+        let lane = |gate: usize, question| {
+            Lane::new(question, floor(&self.gates[gate]), self.request.exact)
+        };
+        let gate = |gate: &usize| GateSums {
+            lanes: Question::ALL.map(|question| lane(*gate, question)),
             refused_by_others: vec![0; self.gates.len()],
             effective: Vec::new(),
         };
@@ -169,7 +186,9 @@ impl<'a, F: Scalar> Pass<'a, F> {
         sums: &mut GateSums<F>,
     ) {
         let axis = self.request.axis;
-        let [misses, hits, _, _, self_hits] = &mut sums.lanes;
+        let [misses, hits, _, _, self_hits, own] = &mut sums.lanes;
+        let respawned = chunk.grouping == Grouping::Respawn;
+        let guards_start = self.gates[gate].guards_start();
         sums.effective.clear();
         let rows = margins.chunks_exact(self.gates.len());
         for (i, (margins, obligation)) in rows.zip(obligations).enumerate() {
@@ -187,10 +206,18 @@ impl<'a, F: Scalar> Pass<'a, F> {
                 Obligation::MustMiss => hits.add(axis, margin, place),
                 Obligation::Free => {}
             }
+            let own_to_refuse = if respawned && guards_start {
+                true
+            } else {
+                *obligation == Obligation::MustMiss && self.duties[gate].guards(chunk.classes[i])
+            };
+            if own_to_refuse {
+                own.add(axis, margin, place);
+            }
             if let (Obligation::MustHit, Some(other)) = (obligation, refusing) {
                 sums.refused_by_others[other] += 1;
             }
-            if chunk.grouping == Grouping::Respawn {
+            if respawned {
                 self_hits.add(axis, margin, place);
             }
         }
@@ -204,7 +231,7 @@ fn add_groups<F: Scalar>(
     axis: &Axis<F>,
     sums: &mut GateSums<F>,
 ) {
-    let [_, _, cracks, doubles, _] = &mut sums.lanes;
+    let [_, _, cracks, doubles, _, _] = &mut sums.lanes;
     for ((index, range), truth) in chunk.groups().zip(groups) {
         if *truth != GroupTruth::Crossing {
             continue;

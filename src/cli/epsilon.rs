@@ -1,0 +1,201 @@
+//! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
+
+use super::exit::{Failure, Status};
+use super::output::{ColorChoice, paired_outputs, write_result};
+use super::progress::Progress;
+use super::select::KernelArguments;
+use super::sources::{SourceArguments, set_threads, total_indices};
+use crate::audit::{Row, Source};
+use crate::case::parse_power_of_two;
+use crate::family::Family;
+use crate::kernel::{Gate, Scalar, nearest_name};
+use crate::report::Style;
+use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
+use crate::response::{StudyPlan, study, tunable_gates};
+use clap::Args;
+
+/// Which kernel, gate and cases, and how to report.
+#[derive(Args)]
+pub struct EpsilonArguments {
+    #[command(flatten)]
+    kernels: KernelArguments,
+
+    /// A gate, or several separated by commas, each varied alone [default: all that take an epsilon]
+    #[arg(long, value_delimiter = ',', value_name = "GATE")]
+    gate: Vec<String>,
+
+    /// Further epsilons to weigh, separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "E", allow_hyphen_values = true)]
+    at: Vec<String>,
+
+    /// Keep every margin: exact at every epsilon, with memory that grows with the cases
+    #[arg(long)]
+    exact: bool,
+
+    /// Multiply the epsilon by each case's own size, to the power of the gate's dimension
+    #[arg(long)]
+    relative: bool,
+
+    /// Weigh two gates against each other
+    #[arg(long)]
+    map: bool,
+
+    /// Scales at which to look for the limits again, or `none`
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "2^K",
+        default_value = "2^-20,2^-10,1,2^10,2^20",
+        allow_hyphen_values = true
+    )]
+    scales: Vec<String>,
+
+    #[command(flatten)]
+    sources: SourceArguments,
+
+    /// text, json, csv or svg, or several separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
+    format: Vec<String>,
+
+    /// Where to write, once for each format; - is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<String>,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    /// No progress, no notes
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Families whose sizes span the scalar's range: whatever epsilon is right for one is wrong for
+/// another, and that is what the scales tell apart.
+const SPANNING: [&str; 6] =
+    ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
+
+/// At each scale, at most this many indices of a source.
+const SCALE_COUNT: u64 = 4000;
+
+/// Runs the command.
+pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
+    let outputs = paired_outputs(
+        EPSILON_FORMATS,
+        |format| format.name,
+        &arguments.format,
+        &arguments.output,
+    )?;
+    let rows = arguments.rows()?;
+    let scalars = arguments.sources.scalars()?;
+    let usual = |family: &Family| !SPANNING.contains(&family.name);
+    let sources = arguments.sources.sources(arguments.quiet, usual)?;
+    let threads = set_threads(arguments.threads)?;
+    let total = total_indices(&sources, scalars)? * rows.len() as u64;
+    let progress = Progress::new(total, "indices", arguments.quiet);
+    let mut all = Vec::new();
+    for row in &rows {
+        if scalars[0] {
+            all.push(arguments.study::<f32>(row, &sources, &progress)?);
+        }
+        if scalars[1] {
+            all.push(arguments.study::<f64>(row, &sources, &progress)?);
+        }
+    }
+    progress.finish();
+    let record = record(&sources, all, threads, progress.seconds());
+    for (format, path) in outputs {
+        let style = Style { color: ColorChoice::Never.enabled(false), details: false };
+        write_result(path, |out| (format.write)(&record, style, out))?;
+    }
+    Ok(Status::Success)
+}
+
+impl EpsilonArguments {
+    /// One row a kernel: its first epsilon set, with the given epsilons.
+    fn rows(&self) -> Result<Vec<Row>, Failure> {
+        if !self.kernels.names_kernels() {
+            let message = "name a kernel with --kernel (see `hairline list kernels`)";
+            return Err(Failure::usage(message));
+        }
+        let mut rows = self.kernels.rows()?;
+        rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
+        if self.map && self.gate.len() != 2 {
+            return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
+        }
+        Ok(rows)
+    }
+
+    fn gates(&self, row: &Row) -> Result<Vec<usize>, Failure> {
+        let gates = row.entry.info.gates;
+        let tunable = tunable_gates(gates);
+        let name = row.entry.info.name;
+        if tunable.is_empty() {
+            return Err(Failure::usage(format!("{name}: no gate of it takes an epsilon")));
+        }
+        if self.gate.is_empty() {
+            return Ok(tunable);
+        }
+        let find = |wanted: &String| {
+            let named = |gate: &&usize| gates[**gate].name == wanted;
+            tunable.iter().find(named).copied().ok_or_else(|| self.no_gate(row, gates, wanted))
+        };
+        let found: Vec<usize> = self.gate.iter().map(find).collect::<Result<_, _>>()?;
+        match (1..found.len()).find(|&i| found[..i].contains(&found[i])) {
+            Some(i) => Err(Failure::usage(format!("--gate: '{}' is given twice", self.gate[i]))),
+            None => Ok(found),
+        }
+    }
+
+    fn no_gate(&self, row: &Row, gates: &[Gate], wanted: &str) -> Failure {
+        let kernel = row.entry.info.name;
+        if gates.iter().any(|gate| gate.name == wanted) {
+            return Failure::usage(format!("gate '{wanted}' of {kernel} takes no epsilon"));
+        }
+        let advice = nearest_name(wanted, gates.iter().map(|gate| gate.name));
+        let advice = advice.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
+        let names: Vec<&str> =
+            tunable_gates(gates).into_iter().map(|gate| gates[gate].name).collect();
+        Failure::usage(format!(
+            "{kernel} has no gate '{wanted}'{advice} (those that take an epsilon: {})",
+            names.join(", ")
+        ))
+    }
+
+    fn study<F: Scalar>(
+        &self,
+        row: &Row,
+        sources: &[Source],
+        progress: &Progress,
+    ) -> Result<(Vec<GatePart>, Option<MapPart>), Failure> {
+        let at = self.at.iter().map(|text| {
+            F::parse(text).filter(|e| e.is_finite()).ok_or_else(|| {
+                let message = format!("--at: '{text}' is not a finite number of {}", F::NAME);
+                Failure::usage(message)
+            })
+        });
+        let plan = StudyPlan::<F> {
+            row,
+            gates: self.gates(row)?,
+            at: at.collect::<Result<_, _>>()?,
+            exact: self.exact,
+            relative: self.relative,
+            scales: self.exponents()?,
+            scale_count: SCALE_COUNT,
+            map: self.map,
+        };
+        let study = study(&plan, sources, progress)
+            .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
+        Ok(parts(&plan, sources, &study))
+    }
+
+    fn exponents(&self) -> Result<Vec<i32>, Failure> {
+        if self.scales.iter().any(|scale| scale == "none") {
+            return Ok(Vec::new());
+        }
+        let parse = |text: &String| {
+            parse_power_of_two(text).map_err(|error| Failure::usage(format!("--scales: {error}")))
+        };
+        self.scales.iter().map(parse).collect()
+    }
+}

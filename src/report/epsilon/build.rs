@@ -1,0 +1,319 @@
+//! From a study to its record.
+
+use super::record::*;
+use crate::arith::Float;
+use crate::audit::{Place, Row, Source, Tally, exact_severity};
+use crate::case::Case;
+use crate::family::Grouping;
+use crate::judge::{Class, Finding};
+use crate::kernel::{Gate, Scalar};
+use crate::report::build::{explain_command, planned_source, rate};
+use crate::response::{
+    AtScale, Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study,
+    StudyPlan, common, own_false_hits, scale_free_form, slope, unit_of_length,
+};
+
+/// The parts of a record that are about one row in one scalar.
+pub fn parts<F: Scalar>(
+    plan: &StudyPlan<'_, F>,
+    sources: &[Source],
+    study: &Study<F>,
+) -> (Vec<GatePart>, Option<MapPart>) {
+    let gates = study.gates.iter().enumerate();
+    let parts = gates.map(|(n, gate)| gate_part(plan, sources, study, n, gate)).collect();
+    (parts, study.map.as_ref().map(|map| map_part(plan.row, map)))
+}
+
+/// A record of parts.
+pub fn record(
+    sources: &[Source],
+    parts: Vec<(Vec<GatePart>, Option<MapPart>)>,
+    threads: usize,
+    seconds: f64,
+) -> EpsilonRecord {
+    let (gates, maps): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+    EpsilonRecord {
+        schema: EPSILON_SCHEMA.to_owned(),
+        result: EpsilonResult {
+            sources: sources.iter().map(planned_source).collect(),
+            gates: gates.into_iter().flatten().collect(),
+            maps: maps.into_iter().flatten().collect(),
+        },
+        provenance: EpsilonProvenance {
+            tool: concat!("hairline ", env!("CARGO_PKG_VERSION")).to_owned(),
+            target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
+            threads,
+            seconds,
+        },
+    }
+}
+
+/// The shortest decimal of an epsilon.
+fn text<F: Float>(epsilon: F) -> String {
+    if epsilon.is_zero() { "0".to_owned() } else { format!("{epsilon:e}") }
+}
+
+fn gate_part<F: Scalar>(
+    plan: &StudyPlan<'_, F>,
+    sources: &[Source],
+    study: &Study<F>,
+    n: usize,
+    gate_study: &GateStudy<F>,
+) -> GatePart {
+    let info = plan.row.entry.info;
+    let gate = &info.gates[gate_study.gate];
+    let form = scale_free_form(gate.dimension).filter(|_| plan.relative);
+    let others = plan.row.tuned().filter(|(other, _)| other.name != gate.name);
+    let each = sources.iter().zip(&study.responses).map(|(source, response)| {
+        curve_part(source.name(), source.is_sample(), &response.gates[n], &[])
+    });
+    let marks: Vec<F> = gate_study.marks.iter().map(|(_, epsilon)| *epsilon).collect();
+    let sampled = sources.iter().any(Source::is_sample);
+    let all = curve_part("all".to_owned(), sampled, &gate_study.total, &marks);
+    GatePart {
+        kernel: info.name.to_owned(),
+        scalar: F::NAME.to_owned(),
+        gate: gate.name.to_owned(),
+        refuses: gate.refuses.to_owned(),
+        dimension: [gate.dimension.length, gate.dimension.direction],
+        form: form.unwrap_or_else(|| "e".to_owned()),
+        others: others.map(|(gate, text)| (gate.name.to_owned(), text.to_string())).collect(),
+        contract: plan.row.contract.describe(),
+        exact: plan.exact,
+        marks: gate_study
+            .marks
+            .iter()
+            .map(|(name, epsilon)| MarkPart { name: name.clone(), epsilon: text(*epsilon) })
+            .collect(),
+        curves: std::iter::once(all).chain(each).collect(),
+        trade: trade_part(plan.row, sources, gate_study),
+        prices: price_parts(plan.row, sources, study, n),
+        scaling: scaling_part(gate, gate_study),
+    }
+}
+
+fn curve_part<F: Scalar>(
+    family: String,
+    sample: bool,
+    response: &Response<F>,
+    marks: &[F],
+) -> CurvePart {
+    let decisive = |curve: &Curve<F>| curve.decisive.map(|(m, _)| [m, m.offset_ulps(1)]);
+    let mut epsilons: Vec<F> = response.curves.iter().flat_map(|curve| curve.steps()).collect();
+    epsilons.extend(response.curves.iter().filter_map(decisive).flatten());
+    epsilons.extend(marks);
+    epsilons.retain(|epsilon| epsilon.is_finite());
+    epsilons.sort_by_key(|epsilon| epsilon.place());
+    epsilons.dedup_by(|a, b| a == b);
+    let wrong = |epsilon: F| {
+        let counts = Question::ALL.map(|question| response.curve(question).wrong(epsilon).exact());
+        // A decisive margin of one question may fall inside a cell of another.
+        let [a, b, c, d, e, f] = counts;
+        Some((text(epsilon), [a?, b?, c?, d?, e?, f?]))
+    };
+    CurvePart {
+        family,
+        sample,
+        asked: Question::ALL.map(|question| response.curve(question).total),
+        points: epsilons.into_iter().filter_map(wrong).collect(),
+    }
+}
+
+fn trade_part<F: Scalar>(row: &Row, sources: &[Source], study: &GateStudy<F>) -> TradePart {
+    let gates = row.entry.info.gates;
+    let limit = |side: &Side<F>| LimitPart {
+        of: side.curve.total,
+        unavoidable: side.unavoidable,
+        limit: text(side.limit),
+        command: side.decided_by.map(|(source, place)| command::<F>(&sources[source], row, place)),
+    };
+    let trade = &study.trade;
+    let refused = study.total.refused_by_others.iter().enumerate().filter(|(_, count)| **count > 0);
+    TradePart {
+        floor: text(trade.floor),
+        misses: limit(&trade.misses),
+        hits: limit(&trade.hits),
+        settled: trade.settled().map(|(from, to)| [text(from), text(to)]),
+        refused_by_others: refused
+            .map(|(gate, count)| (gates[gate].name.to_owned(), *count))
+            .collect(),
+    }
+}
+
+/// Shows the case of a place.
+fn command<F: Scalar>(source: &Source, row: &Row, place: Place) -> String {
+    let triangles = source.make::<F>(place.index).cases().len();
+    let triangle = (triangles > 1).then_some(place.triangle as usize);
+    explain_command::<F>(source, row, place.index, triangle)
+}
+
+fn price_parts<F: Scalar>(
+    row: &Row,
+    sources: &[Source],
+    study: &Study<F>,
+    n: usize,
+) -> Vec<PricePart> {
+    let pricing = Pricing::new(row, sources, study, n);
+    let mut parts: Vec<PricePart> =
+        study.gates[n].prices.iter().map(|price| pricing.part(price)).collect();
+    let costs: Vec<[u64; 2]> =
+        parts.iter().map(|part| [part.lost.count, part.let_through.count]).collect();
+    for (part, cost) in parts.iter_mut().zip(&costs) {
+        let beats = |other: &[u64; 2]| other != cost && other[0] <= cost[0] && other[1] <= cost[1];
+        part.on_front = !costs.iter().any(beats);
+    }
+    parts
+}
+
+/// What the prices of one gate are worked out from.
+struct Pricing<'a, F> {
+    gate: &'a Gate,
+    duty: Duty,
+    sources: &'a [Source],
+    marks: &'a [(String, F)],
+    /// By source: cases that must be hit and that other gates refuse.
+    refused_by_others: Vec<u64>,
+    sampled: bool,
+}
+
+impl<'a, F: Scalar> Pricing<'a, F> {
+    fn new(row: &'a Row, sources: &'a [Source], study: &'a Study<F>, n: usize) -> Self {
+        let (info, gate) = (row.entry.info, study.gates[n].gate);
+        let refused =
+            |response: &SourceResponse<F>| response.gates[n].refused_by_others.iter().sum();
+        Pricing {
+            gate: &info.gates[gate],
+            duty: Duty::of(info.gates, gate, &row.contract),
+            sources,
+            marks: &study.gates[n].marks,
+            refused_by_others: study.responses.iter().map(refused).collect(),
+            sampled: sources.iter().any(Source::is_sample),
+        }
+    }
+
+    fn part(&self, price: &Price<F>) -> PricePart {
+        let by_source: Vec<[(u64, u64); 4]> =
+            (0..self.sources.len()).map(|i| self.counts(i, &price.tallies[i])).collect();
+        let sum = |kind: usize| {
+            let add = |(a, b): (u64, u64), counts: &[(u64, u64); 4]| {
+                (a + counts[kind].0, b + counts[kind].1)
+            };
+            let (count, of) = by_source.iter().fold((0, 0), add);
+            rate(count, of, self.sampled)
+        };
+        let groups = |count: fn(&Tally) -> u64| {
+            let of = price.tallies.iter().map(|tally| tally.groups.crossings).sum();
+            rate(price.tallies.iter().map(count).sum(), of, self.sampled)
+        };
+        let family = |(source, counts): (&Source, &[(u64, u64); 4])| FamilyPrice {
+            family: source.name(),
+            lost: rate(counts[0].0, counts[0].1, source.is_sample()),
+            let_through: rate(counts[1].0, counts[1].1, source.is_sample()),
+        };
+        let named = self.marks.iter().filter(|(_, epsilon)| *epsilon == price.epsilon);
+        PricePart {
+            epsilon: text(price.epsilon),
+            names: named.map(|(name, _)| name.clone()).collect(),
+            on_front: false,
+            lost: sum(0),
+            let_through: sum(1),
+            false_misses: sum(2),
+            false_hits: sum(3),
+            cracks: groups(|tally| tally.groups.cracks),
+            doubles: groups(|tally| tally.groups.doubles),
+            families: self
+                .sources
+                .iter()
+                .zip(&by_source)
+                .filter(|(_, counts)| counts[0].0 > 0 || counts[1].0 > 0)
+                .map(family)
+                .collect(),
+            farthest: self.farthest(price),
+        }
+    }
+
+    /// On one source: hits that this gate loses, false hits that it lets through, all false misses,
+    /// all false hits.
+    fn counts(&self, source: usize, tally: &Tally) -> [(u64, u64); 4] {
+        let total = tally.total();
+        let [misses, hits] = [Finding::FalseMiss, Finding::FalseHit]
+            .map(|kind| (total.of(kind), total.trials(kind)));
+        let respawned = self.sources[source].grouping() == Grouping::Respawn;
+        let lost = if self.gate.guards_start() && respawned {
+            (0, 0)
+        } else {
+            (misses.0.saturating_sub(self.refused_by_others[source]), misses.1)
+        };
+        [lost, own_false_hits(self.gate, &self.duty, tally), misses, hits]
+    }
+
+    /// The false hit farthest outside, by the tallies' approximation; its distance is exact.
+    fn farthest(&self, price: &Price<F>) -> Option<FarthestPart> {
+        let worst = self.sources.iter().zip(&price.tallies).flat_map(|(source, tally)| {
+            let own = tally.examples.iter().filter(|((class, finding), _)| {
+                *finding == Finding::FalseHit && self.duty.guards(*class)
+            });
+            own.filter_map(move |((class, _), examples)| {
+                examples.worst.map(|worst| (source, *class, worst))
+            })
+        });
+        let (source, class, (_, place)) =
+            worst.max_by(|(.., (a, _)), (.., (b, _))| a.total_cmp(b))?;
+        let made = source.make::<F>(place.index);
+        let case: &Case<F> = &made.cases()[place.triangle as usize];
+        let severity = exact_severity(case, price.row.contract.extent)?;
+        let edges = distance(class, severity.in_space, severity.along);
+        Some(FarthestPart {
+            edges,
+            ulps: edges * severity.edge_in_ulps,
+            command: command::<F>(source, &price.row, place),
+        })
+    }
+}
+
+/// How far outside a false hit is: off the ends, off the triangle, or both.
+fn distance(class: Class, in_space: f64, along: Option<f64>) -> f64 {
+    let outside = if class.part() == "outside" { in_space } else { 0.0 };
+    match along {
+        Some(along) if class.is_off_the_interval() => outside.max(along),
+        _ => in_space,
+    }
+}
+
+fn scaling_part<F: Scalar>(gate: &Gate, study: &GateStudy<F>) -> Option<ScalingPart> {
+    let [absolute, relative] = &study.scales;
+    let (first, last) = (absolute.first()?, absolute.last()?);
+    let rows = |scales: &[AtScale<F>]| ScaleRows {
+        rows: scales
+            .iter()
+            .map(|row| (format!("2^{}", row.exponent), text(row.misses_up_to), text(row.hits_from)))
+            .collect(),
+        common: common(scales).map(|(from, to)| [text(from), text(to)]),
+    };
+    let slope_of = |limit: fn(&AtScale<F>) -> F| {
+        slope((first.exponent, limit(first)), (last.exponent, limit(last)))
+    };
+    Some(ScalingPart {
+        predicted: gate.dimension.length,
+        misses: slope_of(|row| row.misses_up_to),
+        hits: slope_of(|row| row.hits_from),
+        absolute: rows(absolute),
+        form: scale_free_form(gate.dimension),
+        unit: unit_of_length(gate.dimension).to_owned(),
+        relative: rows(relative),
+    })
+}
+
+fn map_part<F: Scalar>(row: &Row, map: &Map<F>) -> MapPart {
+    let info = row.entry.info;
+    MapPart {
+        kernel: info.name.to_owned(),
+        scalar: F::NAME.to_owned(),
+        gates: map.gates.map(|gate| info.gates[gate].name.to_owned()),
+        epsilons: map.epsilons.each_ref().map(|list| list.iter().map(|e| text(*e)).collect()),
+        must_hit: map.must_hit,
+        must_miss: map.must_miss,
+        false_misses: map.false_misses.clone(),
+        false_hits: map.false_hits.clone(),
+    }
+}
