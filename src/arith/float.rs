@@ -55,6 +55,29 @@ pub fn ordered_midpoint<F: Float>(low: F, high: F) -> Option<F> {
     (middle != low && middle != high).then(|| F::from_place(middle))
 }
 
+/// Two numbers of which the lower is accepted and the higher is not, near a guess. The scalar's
+/// lowest finite number is accepted and its largest is not.
+fn bracket<F: Float>(guess: F, accepts: &impl Fn(&F) -> bool) -> (F, F) {
+    let largest = F::infinity().offset_ulps(-1);
+    if !guess.is_finite() {
+        return (-largest, largest);
+    }
+    let up = accepts(&guess);
+    let (mut at, mut step) = (guess, 1i64);
+    loop {
+        let place = if up {
+            at.place().saturating_add(step).min(largest.place())
+        } else {
+            at.place().saturating_sub(step).max((-largest).place())
+        };
+        let next = F::from_place(place);
+        if accepts(&next) != up {
+            return if up { (at, next) } else { (next, at) };
+        }
+        (at, step) = (next, step.saturating_mul(2));
+    }
+}
+
 /// `value * 2^exponent`, rounded once (the steps but the last are exact or already zero or
 /// infinite).
 pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
@@ -153,14 +176,17 @@ macro_rules! float {
             fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
                 $wide(*a, *b, *c, *d)
             }
-            fn largest_accepted(accepts: impl Fn(&Self) -> bool, _: impl FnOnce() -> Self) -> Self {
+            fn largest_accepted(
+                accepts: impl Fn(&Self) -> bool,
+                exact: impl FnOnce() -> Self,
+            ) -> Self {
                 if accepts(&$scalar::MAX) {
                     return $scalar::INFINITY;
                 }
                 if !accepts(&$scalar::MIN) {
                     return $scalar::NEG_INFINITY;
                 }
-                let (mut low, mut high) = ($scalar::MIN, $scalar::MAX);
+                let (mut low, mut high) = bracket(exact(), &accepts);
                 while let Some(middle) = ordered_midpoint(low, high) {
                     if accepts(&middle) { low = middle } else { high = middle }
                 }
@@ -284,11 +310,15 @@ mod tests {
 
     #[test]
     fn bisection_finds_the_last_accepted_float() {
-        let half = Real::largest_accepted(|e: &f64| *e <= 0.5, || unreachable!());
-        assert_eq!(half, 0.5);
-        for target in [-1.5f32, -0.0, 1e-40, 1e-6, 3.0e38] {
-            let found = Real::largest_accepted(|e: &f32| *e <= target, || unreachable!());
-            assert_eq!(found, target);
+        // Wherever the search starts.
+        for start in [f64::NAN, f64::NEG_INFINITY, f64::MIN, -1.0, -0.0, 0.5, 0.6, f64::MAX] {
+            assert_eq!(Real::largest_accepted(|e: &f64| *e <= 0.5, || start), 0.5);
+        }
+        for target in [f32::MIN, -1.5f32, -0.0, 1e-40, 1e-6, 3.0e38, f32::MAX.next_down()] {
+            for start in [f32::NAN, f32::MIN, 0.0, target, target.next_up(), f32::MAX] {
+                let found = Real::largest_accepted(|e: &f32| *e <= target, || start);
+                assert_eq!(found, target);
+            }
         }
         assert_eq!(<f64 as Real>::largest_accepted(|_| true, || 0.0), f64::INFINITY);
         assert_eq!(<f64 as Real>::largest_accepted(|_| false, || 0.0), f64::NEG_INFINITY);

@@ -70,7 +70,7 @@ pub trait Real:
     /// with the epsilon in it. `accepts` is monotone: once false it stays false as its argument
     /// grows. `exact` is the threshold of the same test without rounding.
     ///
-    /// A float searches its ordered bit patterns; an exact number takes `exact`.
+    /// A float searches its ordered bit patterns, outwards from `exact`; an exact number takes `exact`.
     fn largest_accepted(accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self;
 }
 

@@ -1,0 +1,114 @@
+//! What every epsilon costs beside one: `cargo bench --bench response`.
+//!
+//! Each line times, in one run on one thread and on the same cases: making them, the bare kernel with
+//! its default epsilons, the oracle, and the response of all of the kernel's gates (cases made,
+//! asked, measured, counted). The figure to watch is the response over the other three together.
+
+use hairline::audit::{EpsilonChoice, Observer, Source};
+use hairline::case::{Case, Parameters};
+use hairline::family::FAMILIES;
+use hairline::kernel::{KERNELS, Scalar, Verdict};
+use hairline::oracle::{Layers, truths};
+use hairline::response::{Axis, Request, run, tunable_gates};
+use std::hint::black_box;
+use std::time::Instant;
+
+struct Silent;
+
+impl Observer for Silent {
+    fn advance(&self, _: u64) {}
+    fn now(&self) -> u64 {
+        0
+    }
+}
+
+/// Median of five, in nanoseconds.
+fn median(mut work: impl FnMut()) -> f64 {
+    let mut times = [0.0; 5].map(|_: f64| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_nanos() as f64
+    });
+    times.sort_by(f64::total_cmp);
+    times[2]
+}
+
+const COUNT: u64 = 20_000;
+
+fn sources() -> Vec<Source> {
+    let families = ["interior", "outside", "edge-near", "grazing", "coplanar", "shared-edge"];
+    let source = |family: &'static hairline::family::Family| Source::Family {
+        family,
+        parameters: Parameters::default(),
+        seed: 1,
+        count: COUNT,
+        exhaustive: false,
+    };
+    FAMILIES.iter().filter(|family| families.contains(&family.name)).map(source).collect()
+}
+
+fn lines<F: Scalar>() {
+    let sources = sources();
+    let make = || -> Vec<Case<F>> {
+        let made = |source: &Source| {
+            (0..COUNT).flat_map(|i| source.make::<F>(i).cases().to_vec()).collect::<Vec<_>>()
+        };
+        sources.iter().flat_map(made).collect()
+    };
+    let cases = make();
+    let each = cases.len() as f64;
+    let making = median(|| drop(black_box(make())));
+    let oracle = median(|| {
+        let (mut all, mut layers) = (Vec::new(), Layers::default());
+        for chunk in cases.chunks(1024) {
+            all.clear();
+            truths(black_box(chunk), &mut all, &mut layers);
+            black_box(&all);
+        }
+    });
+    let axis = Axis::<F>::new(&[]);
+    let entries: Vec<_> = KERNELS.iter().collect();
+    let mut rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
+    rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
+    for row in &rows {
+        let gates = tunable_gates(row.entry.info.gates);
+        if gates.is_empty() {
+            continue;
+        }
+        let epsilons = row.epsilons::<F>();
+        let kernel = median(|| {
+            let mut verdicts = vec![Verdict::miss(None); 1024];
+            for chunk in cases.chunks(1024) {
+                F::subject(row.entry).run(black_box(chunk), &epsilons, &mut verdicts);
+                black_box(&verdicts);
+            }
+        });
+        let request = Request { row, gates: &gates, axis: &axis, exact: false, relative: false };
+        let response = median(|| drop(black_box(run(&request, &sources, &Silent))));
+        println!(
+            "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",
+            row.entry.info.name,
+            F::NAME,
+            making / each,
+            kernel / each,
+            oracle / each,
+            response / each,
+            response / (making + kernel + oracle),
+            (response - making) / (kernel + oracle)
+        );
+    }
+}
+
+fn main() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    pool.install(|| {
+        println!("ns a case, one thread; the last two: response over making, kernel and oracle,");
+        println!("and response less making over kernel and oracle");
+        println!(
+            "{:<31}{:>8}{:>8}{:>8}{:>10}{:>8}{:>8}",
+            "kernel, all its gates", "making", "kernel", "oracle", "response", "ratio", "ratio"
+        );
+        lines::<f32>();
+        lines::<f64>();
+    });
+}
