@@ -1,14 +1,14 @@
 //! What a truth costs: `cargo bench --bench oracle [-- CLASS]`.
 //!
 //! Per class of cases, in one run on one thread: the plain evaluation of the four determinants in
-//! `f64` without branches or certainty, the oracle case by case and in batches, and the definition in
-//! rationals. The classes are those of the peers' programs: generic rays; rays exactly at an edge or
+//! `f64` without branches or certainty, the oracle case by case, on slices of cases and on batches
+//! of columns, and the definition in rationals. The classes are those of the peers' programs: generic rays; rays exactly at an edge or
 //! a vertex and coplanar ones on small and fine lattices; rays aimed at a rounded point of an edge;
 //! exponents over a wide and over the whole range.
 
 use hairline::arith::{Float, scale_by_power_of_two};
 use hairline::case::{Case, Draw};
-use hairline::oracle::{self, Layers};
+use hairline::oracle::{self, Batch, Layers};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -149,8 +149,17 @@ fn main() {
     let filter = std::env::args().skip(1).find(|word| !word.starts_with('-')).unwrap_or_default();
     println!("ns a case, one thread, {CASES} cases a class, medians of 7; ratios are to plain");
     println!(
-        "{:<26} {:>6} {:>8} {:>6} {:>8} {:>6} {:>7} {:>10}  decided by",
-        "class", "plain", "single", "ratio", "batch", "ratio", "target", "definition"
+        "{:<26} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>7} {:>10}  decided by",
+        "class",
+        "plain",
+        "single",
+        "ratio",
+        "slice",
+        "ratio",
+        "columns",
+        "ratio",
+        "target",
+        "definition"
     );
     for (name, maker, target) in CLASSES.iter().filter(|(name, ..)| name.contains(&filter)) {
         let cases: Vec<Case<f64>> =
@@ -167,10 +176,24 @@ fn main() {
         });
         let mut truths = Vec::new();
         let mut layers = Layers::default();
-        let batch = median(CASES, || {
+        let slice = median(CASES, || {
             layers = Layers::default();
             for chunk in cases.chunks(1024) {
                 oracle::truths(black_box(chunk), &mut truths, &mut layers);
+                black_box(&truths);
+            }
+        });
+        let chunks: Vec<Batch<Vec<f64>>> = cases
+            .chunks(1024)
+            .map(|chunk| {
+                let mut batch = Batch::new();
+                chunk.iter().for_each(|case| batch.push(case));
+                batch
+            })
+            .collect();
+        let columns = median(CASES, || {
+            for chunk in &chunks {
+                black_box(chunk).truths(&mut truths, &mut Layers::default());
                 black_box(&truths);
             }
         });
@@ -188,9 +211,10 @@ fn main() {
             .map(|(layer, share)| format!("{layer} {share:.1}%"))
             .collect();
         println!(
-            "{name:<26} {plain:>6.1} {single:>8.1} {:>6.1} {batch:>8.1} {:>6.1} {target:>7} {:>10.0}  {}",
+            "{name:<26} {plain:>6.1} {single:>8.1} {:>6.1} {slice:>8.1} {:>6.1} {columns:>8.1} {:>6.1} {target:>7} {:>10.0}  {}",
             single / plain,
-            batch / plain,
+            slice / plain,
+            columns / plain,
             definition,
             shares.join(", ")
         );

@@ -23,7 +23,6 @@
 
 use super::determinant::Determinant;
 use super::signs::Signs;
-use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
 use std::cmp::Ordering;
@@ -39,11 +38,11 @@ pub(super) const LANES: usize = 4;
 /// One number of each of N cases. Plain loops over fixed arrays: compilers make vector instructions
 /// of them (and calls of `map` and `from_fn`).
 #[derive(Clone, Copy)]
-struct Lanes<const N: usize>([f64; N]);
+pub(super) struct Lanes<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> Lanes<N> {
     #[inline(always)]
-    fn of(x: f64) -> Self {
+    pub fn of(x: f64) -> Self {
         Lanes([x; N])
     }
 
@@ -114,26 +113,17 @@ fn compute<const N: usize>([o, direction, a, b, c]: [Vector<N>; 5]) -> Computed<
     Computed { weights, weight_errors, t, t_error, d, d_error }
 }
 
-/// The truths of some cases, each if every sign that it depends on is certain. Plain loops: large
+/// The truths of the cases of o, d, a, b, c, each if every sign that it depends on is certain. Plain loops: large
 /// arrays do not go through `map` and `from_fn` without calls.
 #[inline(always)]
-pub(super) fn decide<F: Float, const N: usize>(
-    cases: &[Case<F>; N],
+pub(super) fn decide<const N: usize>(
+    vectors: [Vector<N>; 5],
+    interval: impl Fn(usize) -> (f64, f64),
     truths: &mut [Option<Truth>; N],
 ) {
-    let mut lanes = [[Lanes::<N>::of(0.0); 3]; 5];
-    for (k, case) in cases.iter().enumerate() {
-        let vectors = case.vectors();
-        for v in 0..5 {
-            for i in 0..3 {
-                lanes[v][i].0[k] = vectors[v][i].to_f64();
-            }
-        }
-    }
-    let computed = compute(lanes);
+    let computed = compute(vectors);
     for (k, truth) in truths.iter_mut().enumerate() {
-        let ray = &cases[k].ray;
-        *truth = computed.truth(k, (ray.t_min.to_f64(), ray.t_max.to_f64()));
+        *truth = computed.truth(k, interval(k));
     }
 }
 

@@ -11,6 +11,7 @@
 
 #![forbid(unsafe_code)]
 
+mod batch;
 mod contact;
 mod determinant;
 mod filter;
@@ -20,6 +21,7 @@ mod rational;
 mod resolve;
 mod signs;
 
+pub use batch::{Batch, UnequalColumns};
 pub use rational::{Definition, define};
 
 use crate::arith::Float;
@@ -103,19 +105,14 @@ pub fn truth<F: Float>(case: &Case<F>) -> Truth {
 
 /// The truth of a case, and a count for the layer that decided it.
 pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
-    let mut decided = [None];
-    filter::decide(std::array::from_ref(case), &mut decided);
-    match decided[0] {
-        Some(truth) => {
-            layers.count(Layer::Filter, 1);
-            truth
-        }
-        None => behind_the_filter(case, layers),
-    }
+    let mut decided = Truth::Invalid;
+    let case = std::slice::from_ref(case);
+    batch::decide_group::<F, 1>(case, 0, layers, |truth| decided = truth);
+    decided
 }
 
-/// The truths of many cases, in order: several times faster a case than one by one. `truths` is
-/// cleared first.
+/// The truths of many cases, in order: somewhat faster a case than one by one. `truths` is cleared
+/// first. Cases that lie as arrays of coordinates are a [`Batch`].
 ///
 /// ```
 /// use hairline::case::Case;
@@ -129,22 +126,7 @@ pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
 /// assert_eq!(hits, [Some(true), Some(false)]);
 /// ```
 pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut Layers) {
-    truths.clear();
-    let mut decided = [None; filter::LANES];
-    let (groups, rest) = cases.as_chunks::<{ filter::LANES }>();
-    for group in groups {
-        filter::decide(group, &mut decided);
-        for (decided, case) in std::iter::zip(&decided, group) {
-            match decided {
-                Some(truth) => {
-                    layers.count(Layer::Filter, 1);
-                    truths.push(*truth);
-                }
-                None => truths.push(behind_the_filter(case, layers)),
-            }
-        }
-    }
-    truths.extend(rest.iter().map(|case| truth_counted(case, layers)));
+    batch::decide_all(cases, truths, layers);
 }
 
 /// The layers behind the filter.

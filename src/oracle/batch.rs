@@ -1,0 +1,288 @@
+//! Many cases at once, as arrays of coordinates (columns) or as a slice of cases; either way the
+//! filter takes them in lanes.
+
+use super::filter::{self, LANES, Lanes};
+use super::{Layer, Layers, behind_the_filter};
+use crate::arith::Float;
+use crate::case::Case;
+use crate::truth::Truth;
+use std::error::Error;
+use std::fmt;
+use std::ops::Deref;
+
+/// Cases as a structure of arrays: one column for each coordinate of o, d, a, b and c, and for t_min
+/// and t_max. A `Batch<Vec<f64>>` owns its columns and takes cases one by one; a `Batch<&[f64]>`
+/// looks at columns that lie elsewhere.
+///
+/// ```
+/// use hairline::oracle::{Batch, Layers};
+///
+/// // Three rays straight down onto the triangle (0,0,0), (2,0,0), (0,2,0).
+/// let [zero, one, two] = [[0.0; 3], [1.0; 3], [2.0; 3]];
+/// let (down, infinity) = ([-1.0; 3], [f64::INFINITY; 3]);
+/// let batch = Batch::<&[f64]>::from_columns(
+///     [&[0.5, 1.0, 3.0], &[0.5, 1.0, 3.0], &one],
+///     [&zero, &zero, &down],
+///     [[&zero, &zero, &zero], [&two, &zero, &zero], [&zero, &two, &zero]],
+///     [&zero, &infinity],
+/// )?;
+/// let (mut truths, mut layers) = (Vec::new(), Layers::default());
+/// batch.truths(&mut truths, &mut layers);
+/// let hits: Vec<_> = truths.iter().map(|truth| truth.hits_closed()).collect();
+/// assert_eq!(hits, [Some(true), Some(true), Some(false)]);
+/// # Ok::<(), hairline::oracle::UnequalColumns>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Batch<C> {
+    /// Of o, d, a, b, c.
+    vectors: [[C; 3]; 5],
+    /// t_min and t_max.
+    interval: [C; 2],
+}
+
+/// Columns of different lengths are no batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnequalColumns {
+    /// The first column whose length differs, as `d.y`.
+    pub column: &'static str,
+    /// Its length.
+    pub length: usize,
+    /// The length of the first column, `o.x`.
+    pub expected: usize,
+}
+
+impl fmt::Display for UnequalColumns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let UnequalColumns { column, length, expected } = self;
+        write!(f, "column {column} holds {length} numbers, column o.x {expected}")
+    }
+}
+
+impl Error for UnequalColumns {}
+
+impl<F: Float> Batch<Vec<F>> {
+    /// No cases yet.
+    pub fn new() -> Self {
+        Batch::default()
+    }
+
+    /// Adds a case.
+    pub fn push(&mut self, case: &Case<F>) {
+        for (columns, values) in self.vectors.iter_mut().zip(case.vectors()) {
+            for (column, value) in columns.iter_mut().zip(values) {
+                column.push(value);
+            }
+        }
+        let [t_min, t_max] = &mut self.interval;
+        t_min.push(case.ray.t_min);
+        t_max.push(case.ray.t_max);
+    }
+
+    /// Forgets the cases and keeps the memory.
+    pub fn clear(&mut self) {
+        self.vectors.as_flattened_mut().iter_mut().chain(&mut self.interval).for_each(Vec::clear);
+    }
+}
+
+impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
+    /// From the columns of the coordinates x, y, z of each vector, and of t_min and t_max, all of one
+    /// length.
+    pub fn from_columns(
+        origin: [C; 3],
+        direction: [C; 3],
+        [a, b, c]: [[C; 3]; 3],
+        interval: [C; 2],
+    ) -> Result<Self, UnequalColumns> {
+        const NAMES: [&str; 17] = [
+            "o.x", "o.y", "o.z", "d.x", "d.y", "d.z", "a.x", "a.y", "a.z", "b.x", "b.y", "b.z",
+            "c.x", "c.y", "c.z", "t_min", "t_max",
+        ];
+        let batch = Batch { vectors: [origin, direction, a, b, c], interval };
+        let expected = batch.len();
+        let columns = batch.vectors.as_flattened().iter().chain(&batch.interval);
+        for (column, values) in NAMES.into_iter().zip(columns) {
+            if values.len() != expected {
+                return Err(UnequalColumns { column, length: values.len(), expected });
+            }
+        }
+        Ok(batch)
+    }
+
+    /// The number of cases.
+    pub fn len(&self) -> usize {
+        self.vectors[0][0].len()
+    }
+
+    /// Whether there is no case.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A case; panics if there are no more than `index`.
+    pub fn case(&self, index: usize) -> Case<F> {
+        let [o, d, vertices @ ..] =
+            self.vectors.each_ref().map(|columns| columns.each_ref().map(|c| c[index]));
+        Case::new(o, d, vertices).on(self.interval[0][index], self.interval[1][index])
+    }
+
+    /// The truths of all cases, in order, and counts for the layers that decided them. `truths` is
+    /// cleared first.
+    pub fn truths(&self, truths: &mut Vec<Truth>, layers: &mut Layers) {
+        decide_all(self, truths, layers);
+    }
+}
+
+/// Cases that the filter can take in groups, however they are stored.
+pub(super) trait Stored<F: Float> {
+    fn count(&self) -> usize;
+    fn at(&self, index: usize) -> Case<F>;
+    /// t_min and t_max.
+    fn interval(&self, index: usize) -> (f64, f64);
+    /// o, d, a, b, c of the cases of a group of N, lane by lane.
+    fn lanes<const N: usize>(&self, group: usize) -> [[Lanes<N>; 3]; 5];
+}
+
+impl<F: Float> Stored<F> for [Case<F>] {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.len()
+    }
+    #[inline(always)]
+    fn at(&self, index: usize) -> Case<F> {
+        self[index]
+    }
+    #[inline(always)]
+    fn interval(&self, index: usize) -> (f64, f64) {
+        (self[index].ray.t_min.to_f64(), self[index].ray.t_max.to_f64())
+    }
+    #[inline(always)]
+    fn lanes<const N: usize>(&self, group: usize) -> [[Lanes<N>; 3]; 5] {
+        let mut all = [[Lanes::of(0.0); 3]; 5];
+        for (k, case) in self.as_chunks::<N>().0[group].iter().enumerate() {
+            let vectors = case.vectors();
+            for (lanes, vector) in all.iter_mut().zip(&vectors) {
+                for (lane, x) in lanes.iter_mut().zip(vector) {
+                    lane.0[k] = x.to_f64();
+                }
+            }
+        }
+        all
+    }
+}
+
+impl<F: Float, C: Deref<Target = [F]>> Stored<F> for Batch<C> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.len()
+    }
+    #[inline(always)]
+    fn at(&self, index: usize) -> Case<F> {
+        self.case(index)
+    }
+    #[inline(always)]
+    fn interval(&self, index: usize) -> (f64, f64) {
+        (self.interval[0][index].to_f64(), self.interval[1][index].to_f64())
+    }
+    #[inline(always)]
+    fn lanes<const N: usize>(&self, group: usize) -> [[Lanes<N>; 3]; 5] {
+        let mut all = [[Lanes::of(0.0); 3]; 5];
+        let fill = |lanes: &mut [f64; N], column: &C| {
+            for (lane, x) in lanes.iter_mut().zip(&column.as_chunks::<N>().0[group]) {
+                *lane = x.to_f64();
+            }
+        };
+        for (lanes, columns) in all.iter_mut().zip(&self.vectors) {
+            for (lane, column) in lanes.iter_mut().zip(columns) {
+                fill(&mut lane.0, column);
+            }
+        }
+        all
+    }
+}
+
+/// The truths of stored cases, in groups of [`LANES`] and then one by one.
+pub(super) fn decide_all<F: Float>(
+    cases: &(impl Stored<F> + ?Sized),
+    truths: &mut Vec<Truth>,
+    layers: &mut Layers,
+) {
+    truths.clear();
+    let count = cases.count();
+    for group in 0..count / LANES {
+        decide_group::<F, LANES>(cases, group, layers, |truth| truths.push(truth));
+    }
+    for index in count - count % LANES..count {
+        decide_group::<F, 1>(cases, index, layers, |truth| truths.push(truth));
+    }
+}
+
+/// The truths of the cases of a group of N.
+#[inline(always)]
+pub(super) fn decide_group<F: Float, const N: usize>(
+    cases: &(impl Stored<F> + ?Sized),
+    group: usize,
+    layers: &mut Layers,
+    mut take: impl FnMut(Truth),
+) {
+    let mut decided = [None; N];
+    let first = group * N;
+    filter::decide(cases.lanes::<N>(group), |k| cases.interval(first + k), &mut decided);
+    for (k, decided) in decided.iter().enumerate() {
+        take(match decided {
+            Some(truth) => {
+                layers.count(Layer::Filter, 1);
+                *truth
+            }
+            None => behind_the_filter(&cases.at(first + k), layers),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Parameters;
+    use crate::family::FAMILIES;
+
+    #[test]
+    fn columns_and_slices_and_single_cases_have_the_same_truths() {
+        let (mut batch, mut cases) = (Batch::<Vec<f32>>::new(), Vec::new());
+        for family in FAMILIES {
+            for index in 0..7 {
+                cases.extend_from_slice(family.make(&Parameters::default(), 3, index).cases());
+            }
+        }
+        // Lengths that leave a rest behind the last whole group.
+        for count in [cases.len(), cases.len() - 1, 3, 1, 0] {
+            batch.clear();
+            cases[..count].iter().for_each(|case| batch.push(case));
+            assert_eq!((batch.len(), batch.is_empty()), (count, count == 0));
+            let (mut of_columns, mut of_slice) = (Vec::new(), vec![Truth::Parallel]);
+            let [mut layers, mut slice_layers] = [Layers::default(); 2];
+            batch.truths(&mut of_columns, &mut layers);
+            crate::oracle::truths(&cases[..count], &mut of_slice, &mut slice_layers);
+            let single: Vec<Truth> = cases[..count].iter().map(crate::oracle::truth).collect();
+            assert_eq!(of_columns, single);
+            assert_eq!(of_slice, single);
+            assert_eq!(layers, slice_layers);
+            for (index, case) in cases[..count].iter().enumerate() {
+                assert_eq!(batch.case(index).bits(), case.bits());
+            }
+        }
+    }
+
+    #[test]
+    fn columns_of_different_lengths_are_refused_by_name() {
+        let (three, four): (&[f64], &[f64]) = (&[1.0; 3], &[1.0; 4]);
+        let good = [three; 3];
+        let batch =
+            Batch::from_columns(good, [three, four, four], [good; 3], [three; 2]).unwrap_err();
+        assert_eq!(batch, UnequalColumns { column: "d.y", length: 4, expected: 3 });
+        assert_eq!(batch.to_string(), "column d.y holds 4 numbers, column o.x 3");
+        let end = Batch::from_columns(good, good, [good; 3], [three, four]).unwrap_err();
+        assert_eq!(end.column, "t_max");
+        let first =
+            Batch::from_columns([four, three, three], good, [good; 3], [three; 2]).unwrap_err();
+        assert_eq!((first.column, first.length, first.expected), ("o.y", 3, 4));
+    }
+}
