@@ -1,8 +1,9 @@
 //! The sign of one determinant where the filter is in doubt: double-double arithmetic with a bound,
-//! then `robust`'s adaptive predicate where its conditions hold, then integers of any size.
+//! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out,
+//! then integers of any size.
 
-use super::Layer;
 use super::integer::Scaled;
+use super::{Layer, monomials};
 use crate::case::Case;
 use robust::{Coord3D, orient3d};
 use std::cmp::Ordering;
@@ -19,7 +20,7 @@ pub(super) enum Determinant {
     T,
 }
 
-type Point = [f64; 3];
+pub(super) type Point = [f64; 3];
 
 /// The sign of a determinant of a case, and the layer that found it. `near_one` is the same case with
 /// its axes scaled, for the double-doubles; `scaled` is made where it is needed first.
@@ -35,13 +36,16 @@ pub(super) fn sign(
     if let Some(sign) = by_robust(determinant, case) {
         return (sign, Layer::Robust);
     }
+    if let Some(sign) = monomials::sign(determinant, case) {
+        return (sign, Layer::Monomials);
+    }
     let scaled = scaled.get_or_insert_with(|| Scaled::new(case));
     (scaled.sign(determinant), Layer::BigInteger)
 }
 
 /// The rows of a determinant first·(second × third): d or a point, and points from which a base is
 /// subtracted. D and the weights have d first.
-fn rows(determinant: Determinant, case: &Case<f64>) -> (Point, Point, Point, Point) {
+pub(super) fn rows(determinant: Determinant, case: &Case<f64>) -> (Point, Point, Point, Point) {
     let [o, d, a, b, c] = case.vectors();
     match determinant {
         Determinant::Weight(0) => (d, c, b, o),
@@ -187,18 +191,19 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
 }
 
 #[cfg(test)]
+pub(super) const ALL: [Determinant; 5] = [
+    Determinant::Weight(0),
+    Determinant::Weight(1),
+    Determinant::Weight(2),
+    Determinant::D,
+    Determinant::T,
+];
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::arith::{Float, scale_by_power_of_two};
     use crate::case::Draw;
-
-    const ALL: [Determinant; 5] = [
-        Determinant::Weight(0),
-        Determinant::Weight(1),
-        Determinant::Weight(2),
-        Determinant::D,
-        Determinant::T,
-    ];
 
     /// Cases with exact zeros and near ones among their determinants.
     fn case(index: u64, scale: i32) -> Case<f64> {
@@ -271,7 +276,7 @@ mod tests {
         let case = Case::<f64>::new([0.0; 3], [1.0, 0.0, 0.0], [points[0], points[1], points[2]]);
         assert_eq!(
             sign(Determinant::T, &case, &case, &mut None),
-            (Ordering::Greater, Layer::BigInteger)
+            (Ordering::Greater, Layer::Monomials)
         );
     }
 }

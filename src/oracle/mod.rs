@@ -4,7 +4,7 @@
 //! same answer faster, in layers that each decide or hand on: a floating-point filter for all signs
 //! together; machine integers where the coordinates lie on a small grid; then, sign by sign,
 //! double-doubles with a bound, the adaptive predicate of the crate `robust` where its conditions
-//! hold, and integers of any size. A `f32` case is asked in `f64`, which holds it exactly. There is no
+//! hold, the determinant multiplied out, and integers of any size. A `f32` case is asked in `f64`, which holds it exactly. There is no
 //! range of exponents in which it fails.
 //!
 //! Architecture invariant: nothing here knows a kernel, and no arithmetic is shared with them.
@@ -17,6 +17,7 @@ mod determinant;
 mod filter;
 mod grid;
 mod integer;
+mod monomials;
 mod rational;
 mod resolve;
 mod signs;
@@ -43,6 +44,8 @@ pub enum Layer {
     DoubleDouble,
     /// `robust`'s adaptive predicate.
     Robust,
+    /// The determinant multiplied out, in floats with exponents of any size.
+    Monomials,
     /// Integers of any size.
     BigInteger,
 }
@@ -64,6 +67,7 @@ impl Layers {
             "scaled filter",
             "double-double",
             "robust",
+            "monomials",
             "big integers",
         ];
         std::array::from_fn(|i| (names[i], self.0[i]))
