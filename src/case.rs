@@ -78,8 +78,15 @@ impl<F: Float> Case<F> {
     }
 
     /// The case in `f64`, which holds every `f32` exactly.
+    #[inline]
     pub fn widen(&self) -> Case<f64> {
-        let [origin, direction, a, b, c] = self.vectors().map(|v| v.map(F::to_f64));
+        // A plain loop: arrays of arrays do not go through `map` without calls.
+        let mut wide = [[0.0; 3]; 5];
+        for (wide, narrow) in wide.as_flattened_mut().iter_mut().zip(self.vectors().as_flattened())
+        {
+            *wide = narrow.to_f64();
+        }
+        let [origin, direction, a, b, c] = wide;
         Case::new(origin, direction, [a, b, c]).on(self.ray.t_min.to_f64(), self.ray.t_max.to_f64())
     }
 
