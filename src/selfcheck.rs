@@ -2,15 +2,39 @@
 
 #![forbid(unsafe_code)]
 
+mod integers;
+
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw, Parameters};
 use crate::family::{Family, LATTICE_SIZE, apply, find};
 use crate::kernel::Scalar;
-use crate::oracle::{Definition, Layers, define, truth_counted};
-use crate::truth::{Crossing, Facing, Feature, Place, Truth};
+use crate::oracle::{Layers, define, truth_counted};
+use crate::truth::Truth;
+use integers::Integers;
 use num_traits::ToPrimitive;
 use rayon::prelude::*;
-use std::cmp::Ordering;
+
+/// What the oracle is held to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// Its definition in rationals: slow and obvious.
+    Definition,
+    /// Integers of a fitting size, with formulas of their own: a hundred times as fast.
+    Integers,
+}
+
+impl Reference {
+    /// The truth, and a float near its t or near a contact's last t.
+    fn truth<F: Float>(self, case: &Case<F>) -> (Truth, Option<f64>) {
+        if self == Reference::Integers {
+            return integers::truth(&case.widen());
+        }
+        let definition = define(case);
+        let contact_t = definition.exact.contact_t.map(|[_, last]| last);
+        let t = definition.exact.t.or(contact_t);
+        (definition.truth, t.and_then(|t| t.to_f64()))
+    }
+}
 
 /// What one check found.
 #[derive(Clone, Debug, Default)]
@@ -71,11 +95,12 @@ fn over(
     (0..indices.div_ceil(CHUNK)).into_par_iter().map(chunk).reduce(Check::default, Check::merged)
 }
 
-/// A family's set against the definition. Every fourth index also with the interval's ends at the
+/// A family's set against a reference. Every fourth index also with the interval's ends at the
 /// crossing, exact where a float is, and some ulps beside it; every fourth also scaled to where
 /// products of two or three coordinates overflow or underflow in part.
 pub fn family<F: Scalar>(
     family: &Family,
+    reference: Reference,
     seed: u64,
     indices: u64,
     advance: &(dyn Fn(u64) + Sync),
@@ -83,7 +108,7 @@ pub fn family<F: Scalar>(
     over(indices, advance, |index, check| {
         let made = family.make::<F>(&Parameters::default(), seed, index);
         for case in made.cases() {
-            against_definition(index, case, check);
+            compare_cuts(reference, index, case, check);
             if index % 4 == 1 {
                 let mut draw = Draw::new("scaled", seed, index);
                 let third = F::MAX_EXPONENT.div_euclid(3);
@@ -94,14 +119,19 @@ pub fn family<F: Scalar>(
                 let mut scaled = *case;
                 let parameters = Parameters { scale, scale_direction, ..Parameters::default() };
                 apply(&parameters, &mut scaled);
-                check.compare(index, &scaled, define(&scaled).truth);
+                check.compare(index, &scaled, reference.truth(&scaled).0);
             }
         }
     })
 }
 
 /// Cases of any finite bit patterns, and of numbers that coincide and lie at the ends of the range.
-pub fn whole_range<F: Float>(seed: u64, indices: u64, advance: &(dyn Fn(u64) + Sync)) -> Check {
+pub fn whole_range<F: Float>(
+    reference: Reference,
+    seed: u64,
+    indices: u64,
+    advance: &(dyn Fn(u64) + Sync),
+) -> Check {
     let smallest = F::from_bits(1);
     let numbers = [
         F::zero(),
@@ -135,118 +165,43 @@ pub fn whole_range<F: Float>(seed: u64, indices: u64, advance: &(dyn Fn(u64) + S
             }
         };
         let [o, d, a, b, c] = std::array::from_fn(|_| std::array::from_fn(|_| number(&mut draw)));
-        against_definition(index, &Case::new(o, d, [a, b, c]), check);
+        compare_cuts(reference, index, &Case::new(o, d, [a, b, c]), check);
     })
 }
 
-fn against_definition<F: Float>(index: u64, case: &Case<F>, check: &mut Check) {
-    let definition = define(case);
-    check.compare(index, case, definition.truth);
-    if index.is_multiple_of(4) {
-        let mut draw = Draw::new("interval", 0, index);
-        if let Some(cut) = cut_at_crossing(&mut draw, case, &definition) {
-            check.compare(index, &cut, define(&cut).truth);
-        }
+/// A case, and every fourth on an interval that ends at its crossing or contact.
+fn compare_cuts<F: Float>(reference: Reference, index: u64, case: &Case<F>, check: &mut Check) {
+    let (expected, t) = reference.truth(case);
+    check.compare(index, case, expected);
+    if let Some(t) = t.filter(|_| index.is_multiple_of(4)) {
+        let cut = cut_at(&mut Draw::new("interval", 0, index), case, F::from_f64(t));
+        check.compare(index, &cut, reference.truth(&cut).0);
     }
 }
 
-/// The case with an interval that starts or ends at, or some ulps beside, its t.
-fn cut_at_crossing<F: Float>(
-    draw: &mut Draw,
-    case: &Case<F>,
-    definition: &Definition,
-) -> Option<Case<F>> {
-    let t =
-        definition.exact.t.as_ref().or(definition.exact.contact_t.as_ref().map(|ends| &ends[1]));
-    let near = F::from_f64(t?.to_f64()?);
-    let end = near.offset_ulps(draw.integer(-2, 2));
-    Some(match draw.below(3) {
+/// The case with an interval that starts or ends at, or some ulps beside, a t.
+fn cut_at<F: Float>(draw: &mut Draw, case: &Case<F>, t: F) -> Case<F> {
+    let end = t.offset_ulps(draw.integer(-2, 2));
+    match draw.below(3) {
         0 => case.on(end, F::infinity()),
         1 => case.on(-F::infinity(), end),
         _ => case.on(end, end),
-    })
+    }
 }
 
-/// All 3^15 lattice cases against 64-bit integers. Contacts are compared with the definition at every
-/// 64th index.
+/// All 3^15 lattice cases against 64-bit integers.
 pub fn lattice(advance: &(dyn Fn(u64) + Sync)) -> Check {
     let family = find("lattice").expect("a family of that name");
     over(LATTICE_SIZE, advance, |index, check| {
         let made = family.make_in_order::<f32>(&Parameters::default(), index);
         let case = made.cases()[0];
-        let [o, d, a, b, c] = case.vectors().map(|v| v.map(|x| x as i64));
-        let expected = match lattice_truth(o, d, [a, b, c]) {
-            LatticeTruth::Known(truth) => truth,
-            LatticeTruth::Contact(class) => {
-                let found = crate::oracle::truth(&case);
-                if index.is_multiple_of(64) || found.class_name() != class {
-                    define(&case).truth
-                } else {
-                    found
-                }
-            }
+        let numbers = case.vectors().map(|v| v.map(|x| x as i64));
+        let expected = match numbers[1] {
+            [0, 0, 0] => Truth::Invalid,
+            _ => Integers::of_lattice(numbers).truth().0,
         };
         check.compare(index, &case, expected);
     })
-}
-
-/// What integer arithmetic knows of a lattice case.
-enum LatticeTruth {
-    Known(Truth),
-    /// Coplanar or degenerate: the class alone.
-    Contact(&'static str),
-}
-
-/// Cramer's rule for o + t d = a + u (b-a) + v (c-a), in 64-bit integers: other formulas than the
-/// oracle's, and no shared code.
-fn lattice_truth(o: [i64; 3], d: [i64; 3], [a, b, c]: [[i64; 3]; 3]) -> LatticeTruth {
-    let minus = |p: [i64; 3], q: [i64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let determinant = |p: [i64; 3], q: [i64; 3], r: [i64; 3]| {
-        p[0] * q[1] * r[2] + p[1] * q[2] * r[0] + p[2] * q[0] * r[1]
-            - p[2] * q[1] * r[0]
-            - p[1] * q[0] * r[2]
-            - p[0] * q[2] * r[1]
-    };
-    if d == [0; 3] {
-        return LatticeTruth::Known(Truth::Invalid);
-    }
-    let (e, f, s, back) = (minus(b, a), minus(c, a), minus(o, a), minus([0; 3], d));
-    let whole = determinant(back, e, f);
-    if whole == 0 {
-        let parallel_edges = (0..3).all(|i| e[i] * f[(i + 1) % 3] == e[(i + 1) % 3] * f[i]);
-        return if parallel_edges {
-            LatticeTruth::Contact("degenerate")
-        } else if determinant(s, e, f) == 0 {
-            LatticeTruth::Contact("coplanar")
-        } else {
-            LatticeTruth::Known(Truth::Parallel)
-        };
-    }
-    let positive = |x: i64| x * whole.signum();
-    let t = positive(determinant(s, e, f));
-    let u = positive(determinant(back, s, f));
-    let v = positive(determinant(back, e, s));
-    let feature = match ((whole.abs() - u - v).signum(), u.signum(), v.signum()) {
-        (-1, ..) | (_, -1, _) | (.., -1) => Feature::Outside,
-        (1, 1, 1) => Feature::Interior,
-        (0, 1, 1) => Feature::EdgeBc,
-        (1, 0, 1) => Feature::EdgeCa,
-        (1, 1, 0) => Feature::EdgeAb,
-        (1, 0, 0) => Feature::VertexA,
-        (0, 1, 0) => Feature::VertexB,
-        _ => Feature::VertexC,
-    };
-    LatticeTruth::Known(Truth::Transversal(Crossing {
-        // whole = -D.
-        facing: if whole > 0 { Facing::Front } else { Facing::Back },
-        place: match t.cmp(&0) {
-            Ordering::Less => Place::Before,
-            Ordering::Equal => Place::AtMin,
-            Ordering::Greater => Place::Within,
-        },
-        t_sign: t.cmp(&0),
-        feature,
-    }))
 }
 
 #[cfg(test)]

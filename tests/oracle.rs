@@ -4,7 +4,10 @@ use hairline::arith::scale_by_power_of_two;
 use hairline::case::{Case, Parameters};
 use hairline::family::{FAMILIES, find};
 use hairline::oracle::{Layer, define, truth};
-use hairline::selfcheck;
+use hairline::selfcheck::{
+    self,
+    Reference::{Definition, Integers},
+};
 use hairline::truth::{Crossing, Facing, Feature, Place, Truth};
 use proptest::prelude::*;
 
@@ -17,24 +20,32 @@ fn every_lattice_case_agrees_with_integer_arithmetic() {
 
 #[test]
 fn cases_over_the_whole_range_agree_with_the_definition() {
-    let narrow = selfcheck::whole_range::<f32>(7, 1000, &|_| {});
-    let wide = selfcheck::whole_range::<f64>(7, 1000, &|_| {});
+    let narrow = selfcheck::whole_range::<f32>(Definition, 7, 1000, &|_| {});
+    let wide = selfcheck::whole_range::<f64>(Definition, 7, 1000, &|_| {});
     assert_eq!((narrow.differences, narrow.first), (0, None));
     assert_eq!((wide.differences, wide.first), (0, None));
     // Every layer had its turn.
-    for layer in [Layer::Filter, Layer::ScaledFilter, Layer::DoubleDouble, Layer::BigInteger] {
+    for layer in [
+        Layer::Filter,
+        Layer::ScaledFilter,
+        Layer::DoubleDouble,
+        Layer::Monomials,
+        Layer::BigInteger,
+    ] {
         assert!(wide.layers.of(layer) > 0, "{layer:?}");
     }
 }
 
 #[test]
-fn families_agree_with_the_definition_at_the_intervals_ends_too() {
+fn families_agree_with_the_definition_and_with_integers_at_the_intervals_ends_too() {
     for row in FAMILIES {
-        for check in [
-            selfcheck::family::<f32>(row, 3, 200, &|_| {}),
-            selfcheck::family::<f64>(row, 3, 200, &|_| {}),
-        ] {
-            assert_eq!((check.differences, check.first), (0, None), "{}", row.name);
+        for (reference, indices) in [(Definition, 200), (Integers, 2000)] {
+            for check in [
+                selfcheck::family::<f32>(row, reference, 3, indices, &|_| {}),
+                selfcheck::family::<f64>(row, reference, 3, indices, &|_| {}),
+            ] {
+                assert_eq!((check.differences, check.first), (0, None), "{}", row.name);
+            }
         }
     }
 }

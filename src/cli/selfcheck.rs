@@ -1,4 +1,4 @@
-//! `hairline selfcheck`: the oracle against its definition and against integer arithmetic.
+//! `hairline selfcheck`: the oracle against its definition and against a separate checker in integers.
 
 use super::exit::{Failure, Status};
 use super::output::write_result;
@@ -6,7 +6,7 @@ use super::progress::Progress;
 use crate::audit::Observer;
 use crate::family::{FAMILIES, LATTICE_SIZE};
 use crate::oracle::Layers;
-use crate::selfcheck::{Check, family, lattice, whole_range};
+use crate::selfcheck::{Check, Reference, family, lattice, whole_range};
 use clap::Args;
 use std::io::{self, Write};
 
@@ -16,6 +16,11 @@ pub struct SelfcheckArguments {
     /// Indices of each family in each scalar
     #[arg(long, short = 'n', default_value_t = 2000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     cases: u64,
+
+    /// Cases in all, spread over the families and scalars, that are held to integers of a separate
+    /// checker besides (100000000 takes minutes)
+    #[arg(long, default_value_t = 1_000_000, value_name = "N")]
+    integers: u64,
 
     /// Which random cases
     #[arg(long, default_value_t = 1)]
@@ -32,21 +37,32 @@ pub struct SelfcheckArguments {
 
 /// Runs the command: a line a check, then which layer decided how often.
 pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
-    let &SelfcheckArguments { cases, seed, no_lattice, quiet } = arguments;
+    let &SelfcheckArguments { cases, integers, seed, no_lattice, quiet } = arguments;
     let lattice_size = if no_lattice { 0 } else { LATTICE_SIZE };
-    let checks = 2 * (FAMILIES.len() as u64 + 1);
-    let progress = Progress::new(lattice_size + checks * cases, "cases", quiet);
+    let sets = 2 * (FAMILIES.len() as u64 + 1);
+    let runs = [
+        (Reference::Definition, "num-rational", cases),
+        (Reference::Integers, "integers", integers.div_ceil(sets)),
+    ];
+    let random: u64 = runs.iter().map(|(.., indices)| sets * indices).sum();
+    let progress = Progress::new(lattice_size + random, "cases", quiet);
     let advance = |count: u64| progress.advance(count);
     let mut results: Vec<(String, Check)> = Vec::new();
     if !no_lattice {
         results.push(("all 3^15 lattice cases, integers".to_owned(), lattice(&advance)));
     }
-    for row in FAMILIES {
-        results.push((format!("{} f32", row.name), family::<f32>(row, seed, cases, &advance)));
-        results.push((format!("{} f64", row.name), family::<f64>(row, seed, cases, &advance)));
+    for (reference, held_to, n) in runs {
+        let mut add = |set: &str, check: Check| results.push((format!("{set}, {held_to}"), check));
+        for row in FAMILIES.iter().filter(|_| n != 0) {
+            let name = row.name;
+            add(&format!("{name} f32"), family::<f32>(row, reference, seed, n, &advance));
+            add(&format!("{name} f64"), family::<f64>(row, reference, seed, n, &advance));
+        }
+        if n != 0 {
+            add("any finite f32", whole_range::<f32>(reference, seed, n, &advance));
+            add("any finite f64", whole_range::<f64>(reference, seed, n, &advance));
+        }
     }
-    results.push(("any finite f32".to_owned(), whole_range::<f32>(seed, cases, &advance)));
-    results.push(("any finite f64".to_owned(), whole_range::<f64>(seed, cases, &advance)));
     progress.finish();
     let seconds = progress.seconds();
     write_result("-", |out| write(out, &results, seconds))?;
@@ -59,10 +75,10 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
 }
 
 fn write(out: &mut dyn Write, results: &[(String, Check)], seconds: f64) -> io::Result<()> {
-    writeln!(out, "{:<34} {:>10} {:>12}", "checked against num-rational", "cases", "differences")?;
+    writeln!(out, "{:<36} {:>10} {:>12}", "set, and what it is held to", "cases", "differences")?;
     let (mut layers, mut cases) = (Layers::default(), 0);
     for (name, check) in results {
-        writeln!(out, "{name:<34} {:>10} {:>12}", check.cases, check.differences)?;
+        writeln!(out, "{name:<36} {:>10} {:>12}", check.cases, check.differences)?;
         if let Some((index, message)) = &check.first {
             writeln!(out, "    first at index {index}: {message}")?;
         }
