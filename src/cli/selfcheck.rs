@@ -17,8 +17,8 @@ pub struct SelfcheckArguments {
     #[arg(long, short = 'n', default_value_t = 2000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     cases: u64,
 
-    /// Cases in all, spread over the families and scalars, that are held to integers of a separate
-    /// checker besides (100000000 takes minutes)
+    /// Indices of all sets together that are held to a separate checker in integers besides; 52500000
+    /// make a hundred million cases, in minutes
     #[arg(long, default_value_t = 1_000_000, value_name = "N")]
     integers: u64,
 
