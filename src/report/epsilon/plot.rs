@@ -312,7 +312,7 @@ impl<'a> Panel<'a> {
         let mut spot = f64::NEG_INFINITY;
         for (epsilon, counts) in self.points.iter().filter(|(e, _)| low < *e && *e < high) {
             // What falls on one spot of the drawing is drawn once.
-            if self.x(*epsilon) - spot < 0.5 {
+            if self.x(*epsilon) - spot < 1.0 {
                 all.pop();
             } else {
                 spot = self.x(*epsilon);
