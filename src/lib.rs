@@ -15,7 +15,7 @@
 //! |---|---|
 //! | 6 | [`cli`]: one file a command, the only place that prints |
 //! | 5 | [`report`]: the record and its formats |
-//! | 4 | [`audit`]: plans, runs, sums, severity; [`selfcheck`]: the oracle held to its definition |
+//! | 4 | [`audit`]: plans, runs, sums, severity; [`search`]: the worst and the simplest; [`selfcheck`]: the oracle held to its definition |
 //! | 3 | [`judge`]: the only place that compares a verdict with a truth |
 //! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
 //! | 1 | [`case`], [`truth`], [`contract`]: the words |
@@ -43,6 +43,7 @@ pub mod judge;
 
 pub mod audit;
 pub mod response;
+pub mod search;
 pub mod selfcheck;
 
 pub mod orientation;

@@ -7,7 +7,7 @@ use crate::arith::{Exact, ExactVector, Float, Real, Vector};
 use crate::case::{Case, Ray, Triangle};
 use crate::contract::Extent;
 use crate::judge::Finding;
-use crate::truth::{Feature, Place, Truth};
+use crate::truth::{Crossing, Feature, Place, Truth};
 use std::cmp::Ordering;
 
 /// The exact distances behind a finding, rounded to floats from exact squares, in units of the
@@ -26,32 +26,52 @@ pub struct Severity {
     pub edge_in_ulps: f64,
 }
 
+/// The squares of the distances behind a finding, exact. As in [`Severity`], but not divided by the
+/// longest edge.
+struct Squares {
+    in_plane: Option<Exact>,
+    in_space: Exact,
+    along: Option<Exact>,
+    /// Of the longest edge; 1 of a triangle that is a point.
+    unit: Exact,
+}
+
+impl Squares {
+    /// Of a case; none for invalid input.
+    fn of<F: Float>(case: &Case<F>, extent: Extent) -> Option<Squares> {
+        let vectors = case.vectors();
+        if vectors.iter().flatten().any(|x| !x.is_finite()) || vectors[1].iter().all(F::is_zero) {
+            return None;
+        }
+        let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = case.exact();
+        let edges = [(&a, &b), (&b, &c), (&c, &a)];
+        let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(larger)?;
+        let unit = if longest.is_zero() { Exact::one() } else { longest };
+
+        let n = b.minus(&a).cross(&c.minus(&a));
+        let capital_d = n.dot(&d);
+        let t = (!capital_d.is_zero()).then(|| n.dot(&a.minus(&o)) / capital_d);
+        let in_plane = t.as_ref().and_then(|t| {
+            let hit = o.plus(&d.times(t));
+            edges.map(|(p, q)| point_to_segment(&hit, p, q)).into_iter().reduce(smaller)
+        });
+        let in_space =
+            edges.map(|(p, q)| line_to_segment(&o, &d, p, q)).into_iter().reduce(smaller)?;
+        let along = t.and_then(|t| {
+            let ends = ends(case, extent).into_iter().filter(F::is_finite);
+            let gaps = ends.map(|end| (t.clone() - Exact::from_f64(end.to_f64())).abs());
+            let gap = gaps.reduce(smaller)?;
+            Some(gap.clone() * gap * square(&d))
+        });
+        Some(Squares { in_plane, in_space, along, unit })
+    }
+}
+
 /// The distances of a case; none for invalid input.
 pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severity> {
-    let vectors = case.vectors();
-    if vectors.iter().flatten().any(|x| !x.is_finite()) || vectors[1].iter().all(F::is_zero) {
-        return None;
-    }
-    let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = case.exact();
-    let edges = [(&a, &b), (&b, &c), (&c, &a)];
-    let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(larger)?;
-    let unit = if longest.is_zero() { Exact::one() } else { longest };
+    let Squares { in_plane, in_space, along, unit } = Squares::of(case, extent)?;
     let relative = |square: Exact| (square / &unit).approximate_root();
-
-    let n = b.minus(&a).cross(&c.minus(&a));
-    let capital_d = n.dot(&d);
-    let t = (!capital_d.is_zero()).then(|| n.dot(&a.minus(&o)) / capital_d);
-    let in_plane = t.as_ref().and_then(|t| {
-        let hit = o.plus(&d.times(t));
-        edges.map(|(p, q)| point_to_segment(&hit, p, q)).into_iter().reduce(smaller)
-    });
-    let in_space = edges.map(|(p, q)| line_to_segment(&o, &d, p, q)).into_iter().reduce(smaller)?;
-    let along = t.and_then(|t| {
-        let ends = ends(case, extent).into_iter().filter(F::is_finite);
-        let gaps = ends.map(|end| (t.clone() - Exact::from_f64(end.to_f64())).abs());
-        let gap = gaps.reduce(smaller)?;
-        Some(gap.clone() * gap * square(&d))
-    });
+    let vectors = case.vectors();
     let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
     let largest =
         points.iter().flatten().map(F::abs).fold(F::zero(), |m, x| if m < x { x } else { m });
@@ -64,11 +84,41 @@ pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severi
     })
 }
 
+/// How badly a finding is wrong, exactly, in units of the longest edge: what
+/// [`Distances::severity`] approximates. None for invalid input.
+pub(crate) fn exact_severity_of<F: Float>(
+    case: &Case<F>,
+    truth: &Truth,
+    finding: Finding,
+    extent: Extent,
+) -> Option<Exact> {
+    let Squares { in_space, along, unit, .. } = Squares::of(case, extent)?;
+    let square = match (finding, truth.crossing()) {
+        (Finding::FalseMiss, Some(_)) => along.into_iter().fold(in_space, smaller),
+        (Finding::FalseHit, Some(crossing)) => {
+            let along = along.filter(|_| is_off_end(crossing, extent)).unwrap_or(Exact::zero());
+            let outside = crossing.feature == Feature::Outside;
+            larger(along, if outside { in_space } else { Exact::zero() })
+        }
+        _ => in_space,
+    };
+    Some((square / unit).sqrt())
+}
+
+/// Whether a crossing lies before or beyond the part of the line that counts.
+fn is_off_end(crossing: &Crossing, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => false,
+        Extent::Ray => crossing.t_sign == Ordering::Less,
+        Extent::Interval => matches!(crossing.place, Place::Before | Place::Beyond),
+    }
+}
+
 /// Approximate distances of a case, from which the severity of any kernel's finding on it follows.
 #[derive(Clone, Copy)]
-pub(super) struct Distances {
+pub(crate) struct Distances {
     /// From the line to the triangle's boundary, in units of the longest edge.
-    in_space: f64,
+    pub(crate) in_space: f64,
     /// |t - end|·|d| for ends 0, t_min and t_max, in the same units; NaN where the line does not cross
     /// the plane.
     along: [f64; 3],
@@ -113,13 +163,8 @@ impl Distances {
         let distance = match (finding, truth.crossing()) {
             (Finding::FalseMiss, Some(_)) => self.in_space.min(along),
             (Finding::FalseHit, Some(crossing)) => {
-                let off_end = match extent {
-                    Extent::Line => false,
-                    Extent::Ray => crossing.t_sign == Ordering::Less,
-                    Extent::Interval => matches!(crossing.place, Place::Before | Place::Beyond),
-                };
                 let outside = crossing.feature == Feature::Outside;
-                let along = if off_end { along } else { 0.0 };
+                let along = if is_off_end(crossing, extent) { along } else { 0.0 };
                 along.max(if outside { self.in_space } else { 0.0 })
             }
             _ => self.in_space,

@@ -20,6 +20,18 @@ pub enum AnyCase {
     F64(Case<f64>),
 }
 
+impl From<Case<f32>> for AnyCase {
+    fn from(case: Case<f32>) -> AnyCase {
+        AnyCase::F32(case)
+    }
+}
+
+impl From<Case<f64>> for AnyCase {
+    fn from(case: Case<f64>) -> AnyCase {
+        AnyCase::F64(case)
+    }
+}
+
 /// A case from a corpus file, and what stands beside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredCase {

@@ -1,0 +1,66 @@
+//! What makes two findings the same kind.
+
+use super::objective::{exactly_refusing, verdict_and_finding};
+use crate::audit::Row;
+use crate::case::Case;
+use crate::judge::{Class, Finding};
+use crate::kernel::Scalar;
+use std::fmt;
+
+/// The kind of a finding: two findings with the same signature are one to whoever reads them.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Signature {
+    /// The kernel.
+    pub kernel: &'static str,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// The epsilons, as `--epsilon` takes them; none if no gate takes one.
+    pub epsilons: Option<String>,
+    /// The finding.
+    pub finding: Finding,
+    /// The class of the truth.
+    pub class: Class,
+    /// Of a false miss the gate that refused. Of a false hit the first gate that refuses when the
+    /// formula is run without rounding; none if it hits then too.
+    pub gate: Option<&'static str>,
+}
+
+impl Signature {
+    /// What a row shows on a case; none if it is as it should be.
+    pub fn of<F: Scalar>(row: &Row, case: &Case<F>) -> Option<Signature> {
+        let epsilons: Vec<F> = row.epsilons();
+        let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);
+        let finding = finding?;
+        let gate = match finding {
+            Finding::FalseMiss => verdict.refused_by.map(usize::from),
+            Finding::FalseHit => exactly_refusing(row, &epsilons, case),
+            _ => None,
+        };
+        Some(Signature {
+            kernel: row.entry.info.name,
+            scalar: F::NAME,
+            epsilons: row.epsilon_argument(),
+            finding,
+            class: Class::of(&truth),
+            gate: gate.map(|gate| row.entry.info.gates[gate].name),
+        })
+    }
+}
+
+impl fmt::Display for Signature {
+    /// `moller-trumbore (parallel=1e-6,edge=0), f32: false-miss of interior/front/within, refused by
+    /// 'parallel'`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.kernel)?;
+        if let Some(epsilons) = &self.epsilons {
+            write!(f, " ({epsilons})")?;
+        }
+        write!(f, ", {}: {} of {}", self.scalar, self.finding.name(), self.class.name())?;
+        match (self.finding, self.gate) {
+            (Finding::FalseMiss, Some(gate)) => write!(f, ", refused by '{gate}'"),
+            (Finding::FalseHit, Some(gate)) => write!(f, ", without rounding '{gate}' refuses"),
+            (Finding::FalseHit, None) => f.write_str(", and the formula without rounding hits too"),
+            _ => Ok(()),
+        }
+    }
+}
