@@ -19,7 +19,7 @@ pub(crate) use chunk::{CHUNK, Chunk};
 pub use interval::{Interval, clopper_pearson};
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
 pub use run::{Audit, Cell, Observer, run, run_scalar};
-pub(crate) use severity::{Distances, exact_severity_of};
+pub(crate) use severity::{Distances, exact_severity_of, is_off_end};
 pub use severity::{Severity, exact_severity};
 pub use source::{CorpusSet, Source};
 pub use tally::{ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Tally};

@@ -106,7 +106,7 @@ pub(crate) fn exact_severity_of<F: Float>(
 }
 
 /// Whether a crossing lies before or beyond the part of the line that counts.
-fn is_off_end(crossing: &Crossing, extent: Extent) -> bool {
+pub(crate) fn is_off_end(crossing: &Crossing, extent: Extent) -> bool {
     match extent {
         Extent::Line => false,
         Extent::Ray => crossing.t_sign == Ordering::Less,

@@ -11,6 +11,7 @@ use crate::corpus::manifest::{self, ManifestLine};
 use crate::family::{FAMILIES, Family, find};
 use crate::kernel::Scalar;
 use crate::oracle;
+use crate::search;
 use clap::{Args, Subcommand};
 use std::fs;
 use std::io::{self, BufReader, Write};
@@ -120,10 +121,17 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let stored = read_corpus(&file)?;
         let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
         // read_corpus holds the stored truths to the definition; the fast oracle must agree.
+        let mut scores = 0;
         for case in &stored {
             agree(&file, case)?;
+            let replayed = search::replay(case);
+            scores +=
+                u64::from(replayed.map_err(|message| InputError::at(&file, case.line, message))?);
         }
-        report.push(format!("{file}: {} cases, {with_truth} stored truths right", stored.len()));
+        let scores =
+            if scores > 0 { format!(", {scores} stored scores right") } else { String::new() };
+        let cases = stored.len();
+        report.push(format!("{file}: {cases} cases, {with_truth} stored truths right{scores}"));
     }
     let manifest_path = Path::new(path).join(MANIFEST);
     if manifest_path.exists() {

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod audit;
+mod case;
 mod corpus;
 mod epsilon;
 mod exit;
@@ -14,8 +15,10 @@ mod output;
 mod progress;
 mod select;
 mod selfcheck;
+mod shrink;
 mod sources;
 mod truth;
+mod worst;
 
 pub use exit::{Failure, Status};
 
@@ -40,6 +43,10 @@ enum Command {
     Truth(truth::TruthArguments),
     /// Show one case: its exact truth, and what each gate of each kernel made of it
     Explain(explain::ExplainArguments),
+    /// Search for the worst case of each kernel and gate; keep the worst known
+    Worst(Box<worst::WorstArguments>),
+    /// Make a case with a finding as simple as it can be, as JSON, Rust and C to paste into a test
+    Shrink(shrink::ShrinkArguments),
     /// List kernels, families, contracts or epsilon presets
     List(list::ListArguments),
     /// Hold the oracle to its definition and to integer arithmetic
@@ -66,6 +73,8 @@ pub fn main() -> ExitCode {
         Command::Epsilon(arguments) => epsilon::run(&arguments),
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Worst(arguments) => worst::run(&arguments),
+        Command::Shrink(arguments) => shrink::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),
         Command::Orient(arguments) => orient::run(&arguments),

@@ -42,6 +42,16 @@ impl KernelArguments {
         !self.kernel.is_empty()
     }
 
+    /// Whether the flags choose epsilons.
+    pub fn chooses_epsilons(&self) -> bool {
+        self.epsilon.is_some() || self.epsilon_preset.is_some()
+    }
+
+    /// ` --contract NAME`, if one is given: the end of a command that shows a case again.
+    pub fn contract_argument(&self) -> String {
+        self.contract.as_ref().map_or(String::new(), |name| format!(" --contract {name}"))
+    }
+
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         if self.kernel.is_empty() {
             return Ok(KERNELS.iter().collect());

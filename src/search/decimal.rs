@@ -68,6 +68,16 @@ impl Decimal {
         })
     }
 
+    /// Rounded to four digits, for people.
+    pub fn brief(self) -> String {
+        const UNIT: u64 = 10u64.pow(DIGITS - 4);
+        match (self.digits + UNIT / 2) / UNIT {
+            0 => "0".to_owned(),
+            10_000 => format!("1.000e{}", self.exponent + 1),
+            digits => format!("{}.{:03}e{}", digits / 1000, digits % 1000, self.exponent),
+        }
+    }
+
     /// The nearest `f64`; infinite beyond its range.
     pub fn to_f64(self) -> f64 {
         self.to_string().parse().unwrap_or(f64::NAN)
@@ -168,14 +178,20 @@ mod tests {
     #[test]
     fn roots_are_rounded_right_through_cancellation() {
         let two = Exact::from_f64(2.0).sqrt();
-        assert_eq!(
-            Decimal::of(&two).unwrap().to_string(),
-            "1.4142135623730950e0".replace("50e", "5e")
-        );
+        assert_eq!(Decimal::of(&two).unwrap().to_string(), "1.414213562373095e0");
         // √2 against its nearest f64: 9.667293313452913451…e-17 below it.
         let rest = Exact::from_f64(2f64.sqrt()) - two;
         assert_eq!(Decimal::of(&rest).unwrap().to_string(), "9.6672933134529135e-17");
         assert_eq!(Decimal::of(&Exact::from_f64(9.0).sqrt()).unwrap().to_string(), "3e0");
+    }
+
+    #[test]
+    fn four_digits_are_rounded_into_the_next_power_of_ten() {
+        let brief = |text: &str| text.parse::<Decimal>().unwrap().brief();
+        assert_eq!(brief("9.9995e-2"), "1.000e-1");
+        assert_eq!(brief("9.9994e411"), "9.999e411");
+        assert_eq!(brief("1e0"), "1.000e0");
+        assert_eq!(Decimal::ZERO.brief(), "0");
     }
 
     #[test]

@@ -10,9 +10,9 @@ pub enum Domain {
     /// Cases that nobody would call strange:
     /// - every coordinate zero or from 2^-20 to 2^20 in size, and the default interval;
     /// - the longest edge at least 2^-10 of the largest coordinate of a point (not far away);
-    /// - the triangle's height over its longest edge at least 2^-10 of that edge (no sliver);
-    /// - the sine of the angle between ray and plane at least 2^-10 (not grazing);
-    /// - the origin at least 2^-10 longest edges from where the line meets the plane.
+    /// - the triangle's height over its longest edge at least 2^-6 of that edge (no sliver);
+    /// - the sine of the angle between ray and plane at least 2^-6 (not grazing);
+    /// - the origin at least 2^-6 longest edges from where the line meets the plane.
     Moderate,
     /// Every finite case with a direction and an interval that is one.
     Any,
@@ -40,7 +40,7 @@ impl Domain {
         self.allows_numbers(case)
             && (self == Domain::Any || {
                 let (ray, triangle) = case.exact();
-                is_healthy(&ray, &triangle, Exact::from_f64(SHARE))
+                is_healthy(&ray, &triangle, [FAR, SHARE].map(Exact::from_f64))
             })
     }
 
@@ -49,7 +49,7 @@ impl Domain {
         self.allows_numbers(case)
             && (self == Domain::Any || {
                 let wide = case.widen();
-                is_healthy(&wide.ray, &wide.triangle, SHARE * 1.001)
+                is_healthy(&wide.ray, &wide.triangle, [FAR, SHARE].map(|share| share * 1.001))
             })
     }
 
@@ -71,17 +71,20 @@ impl Domain {
     }
 }
 
-/// 2^-10.
-const SHARE: f64 = 1.0 / 1024.0;
+/// The least share that the longest edge is of the largest coordinate.
+const FAR: f64 = 1.0 / 1024.0;
 
-/// Whether edges, height, angle and distance are at least `share` of what they stand against. All
-/// comparisons are of squares: no root is taken.
+/// The least of height, sine and distance, as shares of what they stand against.
+const SHARE: f64 = 1.0 / 64.0;
+
+/// Whether the longest edge is at least `far` of the largest coordinate, and height, sine and distance
+/// at least `share`. All comparisons are of squares: no root is taken.
 fn is_healthy<V: Vector>(
     Ray { origin: o, direction: d, .. }: &Ray<V>,
     Triangle { a, b, c }: &Triangle<V>,
-    share: V::Real,
+    shares: [V::Real; 2],
 ) -> bool {
-    let share = share.clone() * &share;
+    let [far, share] = shares.map(|share| share.clone() * &share);
     let larger = |x: V::Real, y: V::Real| if x.is_less(&y) { y } else { x };
     let square = |v: &V| v.dot(v);
     let numbers = [o, a, b, c].into_iter().flat_map(|p| [p.at(0), p.at(1), p.at(2)]);
@@ -95,7 +98,7 @@ fn is_healthy<V: Vector>(
     let d_d = capital_d.clone() * &capital_d;
     let near =
         (longest.clone() * &d_d * &share).is_at_most(&(capital_t.clone() * capital_t * &d_squared));
-    near && (largest.clone() * largest * &share).is_at_most(&longest)
+    near && (largest.clone() * largest * &far).is_at_most(&longest)
         && (longest.clone() * &longest * &share).is_at_most(&n_squared)
         && (d_squared * n_squared * share).is_at_most(&d_d)
         && V::Real::zero().is_less(&d_d)
@@ -115,15 +118,15 @@ mod tests {
         let (origin, direction) = ([1.0, 1.0, 1.0], [0.0, 0.0, -1.0]);
         let healthy = down(origin, direction, triangle);
         let far = triangle.map(|[x, y, z]| [x + 65536.0, y, z]);
-        let sliver = [triangle[0], triangle[1], [2.0, 0.003, 0.0]];
+        let sliver = [triangle[0], triangle[1], [2.0, 0.06, 0.0]];
         let strange = [
             down([1.0, 1.0, 2f64.powi(-21)], direction, triangle),
             healthy.on(0.5, f64::INFINITY),
             healthy.on(0.0, 9.0),
             down([65537.0, 1.0, 1.0], direction, far),
             down(origin, direction, sliver),
-            down(origin, [1.0, 0.0, -0.0009], triangle),
-            down([1.0, 1.0, 0.005], direction, triangle),
+            down(origin, [1.0, 0.0, -0.015], triangle),
+            down([1.0, 1.0, 0.08], direction, triangle),
             down(origin, [0.0; 3], triangle),
             down(origin, direction, [[0.0; 3]; 3]),
         ];

@@ -19,11 +19,12 @@
 //! What counts: a margin if no gate before it refused and both margins are finite; t, u and v of a
 //! hit that is not a false one, if finite; a false miss at the gate that refused; a false hit at the
 //! first gate that refuses when the same formula is run without rounding. A false hit that the
-//! formula itself makes is convention, not error, and has no score.
+//! formula itself makes is convention, not error, and has no score; nor has one before or beyond the
+//! extent, except at a gate called `t`.
 
 use super::domain::Domain;
 use crate::arith::{Exact, Float, Real, Vector};
-use crate::audit::{Distances, Row, exact_severity_of};
+use crate::audit::{Distances, Row, exact_severity_of, is_off_end};
 use crate::case::{Case, Ray, Triangle};
 use crate::judge::{Finding, Obligation, judge, obligation, promises_direction};
 use crate::kernel::gate::refused_by;
@@ -163,7 +164,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             Objective::T | Objective::Uv => self.exact_value(case),
             Objective::FalseMiss | Objective::FalseHit => {
                 let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
-                let finding = finding.filter(|finding| self.wants(*finding, &verdict, case))?;
+                let finding =
+                    finding.filter(|finding| self.wants(*finding, &truth, &verdict, case))?;
                 exact_severity_of(case, &truth, finding, self.row.contract.extent)
             }
         }
@@ -244,21 +246,25 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     fn quick_severity(&self, case: &Case<F>) -> f64 {
         let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
         let distances = Distances::of(case);
-        match finding.filter(|finding| self.wants(*finding, &verdict, case)) {
+        match finding.filter(|finding| self.wants(*finding, &truth, &verdict, case)) {
             Some(finding) => distances.severity(&truth, finding, self.row.contract.extent),
             None => no_score_yet(distances.in_space),
         }
     }
 
     /// Whether a finding is of the target's kind, by the target's gate.
-    fn wants(&self, finding: Finding, verdict: &Verdict<F>, case: &Case<F>) -> bool {
+    fn wants(&self, finding: Finding, truth: &Truth, verdict: &Verdict<F>, case: &Case<F>) -> bool {
         match (self.target.objective, finding) {
             (Objective::FalseMiss, Finding::FalseMiss) => {
                 verdict.refused_by.map(usize::from) == self.target.gate
             }
             (Objective::FalseHit, Finding::FalseHit) => {
+                let gates = self.row.entry.info.gates;
+                let tests_t = self.target.gate.is_some_and(|gate| gates[gate].name == "t");
+                let extent = self.row.contract.extent;
+                let off_end = truth.crossing().is_some_and(|c| is_off_end(c, extent));
                 let refusing = exactly_refusing(self.row, &self.epsilons, case);
-                refusing.is_some() && refusing == self.target.gate
+                (tests_t || !off_end) && refusing.is_some() && refusing == self.target.gate
             }
             _ => false,
         }

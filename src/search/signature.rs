@@ -20,9 +20,10 @@ pub struct Signature {
     pub finding: Finding,
     /// The class of the truth.
     pub class: Class,
-    /// Of a false miss the gate that refused. Of a false hit the first gate that refuses when the
-    /// formula is run without rounding; none if it hits then too.
+    /// The gate that refused; none of a hit.
     pub gate: Option<&'static str>,
+    /// The first gate that refuses when the same formula is run without rounding; none if it hits.
+    pub exactly: Option<&'static str>,
 }
 
 impl Signature {
@@ -31,36 +32,35 @@ impl Signature {
         let epsilons: Vec<F> = row.epsilons();
         let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);
         let finding = finding?;
-        let gate = match finding {
-            Finding::FalseMiss => verdict.refused_by.map(usize::from),
-            Finding::FalseHit => exactly_refusing(row, &epsilons, case),
-            _ => None,
-        };
+        let name = |gate: usize| row.entry.info.gates[gate].name;
         Some(Signature {
             kernel: row.entry.info.name,
             scalar: F::NAME,
             epsilons: row.epsilon_argument(),
             finding,
             class: Class::of(&truth),
-            gate: gate.map(|gate| row.entry.info.gates[gate].name),
+            gate: verdict.refused_by.map(usize::from).map(name),
+            exactly: exactly_refusing(row, &epsilons, case).map(name),
         })
     }
 }
 
 impl fmt::Display for Signature {
     /// `moller-trumbore (parallel=1e-6,edge=0), f32: false-miss of interior/front/within, refused by
-    /// 'parallel'`.
+    /// 'parallel', without rounding too`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.kernel)?;
         if let Some(epsilons) = &self.epsilons {
             write!(f, " ({epsilons})")?;
         }
         write!(f, ", {}: {} of {}", self.scalar, self.finding.name(), self.class.name())?;
-        match (self.finding, self.gate) {
-            (Finding::FalseMiss, Some(gate)) => write!(f, ", refused by '{gate}'"),
-            (Finding::FalseHit, Some(gate)) => write!(f, ", without rounding '{gate}' refuses"),
-            (Finding::FalseHit, None) => f.write_str(", and the formula without rounding hits too"),
-            _ => Ok(()),
+        if let Some(gate) = self.gate {
+            write!(f, ", refused by '{gate}'")?;
+        }
+        match self.exactly {
+            same if same == self.gate => f.write_str(", without rounding too"),
+            Some(gate) => write!(f, "; without rounding '{gate}' refuses"),
+            None => f.write_str("; without rounding a hit"),
         }
     }
 }

@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 
 /// How simple a case is; smaller is simpler. A total order on cases:
 /// 1. the bits that its seventeen numbers need: of ±m·2^e with m odd, those of m, those of |e|, and
-///    one each for a minus sign and for a negative e; nothing for a zero and for the default interval;
+///    one each for a minus sign, for a negative e and for a t_max that is not the default; nothing for
+///    a zero;
 /// 2. the different values among them, signs aside: shared coordinates are simpler;
 /// 3. their bit patterns, in the order of [`Case::bits`], so that no two cases are alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,7 +25,7 @@ impl Size {
     pub fn of<F: Float>(case: &Case<F>) -> Size {
         let coordinates = case.vectors();
         let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-        let far = if t_max == F::infinity() { 0 } else { number_bits(t_max) };
+        let far = if t_max == F::infinity() { 0 } else { 1 + number_bits(t_max) };
         let bits = coordinates.iter().flatten().map(|x| number_bits(*x)).sum::<u32>();
         let ends = [t_min, t_max];
         let all = coordinates.iter().flatten().chain(&ends);

@@ -1,0 +1,128 @@
+//! The case that a command line names: an id, the name of a stored case, or JSON.
+
+use super::exit::{Failure, Status};
+use super::input::{corpus_files, name_of, read_corpus, read_mesh};
+use super::select::unknown;
+use crate::case::{Case, CaseId};
+use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::family::{FAMILIES, Grouping, Made, MeshFamily, find};
+use crate::kernel::Scalar;
+use clap::Args;
+
+/// Which case.
+#[derive(Args)]
+pub struct CaseArguments {
+    /// A case id, the name of a stored case, or a case as JSON
+    #[arg(value_name = "CASE")]
+    pub case: String,
+
+    /// The mesh that the case's id speaks of
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<String>,
+
+    /// Where the stored case is: a JSON lines file, or a folder of them
+    #[arg(long, value_name = "FILE|DIR")]
+    corpus: Option<String>,
+}
+
+/// Cases in one of the scalars: one, or the triangles of a group.
+pub enum Cases {
+    /// In `f32`.
+    F32(Vec<Case<f32>>, Grouping),
+    /// In `f64`.
+    F64(Vec<Case<f64>>, Grouping),
+}
+
+impl CaseArguments {
+    /// The cases, or why there are none.
+    pub fn cases(&self) -> Result<Cases, Failure> {
+        if self.case.trim_start().starts_with('{') {
+            let stored = lines::read(self.case.as_bytes(), "argument").next();
+            let missing = || Failure::usage("the argument holds no case".to_owned());
+            return Ok(stored_cases(stored.ok_or_else(missing)??));
+        }
+        if let Some(path) = &self.corpus {
+            return self.stored(path);
+        }
+        let id: CaseId = self.case.parse().map_err(|error| {
+            Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
+        })?;
+        match id.scalar.as_str() {
+            "f32" => Ok(from_id::<f32>(&id, self.mesh.as_deref()).map(|(c, r)| Cases::F32(c, r))?),
+            "f64" => Ok(from_id::<f64>(&id, self.mesh.as_deref()).map(|(c, r)| Cases::F64(c, r))?),
+            other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
+        }
+    }
+
+    fn stored(&self, path: &str) -> Result<Cases, Failure> {
+        let mut names = Vec::new();
+        for file in corpus_files(path)? {
+            for stored in read_corpus(&file)? {
+                if name_of(&stored) == self.case {
+                    return Ok(stored_cases(stored));
+                }
+                names.push(name_of(&stored));
+            }
+        }
+        let names = names.iter().map(String::as_str);
+        Err(unknown("case", &self.case, names, &format!("hairline truth {path}")))
+    }
+}
+
+fn stored_cases(stored: StoredCase) -> Cases {
+    match stored.case {
+        AnyCase::F32(case) => Cases::F32(vec![case], Grouping::Single),
+        AnyCase::F64(case) => Cases::F64(vec![case], Grouping::Single),
+    }
+}
+
+/// The cases of an id, and how they belong together.
+fn from_id<F: Scalar>(
+    id: &CaseId,
+    mesh: Option<&str>,
+) -> Result<(Vec<Case<F>>, Grouping), Failure> {
+    if let Some(digest) = &id.parameters.mesh {
+        let path = mesh.ok_or_else(|| {
+            Failure::usage(format!("'{id}' is a case of a mesh: add --mesh FILE"))
+        })?;
+        let mesh = read_mesh(path, true)?;
+        if mesh.digest != *digest {
+            let message =
+                format!("{path}: its digest is {}, the case's mesh has {digest}", mesh.digest);
+            return Err(Failure::Message(Status::BadInput, message));
+        }
+        let family = MeshFamily::new(mesh, path);
+        return Ok((vec![family.make(&id.parameters, id.seed, id.index)], Grouping::Single));
+    }
+    let (name, in_order) = match id.family.strip_suffix("-all") {
+        Some(name) => (name, true),
+        None => (id.family.as_str(), false),
+    };
+    let names = FAMILIES.iter().map(|family| family.name);
+    let family =
+        find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
+    if family.version != id.version {
+        let message = format!(
+            "'{id}' is of version {} of family '{name}', this program makes version {}",
+            id.version, family.version
+        );
+        return Err(Failure::Message(Status::BadInput, message));
+    }
+    if family.size.map_or(in_order, |size| id.index >= size) {
+        return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
+    }
+    let made: Made<F> = if in_order {
+        family.make_in_order(&id.parameters, id.index)
+    } else {
+        family.make(&id.parameters, id.seed, id.index)
+    };
+    let mut cases = made.cases().to_vec();
+    if let Some(triangle) = id.triangle {
+        let count = cases.len();
+        let case = cases.get(triangle).copied().ok_or_else(|| {
+            Failure::usage(format!("'{id}' has {count} triangles, counted from 0"))
+        })?;
+        cases = vec![case];
+    }
+    Ok((cases, family.grouping))
+}
