@@ -1,7 +1,7 @@
 //! Which of two cases is simpler, and the single steps towards simpler ones.
 
-use crate::arith::{Float, scale_by_power_of_two};
-use crate::case::Case;
+use crate::arith::{Float, Vector, scale_by_power_of_two};
+use crate::case::{Case, Ray, Triangle};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
@@ -10,13 +10,15 @@ use std::collections::BTreeSet;
 ///    one each for a minus sign, for a negative e and for a t_max that is not the default; nothing for
 ///    a zero;
 /// 2. the different values among them, signs aside: shared coordinates are simpler;
-/// 3. their bit patterns, in the order of [`Case::bits`], so that no two cases are alike.
+/// 3. the sum of the |e|: nearer to one is simpler;
+/// 4. their bit patterns, in the order of [`Case::bits`], so that no two cases are alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Size {
     /// The bits that the numbers need.
     pub bits: u32,
     /// The different values.
     pub values: usize,
+    exponents: u32,
     patterns: [u64; 17],
 }
 
@@ -30,7 +32,13 @@ impl Size {
         let ends = [t_min, t_max];
         let all = coordinates.iter().flatten().chain(&ends);
         let values: BTreeSet<u64> = all.map(|x| x.abs().to_bits()).collect();
-        Size { bits: bits + number_bits(t_min) + far, values: values.len(), patterns: case.bits() }
+        let parts = coordinates.iter().flatten().chain(&ends).filter_map(|x| odd_and_exponent(*x));
+        Size {
+            bits: bits + number_bits(t_min) + far,
+            values: values.len(),
+            exponents: parts.map(|(_, exponent)| exponent.unsigned_abs()).sum(),
+            patterns: case.bits(),
+        }
     }
 }
 
@@ -62,6 +70,12 @@ pub(super) fn odd_and_exponent<F: Float>(x: F) -> Option<(u64, i32)> {
 pub enum Simplification {
     /// One end of the interval, or both, to the default: bit 0 is t_min, bit 1 t_max.
     DefaultInterval(u8),
+    /// Another case altogether: a ray along z at a small right triangle in the plane z = 0, by number.
+    Lattice(usize),
+    /// The origin one direction before the point where the line meets the plane (behind it if t is
+    /// negative, on it if t is zero), with the same direction, or that along an axis: twice the axis,
+    /// plus one for the negative one.
+    Aim(Option<usize>),
     /// All points moved so that this point (0 the origin, 2 to 4 the vertices) is zero on these axes.
     MoveToZero {
         /// The point.
@@ -130,7 +144,8 @@ pub enum Change {
 }
 
 /// What users are told is in the list.
-pub const SIMPLIFICATIONS: &str = "default interval, a point moved to zero, scaling by powers of two, \
+pub const SIMPLIFICATIONS: &str = "default interval, a lattice case, an origin one axis before the plane, \
+    a point moved to zero, scaling by powers of two, \
     turning about an axis, copied coordinates, fewer bits, smaller exponents, small integers (one \
     number, all equal ones on an axis, or two coordinates at once)";
 
@@ -141,6 +156,8 @@ impl Simplification {
     pub fn all() -> Vec<Simplification> {
         use Simplification::*;
         let mut all: Vec<Simplification> = [3, 1, 2].map(DefaultInterval).to_vec();
+        all.extend((0..LATTICE_CASES).map(Lattice));
+        all.extend((0..6).map(Some).chain([None]).map(Aim));
         for axes in [7, 1, 2, 4] {
             all.extend(POINTS.map(|point| MoveToZero { point, axes }));
         }
@@ -185,6 +202,12 @@ impl Simplification {
                     if ends >> end & 1 == 1 {
                         interval[end] = default;
                     }
+                }
+            }
+            Simplification::Lattice(number) => vectors = lattice_case(number),
+            Simplification::Aim(axis) => {
+                if let Some([origin, direction]) = aimed(case, axis) {
+                    (vectors[0], vectors[1]) = (origin, direction);
                 }
             }
             Simplification::MoveToZero { point, axes } => {
@@ -234,6 +257,40 @@ impl Simplification {
         let [origin, direction, a, b, c] = vectors;
         Case::new(origin, direction, [a, b, c]).on(interval[0], interval[1])
     }
+}
+
+/// Two windings, sixteen places in the plane, three heights of the origin, two directions.
+const LATTICE_CASES: usize = 2 * 16 * 3 * 2;
+
+fn lattice_case<F: Float>(number: usize) -> [[F; 3]; 5] {
+    let digit = |unit: usize, base: usize| (number / unit % base) as f64;
+    let (winding, down) = (number % 2, number / 2 % 2);
+    let origin = [digit(12, 4) - 1.0, digit(48, 4) - 1.0, digit(4, 3) - 1.0];
+    let direction = [0.0, 0.0, if down == 1 { -1.0 } else { 1.0 }];
+    let (mut b, mut c) = ([2.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
+    if winding == 1 {
+        (b, c) = (c, b);
+    }
+    [origin, direction, [0.0; 3], b, c].map(|v| v.map(F::from_f64))
+}
+
+/// Origin and direction of [`Simplification::Aim`]; none where the line does not cross the plane.
+fn aimed<F: Float>(case: &Case<F>, axis: Option<usize>) -> Option<[[F; 3]; 2]> {
+    let Case { ray: Ray { origin, direction, .. }, triangle: Triangle { a, b, c } } = case;
+    let normal = b.minus(a).cross(&c.minus(a));
+    let t = normal.dot(&a.minus(origin)) / normal.dot(direction);
+    if !t.is_finite() {
+        return None;
+    }
+    let met = origin.plus(&direction.times(&t));
+    let along = axis.map_or(*direction, |axis| {
+        let length = if axis % 2 == 1 { -F::one() } else { F::one() };
+        let component = |i: usize| if i == axis / 2 { length } else { F::zero() };
+        F::Vector::new(component(0), component(1), component(2))
+    });
+    let side = if t.is_zero() { F::zero() } else { F::one() };
+    let side = if t.is_sign_negative() { -side } else { side };
+    Some([met.minus(&along.times(&side)).into(), along.into()])
 }
 
 impl ScaleBy {
