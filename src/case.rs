@@ -2,7 +2,7 @@
 
 #![forbid(unsafe_code)]
 
-use crate::arith::{Exact, ExactVector, Float, Vector, scale_by_power_of_two};
+use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
 use std::fmt;
 use std::str::FromStr;
 
@@ -90,12 +90,19 @@ impl<F: Float> Case<F> {
         Case::new(origin, direction, [a, b, c]).on(self.ray.t_min.to_f64(), self.ray.t_max.to_f64())
     }
 
+    /// The case in another arithmetic, number by number.
+    pub fn lift<R: Real>(&self, number: impl Fn(F) -> R) -> (Ray<Triple<R>>, Triangle<Triple<R>>) {
+        let [origin, direction, a, b, c] = self.vectors().map(|v| {
+            let [x, y, z] = v.map(&number);
+            Triple::new(x, y, z)
+        });
+        let [t_min, t_max] = [self.ray.t_min, self.ray.t_max].map(&number);
+        (Ray { origin, direction, t_min, t_max }, Triangle { a, b, c })
+    }
+
     /// The case in exact numbers.
     pub fn exact(&self) -> (Ray<ExactVector>, Triangle<ExactVector>) {
-        let [origin, direction, a, b, c] =
-            self.vectors().map(|v| ExactVector::from_f64(v.map(F::to_f64)));
-        let [t_min, t_max] = [self.ray.t_min, self.ray.t_max].map(|t| Exact::from_f64(t.to_f64()));
-        (Ray { origin, direction, t_min, t_max }, Triangle { a, b, c })
+        self.lift(|x| Exact::from_f64(x.to_f64()))
     }
 
     /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.

@@ -126,6 +126,26 @@ fn exact<F: Float>(v: [F; 3]) -> Option<[BigRational; 3]> {
     Some([x?, y?, z?])
 }
 
+/// As much of a run in any arithmetic as is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Hit or miss.
+    pub hit: bool,
+    /// Whether every value that the kernel gives is finite.
+    pub finite: bool,
+    /// The side hit.
+    pub facing: Option<Facing>,
+}
+
+impl Answer {
+    /// Of a verdict.
+    pub fn of<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Answer {
+        let finite = (!gives.t || verdict.t.is_finite())
+            && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
+        Answer { hit: verdict.hit, finite, facing: verdict.facing }
+    }
+}
+
 /// Compares a verdict with what was asked. Values of hits on invalid input are not judged.
 pub fn judge<F: Float>(
     obligation: Obligation,
@@ -133,22 +153,30 @@ pub fn judge<F: Float>(
     gives: Gives,
     verdict: &Verdict<F>,
 ) -> Option<Finding> {
-    match (obligation, verdict.hit) {
+    judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
+}
+
+/// Compares an answer with what was asked.
+pub fn judge_answer(
+    obligation: Obligation,
+    truth: &Truth,
+    gives: Gives,
+    answer: Answer,
+) -> Option<Finding> {
+    match (obligation, answer.hit) {
         (Obligation::MustHit, false) => Some(Finding::FalseMiss),
         (Obligation::MustMiss, true) => Some(Finding::FalseHit),
-        (_, true) if *truth != Truth::Invalid && has_bad_value(truth, gives, verdict) => {
+        (_, true) if *truth != Truth::Invalid && has_bad_value(truth, gives, answer) => {
             Some(Finding::BadValue)
         }
         _ => None,
     }
 }
 
-fn has_bad_value<F: Float>(truth: &Truth, gives: Gives, verdict: &Verdict<F>) -> bool {
+fn has_bad_value(truth: &Truth, gives: Gives, answer: Answer) -> bool {
     let wrong_facing = gives.facing
-        && truth.crossing().is_some_and(|crossing| verdict.facing != Some(crossing.facing));
-    (gives.t && !verdict.t.is_finite())
-        || (gives.uv && !(verdict.u.is_finite() && verdict.v.is_finite()))
-        || wrong_facing
+        && truth.crossing().is_some_and(|crossing| answer.facing != Some(crossing.facing));
+    !answer.finite || wrong_facing
 }
 
 /// What is asked of the triangles of a group together.

@@ -3,7 +3,7 @@
 //! A kernel run takes at most one square root (a normalisation), so one radicand a run suffices;
 //! a second, different one makes the result NaN rather than wrong.
 
-use super::{Fraction, Real, Vector};
+use super::{Fraction, Real};
 use num_rational::BigRational;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -269,46 +269,6 @@ fn compare(a: &Exact, b: &Exact) -> Option<Ordering> {
         (Nan, _) | (_, Nan) => None,
         (Infinite(x), Infinite(y)) => Some(y.cmp(x)),
         _ => a.sum(&b.negation()).sign(),
-    }
-}
-
-/// Three exact numbers.
-#[derive(Clone, Debug)]
-pub struct ExactVector([Exact; 3]);
-
-impl ExactVector {
-    /// The exact value of three floats.
-    pub fn from_f64(values: [f64; 3]) -> ExactVector {
-        ExactVector(values.map(Exact::from_f64))
-    }
-}
-
-impl Vector for ExactVector {
-    type Real = Exact;
-    fn new(x: Exact, y: Exact, z: Exact) -> Self {
-        ExactVector([x, y, z])
-    }
-    fn at(&self, axis: usize) -> Exact {
-        self.0[axis].clone()
-    }
-    fn minus(&self, other: &Self) -> Self {
-        ExactVector(std::array::from_fn(|i| self.0[i].sum(&other.0[i].negation())))
-    }
-    fn plus(&self, other: &Self) -> Self {
-        ExactVector(std::array::from_fn(|i| self.0[i].sum(&other.0[i])))
-    }
-    fn times(&self, factor: &Exact) -> Self {
-        ExactVector(std::array::from_fn(|i| self.0[i].product(factor)))
-    }
-    fn dot(&self, other: &Self) -> Exact {
-        let [x, y, z] = std::array::from_fn(|i| self.0[i].product(&other.0[i]));
-        x + y + z
-    }
-    fn cross(&self, other: &Self) -> Self {
-        ExactVector(std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            self.0[j].product(&other.0[k]).sum(&other.0[j].product(&self.0[k]).negation())
-        }))
     }
 }
 

@@ -105,6 +105,21 @@ fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
+/// A finite float as an odd integer (or zero) times a power of two: digits and exponent.
+pub fn decompose(value: f64) -> (i64, i64) {
+    let bits = value.to_bits();
+    let field = (bits >> 52 & 0x7ff) as i64;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (digits, exponent) =
+        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+    if digits == 0 {
+        return (0, 0);
+    }
+    let zeros = digits.trailing_zeros();
+    let odd = digits >> zeros;
+    (if value < 0.0 { -odd } else { odd }, exponent + i64::from(zeros))
+}
+
 /// `a*b - c*d` through `f64`, where the products of two `f32` are exact: Woop's fallback.
 fn wide_f32(a: f32, b: f32, c: f32, d: f32) -> f32 {
     (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32

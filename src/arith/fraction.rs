@@ -1,6 +1,6 @@
 //! Rationals that are never reduced, with a power of two beside them.
 
-use super::scale_by_power_of_two;
+use super::{decompose, scale_by_power_of_two};
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive};
@@ -19,19 +19,8 @@ pub struct Fraction {
 impl Fraction {
     /// The exact value of a finite float.
     pub fn from_f64(value: f64) -> Fraction {
-        let bits = value.to_bits();
-        let field = (bits >> 52 & 0x7ff) as i64;
-        let fraction = (bits & ((1 << 52) - 1)) as i64;
-        let (mut digits, mut exponent) =
-            if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
-        if digits == 0 {
-            exponent = 0;
-        } else {
-            exponent += i64::from(digits.trailing_zeros());
-            digits >>= digits.trailing_zeros();
-        }
-        let signed = if value.is_sign_negative() { -digits } else { digits };
-        Fraction { numerator: BigInt::from(signed), denominator: BigInt::one(), exponent }
+        let (digits, exponent) = decompose(value);
+        Fraction { numerator: BigInt::from(digits), denominator: BigInt::one(), exponent }
     }
 
     /// As a reduced rational.

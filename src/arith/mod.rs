@@ -1,18 +1,23 @@
-//! Floor 0: one trait of numbers, one of vectors; glam `f32`, glam `f64`, exact.
+//! Floor 0: one trait of numbers, one of vectors; glam `f32`, glam `f64`, exact, and floats that
+//! know whether they are exact.
 //!
 //! A kernel is written once against [`Real`] and [`Vector`] and runs unchanged in every
-//! arithmetic. Comparisons go through the trait too, so that an interval or an error-tracking
-//! arithmetic can follow without touching a kernel.
+//! arithmetic. Comparisons go through the trait too: in [`Tracked`] numbers they tell the run what
+//! the compared numbers met, and an interval arithmetic could follow without touching a kernel.
 
 #![forbid(unsafe_code)]
 
 mod exact;
 mod float;
 mod fraction;
+mod tracked;
+mod triple;
 
-pub use exact::{Exact, ExactVector};
-pub use float::{Float, ordered_midpoint, scale_by_power_of_two};
+pub use exact::Exact;
+pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two};
 pub use fraction::Fraction;
+pub use tracked::{Exceptions, Tracked, tracked};
+pub use triple::{ExactVector, Triple};
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

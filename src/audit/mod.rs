@@ -6,6 +6,7 @@
 
 #![forbid(unsafe_code)]
 
+mod attribution;
 mod chunk;
 mod interval;
 mod plan;
@@ -14,6 +15,7 @@ mod severity;
 mod source;
 mod tally;
 
+pub use attribution::{Attribution, attribute};
 pub use chunk::SourceSummary;
 pub(crate) use chunk::{CHUNK, Chunk};
 pub use interval::{Interval, clopper_pearson};

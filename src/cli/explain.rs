@@ -6,7 +6,7 @@ use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
 use crate::arith::{Exact, Float};
-use crate::audit::{Row, exact_severity};
+use crate::audit::{Row, attribute, exact_severity};
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
@@ -142,8 +142,7 @@ fn write_row<F: Scalar>(
     let [verdict] = verdict;
     let measured = subject.measure(case);
     let exact = subject.measure_exact(case);
-    let exact_gates = subject.run_exact(case, &epsilons);
-    let exact_hit = exact_gates.iter().all(|passes| *passes);
+    let exact_run = subject.run_exact(case, &epsilons);
 
     let asked = if promises_direction::<F>(row.contract.direction, case.ray.direction.into()) {
         obligation(truth, &row.contract, respawned)
@@ -151,21 +150,21 @@ fn write_row<F: Scalar>(
         Obligation::Free
     };
     let finding = judge(asked, truth, info.gives, &verdict);
-    let asked = match asked {
+    let demand = match asked {
         Obligation::MustHit => "a hit",
         Obligation::MustMiss => "a miss",
         Obligation::Free => "nothing",
     };
     let said = if verdict.hit { "hit" } else { "miss" };
     let judged = finding.map_or("as it should".to_owned(), |finding| finding.name().to_uppercase());
-    writeln!(out, "{}: {said}; its contract asks {asked}: {judged}", row.label())?;
+    writeln!(out, "{}: {said}; its contract asks {demand}: {judged}", row.label())?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
     for (i, gate) in info.gates.iter().enumerate() {
         let (margin, exact_margin) = (measured.margins[i], &exact.margins[i]);
         let decided = verdict.refused_by == Some(i as u8);
         let word = |passes: bool| if passes { "passes" } else { "refuses" };
         let decision = word(margin >= epsilons[i]);
-        let should = word(exact_gates[i]);
+        let should = exact_run.as_ref().map_or("unknown", |run| word(run.passed[i]));
         let mark = if decided { " <- decides" } else { "" };
         let wrong = if decision == should { "" } else { ", WRONG" };
         if gate.epsilon == Tunable::Fixed {
@@ -187,8 +186,15 @@ fn write_row<F: Scalar>(
             gate.refuses
         )?;
     }
-    let exactly = if exact_hit { "hit" } else { "miss" };
-    writeln!(out, "    the same formula without rounding: {exactly}")?;
+    if let Some(run) = &exact_run {
+        let exactly = if run.hit() { "hit" } else { "miss" };
+        writeln!(out, "    the same formula without rounding: {exactly}")?;
+    }
+    if let Some(finding) = finding {
+        let why = attribute(subject, case, &epsilons, truth, asked);
+        let why = why.map_or("cannot be told", |attribution| attribution.describe());
+        writeln!(out, "    why the {}: {why}", finding.name())?;
+    }
     if verdict.hit {
         let mut values = Vec::new();
         if info.gives.t {

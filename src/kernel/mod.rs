@@ -26,7 +26,7 @@ mod woop_watertight;
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use registry::{Entry, KERNELS, Scalar, find, nearest_name};
-pub use subject::{Builtin, Measured, Subject, Verdict};
+pub use subject::{Builtin, ExactRun, Measured, Subject, TrackedRun, Verdict};
 
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
@@ -70,6 +70,14 @@ pub struct Hit<R> {
     pub uv: Option<(R, R)>,
     /// The side hit.
     pub facing: Option<Facing>,
+}
+
+impl<R> Hit<R> {
+    /// The same in another arithmetic, number by number.
+    pub fn map<S>(self, number: impl Fn(R) -> S) -> Hit<S> {
+        let Hit { t, uv, facing } = self;
+        Hit { t: t.map(&number), uv: uv.map(|(u, v)| (number(u), number(v))), facing }
+    }
 }
 
 /// What a kernel is, where it comes from and what it promises.

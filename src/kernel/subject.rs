@@ -1,7 +1,7 @@
 //! Kernels behind one object-safe interface: what the audit and users' plug-ins go through.
 
 use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
-use crate::arith::{Exact, Float, Real, Vector};
+use crate::arith::{Exact, Exceptions, Float, Real, Tracked, Vector, tracked};
 use crate::case::{Case, Ray, Triangle};
 use crate::truth::Facing;
 use std::marker::PhantomData;
@@ -58,6 +58,41 @@ fn measure<K: Kernel, V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Measur
     Measured { margins, values }
 }
 
+/// A kernel's run in exact arithmetic, by the comparisons of its source.
+#[derive(Clone, Debug)]
+pub struct ExactRun {
+    /// Whether each gate passes.
+    pub passed: Vec<bool>,
+    /// What a hit would report.
+    pub values: Option<Hit<Exact>>,
+}
+
+impl ExactRun {
+    /// Whether it is a hit.
+    pub fn hit(&self) -> bool {
+        self.passed.iter().all(|passes| *passes)
+    }
+
+    /// Whether the values of a hit are numbers.
+    pub fn is_finite(&self) -> bool {
+        self.values.as_ref().is_some_and(|Hit { t, uv, .. }| {
+            let uv = uv.iter().flat_map(|(u, v)| [u, v]);
+            t.iter().chain(uv).all(Exact::is_finite)
+        })
+    }
+}
+
+/// A kernel's float run, with the exceptions that it met.
+#[derive(Clone, Copy, Debug)]
+pub struct TrackedRun<F> {
+    /// The verdict.
+    pub verdict: Verdict<F>,
+    /// Of the numbers behind its decisions.
+    pub decision: Exceptions,
+    /// Of the values of a hit.
+    pub values: Exceptions,
+}
+
 /// A kernel in one scalar.
 pub trait Subject<F: Float>: Sync {
     /// What it is and what it promises.
@@ -83,8 +118,15 @@ pub trait Subject<F: Float>: Sync {
     /// Every gate's margin on a case, in exact arithmetic.
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
 
-    /// Whether each gate passes in exact arithmetic, by the source's comparisons: a hit if all do.
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Vec<bool>;
+    /// The run in exact arithmetic; none of a kernel that has no exact arithmetic.
+    fn run_exact(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<ExactRun> {
+        None
+    }
+
+    /// The run of [`Subject::run`] with its exceptions; none of a kernel that cannot tell.
+    fn run_tracked(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<TrackedRun<F>> {
+        None
+    }
 }
 
 /// A built-in kernel as a [`Subject`] of either scalar.
@@ -135,11 +177,24 @@ impl<F: Float, K: Kernel> Subject<F> for Builtin<K> {
         measure::<K, _>(&ray, &triangle)
     }
 
-    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Vec<bool> {
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Option<ExactRun> {
         let (ray, triangle) = case.exact();
         let epsilons: Vec<Exact> = epsilons.iter().map(|e| Exact::from_f64(e.to_f64())).collect();
         let mut gates = Watching::new(&epsilons);
-        K::test(&K::prepare(&triangle), &ray, &mut gates);
-        gates.passed
+        let values = K::test(&K::prepare(&triangle), &ray, &mut gates);
+        Some(ExactRun { passed: gates.passed, values })
+    }
+
+    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
+        let (ray, triangle) = case.lift(Tracked::new);
+        let epsilons: Vec<Tracked<F>> = epsilons.iter().map(|e| Tracked::new(*e)).collect();
+        let mut sink = Deciding::new(&epsilons);
+        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
+        let values = hit.as_ref().map_or(Exceptions::default(), |Hit { t, uv, .. }| {
+            let uv = uv.iter().flat_map(|(u, v)| [u, v]);
+            t.iter().chain(uv).fold(Exceptions::default(), |sum, x| sum | x.raised())
+        });
+        let verdict = Verdict::of(hit.map(|hit| hit.map(Tracked::value)), sink.refused_by);
+        Some(TrackedRun { verdict, decision, values })
     }
 }

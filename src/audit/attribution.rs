@@ -1,0 +1,107 @@
+//! Why a kernel was wrong: its convention, its epsilon, rounding, or the range of its numbers.
+//!
+//! The same source runs in exact arithmetic, with the given epsilons and with none. A float run in
+//! which no operation rounded is its own exact run: there zeros keep their signs, on which some
+//! sources decide, where exact arithmetic has one zero.
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::judge::{Answer, Finding, Obligation, judge, judge_answer};
+use crate::kernel::{Subject, TrackedRun};
+use crate::truth::Truth;
+
+/// Why a finding happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Attribution {
+    /// The formula means something else than the contract: even without rounding and without an
+    /// epsilon it gives this finding.
+    Convention,
+    /// The epsilon itself: without rounding the formula is right at zero, and wrong at this epsilon.
+    Epsilon,
+    /// Rounding: the formula is right, epsilon and all.
+    Rounding,
+    /// As rounding, and a number behind the decisions overflowed or lost bits to underflow.
+    Range,
+}
+
+impl Attribution {
+    /// All of them, in the order of reports.
+    pub const ALL: [Attribution; 4] =
+        [Attribution::Convention, Attribution::Epsilon, Attribution::Rounding, Attribution::Range];
+
+    /// The name in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Attribution::Convention => "convention",
+            Attribution::Epsilon => "epsilon",
+            Attribution::Rounding => "rounding",
+            Attribution::Range => "range",
+        }
+    }
+
+    /// The name, and what it means.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Attribution::Convention => {
+                "convention (without rounding and with every epsilon 0 it is still wrong)"
+            }
+            Attribution::Epsilon => {
+                "epsilon (without rounding it is right with every epsilon 0, and wrong with these)"
+            }
+            Attribution::Rounding => "rounding (without rounding it is right, epsilons and all)",
+            Attribution::Range => {
+                "range (without rounding it is right; a number behind the decision overflowed or underflowed)"
+            }
+        }
+    }
+}
+
+/// Why a kernel's verdict on a case is not what was asked; none if it is, and where the kernel has no
+/// exact arithmetic to tell.
+pub fn attribute<F: Float>(
+    subject: &dyn Subject<F>,
+    case: &Case<F>,
+    epsilons: &[F],
+    truth: &Truth,
+    obligation: Obligation,
+) -> Option<Attribution> {
+    let gives = subject.info().gives;
+    let right = |answer| judge_answer(obligation, truth, gives, answer).is_none();
+    let given = subject.run_tracked(case, epsilons)?;
+    let finding = judge(obligation, truth, gives, &given.verdict)?;
+    if right(without_rounding(subject, case, epsilons, &given)?) {
+        let raised = match finding {
+            Finding::BadValue => given.decision | given.values,
+            _ => given.decision,
+        };
+        let range = raised.overflow || raised.underflow;
+        return Some(if range { Attribution::Range } else { Attribution::Rounding });
+    }
+    if epsilons.iter().all(F::is_zero) {
+        return Some(Attribution::Convention);
+    }
+    let zeros = vec![F::zero(); epsilons.len()];
+    let zero = subject.run_tracked(case, &zeros)?;
+    let answer = without_rounding(subject, case, &zeros, &zero)?;
+    Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
+}
+
+/// What the kernel answers where nothing rounds.
+fn without_rounding<F: Float>(
+    subject: &dyn Subject<F>,
+    case: &Case<F>,
+    epsilons: &[F],
+    float: &TrackedRun<F>,
+) -> Option<Answer> {
+    let answer = Answer::of(subject.info().gives, &float.verdict);
+    let decided = !float.decision.inexact;
+    if decided && !(answer.hit && float.values.inexact) {
+        return Some(answer);
+    }
+    let exact = subject.run_exact(case, epsilons)?;
+    if decided {
+        return Some(Answer { finite: exact.is_finite(), ..answer });
+    }
+    let facing = exact.values.as_ref().and_then(|values| values.facing);
+    Some(Answer { hit: exact.hit(), finite: exact.is_finite(), facing })
+}
