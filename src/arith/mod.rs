@@ -3,16 +3,18 @@
 //!
 //! A kernel is written once against [`Real`] and [`Vector`] and runs unchanged in every
 //! arithmetic. Comparisons go through the trait too: in [`Tracked`] numbers they tell the run what
-//! the compared numbers met, and an interval arithmetic could follow without touching a kernel.
+//! the compared numbers met, in [`Bounded`] ones they say where a bound does not decide.
 
 #![forbid(unsafe_code)]
 
+mod bounded;
 mod exact;
 mod float;
 mod fraction;
 mod tracked;
 mod triple;
 
+pub use bounded::{Bounded, bounded};
 pub use exact::Exact;
 pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two};
 pub use fraction::Fraction;

@@ -100,8 +100,7 @@ fn without_rounding<F: Float>(
     }
     let exact = subject.run_exact(case, epsilons)?;
     if decided {
-        return Some(Answer { finite: exact.is_finite(), ..answer });
+        return Some(Answer { finite: exact.finite, ..answer });
     }
-    let facing = exact.values.as_ref().and_then(|values| values.facing);
-    Some(Answer { hit: exact.hit(), finite: exact.is_finite(), facing })
+    Some(Answer { hit: exact.hit(), finite: exact.finite, facing: exact.facing })
 }
