@@ -44,7 +44,13 @@ fn plan(families: &[&'static Family], count: u64, scalars: [bool; 2]) -> Plan {
         exhaustive: false,
     };
     let rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
-    Plan { rows, sources: families.iter().map(source).collect(), scalars, examples: 3 }
+    Plan {
+        rows,
+        sources: families.iter().map(source).collect(),
+        scalars,
+        examples: 3,
+        attribute: 0,
+    }
 }
 
 fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {

@@ -2,8 +2,11 @@
 
 #![forbid(unsafe_code)]
 
+use std::fmt;
+use std::str::FromStr;
+
 /// The promise a kernel is judged by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contract {
     /// Which part of the line counts.
     pub extent: Extent,
@@ -23,6 +26,50 @@ pub struct Contract {
     pub across: Across,
     /// A ray that starts at a kernel's own hit point must not hit that triangle again.
     pub no_self_hit: bool,
+    /// Cases nearer than this to where another verdict would be right are free.
+    pub band: Option<Band>,
+}
+
+/// A distance to the boundary below which nothing is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band {
+    /// How far; above zero.
+    pub size: f64,
+    /// In what.
+    pub unit: BandUnit,
+}
+
+/// What a band is measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BandUnit {
+    /// The triangle's longest edge.
+    Edges,
+    /// Units in the last place of the largest coordinate of the case's points.
+    Ulps,
+}
+
+impl fmt::Display for Band {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.unit {
+            BandUnit::Edges => write!(f, "{:e}", self.size),
+            BandUnit::Ulps => write!(f, "{}ulps", self.size),
+        }
+    }
+}
+
+impl FromStr for Band {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (number, unit) = match text.strip_suffix("ulps").or(text.strip_suffix("ulp")) {
+            Some(number) => (number, BandUnit::Ulps),
+            None => (text, BandUnit::Edges),
+        };
+        let size = number.trim().parse().ok().filter(|size: &f64| *size > 0.0 && size.is_finite());
+        size.map(|size| Band { size, unit }).ok_or_else(|| {
+            format!("'{text}' is not a band: write a distance above 0, in longest edges as 1e-6 or in ulps as 4ulps")
+        })
+    }
 }
 
 /// The part of the line that counts.
@@ -103,6 +150,7 @@ impl Contract {
         direction: Direction::Any,
         across: Across::Nothing,
         no_self_hit: false,
+        band: None,
     };
 
     /// A kernel's own contract starts here: as [`Contract::CLOSED_RAY`], invalid input free.
@@ -157,6 +205,15 @@ impl Contract {
         }
         if self.no_self_hit {
             text.push_str(", no self-hit");
+        }
+        match self.band {
+            None => {}
+            Some(band) if band.unit == BandUnit::Ulps => {
+                text.push_str(&format!(", free within {band} of the boundary"));
+            }
+            Some(band) => {
+                text.push_str(&format!(", free within {band} longest edges of the boundary"));
+            }
         }
         text
     }

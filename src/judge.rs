@@ -3,10 +3,15 @@
 #![forbid(unsafe_code)]
 
 mod class;
+mod distance;
 
 pub use class::Class;
+pub use distance::{
+    Distances, Squares, exact_to_change, nearest_on_segment, smaller, square, ulp_of_points,
+};
 
 use crate::arith::Float;
+use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use crate::family::Grouping;
 use crate::kernel::{Gives, Verdict};
@@ -71,6 +76,30 @@ pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obliga
     }
 }
 
+/// What the contract asks on a case: nothing where it promises nothing for the direction, and within
+/// its band.
+pub fn asked<F: Float>(
+    case: &Case<F>,
+    truth: &Truth,
+    contract: &Contract,
+    respawned: bool,
+) -> Obligation {
+    if !promises_direction::<F>(contract.direction, case.ray.direction.into()) {
+        return Obligation::Free;
+    }
+    let asked = obligation(truth, contract, respawned);
+    match contract.band {
+        Some(band)
+            if asked != Obligation::Free
+                && *truth != Truth::Invalid
+                && distance::is_within(band, case, truth, contract) =>
+        {
+            Obligation::Free
+        }
+        _ => asked,
+    }
+}
+
 fn demanded(demand: Demand, contact: bool) -> Obligation {
     match (demand, contact) {
         (Demand::Free, _) => Obligation::Free,
@@ -100,7 +129,8 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
     }
 }
 
-fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
+/// Whether a crossing lies on the part of the line that counts.
+pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
     match extent {
         Extent::Line => true,
         Extent::Ray => crossing.t_sign != Ordering::Less,
@@ -256,7 +286,6 @@ pub fn polygon_truth(truths: &[Truth]) -> Truth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
     use crate::oracle::truth;
 
     fn down_at(x: f64, y: f64, z: f64) -> Truth {

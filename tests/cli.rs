@@ -486,3 +486,32 @@ fn the_readme_lists_the_exit_codes_of_the_program() {
         assert!(readme.contains(&row), "{row}");
     }
 }
+
+#[test]
+fn the_record_says_why_how_far_and_how_accurately_and_a_band_frees() {
+    let audit = |more: &[&str]| {
+        let arguments = ["audit", "-n", "2000", "--scalar", "f32", "--kernel", "woop-watertight"];
+        let rest = ["--family", "edge-near", "--format", "json", "--quiet"];
+        json(&hairline(&[&arguments[..], &rest, more].concat()))
+    };
+    let record = audit(&[]);
+    let result = &record["result"]["results"][0];
+    let finding = &result["findings"][0];
+    assert_eq!(finding["causes"]["by"]["rounding"]["rate"], 1.0, "{finding}");
+    let severity = &record["result"]["totals"][0]["severity"]["false-miss"];
+    let [median, worst] = ["median", "worst"].map(|key| severity["ulps"][key].as_f64().unwrap());
+    assert!(0.0 < median && median < worst && worst < 10.0, "{severity}");
+    assert_eq!(severity["ulps"]["count"], result["total"]["false_misses"]["count"]);
+    let t = &result["accuracy"]["t"];
+    assert!(t["count"].as_u64().unwrap() > 20 && t["median"].as_f64().unwrap() < 4.0, "{t}");
+    assert!(
+        audit(&["--attribute", "0"])["result"]["results"][0]["findings"][0]["causes"].is_null()
+    );
+    // A band as wide as the worst finding leaves none, and makes cases free.
+    let banded = audit(&["--band", "10ulps"]);
+    let total = &banded["result"]["results"][0]["total"];
+    assert_eq!(total["false_misses"]["count"], 0, "{total}");
+    assert!(total["free"].as_u64().unwrap() > result["total"]["free"].as_u64().unwrap());
+    let error = refused(Path::new("."), &["audit", "--band", "wide"], 2);
+    assert!(error.contains("'wide' is not a band"), "{error}");
+}

@@ -34,7 +34,8 @@ fn audit(
         exhaustive: count.is_none(),
     };
     let rows = choice.rows(&entries, contract).unwrap();
-    let plan = Plan { rows, sources: vec![source], scalars: [true, true], examples: 1 };
+    let plan =
+        Plan { rows, sources: vec![source], scalars: [true, true], examples: 1, attribute: 0 };
     let audit = run(&plan, &Quiet);
     (plan, audit)
 }

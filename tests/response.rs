@@ -69,7 +69,7 @@ fn audited<F: Scalar>(row: &Row, source: Source, gate: usize, epsilon: F) -> [u6
     row.epsilons[gate] = EpsilonText::Decimal(format!("{epsilon:e}"));
     assert!(row.epsilons::<F>()[gate] == epsilon, "the text is the number");
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
-    let plan = Plan { rows: vec![row], sources: vec![source], scalars, examples: 0 };
+    let plan = Plan { rows: vec![row], sources: vec![source], scalars, examples: 0, attribute: 0 };
     let tally = &audit::run(&plan, &Silent).cells[0].tally;
     let total = tally.total();
     [

@@ -6,7 +6,7 @@ use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, GroupTruth, Obligation, group_truth, obligation};
+use crate::judge::{self, Class, GroupTruth, Obligation, group_truth};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
@@ -118,14 +118,8 @@ impl<F: Scalar> Chunk<F> {
     /// What a contract asks of each case.
     pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
         let respawned = self.grouping == Grouping::Respawn;
-        let ask = |(truth, case): (&Truth, &Case<F>)| {
-            if judge::promises_direction::<F>(contract.direction, case.ray.direction.into()) {
-                obligation(truth, contract, respawned)
-            } else {
-                Obligation::Free
-            }
-        };
-        self.truths.iter().zip(&self.cases).map(ask).collect()
+        let cases = self.truths.iter().zip(&self.cases);
+        cases.map(|(truth, case)| judge::asked(case, truth, contract, respawned)).collect()
     }
 
     /// What a contract asks of each group; empty if the source's cases stand alone.

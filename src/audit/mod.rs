@@ -6,8 +6,11 @@
 
 #![forbid(unsafe_code)]
 
+mod accuracy;
 mod attribution;
+mod causes;
 mod chunk;
+mod histogram;
 mod interval;
 mod plan;
 mod run;
@@ -15,13 +18,17 @@ mod severity;
 mod source;
 mod tally;
 
+pub use accuracy::{Accuracy, Errors};
 pub use attribution::{Attribution, attribute};
+pub use causes::Causes;
 pub use chunk::SourceSummary;
 pub(crate) use chunk::{CHUNK, Chunk};
+pub use histogram::Histogram;
 pub use interval::{Interval, clopper_pearson};
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
 pub use run::{Audit, Cell, Observer, run, run_scalar};
-pub(crate) use severity::{Distances, exact_severity_of, is_off_end};
 pub use severity::{Severity, exact_severity};
 pub use source::{CorpusSet, Source};
-pub use tally::{ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Tally};
+pub use tally::{
+    ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Severities, Tally,
+};

@@ -97,6 +97,9 @@ pub struct Plan {
     pub scalars: [bool; 2],
     /// How many examples of each class of finding to keep, by index.
     pub examples: usize,
+    /// How many findings of each class, the first by index, to attribute to a cause; and on how many
+    /// indices of each source, evenly spread, to measure the values of right hits.
+    pub attribute: usize,
 }
 
 /// Why a plan cannot be made; one line.

@@ -1,17 +1,21 @@
 //! The run: each case once to the oracle and once to each kernel.
 
+use super::accuracy::Errors;
+use super::causes::{self, Causes};
 use super::chunk::{CHUNK, Chunk, SourceSummary};
 use super::plan::{Plan, Row};
-use super::severity::Distances;
 use super::source::Source;
 use super::tally::{ClassCount, Tally};
 use crate::case::Case;
-use crate::contract::{Contract, Extent};
+use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, Finding, GroupTruth, Obligation, obligation, polygon_truth};
+use crate::judge::{
+    self, Class, Distances, Finding, GroupTruth, Obligation, obligation, polygon_truth,
+};
 use crate::kernel::{KernelInfo, Scalar, Subject, Verdict};
-use crate::truth::Truth;
+use crate::truth::{Feature, Truth};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What a run tells while it goes on, and where it reads a clock.
@@ -32,6 +36,8 @@ pub struct Cell {
     pub scalar: &'static str,
     /// What was found.
     pub tally: Tally,
+    /// Why, by class and finding.
+    pub causes: BTreeMap<(Class, Finding), Causes>,
     /// Time spent in the kernel, over all threads.
     pub nanoseconds: u64,
 }
@@ -73,12 +79,12 @@ pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut A
             .reduce(empty, Sums::merged);
         audit.sources.push(sums.summary);
         let rows = sums.rows.into_iter().enumerate();
-        audit.cells.extend(rows.map(|(row, (tally, nanoseconds))| Cell {
-            row,
-            source: number,
-            scalar: F::NAME,
-            tally,
-            nanoseconds,
+        audit.cells.extend(rows.map(|(row, (mut tally, nanoseconds))| {
+            let by = &runner.rows[row];
+            let contract = &runner.contracts[by.contract];
+            let causes = causes::causes(source, by, contract, &tally, plan.attribute);
+            tally.keep_examples(plan.examples);
+            Cell { row, source: number, scalar: F::NAME, tally, causes, nanoseconds }
         }));
     }
 }
@@ -93,7 +99,11 @@ impl Sums {
     fn new(plan: &Plan, source: usize, scalar: &'static str) -> Sums {
         Sums {
             summary: SourceSummary::new(source, scalar),
-            rows: plan.rows.iter().map(|_| (Tally::new(plan.examples), 0)).collect(),
+            rows: plan
+                .rows
+                .iter()
+                .map(|_| (Tally::new(plan.examples, plan.attribute), 0))
+                .collect(),
         }
     }
 
@@ -112,23 +122,26 @@ struct Runner<'a, F: Scalar> {
     rows: Vec<RunnerRow<'a, F>>,
     /// The distinct contracts of the rows.
     contracts: Vec<Contract>,
+    /// On how many indices of each source the values of hits are measured.
+    measured: u64,
     observer: &'a dyn Observer,
 }
 
-struct RunnerRow<'a, F> {
-    subject: &'a dyn Subject<F>,
+pub(super) struct RunnerRow<'a, F> {
+    pub(super) subject: &'a dyn Subject<F>,
     info: &'static KernelInfo,
-    epsilons: Vec<F>,
+    pub(super) epsilons: Vec<F>,
     contract: usize,
 }
 
 /// What a contract asks on a chunk.
 struct Asked {
-    extent: Extent,
     obligations: Vec<Obligation>,
     /// What was asked, by class.
     classes: Vec<ClassCount>,
     groups: Vec<GroupTruth>,
+    /// Every how many indices the values of hits are measured.
+    sample_every: Option<u64>,
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
@@ -144,13 +157,15 @@ impl<'a, F: Scalar> Runner<'a, F> {
             RunnerRow { subject: F::subject(row.entry), info, epsilons: row.epsilons(), contract }
         };
         let rows = plan.rows.iter().map(resolve).collect();
-        Runner { rows, contracts, observer }
+        Runner { rows, contracts, measured: plan.attribute as u64, observer }
     }
 
     fn add_chunk(&self, source: &Source, indices: std::ops::Range<u64>, sums: &mut Sums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
-        let asked: Vec<Asked> =
-            self.contracts.iter().map(|contract| ask(&chunk, contract)).collect();
+        let sample_every =
+            (self.measured > 0).then(|| source.count::<F>().div_ceil(self.measured).max(1));
+        let ask = |contract| ask(&chunk, contract, sample_every);
+        let asked: Vec<Asked> = self.contracts.iter().map(ask).collect();
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         let mut distances = vec![None; chunk.cases.len()];
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
@@ -159,7 +174,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
             *time += self.observer.now() - start;
             let contract = &self.contracts[row.contract];
             let asked = &asked[row.contract];
-            row.judge(&chunk, asked, &verdicts, &panicked, &mut distances, tally);
+            row.judge(&chunk, (contract, asked), &verdicts, &panicked, &mut distances, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
@@ -169,14 +184,14 @@ impl<'a, F: Scalar> Runner<'a, F> {
     }
 }
 
-fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
+fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract, sample_every: Option<u64>) -> Asked {
     let obligations = chunk.obligations(contract);
     let mut classes = vec![ClassCount::default(); Class::COUNT];
     for (class, obligation) in chunk.classes.iter().zip(&obligations) {
         classes[class.number()].ask(*obligation);
     }
     let groups = chunk.group_truths(contract);
-    Asked { extent: contract.extent, obligations, classes, groups }
+    Asked { obligations, classes, groups, sample_every }
 }
 
 impl<F: Scalar> RunnerRow<'_, F> {
@@ -202,7 +217,7 @@ impl<F: Scalar> RunnerRow<'_, F> {
     fn judge(
         &self,
         chunk: &Chunk<F>,
-        asked: &Asked,
+        (contract, asked): (&Contract, &Asked),
         verdicts: &[Verdict<F>],
         panicked: &[usize],
         distances: &mut [Option<Distances>],
@@ -219,10 +234,27 @@ impl<F: Scalar> RunnerRow<'_, F> {
             } else {
                 judge::judge(obligation, truth, self.info.gives, verdict)
             };
+            let sampled =
+                asked.sample_every.is_some_and(|k| chunk.places[i].index.is_multiple_of(k));
+            match truth.crossing() {
+                Some(crossing)
+                    if sampled
+                        && verdict.hit
+                        && finding != Some(Finding::FalseHit)
+                        && crossing.feature != Feature::Outside =>
+                {
+                    let case = &chunk.cases[i];
+                    tally.accuracy.add(&Errors::of(case, crossing, self.info.gives, verdict));
+                }
+                _ => {}
+            }
             if let Some(finding) = finding {
-                // Kernels tend to be wrong on the same cases.
-                let distances = distances[i].get_or_insert_with(|| Distances::of(&chunk.cases[i]));
-                let severity = distances.severity(truth, finding, asked.extent);
+                let severity = (*truth != Truth::Invalid).then(|| {
+                    // Kernels tend to be wrong on the same cases.
+                    let case = &chunk.cases[i];
+                    let distances = distances[i].get_or_insert_with(|| Distances::of(case, truth));
+                    (distances.to_change(truth, contract), distances.edge_in_ulps)
+                });
                 tally.find(chunk.classes[i], finding, chunk.places[i], severity);
             }
         }

@@ -1,5 +1,7 @@
 //! Sums of findings: a commutative monoid, so that any split of a run adds up to the same.
 
+use super::accuracy::Accuracy;
+use super::histogram::Histogram;
 use crate::judge::{Class, Finding, GroupTruth, Obligation};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -195,6 +197,23 @@ pub struct SelfHits {
     pub hits: u64,
 }
 
+/// How far findings are from where the verdict would be right.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Severities {
+    /// In longest edges of the triangle.
+    pub edges: Histogram,
+    /// In ulps of the largest coordinate.
+    pub ulps: Histogram,
+}
+
+impl Severities {
+    /// Adds more.
+    pub fn merge(&mut self, other: &Severities) {
+        self.edges.merge(&other.edges);
+        self.ulps.merge(&other.ulps);
+    }
+}
+
 /// Everything that is added up for one kernel row on one source in one scalar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tally {
@@ -202,25 +221,43 @@ pub struct Tally {
     pub classes: Vec<ClassCount>,
     /// Examples by class and finding.
     pub examples: BTreeMap<(Class, Finding), Examples>,
+    /// How far false misses and false hits are from where the verdict would be right.
+    pub severities: BTreeMap<Finding, Severities>,
+    /// How accurate the values of right hits are, of a sample.
+    pub accuracy: Accuracy,
     /// What groups did together.
     pub groups: GroupCount,
     /// Whole polygons.
     pub polygons: PolygonCount,
     /// Second hits on the triangle that a ray starts on.
     pub self_hits: SelfHits,
+    /// How many places of each class and finding, and of groups.
     limit: usize,
+    group_limit: usize,
 }
 
 impl Tally {
-    /// Empty; keeps this many examples by index of each class and finding.
-    pub fn new(limit: usize) -> Tally {
+    /// Empty; keeps this many examples by index of each class and finding, and as many places as are
+    /// to be attributed if that is more.
+    pub fn new(examples: usize, attributed: usize) -> Tally {
         Tally {
             classes: vec![ClassCount::default(); Class::COUNT],
             examples: BTreeMap::new(),
+            severities: BTreeMap::new(),
+            accuracy: Accuracy::default(),
             groups: GroupCount::default(),
             polygons: PolygonCount::default(),
             self_hits: SelfHits::default(),
-            limit,
+            limit: examples.max(attributed),
+            group_limit: examples,
+        }
+    }
+
+    /// Drops the places beyond the examples.
+    pub fn keep_examples(&mut self, examples: usize) {
+        for found in self.examples.values_mut() {
+            found.first.truncate(examples);
+            found.first.shrink_to_fit();
         }
     }
 
@@ -238,15 +275,29 @@ impl Tally {
         count.valued_hits += u64::from(valued);
     }
 
-    /// Counts a finding with its approximate severity.
-    pub fn find(&mut self, class: Class, finding: Finding, place: Place, severity: f64) {
+    /// Counts a finding with its severity: how far the case is from where the verdict would be right,
+    /// in longest edges, and the longest edge in ulps; none of invalid input.
+    pub fn find(
+        &mut self,
+        class: Class,
+        finding: Finding,
+        place: Place,
+        severity: Option<(f64, f64)>,
+    ) {
         self.classes[class.number()].findings[finding as usize] += 1;
-        self.examples.entry((class, finding)).or_default().add(place, severity, self.limit);
+        let edges = severity.map_or(0.0, |(edges, _)| edges);
+        self.examples.entry((class, finding)).or_default().add(place, edges, self.limit);
+        let by_verdict = matches!(finding, Finding::FalseMiss | Finding::FalseHit);
+        if let (true, Some((edges, edge_in_ulps))) = (by_verdict, severity) {
+            let severities = self.severities.entry(finding).or_default();
+            severities.edges.add(edges);
+            severities.ulps.add(edges * edge_in_ulps);
+        }
     }
 
     /// Counts a group.
     pub fn group(&mut self, index: u64, truth: GroupTruth, hits: usize) {
-        self.groups.add(index, truth, hits, self.limit);
+        self.groups.add(index, truth, hits, self.group_limit);
     }
 
     /// Adds another tally.
@@ -257,7 +308,11 @@ impl Tally {
         for (key, more) in other.examples {
             self.examples.entry(key).or_default().merge(more, self.limit);
         }
-        self.groups.merge(other.groups, self.limit);
+        for (finding, more) in &other.severities {
+            self.severities.entry(*finding).or_default().merge(more);
+        }
+        self.accuracy.merge(&other.accuracy);
+        self.groups.merge(other.groups, self.group_limit);
         self.polygons.must_hit += other.polygons.must_hit;
         self.polygons.false_miss += other.polygons.false_miss;
         self.polygons.must_miss += other.polygons.must_miss;
@@ -286,14 +341,14 @@ mod tests {
             tally.classes[class.number()].ask(Obligation::MustHit);
             if index.is_multiple_of(3) {
                 let place = Place { index, triangle: 0 };
-                tally.find(class, Finding::FalseMiss, place, (index * 7 % 11) as f64);
+                tally.find(class, Finding::FalseMiss, place, Some(((index * 7 % 11) as f64, 2.0)));
             }
             tally.group(index, GroupTruth::Crossing, (index % 4) as usize);
         };
-        let mut whole = Tally::new(5);
+        let mut whole = Tally::new(5, 0);
         (0..100).for_each(|index| event(&mut whole, index));
         for cut in [0, 1, 17, 50, 99] {
-            let (mut left, mut right) = (Tally::new(5), Tally::new(5));
+            let (mut left, mut right) = (Tally::new(5, 0), Tally::new(5, 0));
             (0..cut).for_each(|index| event(&mut left, index));
             (cut..100).for_each(|index| event(&mut right, index));
             let mut swapped = right.clone();
@@ -305,5 +360,6 @@ mod tests {
         let examples = &whole.examples[&(class, Finding::FalseMiss)];
         assert_eq!(examples.first.len(), 5);
         assert_eq!(examples.worst.unwrap().0, 10.0);
+        assert_eq!(whole.severities[&Finding::FalseMiss].ulps.largest(), 20.0);
     }
 }

@@ -30,6 +30,11 @@ pub struct AuditArguments {
     #[arg(long, default_value_t = 3, value_name = "N")]
     examples: usize,
 
+    /// How many findings of each class of each family, the first by index, to attribute to a cause,
+    /// and on how many indices to measure the values of hits; 0 for none
+    #[arg(long, default_value_t = 100, value_name = "N")]
+    attribute: usize,
+
     /// List the worst finding of every class, not only of every kind
     #[arg(long)]
     details: bool,
@@ -103,6 +108,7 @@ impl AuditArguments {
             sources: self.sources.sources(self.quiet, |_| true)?,
             scalars: self.sources.scalars()?,
             examples: self.examples,
+            attribute: self.attribute,
         })
     }
 }

@@ -6,15 +6,15 @@ use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
 use crate::arith::{Exact, Float};
-use crate::audit::{Row, attribute, exact_severity};
+use crate::audit::{Errors, Row, attribute, exact_severity};
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::Grouping;
-use crate::judge::{GroupTruth, Obligation, group_truth, judge, obligation, promises_direction};
-use crate::kernel::{Scalar, Tunable, Verdict};
+use crate::judge::{Finding, GroupTruth, Obligation, asked, group_truth, judge};
+use crate::kernel::{Gives, Scalar, Tunable, Verdict};
 use crate::oracle;
-use crate::truth::Truth;
+use crate::truth::{Feature, Truth};
 use clap::Args;
 use std::io::{self, Write};
 
@@ -144,11 +144,7 @@ fn write_row<F: Scalar>(
     let exact = subject.measure_exact(case);
     let exact_run = subject.run_exact(case, &epsilons);
 
-    let asked = if promises_direction::<F>(row.contract.direction, case.ray.direction.into()) {
-        obligation(truth, &row.contract, respawned)
-    } else {
-        Obligation::Free
-    };
+    let asked = asked(case, truth, &row.contract, respawned);
     let finding = judge(asked, truth, info.gives, &verdict);
     let demand = match asked {
         Obligation::MustHit => "a hit",
@@ -166,7 +162,8 @@ fn write_row<F: Scalar>(
         let decision = word(margin >= epsilons[i]);
         let should = exact_run.as_ref().map_or("unknown", |run| word(run.passed[i]));
         let mark = if decided { " <- decides" } else { "" };
-        let wrong = if decision == should { "" } else { ", WRONG" };
+        let differs = exact_run.is_some() && decision != should;
+        let wrong = if differs { ", WRONG" } else { "" };
         if gate.epsilon == Tunable::Fixed {
             let name = gate.name;
             writeln!(
@@ -210,8 +207,31 @@ fn write_row<F: Scalar>(
             ));
         }
         writeln!(out, "    reports {}", values.join(", "))?;
+        write_errors(out, case, truth, finding, info.gives, &verdict)?;
     }
     Ok(())
+}
+
+/// How far the values of a right hit are from the exact ones.
+fn write_errors<F: Scalar>(
+    out: &mut dyn Write,
+    case: &Case<F>,
+    truth: &Truth,
+    finding: Option<Finding>,
+    gives: Gives,
+    verdict: &Verdict<F>,
+) -> io::Result<()> {
+    let Some(crossing) = truth.crossing() else { return Ok(()) };
+    if crossing.feature == Feature::Outside || finding == Some(Finding::FalseHit) {
+        return Ok(());
+    }
+    let Errors { t, uv, point } = Errors::of(case, crossing, gives, verdict);
+    let named = [("t", t), ("u, v", uv), ("o + t d", point)];
+    let parts: Vec<String> = named
+        .iter()
+        .filter_map(|(name, error)| error.map(|error| format!("{name} by {error:.3e}")))
+        .collect();
+    if parts.is_empty() { Ok(()) } else { writeln!(out, "    off by ulps: {}", parts.join(", ")) }
 }
 
 /// An exact number for people; its sign is exact.

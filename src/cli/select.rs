@@ -2,7 +2,7 @@
 
 use super::exit::Failure;
 use crate::audit::{EpsilonChoice, Row};
-use crate::contract::{NAMED, NamedContract};
+use crate::contract::{Band, NAMED, NamedContract};
 use crate::kernel::{Entry, KERNELS, find, nearest_name};
 use clap::Args;
 
@@ -29,12 +29,27 @@ pub struct KernelArguments {
     /// One contract for all kernels instead of each one's own (see `hairline list contracts`)
     #[arg(long, value_name = "NAME")]
     contract: Option<String>,
+
+    /// Ask nothing nearer than this to where another verdict would be right: in longest edges of the
+    /// triangle, as 1e-6, or in ulps of its largest coordinate, as 4ulps
+    #[arg(long, value_name = "DISTANCE")]
+    band: Option<String>,
 }
 
 impl KernelArguments {
     /// The rows that the flags ask for.
     pub fn rows(&self) -> Result<Vec<Row>, Failure> {
-        Ok(self.choice()?.rows(&self.entries()?, self.contract()?)?)
+        let band: Option<Band> = self
+            .band
+            .as_deref()
+            .map(str::parse)
+            .transpose()
+            .map_err(|error| Failure::usage(format!("--band: {error}")))?;
+        let mut rows = self.choice()?.rows(&self.entries()?, self.contract()?)?;
+        for row in &mut rows {
+            row.contract.band = band;
+        }
+        Ok(rows)
     }
 
     /// Whether any kernel is named.

@@ -1,5 +1,6 @@
 //! From the sums of a run to a record.
 
+use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
@@ -39,6 +40,7 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
             plan: plan_part(plan),
             sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
             results: results.collect(),
+            totals: distribution::totals(plan, audit),
         },
         provenance: provenance(plan, audit, context),
     }
@@ -140,7 +142,9 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         .map(|class| (class.name(), counts(&tally.classes[class.number()], sample)));
     let findings = tally.examples.iter().map(|((class, finding), examples)| {
         let count = &tally.classes[class.number()];
-        finding_part::<F>(source, row, (*class, *finding), count, examples)
+        let causes = cell.causes.get(&(*class, *finding));
+        let causes = causes.map(|causes| distribution::causes(causes, count.of(*finding)));
+        finding_part::<F>(source, row, (*class, *finding), count, examples, causes)
     });
     let grouping = source.grouping();
     let is_group = !matches!(grouping, Grouping::Single | Grouping::Respawn);
@@ -152,6 +156,8 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         total: counts(&tally.total(), sample),
         classes: classes.collect(),
         findings: findings.collect(),
+        severity: distribution::severities(&tally.severities),
+        accuracy: distribution::accuracy(&tally.accuracy),
         across: is_group.then(|| across_part::<F>(source, row, &tally.groups)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
             .then(|| polygon_part(tally, sample)),
@@ -166,12 +172,14 @@ fn finding_part<F: Scalar>(
     (class, finding): (Class, Finding),
     count: &ClassCount,
     examples: &Examples,
+    causes: Option<CausesPart>,
 ) -> FindingPart {
     let (_, worst) = examples.worst.expect("a finding has a worst example");
     FindingPart {
         finding: finding.name().to_owned(),
         class: class.name(),
         rate: rate(count.of(finding), count.trials(finding), source.is_sample()),
+        causes,
         worst: example::<F>(source, row, worst, true),
         first: examples
             .first
@@ -276,6 +284,9 @@ pub(super) fn explain_command<F: Scalar>(
     }
     if let Some(contract) = row.contract_name {
         command.push_str(&format!(" --contract {contract}"));
+    }
+    if let Some(band) = row.contract.band {
+        command.push_str(&format!(" --band {band}"));
     }
     command
 }

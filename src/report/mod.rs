@@ -6,10 +6,12 @@
 #![forbid(unsafe_code)]
 
 mod build;
+mod distribution;
 pub mod epsilon;
 mod json;
 mod record;
 mod text;
+mod why;
 
 pub use build::{Context, build};
 pub use record::*;

@@ -31,6 +31,24 @@ pub struct ResultPart {
     pub sources: Vec<SourcePart>,
     /// One entry for each scalar, source and kernel row.
     pub results: Vec<KernelResult>,
+    /// One entry for each scalar and kernel row: distributions over all sources.
+    pub totals: Vec<RowTotal>,
+}
+
+/// Distributions of one kernel row in one scalar, over all sources.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RowTotal {
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The kernel's name.
+    pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// By `false-miss` and `false-hit`: how far from where the verdict would be right.
+    pub severity: BTreeMap<String, SeverityDistribution>,
+    /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
+    pub accuracy: BTreeMap<String, Distribution>,
 }
 
 /// What was asked.
@@ -111,6 +129,10 @@ pub struct KernelResult {
     pub classes: BTreeMap<String, Counts>,
     /// Each class of finding that occurred, with examples.
     pub findings: Vec<FindingPart>,
+    /// By `false-miss` and `false-hit`: how far from where the verdict would be right.
+    pub severity: BTreeMap<String, SeverityDistribution>,
+    /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
+    pub accuracy: BTreeMap<String, Distribution>,
     /// Triangles of a group together.
     pub across: Option<AcrossPart>,
     /// Polygons as a whole.
@@ -163,10 +185,52 @@ pub struct FindingPart {
     pub class: String,
     /// How often.
     pub rate: Rate,
+    /// Why; none where nothing was attributed.
+    pub causes: Option<CausesPart>,
     /// The one with the largest severity.
     pub worst: Example,
     /// The first by index.
     pub first: Vec<Example>,
+}
+
+/// Why findings happened, of the first by index.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CausesPart {
+    /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
+    /// examined.
+    pub by: BTreeMap<String, Rate>,
+    /// Findings examined of kernels that cannot tell.
+    pub untold: u64,
+}
+
+/// How far cases with a finding are from where the verdict would be right.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeverityDistribution {
+    /// In longest edges of the triangle.
+    pub edges: Distribution,
+    /// In ulps of the largest coordinate.
+    pub ulps: Distribution,
+}
+
+/// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Distribution {
+    /// How many.
+    pub count: u64,
+    /// Half of them are at most this.
+    pub median: Option<f64>,
+    /// 90 % of them.
+    pub percent_90: Option<f64>,
+    /// 99 % of them.
+    pub percent_99: Option<f64>,
+    /// All of them.
+    pub worst: Option<f64>,
+    /// Counts by octave: `2^k` is from 2^k to 2^(k+1); `0` holds what is smaller than any normal
+    /// number, `inf` the infinite.
+    pub octaves: BTreeMap<String, u64>,
 }
 
 /// A case that shows a finding.

@@ -2,6 +2,7 @@
 //! show them again.
 
 use super::record::*;
+use super::why::{accuracy_text, causes_text, severity_text};
 use super::{Style, group_digits};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -40,6 +41,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
 /// All families of one kernel row in one scalar.
 struct RowView<'a> {
     part: &'a RowPart,
+    total: Option<&'a RowTotal>,
     results: Vec<&'a KernelResult>,
 }
 
@@ -120,6 +122,11 @@ fn write_scalar(
         .iter()
         .map(|part| RowView {
             part,
+            total: record
+                .result
+                .totals
+                .iter()
+                .find(|t| t.scalar == scalar && t.kernel == part.kernel && t.set == part.set),
             results: record
                 .result
                 .results
@@ -164,6 +171,14 @@ fn write_scalar(
             short_count(row.hits_on_invalid()),
             if cracks.of == 0 { "-".to_owned() } else { short_count(cracks.count) },
         )?;
+        for (kind, what) in [("false-miss", "misses"), ("false-hit", "hits")] {
+            if let Some(causes) = causes_text(&row.results, kind, "") {
+                writeln!(out, "    false {what}: {causes}")?;
+            }
+        }
+        if let Some(errors) = row.total.and_then(|total| accuracy_text(&total.accuracy)) {
+            writeln!(out, "    values in ulps: {errors}")?;
+        }
     }
     write_exact_shares(record, scalar, &rows, out)?;
     write_worst(&rows, style, out)
@@ -235,6 +250,16 @@ fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Resul
                 class => (format!(" {class}"), String::new()),
             };
             writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
+            let severity = row.total.and_then(|total| total.severity.get(*kind));
+            match severity {
+                Some(severity) if class.is_empty() => {
+                    writeln!(out, "        {}", severity_text(severity))?;
+                }
+                _ => {}
+            }
+            if let Some(causes) = causes_text(&row.results, kind, class) {
+                writeln!(out, "        why: {causes}")?;
+            }
             writeln!(out, "        {}", finding.worst.command)?;
             writeln!(out, "        {}", finding.worst.bits)?;
         }

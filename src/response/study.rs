@@ -165,7 +165,7 @@ fn prices<F: Scalar>(
         .collect();
     let mut audit = Audit::default();
     let scalars = [F::NAME == f32::NAME, F::NAME == f64::NAME];
-    let plan = Plan { rows, sources: sources.to_vec(), scalars, examples: 0 };
+    let plan = Plan { rows, sources: sources.to_vec(), scalars, examples: 0, attribute: 0 };
     run_scalar::<F>(&plan, observer, &mut audit);
     for cell in audit.cells {
         prices[cell.row].tallies.push(cell.tally);

@@ -24,9 +24,9 @@
 
 use super::domain::Domain;
 use crate::arith::{Exact, Float, Real, Vector};
-use crate::audit::{Distances, Row, exact_severity_of, is_off_end};
+use crate::audit::Row;
 use crate::case::{Case, Ray, Triangle};
-use crate::judge::{Finding, Obligation, judge, obligation, promises_direction};
+use crate::judge::{Distances, Finding, asked, exact_to_change, is_in_extent, judge};
 use crate::kernel::gate::refused_by;
 use crate::kernel::{Dimension, KernelInfo, Scalar, Tunable, Verdict};
 use crate::oracle;
@@ -164,9 +164,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             Objective::T | Objective::Uv => self.exact_value(case),
             Objective::FalseMiss | Objective::FalseHit => {
                 let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
-                let finding =
-                    finding.filter(|finding| self.wants(*finding, &truth, &verdict, case))?;
-                exact_severity_of(case, &truth, finding, self.row.contract.extent)
+                finding.filter(|finding| self.wants(*finding, &truth, &verdict, case))?;
+                exact_to_change(case, &truth, &self.row.contract)
             }
         }
     }
@@ -245,9 +244,12 @@ impl<'a, F: Scalar> Scorer<'a, F> {
 
     fn quick_severity(&self, case: &Case<F>) -> f64 {
         let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
-        let distances = Distances::of(case);
+        if truth == Truth::Invalid {
+            return f64::MIN;
+        }
+        let distances = Distances::of(case, &truth);
         match finding.filter(|finding| self.wants(*finding, &truth, &verdict, case)) {
-            Some(finding) => distances.severity(&truth, finding, self.row.contract.extent),
+            Some(_) => distances.to_change(&truth, &self.row.contract),
             None => no_score_yet(distances.in_space),
         }
     }
@@ -262,7 +264,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
                 let gates = self.row.entry.info.gates;
                 let tests_t = self.target.gate.is_some_and(|gate| gates[gate].name == "t");
                 let extent = self.row.contract.extent;
-                let off_end = truth.crossing().is_some_and(|c| is_off_end(c, extent));
+                let off_end = truth.crossing().is_some_and(|c| !is_in_extent(c, extent));
                 let refusing = exactly_refusing(self.row, &self.epsilons, case);
                 (tests_t || !off_end) && refusing.is_some() && refusing == self.target.gate
             }
@@ -277,7 +279,8 @@ pub(super) fn exactly_refusing<F: Scalar>(
     epsilons: &[F],
     case: &Case<F>,
 ) -> Option<usize> {
-    F::subject(row.entry).run_exact(case, epsilons).iter().position(|passes| !passes)
+    let run = F::subject(row.entry).run_exact(case, epsilons)?;
+    run.passed.iter().position(|passes| !passes)
 }
 
 /// What is true, what the kernel said, and what `judge` makes of the two. Cases are judged one by
@@ -291,11 +294,7 @@ pub(super) fn verdict_and_finding<F: Scalar>(
     F::subject(row.entry).run(std::slice::from_ref(case), epsilons, &mut verdict);
     let [verdict] = verdict;
     let truth = oracle::truth(case);
-    let asked = if promises_direction::<F>(row.contract.direction, case.ray.direction.into()) {
-        obligation(&truth, &row.contract, false)
-    } else {
-        Obligation::Free
-    };
+    let asked = asked(case, &truth, &row.contract, false);
     (truth, verdict, judge(asked, &truth, row.entry.info.gives, &verdict))
 }
 

@@ -1,0 +1,120 @@
+//! Distributions in constant memory: counts in logarithmic bins, eight to the octave.
+
+use std::collections::BTreeMap;
+
+/// Counts of numbers that are not negative. Merging is commutative, and the number of bins is bounded
+/// by the range of `f64`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Histogram {
+    /// By [`bin`]; zero has a bin of its own.
+    bins: BTreeMap<u16, u64>,
+    count: u64,
+    largest: f64,
+}
+
+/// The leading bits of a number: the exponent, and three of the significand.
+fn bin(value: f64) -> u16 {
+    if value == 0.0 { 0 } else { (value.to_bits() >> 49) as u16 + 1 }
+}
+
+/// Where a bin starts.
+fn start(bin: u16) -> f64 {
+    if bin == 0 { 0.0 } else { f64::from_bits(u64::from(bin - 1) << 49) }
+}
+
+impl Histogram {
+    /// Counts a number; NaN as infinite, the sign left out.
+    pub fn add(&mut self, value: f64) {
+        let value = if value.is_nan() { f64::INFINITY } else { value.abs() };
+        *self.bins.entry(bin(value)).or_default() += 1;
+        self.count += 1;
+        self.largest = self.largest.max(value);
+    }
+
+    /// Adds another histogram.
+    pub fn merge(&mut self, other: &Histogram) {
+        for (bin, count) in &other.bins {
+            *self.bins.entry(*bin).or_default() += count;
+        }
+        self.count += other.count;
+        self.largest = self.largest.max(other.largest);
+    }
+
+    /// How many numbers.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The largest number, as it was; zero of none.
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// The number below or at which a share of the numbers lies, rounded up to the end of its bin (by
+    /// at most an eighth), and never above the largest; zero of none.
+    pub fn quantile(&self, share: f64) -> f64 {
+        let rank = ((share * self.count as f64).ceil() as u64).max(1);
+        let mut below = 0;
+        for (bin, count) in &self.bins {
+            below += count;
+            if rank <= below {
+                let end = if *bin == 0 { 0.0 } else { start(bin + 1) };
+                return if end < self.largest { end } else { self.largest };
+            }
+        }
+        self.largest
+    }
+
+    /// The count of each octave that has one, by the power of two that it starts at; none for zero and
+    /// below the normal numbers, `i32::MAX` for infinity.
+    pub fn octaves(&self) -> BTreeMap<Option<i32>, u64> {
+        let mut octaves = BTreeMap::new();
+        for (bin, count) in &self.bins {
+            let exponent = (start(*bin).to_bits() >> 52) as i32;
+            let octave = match exponent {
+                0 => None,
+                0x7ff => Some(i32::MAX),
+                exponent => Some(exponent - 1023),
+            };
+            *octaves.entry(octave).or_default() += count;
+        }
+        octaves
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_the_sorted_numbers_within_an_eighth() {
+        let numbers: Vec<f64> =
+            (0..1000u64).map(|i| ((i * 7919 % 1000) as f64).powi(3) * 1e-5).collect();
+        let (mut left, mut right) = (Histogram::default(), Histogram::default());
+        for (i, number) in numbers.iter().enumerate() {
+            if i % 3 == 0 { left.add(*number) } else { right.add(*number) }
+        }
+        let mut swapped = right.clone();
+        swapped.merge(&left);
+        left.merge(&right);
+        assert_eq!(left, swapped);
+        let mut sorted = numbers;
+        sorted.sort_by(f64::total_cmp);
+        for share in [0.0005, 0.1, 0.5, 0.9, 0.99, 1.0] {
+            let rank = ((share * 1000.0f64).ceil() as usize).max(1);
+            let (found, exact) = (left.quantile(share), sorted[rank - 1]);
+            assert!(exact <= found && found <= exact * 1.125, "{share}: {found} {exact}");
+        }
+        assert_eq!((left.count(), left.largest()), (1000, sorted[999]));
+    }
+
+    #[test]
+    fn zero_and_infinity_have_bins_of_their_own() {
+        let mut histogram = Histogram::default();
+        [0.0, 0.0, 0.0, f64::NAN].into_iter().for_each(|x| histogram.add(x));
+        assert_eq!((histogram.quantile(0.75), histogram.quantile(0.76)), (0.0, f64::INFINITY));
+        histogram.add(3.0);
+        let octaves: Vec<_> = histogram.octaves().into_iter().collect();
+        assert_eq!(octaves, [(None, 3), (Some(1), 1), (Some(i32::MAX), 1)]);
+    }
+}

@@ -1,0 +1,79 @@
+//! The parts of a record that are distributions: causes, severities, errors of values.
+
+use super::build::rate;
+use super::record::*;
+use crate::arith::Float;
+use crate::audit::{Accuracy, Attribution, Audit, Causes, Histogram, Plan, Severities};
+use crate::judge::Finding;
+use std::collections::BTreeMap;
+
+/// The causes of the findings of one class.
+pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
+    let told = causes.told();
+    let sample = told + causes.untold < found;
+    let share = |why: Attribution| (why.name().to_owned(), rate(causes.of(why), told, sample));
+    CausesPart { by: Attribution::ALL.map(share).into(), untold: causes.untold }
+}
+
+/// By the finding's name.
+pub(super) fn severities(
+    severities: &BTreeMap<Finding, Severities>,
+) -> BTreeMap<String, SeverityDistribution> {
+    let part = |severities: &Severities| SeverityDistribution {
+        edges: distribution(&severities.edges),
+        ulps: distribution(&severities.ulps),
+    };
+    severities.iter().map(|(finding, of)| (finding.name().to_owned(), part(of))).collect()
+}
+
+/// By the value's name; those that the kernel does not give are left out.
+pub(super) fn accuracy(accuracy: &Accuracy) -> BTreeMap<String, Distribution> {
+    let parts = [("t", &accuracy.t), ("uv", &accuracy.uv), ("point", &accuracy.point)];
+    let counted = parts.into_iter().filter(|(_, histogram)| histogram.count() > 0);
+    counted.map(|(name, histogram)| (name.to_owned(), distribution(histogram))).collect()
+}
+
+fn distribution(histogram: &Histogram) -> Distribution {
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let octave = |octave| match octave {
+        None => "0".to_owned(),
+        Some(i32::MAX) => "inf".to_owned(),
+        Some(exponent) => format!("2^{exponent}"),
+    };
+    let octaves = histogram.octaves().into_iter();
+    Distribution {
+        count: histogram.count(),
+        median: finite(histogram.quantile(0.5)),
+        percent_90: finite(histogram.quantile(0.9)),
+        percent_99: finite(histogram.quantile(0.99)),
+        worst: finite(histogram.largest()),
+        octaves: octaves.map(|(exponent, count)| (octave(exponent), count)).collect(),
+    }
+}
+
+/// The distributions of each row in each scalar, over all sources.
+pub(super) fn totals(plan: &Plan, audit: &Audit) -> Vec<RowTotal> {
+    let mut totals = Vec::new();
+    for (scalar, wanted) in [f32::NAME, f64::NAME].into_iter().zip(plan.scalars) {
+        for (number, row) in plan.rows.iter().enumerate().filter(|_| wanted) {
+            let mut all: BTreeMap<Finding, Severities> = BTreeMap::new();
+            let mut values = Accuracy::default();
+            for cell in &audit.cells {
+                if (cell.scalar, cell.row) == (scalar, number) {
+                    values.merge(&cell.tally.accuracy);
+                    for (finding, more) in &cell.tally.severities {
+                        all.entry(*finding).or_default().merge(more);
+                    }
+                }
+            }
+            totals.push(RowTotal {
+                scalar: scalar.to_owned(),
+                kernel: row.entry.info.name.to_owned(),
+                set: row.set.clone(),
+                severity: severities(&all),
+                accuracy: accuracy(&values),
+            });
+        }
+    }
+    totals
+}

@@ -1,0 +1,83 @@
+//! Why and how far, in the text: shares of causes, quantiles of severities and of errors.
+
+use super::record::*;
+use super::text::percent;
+use crate::audit::Attribution;
+use std::collections::BTreeMap;
+
+/// The shares of causes among a kernel row's findings of a kind (of a class, unless it is empty), over
+/// all families: `rounding 61% [58, 64], epsilon 39% [36, 42]`; none without a finding that was
+/// attributed.
+///
+/// Each class of each family is a sample of its own; their shares and the ends of their intervals are
+/// weighted by how many findings they have, which is wider than an interval of the sum would be.
+pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) -> Option<String> {
+    let findings = results.iter().flat_map(|result| &result.findings);
+    let chosen = findings
+        .filter(|part| part.finding == kind && (class.is_empty() || part.class == class))
+        .filter_map(|part| Some((part.rate.count as f64, part.causes.as_ref()?)))
+        .filter(|(_, causes)| causes.by.values().any(|rate| rate.of > 0));
+    let chosen: Vec<_> = chosen.collect();
+    let found: f64 = chosen.iter().map(|(count, _)| count).sum();
+    if found == 0.0 {
+        return None;
+    }
+    let share = |attribution: Attribution| {
+        let mut sums = [0.0; 3];
+        let mut sampled = false;
+        for (count, causes) in &chosen {
+            let rate = &causes.by[attribution.name()];
+            let share = rate.rate.unwrap_or(0.0);
+            let [low, high] = rate.interval.unwrap_or([share; 2]);
+            sampled |= rate.interval.is_some();
+            for (sum, x) in sums.iter_mut().zip([share, low, high]) {
+                *sum += x * count / found;
+            }
+        }
+        let [share, low, high] = sums;
+        (share > 0.0).then(|| {
+            let interval = if sampled {
+                format!(" [{}, {}]", percent(low), percent(high))
+            } else {
+                String::new()
+            };
+            format!("{} {}{interval}", attribution.name(), percent(share))
+        })
+    };
+    let shares: Vec<String> = Attribution::ALL.into_iter().filter_map(share).collect();
+    Some(shares.join(", "))
+}
+
+/// The quantiles of a severity: `half within 1e-7 longest edges, 90% 3e-6, 99% 2e-5 (2, 40, 300 ulps)`.
+pub(super) fn severity_text(severity: &SeverityDistribution) -> String {
+    let [edges, ulps] = [&severity.edges, &severity.ulps]
+        .map(|part| [part.median, part.percent_90, part.percent_99].map(short));
+    let ulps = ulps.join(", ");
+    let [median, most, nearly_all] = edges;
+    format!("half within {median} longest edges, 90% {most}, 99% {nearly_all} ({ulps} ulps)")
+}
+
+/// The errors of values: `t half 0.5, 99% 3, worst 1e4; u, v …; o + t d …`; none where no hit was
+/// measured.
+pub(super) fn accuracy_text(accuracy: &BTreeMap<String, Distribution>) -> Option<String> {
+    let names = [("t", "t"), ("uv", "u, v"), ("point", "o + t d")];
+    let part = |(key, name): (&str, &str)| {
+        let part = accuracy.get(key)?;
+        let [median, nearly_all, worst] = [part.median, part.percent_99, part.worst].map(short);
+        Some(format!("{name} half within {median}, 99% {nearly_all}, worst {worst}"))
+    };
+    let parts: Vec<String> = names.into_iter().filter_map(part).collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
+}
+
+/// A number that is not negative, in few characters; none is infinite.
+fn short(value: Option<f64>) -> String {
+    match value {
+        None => "inf".to_owned(),
+        Some(x) if x == 0.0 || (0.1..1000.0).contains(&x) => {
+            let text = format!("{x:.1}");
+            text.strip_suffix(".0").unwrap_or(&text).to_owned()
+        }
+        Some(x) => format!("{x:.1e}"),
+    }
+}
