@@ -179,9 +179,9 @@ mod tests {
     fn roots_are_rounded_right_through_cancellation() {
         let two = Exact::from_f64(2.0).sqrt();
         assert_eq!(Decimal::of(&two).unwrap().to_string(), "1.414213562373095e0");
-        // √2 against its nearest f64: 9.667293313452913451…e-17 below it.
+        // √2 against its nearest f64: it is 9.66729331345291303718…e-17 above it.
         let rest = Exact::from_f64(2f64.sqrt()) - two;
-        assert_eq!(Decimal::of(&rest).unwrap().to_string(), "9.6672933134529135e-17");
+        assert_eq!(Decimal::of(&rest).unwrap().to_string(), "9.667293313452913e-17");
         assert_eq!(Decimal::of(&Exact::from_f64(9.0).sqrt()).unwrap().to_string(), "3e0");
     }
 
