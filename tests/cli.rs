@@ -309,7 +309,7 @@ fn a_mesh_and_a_corpus_are_audited() {
         "--mesh",
         "corpora/meshes/needles.obj",
         "--corpus",
-        "corpora",
+        "corpora/curated.jsonl",
         "--kernel",
         "woop-watertight",
     ];
