@@ -70,7 +70,11 @@ fn line<F: Scalar>(name: &str, families: &[&'static Family], count: u64) {
             let epsilons = row.epsilons::<F>();
             for chunk in &chunks {
                 let mut verdicts = vec![Verdict::miss(None); chunk.len()];
-                F::subject(row.entry).run(black_box(chunk), &epsilons, &mut verdicts);
+                F::subject(row.entry).expect("built in").run(
+                    black_box(chunk),
+                    &epsilons,
+                    &mut verdicts,
+                );
                 black_box(&verdicts);
             }
         }

@@ -79,11 +79,17 @@ fn lines<F: Scalar>() {
         let kernel = median(|| {
             let mut verdicts = vec![Verdict::miss(None); 1024];
             for chunk in cases.chunks(1024) {
-                F::subject(row.entry).run(black_box(chunk), &epsilons, &mut verdicts);
+                F::subject(row.entry).expect("built in").run(
+                    black_box(chunk),
+                    &epsilons,
+                    &mut verdicts,
+                );
                 black_box(&verdicts);
             }
         });
-        let request = Request { row, gates: &gates, axis: &axis, exact: false, relative: false };
+        let gated = F::subject(row.entry).and_then(|subject| subject.gated()).expect("built in");
+        let request =
+            Request { row, gated, gates: &gates, axis: &axis, exact: false, relative: false };
         let response = median(|| drop(black_box(run(&request, &sources, &Silent))));
         println!(
             "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",

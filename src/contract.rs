@@ -219,6 +219,97 @@ impl Contract {
     }
 }
 
+impl FromStr for Contract {
+    type Err = String;
+
+    /// Words between commas: a named contract, `key=value` pairs that change it, `no-self-hit`.
+    /// Without a name extent, sides and boundary must be said; of the others coplanar rays and
+    /// triangles without area are then missed, invalid input is free, and any direction is promised.
+    fn from_str(text: &str) -> Result<Contract, String> {
+        let words: Vec<&str> = text.split(',').map(str::trim).collect();
+        let named = NAMED.iter().find(|named| named.name == words[0]);
+        let said = |key: &str| words.iter().any(|word| word.split('=').next() == Some(key));
+        if named.is_none() {
+            if !words[0].contains('=') {
+                let names: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
+                let names = names.join(", ");
+                let example = "extent=ray,sides=both,boundary=closed";
+                return Err(format!("'{}' is no contract: write {names}, or {example}", words[0]));
+            }
+            if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !said(key)) {
+                return Err(format!("'{text}' does not say {key}=…"));
+            }
+        }
+        let own = Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed);
+        let mut contract = named.map_or(own, |named| named.contract);
+        for word in &words[usize::from(named.is_some())..] {
+            contract.change(word)?;
+        }
+        Ok(contract)
+    }
+}
+
+/// One `key=value` of a contract's text: the values of its key.
+fn choice<T: Copy>(word: &str, value: &str, known: &[(&str, T)]) -> Result<T, String> {
+    let found = known.iter().find(|(name, _)| *name == value);
+    found.map(|(_, choice)| *choice).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        format!("'{word}': there are {}", names.join(", "))
+    })
+}
+
+impl Contract {
+    /// Changes what one word of a contract's text says.
+    fn change(&mut self, word: &str) -> Result<(), String> {
+        let (key, value) = word.split_once('=').unwrap_or((word, ""));
+        let demands = [("miss", Demand::Miss), ("hit", Demand::Hit), ("free", Demand::Free)];
+        match key {
+            "extent" => {
+                let extents =
+                    [("line", Extent::Line), ("ray", Extent::Ray), ("interval", Extent::Interval)];
+                self.extent = choice(word, value, &extents)?;
+            }
+            "sides" => {
+                self.sides =
+                    choice(word, value, &[("both", Sides::Both), ("front", Sides::Front)])?;
+            }
+            "boundary" => {
+                let boundaries = [
+                    ("closed", Boundary::Closed),
+                    ("open", Boundary::Open),
+                    ("free", Boundary::Free),
+                ];
+                self.boundary = choice(word, value, &boundaries)?;
+            }
+            "coplanar" => self.coplanar = choice(word, value, &demands)?,
+            "degenerate" => self.degenerate = choice(word, value, &demands)?,
+            "invalid" => self.invalid = choice(word, value, &demands)?,
+            "direction" => {
+                let unit = value.strip_prefix("unit:").and_then(|ulps| ulps.parse().ok());
+                self.direction = match (value, unit) {
+                    ("any", _) => Direction::Any,
+                    (_, Some(ulps)) => Direction::Unit { ulps },
+                    _ => return Err(format!("'{word}': there are any, unit:ULPS")),
+                };
+            }
+            "across" => {
+                let promises = [
+                    ("nothing", Across::Nothing),
+                    ("at-least-one", Across::AtLeastOne),
+                    ("exactly-one", Across::ExactlyOne),
+                ];
+                self.across = choice(word, value, &promises)?;
+            }
+            "no-self-hit" if word == key => self.no_self_hit = true,
+            _ => {
+                let keys = "extent, sides, boundary, coplanar, degenerate, invalid, direction, across, no-self-hit";
+                return Err(format!("'{word}' is none of {keys}"));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// A contract that all kernels can be judged by, for a league table.
 pub struct NamedContract {
     /// The name on the command line.
@@ -262,3 +353,37 @@ pub const NAMED: &[NamedContract] = &[
         about: "closed-ray, and no second hit on the triangle that the ray starts on (respawn)",
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contracts_are_read_from_their_words() {
+        let read = |text: &str| text.parse::<Contract>();
+        for named in NAMED {
+            assert_eq!(read(named.name), Ok(named.contract));
+        }
+        let own = read("extent=line, sides=front, boundary=open").unwrap();
+        assert_eq!(own, Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open));
+        let all = "closed-interval,boundary=free,coplanar=hit,degenerate=free,invalid=free,\
+            direction=unit:4,across=exactly-one,no-self-hit";
+        assert_eq!(
+            read(all).unwrap().describe(),
+            "interval, both sides, boundary free, coplanar hit, degenerate free, invalid free, \
+             exactly-one across triangles, unit directions within 4 ulps, no self-hit"
+        );
+        for (text, message) in [
+            ("", "'' is no contract: write closed-line, "),
+            ("closed", "'closed' is no contract: write closed-line, "),
+            ("extent=ray,sides=both", "'extent=ray,sides=both' does not say boundary=…"),
+            ("closed-ray,sides=back", "'sides=back': there are both, front"),
+            ("closed-ray,side=both", "'side=both' is none of extent, "),
+            ("closed-ray,direction=unit", "'direction=unit': there are any, unit:ULPS"),
+            ("closed-ray,no-self-hit=yes", "'no-self-hit=yes' is none of "),
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(error.starts_with(message), "{text}: {error}");
+        }
+    }
+}

@@ -14,7 +14,7 @@ use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use crate::family::Grouping;
-use crate::kernel::{Gives, Verdict};
+use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
 use std::cmp::Ordering;
@@ -41,12 +41,22 @@ pub enum Finding {
     BadValue,
     /// The kernel panicked.
     Panic,
+    /// The kernel's process died, or it wrote outside its output.
+    Crash,
+    /// The kernel's process gave no answer in time.
+    Timeout,
 }
 
 impl Finding {
     /// All of them, in the order of reports.
-    pub const ALL: [Finding; 4] =
-        [Finding::FalseMiss, Finding::FalseHit, Finding::BadValue, Finding::Panic];
+    pub const ALL: [Finding; 6] = [
+        Finding::FalseMiss,
+        Finding::FalseHit,
+        Finding::BadValue,
+        Finding::Panic,
+        Finding::Crash,
+        Finding::Timeout,
+    ];
 
     /// The name in records.
     pub fn name(self) -> &'static str {
@@ -55,7 +65,14 @@ impl Finding {
             Finding::FalseHit => "false-hit",
             Finding::BadValue => "bad-value",
             Finding::Panic => "panic",
+            Finding::Crash => "crash",
+            Finding::Timeout => "timeout",
         }
+    }
+
+    /// Whether the kernel gave no verdict at all.
+    pub fn is_failure(self) -> bool {
+        matches!(self, Finding::Panic | Finding::Crash | Finding::Timeout)
     }
 }
 
@@ -183,6 +200,9 @@ pub fn judge<F: Float>(
     gives: Gives,
     verdict: &Verdict<F>,
 ) -> Option<Finding> {
+    if let Some(failure) = verdict.failure {
+        return Some(failed(failure));
+    }
     judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
 }
 
@@ -200,6 +220,14 @@ pub fn judge_answer(
             Some(Finding::BadValue)
         }
         _ => None,
+    }
+}
+
+fn failed(failure: Failure) -> Finding {
+    match failure {
+        Failure::Panic => Finding::Panic,
+        Failure::Timeout => Finding::Timeout,
+        Failure::Signal(_) | Failure::Exit(_) | Failure::Overrun => Finding::Crash,
     }
 }
 
@@ -349,9 +377,14 @@ mod tests {
             t: 1.0,
             u: 0.25,
             v: 0.25,
+            failure: None,
         };
         let judged = |obligation, verdict: Verdict<f64>| judge(obligation, &truth, gives, &verdict);
         assert_eq!(judged(Obligation::MustHit, good), None);
+        let failed = |failure| judged(Obligation::Free, Verdict::failed(failure));
+        assert_eq!(failed(Failure::Signal(11)), Some(Finding::Crash));
+        assert_eq!(failed(Failure::Exit(0)), Some(Finding::Crash));
+        assert_eq!(failed(Failure::Timeout), Some(Finding::Timeout));
         assert_eq!(judged(Obligation::MustHit, Verdict::miss(None)), Some(Finding::FalseMiss));
         assert_eq!(
             judged(Obligation::MustMiss, Verdict { t: f64::NAN, ..good }),

@@ -13,9 +13,9 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 6 | [`cli`]: one file a command, the only place that prints |
+//! | 6 | [`cli`]: one file a command, the only place that prints; [`audit()`]: an audit from a program's own tests |
 //! | 5 | [`report`]: the record and its formats |
-//! | 4 | [`audit`]: plans, runs, sums, severity; [`search`]: the worst and the simplest; [`selfcheck`]: the oracle held to its definition |
+//! | 4 | [`mod@audit`]: plans, runs, sums, severity; [`search`]: the worst and the simplest; [`selfcheck`]: the oracle held to its definition |
 //! | 3 | [`judge`]: the only place that compares a verdict with a truth |
 //! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
 //! | 1 | [`case`], [`truth`], [`contract`]: the words |
@@ -49,6 +49,15 @@ pub mod selfcheck;
 pub mod orientation;
 
 pub mod report;
+
+mod conformance;
+
+pub use conformance::{Outcome, Request, audit};
+#[cfg(feature = "cli")]
+use conformance::{Unobserved, conforms};
+
+#[cfg(feature = "cli")]
+pub mod plugin;
 
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -44,7 +44,7 @@ fn errors_are_those_of_rationals<F: Scalar>() {
                     let gives = entry.info.gives;
                     let zero = vec![F::zero(); entry.info.gates.len()];
                     let mut verdict = [Verdict::miss(None)];
-                    F::subject(entry).run(std::slice::from_ref(case), &zero, &mut verdict);
+                    F::subject(entry).unwrap().run(std::slice::from_ref(case), &zero, &mut verdict);
                     let [verdict] = verdict;
                     if !verdict.hit {
                         continue;
@@ -106,7 +106,7 @@ fn errors_worked_out_by_hand() {
     let Truth::Transversal(crossing) = define(&case).truth else { panic!() };
     let gives = find("cramer").unwrap().info.gives;
     let [t, u, v] = [1.0 + f32::EPSILON, 0.25, 0.25 + 2.0 * f32::EPSILON / 4.0];
-    let verdict = Verdict { hit: true, refused_by: None, facing: None, t, u, v };
+    let verdict = Verdict { hit: true, refused_by: None, facing: None, t, u, v, failure: None };
     let errors = Errors::of(&case, &crossing, gives, &verdict);
     assert_eq!((errors.t, errors.uv, errors.point), (Some(1.0), Some(2.0), Some(2.0)));
 }

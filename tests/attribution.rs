@@ -26,11 +26,12 @@ fn bits<F: Float>(verdict: &Verdict<F>) -> (bool, Option<u8>, String, [Option<u6
 fn a_tracked_run_is_the_run<F: Scalar>() {
     let check = |case: &Case<F>, draw: &mut Draw| {
         for entry in KERNELS {
-            let kernel = F::subject(entry);
+            let kernel = F::subject(entry).unwrap();
             let epsilons: Vec<F> = (0..entry.info.gates.len())
                 .map(|_| F::from_f64(draw.pick(&[0.0, 0.0, 1e-6, -1e-6, 1e-20])))
                 .collect();
-            let tracked = kernel.run_tracked(case, &epsilons).expect("built in").verdict;
+            let tracked =
+                kernel.gated().unwrap().run_tracked(case, &epsilons).expect("built in").verdict;
             let plain = run(kernel, case, &epsilons);
             let name = entry.info.name;
             assert_eq!(bits(&tracked), bits(&plain), "{name} {epsilons:?} {}", case.hex());
@@ -74,14 +75,15 @@ fn a_run_that_never_rounds_is_exact<F: Scalar>() {
                 }
                 // Havel and Herout decide on signs of zeros.
                 for entry in KERNELS.iter().filter(|entry| entry.info.name != "havel-herout") {
-                    let kernel = F::subject(entry);
+                    let kernel = F::subject(entry).unwrap();
                     let zeros = vec![F::zero(); entry.info.gates.len()];
-                    let tracked = kernel.run_tracked(case, &zeros).expect("built in");
+                    let tracked =
+                        kernel.gated().unwrap().run_tracked(case, &zeros).expect("built in");
                     if tracked.decision.inexact {
                         continue;
                     }
                     exact_runs += 1;
-                    let exact = kernel.run_exact(case, &zeros).expect("built in");
+                    let exact = kernel.gated().unwrap().run_exact(case, &zeros).expect("built in");
                     let name = entry.info.name;
                     assert_eq!(tracked.verdict.hit, exact.hit(), "{name} {}", case.hex());
                 }
@@ -106,7 +108,7 @@ fn attributions<F: Scalar>(
     keep: impl Fn(&Class) -> bool,
 ) -> BTreeMap<(Finding, Attribution), usize> {
     let entry = kernel::find(kernel).unwrap();
-    let subject = F::subject(entry);
+    let subject = F::subject(entry).unwrap();
     let epsilons: Vec<F> = epsilons.iter().map(|e| F::from_f64(*e)).collect();
     let contract = contract.unwrap_or(entry.info.contract);
     let mut counts = BTreeMap::new();
@@ -201,7 +203,7 @@ fn nan_coordinates_of_a_coplanar_hit_are_the_formulas_own() {
 fn a_right_verdict_has_no_cause() {
     let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
     let case = Case::<f32>::new([0.5, 0.5, 1.0], [0.0, 0.0, -1.0], triangle);
-    let subject = f32::subject(kernel::find("cramer").unwrap());
+    let subject = f32::subject(kernel::find("cramer").unwrap()).unwrap();
     let why = attribute(subject, &case, &[0.0; 3], &truth(&case), Obligation::MustHit);
     assert_eq!(why, None);
 }

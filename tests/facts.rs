@@ -163,7 +163,7 @@ fn nan_input_hits_or_misses_as_each_source_is_coded() {
             EpsilonChoice::Source.rows(&[kernel::find(entry.info.name).unwrap()], None).unwrap();
         let run = |epsilons: Vec<F>| {
             let mut verdict = [Verdict::miss(None)];
-            F::subject(entry).run(&[case], &epsilons, &mut verdict);
+            F::subject(entry).unwrap().run(&[case], &epsilons, &mut verdict);
             verdict[0].hit
         };
         all.iter().map(|row| run(row.epsilons())).collect()
@@ -187,7 +187,7 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
     fn verdicts<F: Scalar>(name: &str, cases: &[Case<F>]) -> Vec<Verdict<F>> {
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         let zero = vec![F::zero(); 3];
-        F::subject(kernel::find(name).unwrap()).run(cases, &zero, &mut verdicts);
+        F::subject(kernel::find(name).unwrap()).unwrap().run(cases, &zero, &mut verdicts);
         verdicts
     }
     for family in family::FAMILIES {

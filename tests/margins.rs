@@ -74,9 +74,9 @@ fn epsilon<F: Float>(draw: &mut Draw, margin: F) -> F {
 
 fn margins_decide_as_the_run_does<F: Scalar>() {
     for entry in KERNELS {
-        let (kernel, name) = (F::subject(entry), entry.info.name);
+        let (kernel, name) = (F::subject(entry).unwrap(), entry.info.name);
         for_all_cases::<F>(|draw, case| {
-            let margins = kernel.measure(case).margins;
+            let margins = kernel.gated().unwrap().measure(case).margins;
             for _ in 0..EPSILON_SETS {
                 let epsilons: Vec<F> =
                     margins.iter().map(|margin| epsilon(draw, *margin)).collect();
@@ -93,9 +93,9 @@ fn margins_decide_as_the_run_does<F: Scalar>() {
 fn a_margin_is_the_last_epsilon_that_accepts<F: Scalar>() {
     let most = F::infinity().offset_ulps(-1);
     for entry in KERNELS {
-        let (kernel, name) = (F::subject(entry), entry.info.name);
+        let (kernel, name) = (F::subject(entry).unwrap(), entry.info.name);
         for_all_cases::<F>(|_, case| {
-            let margins = kernel.measure(case).margins;
+            let margins = kernel.gated().unwrap().measure(case).margins;
             assert!(margins.iter().all(|margin| !margin.is_nan()), "{name}: {case:?} {margins:?}");
             if margins.iter().any(|margin| *margin < -most) {
                 return;
@@ -115,14 +115,14 @@ fn a_margin_is_the_last_epsilon_that_accepts<F: Scalar>() {
 
 fn a_measured_hit_reports_the_values_of_the_run<F: Scalar>() {
     for entry in KERNELS {
-        let kernel = F::subject(entry);
+        let kernel = F::subject(entry).unwrap();
         let epsilons = vec![F::zero(); entry.info.gates.len()];
         for_all_cases::<F>(|_, case| {
             let verdict = run(kernel, case, &epsilons);
             if !verdict.hit {
                 return;
             }
-            let values = kernel.measure(case).values.expect("a hit has values");
+            let values = kernel.gated().unwrap().measure(case).values.expect("a hit has values");
             let (u, v) = values.uv.unwrap_or((verdict.u, verdict.v));
             let same = |x: F, y: F| x == y || x.is_nan() && y.is_nan();
             assert!(
@@ -143,7 +143,7 @@ fn kernels_treat_a_nan_as_declared<F: Scalar>() {
         let zeros = vec![F::zero(); entry.info.gates.len()];
         let case = Case::new(nan, nan, [nan; 3]);
         for case in [case, case.on(nan[0], nan[0])] {
-            let hit = run(F::subject(entry), &case, &zeros).hit;
+            let hit = run(F::subject(entry).unwrap(), &case, &zeros).hit;
             assert_eq!(hit, entry.info.hits_nan, "{} {}", entry.info.name, F::NAME);
         }
     }

@@ -78,7 +78,7 @@ fn scores_are_what_the_documentation_says() {
     }
     fn independent<F: Scalar>(entry: &Entry, case: &Case<F>) -> Option<f64> {
         let Goal { row, target, .. } = &entry.goal;
-        let (subject, epsilons) = (F::subject(row.entry), row.epsilons::<F>());
+        let (subject, epsilons) = (F::subject(row.entry).unwrap(), row.epsilons::<F>());
         let mut verdict = [Verdict::miss(None)];
         subject.run(&[*case], &epsilons, &mut verdict);
         let [verdict] = verdict;
@@ -97,8 +97,9 @@ fn scores_are_what_the_documentation_says() {
             }
             Objective::Margin => {
                 let gate = target.gate?;
-                let margin = subject.measure(case).margins[gate];
-                let exact = subject.measure_exact(case).margins[gate].to_rational()?;
+                let margin = subject.gated().unwrap().measure(case).margins[gate];
+                let exact =
+                    subject.gated().unwrap().measure_exact(case).margins[gate].to_rational()?;
                 let [o, d, a, b, c] = case.vectors().map(|v| v.map(rational));
                 let points = [o, a, b, c];
                 let mut extent = BigRational::zero();

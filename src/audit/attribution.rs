@@ -7,7 +7,7 @@
 use crate::arith::Float;
 use crate::case::Case;
 use crate::judge::{Answer, Finding, Obligation, judge, judge_answer};
-use crate::kernel::{Subject, TrackedRun};
+use crate::kernel::{Gated, Subject, TrackedRun};
 use crate::truth::Truth;
 
 /// Why a finding happened.
@@ -65,6 +65,7 @@ pub fn attribute<F: Float>(
     truth: &Truth,
     obligation: Obligation,
 ) -> Option<Attribution> {
+    let subject = subject.gated()?;
     let gives = subject.info().gives;
     let right = |answer| judge_answer(obligation, truth, gives, answer).is_none();
     let given = subject.run_tracked(case, epsilons)?;
@@ -88,7 +89,7 @@ pub fn attribute<F: Float>(
 
 /// What the kernel answers where nothing rounds.
 fn without_rounding<F: Float>(
-    subject: &dyn Subject<F>,
+    subject: &dyn Gated<F>,
     case: &Case<F>,
     epsilons: &[F],
     float: &TrackedRun<F>,

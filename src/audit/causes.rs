@@ -65,7 +65,7 @@ pub(super) fn causes<F: Scalar>(
         causes.add(attribute(row.subject, case, &row.epsilons, &truth, asked));
         causes
     };
-    let told = tally.examples.iter().filter(|((_, finding), _)| *finding != Finding::Panic);
+    let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];
         (*key, places.par_iter().map(of_place).reduce(Causes::default, Causes::merged))

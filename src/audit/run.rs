@@ -12,7 +12,7 @@ use crate::family::Grouping;
 use crate::judge::{
     self, Class, Distances, Finding, GroupTruth, Obligation, obligation, polygon_truth,
 };
-use crate::kernel::{KernelInfo, Scalar, Subject, Verdict};
+use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
 use crate::truth::{Feature, Truth};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -65,10 +65,10 @@ pub fn run(plan: &Plan, observer: &dyn Observer) -> Audit {
 
 /// Runs a plan in one scalar.
 pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
-    let runner = Runner::<F>::new(plan, observer);
+    let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
     for (number, source) in plan.sources.iter().enumerate() {
         let count = source.count::<F>();
-        let empty = || Sums::new(plan, number, F::NAME);
+        let empty = || runner.no_sums(plan.examples, number);
         let sums = (0..count.div_ceil(CHUNK))
             .into_par_iter()
             .fold(empty, |mut sums, chunk| {
@@ -77,36 +77,17 @@ pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut A
                 sums
             })
             .reduce(empty, Sums::merged);
-        audit.sources.push(sums.summary);
-        let rows = sums.rows.into_iter().enumerate();
-        audit.cells.extend(rows.map(|(row, (mut tally, nanoseconds))| {
-            let by = &runner.rows[row];
-            let contract = &runner.contracts[by.contract];
-            let causes = causes::causes(source, by, contract, &tally, plan.attribute);
-            tally.keep_examples(plan.examples);
-            Cell { row, source: number, scalar: F::NAME, tally, causes, nanoseconds }
-        }));
+        runner.finish(sums, source, plan.examples, audit);
     }
 }
 
 /// What a source adds up to.
-struct Sums {
+pub(super) struct Sums {
     summary: SourceSummary,
     rows: Vec<(Tally, u64)>,
 }
 
 impl Sums {
-    fn new(plan: &Plan, source: usize, scalar: &'static str) -> Sums {
-        Sums {
-            summary: SourceSummary::new(source, scalar),
-            rows: plan
-                .rows
-                .iter()
-                .map(|_| (Tally::new(plan.examples, plan.attribute), 0))
-                .collect(),
-        }
-    }
-
     fn merged(mut self, other: Sums) -> Sums {
         self.summary.merge(&other.summary);
         for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
@@ -118,17 +99,21 @@ impl Sums {
 }
 
 /// A plan in one scalar, its kernels and epsilons resolved.
-struct Runner<'a, F: Scalar> {
-    rows: Vec<RunnerRow<'a, F>>,
+pub(super) struct Runner<'a, F: Scalar> {
+    /// The rows whose kernels run in this scalar.
+    rows: Vec<RunnerRow<F>>,
     /// The distinct contracts of the rows.
     contracts: Vec<Contract>,
-    /// On how many indices of each source the values of hits are measured.
-    measured: u64,
+    /// How many findings of a class are attributed, and on how many indices of each source the values
+    /// of hits are measured.
+    attribute: usize,
     observer: &'a dyn Observer,
 }
 
-pub(super) struct RunnerRow<'a, F> {
-    pub(super) subject: &'a dyn Subject<F>,
+pub(super) struct RunnerRow<F: 'static> {
+    /// The row's place in the plan.
+    number: usize,
+    pub(super) subject: &'static dyn Subject<F>,
     info: &'static KernelInfo,
     pub(super) epsilons: Vec<F>,
     contract: usize,
@@ -145,36 +130,58 @@ struct Asked {
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
-    fn new(plan: &'a Plan, observer: &'a dyn Observer) -> Self {
+    pub fn new(rows: &[Row], attribute: usize, observer: &'a dyn Observer) -> Self {
         let mut contracts: Vec<Contract> = Vec::new();
-        let resolve = |row: &Row| {
+        let resolve = |(number, row): (usize, &Row)| {
+            let subject = F::subject(row.entry)?;
             let known = contracts.iter().position(|contract| *contract == row.contract);
             let contract = known.unwrap_or_else(|| {
                 contracts.push(row.contract);
                 contracts.len() - 1
             });
             let info = row.entry.info;
-            RunnerRow { subject: F::subject(row.entry), info, epsilons: row.epsilons(), contract }
+            Some(RunnerRow { number, subject, info, epsilons: row.epsilons(), contract })
         };
-        let rows = plan.rows.iter().map(resolve).collect();
-        Runner { rows, contracts, measured: plan.attribute as u64, observer }
+        let rows = rows.iter().enumerate().filter_map(resolve).collect();
+        Runner { rows, contracts, attribute, observer }
     }
 
-    fn add_chunk(&self, source: &Source, indices: std::ops::Range<u64>, sums: &mut Sums) {
+    pub fn no_sums(&self, examples: usize, source: usize) -> Sums {
+        let tally = || Tally::new(examples, self.attribute);
+        Sums {
+            summary: SourceSummary::new(source, F::NAME),
+            rows: self.rows.iter().map(|_| (tally(), 0)).collect(),
+        }
+    }
+
+    /// Puts what a source added up to at the end of the sums.
+    pub fn finish(&self, sums: Sums, source: &Source, examples: usize, audit: &mut Audit) {
+        let number = sums.summary.source;
+        audit.sources.push(sums.summary);
+        let rows = self.rows.iter().zip(sums.rows);
+        audit.cells.extend(rows.map(|(row, (mut tally, nanoseconds))| {
+            let contract = &self.contracts[row.contract];
+            let causes = causes::causes(source, row, contract, &tally, self.attribute);
+            tally.keep_examples(examples);
+            Cell { row: row.number, source: number, scalar: F::NAME, tally, causes, nanoseconds }
+        }));
+    }
+
+    pub fn add_chunk(&self, source: &Source, indices: std::ops::Range<u64>, sums: &mut Sums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
-        let sample_every =
-            (self.measured > 0).then(|| source.count::<F>().div_ceil(self.measured).max(1));
+        let measured = self.attribute as u64;
+        let sample_every = (measured > 0).then(|| source.count::<F>().div_ceil(measured).max(1));
         let ask = |contract| ask(&chunk, contract, sample_every);
         let asked: Vec<Asked> = self.contracts.iter().map(ask).collect();
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         let mut distances = vec![None; chunk.cases.len()];
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
             let start = self.observer.now();
-            let panicked = row.run(&chunk.cases, &mut verdicts);
+            row.run(&chunk.cases, &mut verdicts);
             *time += self.observer.now() - start;
             let contract = &self.contracts[row.contract];
             let asked = &asked[row.contract];
-            row.judge(&chunk, (contract, asked), &verdicts, &panicked, &mut distances, tally);
+            row.judge(&chunk, (contract, asked), &verdicts, &mut distances, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
@@ -194,24 +201,21 @@ fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract, sample_every: Option<u6
     Asked { obligations, classes, groups, sample_every }
 }
 
-impl<F: Scalar> RunnerRow<'_, F> {
-    /// Runs the kernel on all cases; returns the places at which it panicked.
-    fn run(&self, cases: &[Case<F>], verdicts: &mut [Verdict<F>]) -> Vec<usize> {
+impl<F: Scalar> RunnerRow<F> {
+    /// Runs the kernel on all cases.
+    fn run(&self, cases: &[Case<F>], verdicts: &mut [Verdict<F>]) {
         let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
             catch_unwind(AssertUnwindSafe(|| self.subject.run(cases, &self.epsilons, verdicts)))
         };
         if run(cases, verdicts).is_ok() {
-            return Vec::new();
+            return;
         }
-        // Once more, one by one, to pin the cases.
-        let mut panicked = Vec::new();
+        // Once more, one by one, to pin the cases at which it panicked.
         for i in 0..cases.len() {
             if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
-                verdicts[i] = Verdict::miss(None);
-                panicked.push(i);
+                verdicts[i] = Verdict::failed(Failure::Panic);
             }
         }
-        panicked
     }
 
     fn judge(
@@ -219,7 +223,6 @@ impl<F: Scalar> RunnerRow<'_, F> {
         chunk: &Chunk<F>,
         (contract, asked): (&Contract, &Asked),
         verdicts: &[Verdict<F>],
-        panicked: &[usize],
         distances: &mut [Option<Distances>],
         tally: &mut Tally,
     ) {
@@ -229,11 +232,7 @@ impl<F: Scalar> RunnerRow<'_, F> {
             if verdict.hit {
                 tally.hit(chunk.classes[i], *truth != Truth::Invalid);
             }
-            let finding = if !panicked.is_empty() && panicked.contains(&i) {
-                Some(Finding::Panic)
-            } else {
-                judge::judge(obligation, truth, self.info.gives, verdict)
-            };
+            let finding = judge::judge(obligation, truth, self.info.gives, verdict);
             let sampled =
                 asked.sample_every.is_some_and(|k| chunk.places[i].index.is_multiple_of(k));
             match truth.crossing() {
@@ -263,10 +262,11 @@ impl<F: Scalar> RunnerRow<'_, F> {
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
         for ((index, range), truth) in chunk.groups().zip(&asked.groups) {
-            if panicked.iter().any(|i| range.contains(i)) {
+            let verdicts = &verdicts[range];
+            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
                 continue;
             }
-            let hits = verdicts[range].iter().filter(|verdict| verdict.hit).count();
+            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
             tally.group(index, *truth, hits);
         }
     }

@@ -89,6 +89,11 @@ impl Source {
         }
     }
 
+    /// Whether a case's id alone makes the case again.
+    pub fn is_remade_from_id(&self) -> bool {
+        matches!(self, Source::Family { exhaustive: false, .. })
+    }
+
     /// Whether its rates are of a random sample, which has an interval, or of a whole set.
     pub fn is_sample(&self) -> bool {
         match self {
@@ -184,6 +189,6 @@ impl Source {
 }
 
 /// A word for a shell.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }

@@ -44,7 +44,7 @@ impl ClassCount {
             Finding::FalseMiss => self.must_hit,
             Finding::FalseHit => self.must_miss,
             Finding::BadValue => self.valued_hits.saturating_sub(self.of(Finding::FalseHit)),
-            Finding::Panic => self.cases,
+            Finding::Panic | Finding::Crash | Finding::Timeout => self.cases,
         }
     }
 

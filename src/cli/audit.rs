@@ -1,12 +1,13 @@
 //! `hairline audit`: kernels on families of cases, a mesh or a corpus.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::plugins;
 use super::progress::Progress;
+use super::reports::ReportArguments;
 use super::select::KernelArguments;
-use super::sources::{SourceArguments, set_threads, total_indices};
+use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::audit::{self, Plan, Source};
-use crate::report::{Context, FORMATS, Record, Style, build};
+use crate::report::{Context, Record, build};
 use clap::Args;
 
 /// What to run, and how to report it.
@@ -18,34 +19,17 @@ pub struct AuditArguments {
     #[command(flatten)]
     sources: SourceArguments,
 
-    /// text or json, or both separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
-    format: Vec<String>,
-
-    /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Vec<String>,
-
-    /// How many examples of each class of finding to keep
-    #[arg(long, default_value_t = 3, value_name = "N")]
-    examples: usize,
+    #[command(flatten)]
+    reports: ReportArguments,
 
     /// How many findings of each class of each family, the first by index, to attribute to a cause,
     /// and on how many indices to measure the values of hits; 0 for none
     #[arg(long, default_value_t = 100, value_name = "N")]
     attribute: usize,
 
-    /// List the worst finding of every class, not only of every kind
-    #[arg(long)]
-    details: bool,
-
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-
-    /// When to colour the text
-    #[arg(long, value_enum, default_value_t)]
-    color: ColorChoice,
 
     /// No progress, no notes
     #[arg(long, short)]
@@ -54,8 +38,7 @@ pub struct AuditArguments {
 
 /// Runs the command.
 pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
-    let outputs =
-        paired_outputs(FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    let outputs = arguments.reports.outputs()?;
     let plan = arguments.plan()?;
     let threads = set_threads(arguments.threads)?;
     let total = total_indices(&plan.sources, plan.scalars)?;
@@ -70,12 +53,9 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let sums = audit::run(&plan, &progress);
     progress.finish();
     let seconds = progress.seconds();
+    plugins::check()?;
     let record = build(&plan, &sums, &Context { seconds, threads });
-    for (format, path) in outputs {
-        let style =
-            Style { color: arguments.color.enabled(path == "-"), details: arguments.details };
-        write_result(path, |out| (format.write)(&record, style, out))?;
-    }
+    arguments.reports.write(&outputs, &record)?;
     self_check(&plan, &record)
 }
 
@@ -103,12 +83,10 @@ fn self_check(plan: &Plan, record: &Record) -> Result<Status, Failure> {
 
 impl AuditArguments {
     fn plan(&self) -> Result<Plan, Failure> {
-        Ok(Plan {
-            rows: self.kernels.rows()?,
-            sources: self.sources.sources(self.quiet, |_| true)?,
-            scalars: self.sources.scalars()?,
-            examples: self.examples,
-            attribute: self.attribute,
-        })
+        let rows = self.kernels.rows()?;
+        let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
+        let sources = self.sources.sources(self.quiet, |_| true)?;
+        let (examples, attribute) = (self.reports.examples, self.attribute);
+        Ok(Plan { rows, sources, scalars, examples, attribute })
     }
 }

@@ -5,7 +5,7 @@ use super::input::{corpus_files, name_of, read_corpus, read_mesh};
 use super::select::unknown;
 use crate::case::{Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::family::{FAMILIES, Grouping, Made, MeshFamily, find};
+use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
 use crate::kernel::Scalar;
 use clap::Args;
 
@@ -98,16 +98,7 @@ fn from_id<F: Scalar>(
         Some(name) => (name, true),
         None => (id.family.as_str(), false),
     };
-    let names = FAMILIES.iter().map(|family| family.name);
-    let family =
-        find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
-    if family.version != id.version {
-        let message = format!(
-            "'{id}' is of version {} of family '{name}', this program makes version {}",
-            id.version, family.version
-        );
-        return Err(Failure::Message(Status::BadInput, message));
-    }
+    let family = family_of(id, name)?;
     if family.size.map_or(in_order, |size| id.index >= size) {
         return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
     }
@@ -125,4 +116,19 @@ fn from_id<F: Scalar>(
         cases = vec![case];
     }
     Ok((cases, family.grouping))
+}
+
+/// The family of an id, which must be of the version that this program makes.
+pub(super) fn family_of(id: &CaseId, name: &str) -> Result<&'static Family, Failure> {
+    let names = FAMILIES.iter().map(|family| family.name);
+    let family =
+        find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
+    if family.version != id.version {
+        let message = format!(
+            "'{id}' is of version {} of family '{name}', this program makes version {}",
+            id.version, family.version
+        );
+        return Err(Failure::Message(Status::BadInput, message));
+    }
+    Ok(family)
 }

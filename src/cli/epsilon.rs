@@ -4,7 +4,7 @@ use super::exit::{Failure, Status};
 use super::output::{ColorChoice, paired_outputs, write_result};
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{SourceArguments, set_threads, total_indices};
+use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;
 use crate::family::Family;
@@ -87,7 +87,7 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         &arguments.output,
     )?;
     let rows = arguments.rows()?;
-    let scalars = arguments.sources.scalars()?;
+    let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;
     let threads = set_threads(arguments.threads)?;
@@ -95,10 +95,11 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let progress = Progress::new(total, "indices", arguments.quiet);
     let mut all = Vec::new();
     for row in &rows {
-        if scalars[0] {
+        let in_scalar = row.entry.scalars();
+        if scalars[0] && in_scalar[0] {
             all.push(arguments.study::<f32>(row, &sources, &progress)?);
         }
-        if scalars[1] {
+        if scalars[1] && in_scalar[1] {
             all.push(arguments.study::<f64>(row, &sources, &progress)?);
         }
     }
@@ -174,8 +175,14 @@ impl EpsilonArguments {
                 Failure::usage(message)
             })
         });
+        let gated = F::subject(row.entry).and_then(|subject| subject.gated()).ok_or_else(|| {
+            let kernel = row.entry.info.name;
+            let message = format!("{kernel} does not show its gates: `hairline audit --epsilon GATE=VALUE` runs it at one epsilon");
+            Failure::usage(message)
+        })?;
         let plan = StudyPlan::<F> {
             row,
+            gated,
             gates: self.gates(row)?,
             at: at.collect::<Result<_, _>>()?,
             exact: self.exact,

@@ -12,7 +12,7 @@ use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::Grouping;
 use crate::judge::{Finding, GroupTruth, Obligation, asked, group_truth, judge};
-use crate::kernel::{Gives, Scalar, Tunable, Verdict};
+use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::{Feature, Truth};
 use clap::Args;
@@ -76,7 +76,11 @@ fn write_group<F: Scalar>(
 ) -> io::Result<()> {
     let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
-    F::subject(row.entry).run(cases, &row.epsilons::<F>(), &mut verdicts);
+    let Some(subject) = F::subject(row.entry) else { return Ok(()) };
+    subject.run(cases, &row.epsilons::<F>(), &mut verdicts);
+    if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
+        return writeln!(out, "{}: {failure}; the group is not judged", row.label());
+    }
     let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
     let asked = group_truth(&truths, &row.contract, grouping);
     let judged = match (asked, hits) {
@@ -135,27 +139,66 @@ fn write_row<F: Scalar>(
     respawned: bool,
     row: &Row,
 ) -> io::Result<()> {
-    let (subject, info) = (F::subject(row.entry), row.entry.info);
+    let Some(subject) = F::subject(row.entry) else {
+        return writeln!(out, "{}: does not run in {}", row.label(), F::NAME);
+    };
     let epsilons: Vec<F> = row.epsilons();
     let mut verdict = [Verdict::miss(None)];
     subject.run(std::slice::from_ref(case), &epsilons, &mut verdict);
     let [verdict] = verdict;
-    let measured = subject.measure(case);
-    let exact = subject.measure_exact(case);
-    let exact_run = subject.run_exact(case, &epsilons);
 
     let asked = asked(case, truth, &row.contract, respawned);
-    let finding = judge(asked, truth, info.gives, &verdict);
+    let finding = judge(asked, truth, row.entry.info.gives, &verdict);
     let demand = match asked {
         Obligation::MustHit => "a hit",
         Obligation::MustMiss => "a miss",
         Obligation::Free => "nothing",
     };
-    let said = if verdict.hit { "hit" } else { "miss" };
+    let said = match verdict.failure {
+        Some(failure) => failure.to_string(),
+        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
+    };
     let judged = finding.map_or("as it should".to_owned(), |finding| finding.name().to_uppercase());
     writeln!(out, "{}: {said}; its contract asks {demand}: {judged}", row.label())?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
-    for (i, gate) in info.gates.iter().enumerate() {
+    match subject.gated() {
+        Some(gated) => write_gates(out, case, gated, &verdict, row)?,
+        None => write_epsilons(out, row)?,
+    }
+    if let Some(finding) = finding.filter(|finding| !finding.is_failure()) {
+        let why = attribute(subject, case, &epsilons, truth, asked);
+        let why = why.map_or("cannot be told", |attribution| attribution.describe());
+        writeln!(out, "    why the {}: {why}", finding.name())?;
+    }
+    if !verdict.hit {
+        return Ok(());
+    }
+    let gives = row.entry.info.gives;
+    write_values(out, gives, &verdict)?;
+    write_errors(out, case, truth, finding, gives, &verdict)
+}
+
+/// The epsilons that the kernel was given, where it does not show its gates.
+fn write_epsilons(out: &mut dyn Write, row: &Row) -> io::Result<()> {
+    for (gate, epsilon) in row.tuned() {
+        writeln!(out, "    {:<10} at e = {epsilon}   [{}]", gate.name, gate.refuses)?;
+    }
+    writeln!(out, "    it does not show its gates: no margins, no run without rounding")
+}
+
+/// Each gate's margin, computed and exact, and what it decided.
+fn write_gates<F: Scalar>(
+    out: &mut dyn Write,
+    case: &Case<F>,
+    gated: &dyn Gated<F>,
+    verdict: &Verdict<F>,
+    row: &Row,
+) -> io::Result<()> {
+    let epsilons: Vec<F> = row.epsilons();
+    let measured = gated.measure(case);
+    let exact = gated.measure_exact(case);
+    let exact_run = gated.run_exact(case, &epsilons);
+    for (i, gate) in row.entry.info.gates.iter().enumerate() {
         let (margin, exact_margin) = (measured.margins[i], &exact.margins[i]);
         let decided = verdict.refused_by == Some(i as u8);
         let word = |passes: bool| if passes { "passes" } else { "refuses" };
@@ -187,29 +230,29 @@ fn write_row<F: Scalar>(
         let exactly = if run.hit() { "hit" } else { "miss" };
         writeln!(out, "    the same formula without rounding: {exactly}")?;
     }
-    if let Some(finding) = finding {
-        let why = attribute(subject, case, &epsilons, truth, asked);
-        let why = why.map_or("cannot be told", |attribution| attribution.describe());
-        writeln!(out, "    why the {}: {why}", finding.name())?;
-    }
-    if verdict.hit {
-        let mut values = Vec::new();
-        if info.gives.t {
-            values.push(format!("t = {:e}", verdict.t.to_f64()));
-        }
-        if info.gives.uv {
-            values.push(format!("u = {:e}, v = {:e}", verdict.u.to_f64(), verdict.v.to_f64()));
-        }
-        if info.gives.facing {
-            values.push(format!(
-                "facing {}",
-                verdict.facing.map_or("unknown", |facing| facing.name())
-            ));
-        }
-        writeln!(out, "    reports {}", values.join(", "))?;
-        write_errors(out, case, truth, finding, info.gives, &verdict)?;
-    }
     Ok(())
+}
+
+/// What a hit reports.
+fn write_values<F: Float>(
+    out: &mut dyn Write,
+    gives: Gives,
+    verdict: &Verdict<F>,
+) -> io::Result<()> {
+    let mut values = Vec::new();
+    if gives.t {
+        values.push(format!("t = {:e}", verdict.t.to_f64()));
+    }
+    if gives.uv {
+        values.push(format!("u = {:e}, v = {:e}", verdict.u.to_f64(), verdict.v.to_f64()));
+    }
+    if gives.facing {
+        values.push(format!("facing {}", verdict.facing.map_or("unknown", |facing| facing.name())));
+    }
+    if values.is_empty() {
+        values.push("the hit alone".to_owned());
+    }
+    writeln!(out, "    reports {}", values.join(", "))
 }
 
 /// How far the values of a right hit are from the exact ones.

@@ -2,10 +2,11 @@
 
 use super::exit::{Failure, Status};
 use super::output::write_result;
+use super::plugins::PluginArguments;
 use crate::audit::EpsilonText;
 use crate::contract::NAMED;
 use crate::family::FAMILIES;
-use crate::kernel::{KERNELS, KernelInfo, PRESETS, PresetValue, Tunable};
+use crate::kernel::{self, KernelInfo, PRESETS, PresetValue, Tunable};
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 
@@ -14,6 +15,9 @@ use std::io::{self, Write};
 pub struct ListArguments {
     #[arg(value_enum)]
     what: What,
+
+    #[command(flatten)]
+    plugins: PluginArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -30,8 +34,9 @@ enum What {
 
 /// Runs the command.
 pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
+    arguments.plugins.entries()?;
     write_result("-", |out| match arguments.what {
-        What::Kernels => KERNELS.iter().try_for_each(|entry| kernel(out, entry.info)),
+        What::Kernels => kernel::all().iter().try_for_each(|entry| write_kernel(out, entry.info)),
         What::Families => FAMILIES
             .iter()
             .try_for_each(|family| writeln!(out, "{:<18} {}", family.name, family.promise)),
@@ -53,7 +58,7 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     Ok(Status::Success)
 }
 
-fn kernel(out: &mut dyn Write, info: &KernelInfo) -> io::Result<()> {
+fn write_kernel(out: &mut dyn Write, info: &KernelInfo) -> io::Result<()> {
     writeln!(
         out,
         "{}\n    source: {}\n    contract: {}",

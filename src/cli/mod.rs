@@ -8,11 +8,15 @@ mod corpus;
 mod epsilon;
 mod exit;
 mod explain;
+mod generate;
 mod input;
+mod judge;
 mod list;
 mod orient;
 mod output;
+mod plugins;
 mod progress;
+mod reports;
 mod select;
 mod selfcheck;
 mod shrink;
@@ -22,7 +26,10 @@ mod worst;
 
 pub use exit::{Failure, Status};
 
+use crate::kernel::{self, Entry};
+use crate::plugin;
 use clap::{Parser, Subcommand};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Audits ray-triangle kernels and their epsilons against exact predicates.
@@ -55,10 +62,44 @@ enum Command {
     Orient(Box<orient::OrientArguments>),
     /// Verify or make the stored cases
     Corpus(corpus::CorpusArguments),
+    /// Write cases as lines for a kernel that is a filter: `generate … | kernel | judge`
+    Generate(Box<generate::GenerateArguments>),
+    /// Read a filter's verdicts, and say where they are wrong
+    Judge(judge::JudgeArguments),
+    /// Load a library and answer cases from standard input: what --kernel-lib starts
+    #[command(name = plugin::HOST_COMMAND, hide = true)]
+    KernelHost {
+        /// The library
+        file: PathBuf,
+    },
 }
 
-/// Runs the program on the process's arguments; the one place where errors become exit codes.
+/// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
+    main_with([])
+}
+
+/// Runs the program with kernels of your own beside the built-in ones; the one place where errors
+/// become exit codes.
+///
+/// ```no_run
+/// use hairline::{case::Case, contract::Contract, kernel::{Entry, Hit, KernelInfo}};
+///
+/// const INFO: KernelInfo = KernelInfo::own("mine", Contract::CLOSED_RAY);
+///
+/// fn main() -> std::process::ExitCode {
+///     hairline::cli::main_with([Entry::new(&INFO).f32(|case: &Case<f32>, _: &[f32]| {
+///         (case.ray.direction.z < 0.0).then(|| Hit::at(1.0))
+///     })])
+/// }
+/// ```
+pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
+    for kernel in kernels {
+        if let Err(message) = kernel::register(kernel) {
+            eprintln!("hairline: {message}");
+            return Status::Usage.into();
+        }
+    }
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -79,8 +120,13 @@ pub fn main() -> ExitCode {
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),
         Command::Orient(arguments) => orient::run(&arguments),
         Command::Corpus(arguments) => corpus::run(&arguments),
+        Command::Generate(arguments) => generate::run(&arguments),
+        Command::Judge(arguments) => judge::run(&arguments),
+        Command::KernelHost { file } => return plugin::serve(&file).into(),
     };
-    match outcome {
+    plugins::print_notes();
+    // What went wrong in a kernel of the user's own goes before what was made of its verdicts.
+    match plugins::check().and(outcome) {
         Ok(status) => status.into(),
         Err(failure) => {
             if let Some(message) = failure.message() {

@@ -1,17 +1,21 @@
 //! Which kernels, contracts and epsilons a command line names.
 
 use super::exit::Failure;
+use super::plugins::PluginArguments;
 use crate::audit::{EpsilonChoice, Row};
 use crate::contract::{Band, NAMED, NamedContract};
-use crate::kernel::{Entry, KERNELS, find, nearest_name};
+use crate::kernel::{self, Entry, nearest_name};
 use clap::Args;
 
 /// The flags that choose kernels, their epsilons and the contract.
 #[derive(Args)]
 pub struct KernelArguments {
-    /// A kernel, or several separated by commas [default: all]
+    /// A kernel, or several separated by commas [default: all, or those of your own alone]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     kernel: Vec<String>,
+
+    #[command(flatten)]
+    plugins: PluginArguments,
 
     /// Epsilons by gate, as parallel=1e-6,edge=0; other gates as the source has them
     #[arg(
@@ -45,7 +49,8 @@ impl KernelArguments {
             .map(str::parse)
             .transpose()
             .map_err(|error| Failure::usage(format!("--band: {error}")))?;
-        let mut rows = self.choice()?.rows(&self.entries()?, self.contract()?)?;
+        let contract = self.contract.as_deref().map(named_contract).transpose()?.flatten();
+        let mut rows = self.choice()?.rows(&self.entries()?, contract)?;
         for row in &mut rows {
             row.contract.band = band;
         }
@@ -54,7 +59,7 @@ impl KernelArguments {
 
     /// Whether any kernel is named.
     pub fn names_kernels(&self) -> bool {
-        !self.kernel.is_empty()
+        !self.kernel.is_empty() || self.plugins.names_kernels()
     }
 
     /// Whether the flags choose epsilons.
@@ -68,16 +73,20 @@ impl KernelArguments {
     }
 
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
-        if self.kernel.is_empty() {
-            return Ok(KERNELS.iter().collect());
+        let mut chosen = self.plugins.entries()?;
+        let all = kernel::all();
+        if self.kernel.is_empty() && chosen.is_empty() {
+            return Ok(all);
         }
-        self.kernel
-            .iter()
-            .map(|name| {
-                let names = KERNELS.iter().map(|entry| entry.info.name);
-                find(name).ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))
-            })
-            .collect()
+        for name in &self.kernel {
+            let names = all.iter().map(|entry| entry.info.name);
+            let entry = kernel::find(name)
+                .ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))?;
+            if !chosen.iter().any(|other| other.info.name == *name) {
+                chosen.push(entry);
+            }
+        }
+        Ok(chosen)
     }
 
     fn choice(&self) -> Result<EpsilonChoice, Failure> {
@@ -100,15 +109,15 @@ impl KernelArguments {
         }
         Ok(EpsilonChoice::Given(pairs))
     }
+}
 
-    fn contract(&self) -> Result<Option<&'static NamedContract>, Failure> {
-        let Some(name) = &self.contract else { return Ok(None) };
-        let names = NAMED.iter().map(|named| named.name);
-        match NAMED.iter().find(|named| named.name == name) {
-            Some(named) => Ok(Some(named)),
-            None if name == "own" => Ok(None),
-            None => Err(unknown("contract", name, names, "hairline list contracts")),
-        }
+/// A contract by its name; none for `own`, each kernel's own.
+pub fn named_contract(name: &str) -> Result<Option<&'static NamedContract>, Failure> {
+    let names = NAMED.iter().map(|named| named.name);
+    match NAMED.iter().find(|named| named.name == name) {
+        Some(named) => Ok(Some(named)),
+        None if name == "own" => Ok(None),
+        None => Err(unknown("contract", name, names, "hairline list contracts")),
     }
 }
 

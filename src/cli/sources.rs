@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::input::{corpus_files, corpus_set, read_mesh};
 use super::select::{case_count, chosen_scalars, unknown};
-use crate::audit::Source;
+use crate::audit::{Row, Source};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use clap::Args;
@@ -151,6 +151,16 @@ impl SourceArguments {
             mesh: None,
         })
     }
+}
+
+/// Of the chosen scalars those that a kernel runs in; an error if there are none.
+pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
+    let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
+    if used == [false; 2] {
+        let message = "no selected kernel runs in the chosen scalars (see --scalar)".to_owned();
+        return Err(Failure::Message(Status::NothingSelected, message));
+    }
+    Ok(used)
 }
 
 /// The indices of a run; an error if there are none.

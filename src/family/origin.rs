@@ -87,9 +87,9 @@ impl Recipe for Respawn {
 
     fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut Made<F>) {
         let Made::One(case) = made else { return };
-        let kernel = F::subject(find("moller-trumbore").expect("a built-in kernel"));
         let triangle = case.triangle.vertices().map(Into::into);
-        let hit = kernel.measure(case).values;
+        let kernel = find("moller-trumbore").and_then(F::subject);
+        let hit = kernel.and_then(|kernel| kernel.gated()?.measure(case).values);
         let (t, (u, v)) =
             hit.and_then(|hit| hit.t.zip(hit.uv)).expect("a kernel that gives t, u, v");
         // The two ways in which renderers form the hit point.

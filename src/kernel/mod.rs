@@ -3,11 +3,13 @@
 //!
 //! Architecture invariant: nothing here knows the oracle.
 //!
-//! To add a kernel: write its file, and give it a row in `registry.rs`.
+//! To add a kernel: write its file, and give it a row in `registry.rs`. A program of your own adds
+//! its kernels with [`Entry`] and `hairline::cli::main_with`.
 
 #![forbid(unsafe_code)]
 
 pub mod gate;
+mod own;
 mod preset;
 mod registry;
 mod subject;
@@ -24,9 +26,12 @@ mod scalar_triple;
 mod woop_watertight;
 
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
+pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
-pub use registry::{Entry, KERNELS, Scalar, find, nearest_name};
-pub use subject::{Builtin, ExactRun, Measured, Subject, TrackedRun, Verdict};
+pub use registry::{Entry, KERNELS, Scalar, all, find, nearest_name, register};
+pub use subject::{
+    ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,
+};
 
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
@@ -73,6 +78,11 @@ pub struct Hit<R> {
 }
 
 impl<R> Hit<R> {
+    /// A hit that reports its t alone.
+    pub fn at(t: R) -> Hit<R> {
+        Hit { t: Some(t), uv: None, facing: None }
+    }
+
     /// The same in another arithmetic, number by number.
     pub fn map<S>(self, number: impl Fn(R) -> S) -> Hit<S> {
         let Hit { t, uv, facing } = self;
@@ -99,6 +109,23 @@ pub struct KernelInfo {
     pub polygons: bool,
     /// Whether it hits when every coordinate is NaN, as its comparisons are written.
     pub hits_nan: bool,
+}
+
+impl KernelInfo {
+    /// For a kernel of your own: no epsilons, and of its hits t alone is judged. Other fields by
+    /// `KernelInfo { gives: …, ..KernelInfo::own(name, contract) }`.
+    pub const fn own(name: &'static str, contract: Contract) -> KernelInfo {
+        KernelInfo {
+            name,
+            source: "your own",
+            contract,
+            gates: &[],
+            epsilon_sets: &[EpsilonSet { name: "own", values: &[] }],
+            gives: Gives { t: true, uv: false, facing: false },
+            polygons: false,
+            hits_nan: false,
+        }
+    }
 }
 
 /// One epsilon a gate, as decimal text; fixed gates ignore theirs.

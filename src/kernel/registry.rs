@@ -1,63 +1,143 @@
-//! The one table of built-in kernels.
+//! The table of kernels: the built-in ones, and those that a program adds.
 
-use super::{Builtin, Kernel, KernelInfo, Subject};
+use super::own::{Own, Test};
+use super::{Generic, Kernel, KernelInfo, Subject};
 use crate::arith::Float;
+use std::sync::{PoisonError, RwLock};
 
-/// A row: a kernel in both scalars.
+/// A row: a kernel in one or both scalars.
+#[derive(Clone, Copy)]
 pub struct Entry {
     /// What it is and what it promises.
     pub info: &'static KernelInfo,
-    f32: &'static dyn Subject<f32>,
-    f64: &'static dyn Subject<f64>,
+    /// The flag that chooses it on a command line, if not `--kernel` with its name.
+    flag: Option<&'static str>,
+    f32: Option<&'static dyn Subject<f32>>,
+    f64: Option<&'static dyn Subject<f64>>,
 }
 
-const fn row<K: Kernel>() -> Entry {
-    Entry {
-        info: &const { K::INFO },
-        f32: const { &Builtin::<K>::SUBJECT },
-        f64: const { &Builtin::<K>::SUBJECT },
+impl Entry {
+    /// A kernel that runs in no scalar yet: [`Entry::f32`] and [`Entry::f64`] give it its tests.
+    pub const fn new(info: &'static KernelInfo) -> Entry {
+        Entry { info, flag: None, f32: None, f64: None }
+    }
+
+    /// A kernel written for every arithmetic: both scalars, margins and exact runs.
+    pub const fn of<K: Kernel>() -> Entry {
+        Entry {
+            info: &const { K::INFO },
+            flag: None,
+            f32: Some(const { &Generic::<K>::SUBJECT }),
+            f64: Some(const { &Generic::<K>::SUBJECT }),
+        }
+    }
+
+    /// The same with a test in `f32`, which lives as long as the process.
+    pub fn f32(self, test: impl Test<f32> + 'static) -> Entry {
+        self.with_f32(Box::leak(Box::new(Own(test))))
+    }
+
+    /// The same with a test in `f64`, which lives as long as the process.
+    pub fn f64(self, test: impl Test<f64> + 'static) -> Entry {
+        self.with_f64(Box::leak(Box::new(Own(test))))
+    }
+
+    /// The same with a subject in `f32`.
+    pub const fn with_f32(self, subject: &'static dyn Subject<f32>) -> Entry {
+        Entry { f32: Some(subject), ..self }
+    }
+
+    /// The same with a subject in `f64`.
+    pub const fn with_f64(self, subject: &'static dyn Subject<f64>) -> Entry {
+        Entry { f64: Some(subject), ..self }
+    }
+
+    /// The same, chosen on a command line by another flag than `--kernel` with its name.
+    pub const fn chosen_by(self, flag: &'static str) -> Entry {
+        Entry { flag: Some(flag), ..self }
+    }
+
+    /// Whether it runs in `f32`, and in `f64`.
+    pub const fn scalars(&self) -> [bool; 2] {
+        [self.f32.is_some(), self.f64.is_some()]
+    }
+
+    /// The flag that chooses it on a command line.
+    pub fn selector(&self) -> String {
+        self.flag.map_or_else(|| format!("--kernel {}", self.info.name), str::to_owned)
     }
 }
 
 /// Every built-in kernel, in the order of reports.
 pub static KERNELS: &[Entry] = &[
-    row::<super::plane_unit_normal::PlaneUnitNormal>(),
-    row::<super::half_space::HalfSpace>(),
-    row::<super::scalar_triple::ScalarTriple>(),
-    row::<super::scalar_triple::ScalarTripleShared>(),
-    row::<super::scalar_triple::ScalarTripleTwoSided>(),
-    row::<super::cramer::Cramer>(),
-    row::<super::plane_inside_out::PlaneInsideOut>(),
-    row::<super::plane_inside_out::PlaneInsideOutPrecomputed>(),
-    row::<super::plane_inside_out::PlaneInsideOutStrict>(),
-    row::<super::plane_inside_out::ConvexPolygon>(),
-    row::<super::moller_trumbore::MollerTrumbore>(),
-    row::<super::moller_trumbore::MollerTrumboreCulling>(),
-    row::<super::woop_watertight::WoopWatertight>(),
-    row::<super::plucker::Plucker>(),
-    row::<super::baldwin_weber::BaldwinWeber>(),
-    row::<super::havel_herout::HavelHerout>(),
+    Entry::of::<super::plane_unit_normal::PlaneUnitNormal>(),
+    Entry::of::<super::half_space::HalfSpace>(),
+    Entry::of::<super::scalar_triple::ScalarTriple>(),
+    Entry::of::<super::scalar_triple::ScalarTripleShared>(),
+    Entry::of::<super::scalar_triple::ScalarTripleTwoSided>(),
+    Entry::of::<super::cramer::Cramer>(),
+    Entry::of::<super::plane_inside_out::PlaneInsideOut>(),
+    Entry::of::<super::plane_inside_out::PlaneInsideOutPrecomputed>(),
+    Entry::of::<super::plane_inside_out::PlaneInsideOutStrict>(),
+    Entry::of::<super::plane_inside_out::ConvexPolygon>(),
+    Entry::of::<super::moller_trumbore::MollerTrumbore>(),
+    Entry::of::<super::moller_trumbore::MollerTrumboreCulling>(),
+    Entry::of::<super::woop_watertight::WoopWatertight>(),
+    Entry::of::<super::plucker::Plucker>(),
+    Entry::of::<super::baldwin_weber::BaldwinWeber>(),
+    Entry::of::<super::havel_herout::HavelHerout>(),
 ];
+
+/// What programs added to the built-in kernels.
+static ADDED: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
+
+/// Every kernel: the built-in ones in the order of reports, then the added ones.
+pub fn all() -> Vec<&'static Entry> {
+    let added = ADDED.read().unwrap_or_else(PoisonError::into_inner);
+    KERNELS.iter().chain(added.iter().copied()).collect()
+}
+
+/// Adds a kernel for the rest of the process; every command then knows its name. An error if the
+/// name is empty, taken, or no word.
+pub fn register(entry: Entry) -> Result<&'static Entry, String> {
+    let name = entry.info.name;
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.+@".contains(c);
+    if name.is_empty() || !name.chars().all(is_word) {
+        return Err(format!(
+            "'{}' is no name for a kernel: use letters, digits and -_.+@",
+            name.escape_default()
+        ));
+    }
+    if find(name).is_some() {
+        return Err(format!("there are two kernels of the name '{name}'"));
+    }
+    let entry: &'static Entry = Box::leak(Box::new(entry));
+    ADDED.write().unwrap_or_else(PoisonError::into_inner).push(entry);
+    Ok(entry)
+}
 
 /// The kernel of a name.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    KERNELS.iter().find(|entry| entry.info.name == name)
+    let is_named = |entry: &&'static Entry| entry.info.name == name;
+    let added =
+        || ADDED.read().unwrap_or_else(PoisonError::into_inner).iter().copied().find(is_named);
+    KERNELS.iter().find(is_named).or_else(added)
 }
 
 /// A scalar that kernels are registered in.
 pub trait Scalar: Float + crate::family::Makes {
-    /// The kernel of a row, in this scalar.
-    fn subject(entry: &Entry) -> &dyn Subject<Self>;
+    /// The kernel of a row, if it runs in this scalar.
+    fn subject(entry: &Entry) -> Option<&'static dyn Subject<Self>>;
 }
 
 impl Scalar for f32 {
-    fn subject(entry: &Entry) -> &dyn Subject<f32> {
+    fn subject(entry: &Entry) -> Option<&'static dyn Subject<f32>> {
         entry.f32
     }
 }
 
 impl Scalar for f64 {
-    fn subject(entry: &Entry) -> &dyn Subject<f64> {
+    fn subject(entry: &Entry) -> Option<&'static dyn Subject<f64>> {
         entry.f64
     }
 }

@@ -1,9 +1,10 @@
-//! Kernels behind one object-safe interface: what the audit and users' plug-ins go through.
+//! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
 use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
 use crate::arith::{Bounded, Exact, Exceptions, Float, Real, Tracked, Vector, bounded, tracked};
 use crate::case::{Case, Ray, Triangle};
 use crate::truth::Facing;
+use std::fmt;
 use std::marker::PhantomData;
 
 /// A kernel's answer. Values that the kernel does not give are NaN; [`KernelInfo::gives`] tells.
@@ -21,23 +22,77 @@ pub struct Verdict<F> {
     pub u: F,
     /// The weight of c.
     pub v: F,
+    /// Why there is no verdict; the rest is then that of a miss.
+    pub failure: Option<Failure>,
+}
+
+/// Why a kernel gave no verdict on a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Failure {
+    /// It panicked.
+    Panic,
+    /// Its process was killed by a signal.
+    Signal(i32),
+    /// Its process ended by itself, with this exit code.
+    Exit(i32),
+    /// It wrote to its input, or touched what lies beside its buffers.
+    Overrun,
+    /// It gave no answer in time.
+    Timeout,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Panic => f.write_str("panicked"),
+            Failure::Signal(number) => match signal_name(*number) {
+                Some(name) => write!(f, "died of signal {number} ({name})"),
+                None => write!(f, "died of signal {number}"),
+            },
+            Failure::Exit(code) => write!(f, "ended its process with exit code {code}"),
+            Failure::Overrun => f.write_str("touched memory outside its buffers"),
+            Failure::Timeout => f.write_str("gave no answer in time"),
+        }
+    }
+}
+
+/// The signals that a kernel's faults raise; the numbers are those of Linux, macOS and the BSDs alike.
+fn signal_name(number: i32) -> Option<&'static str> {
+    match number {
+        4 => Some("SIGILL"),
+        5 => Some("SIGTRAP"),
+        6 => Some("SIGABRT"),
+        8 => Some("SIGFPE"),
+        9 => Some("SIGKILL"),
+        11 => Some("SIGSEGV"),
+        13 => Some("SIGPIPE"),
+        15 => Some("SIGTERM"),
+        _ => None,
+    }
 }
 
 impl<F: Float> Verdict<F> {
     /// A miss at a gate.
     pub fn miss(refused_by: Option<u8>) -> Self {
         let nan = F::from_f64(f64::NAN);
-        Verdict { hit: false, refused_by, facing: None, t: nan, u: nan, v: nan }
+        Verdict { hit: false, refused_by, facing: None, t: nan, u: nan, v: nan, failure: None }
     }
 
+    /// No verdict: the kernel failed.
+    pub fn failed(failure: Failure) -> Self {
+        Verdict { failure: Some(failure), ..Verdict::miss(None) }
+    }
+
+    /// What a kernel returned, and the gate at which it stopped.
     #[inline(always)]
-    fn of(hit: Option<Hit<F>>, refused_by: Option<usize>) -> Self {
+    pub fn of(hit: Option<Hit<F>>, refused_by: Option<usize>) -> Self {
         match hit {
             None => Verdict::miss(refused_by.map(|gate| gate as u8)),
             Some(Hit { t, uv, facing }) => {
                 let nan = F::from_f64(f64::NAN);
                 let (u, v) = uv.unwrap_or((nan, nan));
-                Verdict { hit: true, refused_by: None, facing, t: t.unwrap_or(nan), u, v }
+                let t = t.unwrap_or(nan);
+                Verdict { hit: true, refused_by: None, facing, t, u, v, failure: None }
             }
         }
     }
@@ -103,21 +158,45 @@ pub struct TrackedRun<F> {
     pub values: Exceptions,
 }
 
-/// A kernel in one scalar.
+/// A kernel in one scalar: all that an audit needs.
 pub trait Subject<F: Float>: Sync {
-    /// What it is and what it promises.
-    fn info(&self) -> &'static KernelInfo;
-
     /// The verdict on each case; `epsilons` has one entry a gate, `verdicts` one a case.
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]);
 
     /// The verdict on a planar convex polygon; a miss if the kernel takes none.
     fn run_polygon(
         &self,
-        vertices: &[F::Vector],
-        ray: &Ray<F::Vector>,
-        epsilons: &[F],
-    ) -> Verdict<F>;
+        _vertices: &[F::Vector],
+        _ray: &Ray<F::Vector>,
+        _epsilons: &[F],
+    ) -> Verdict<F> {
+        Verdict::miss(None)
+    }
+
+    /// Its gates, if it shows them. A kernel that does not is audited at the epsilons that it takes.
+    fn gated(&self) -> Option<&dyn Gated<F>> {
+        None
+    }
+
+    /// What went wrong beside the verdicts.
+    fn trouble(&self) -> Option<Trouble> {
+        None
+    }
+}
+
+/// What went wrong in a kernel beside its verdicts; each in one line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Trouble {
+    /// The verdicts stand, and this should be known.
+    Note(String),
+    /// The verdicts are worth nothing from some case on.
+    GaveUp(String),
+}
+
+/// A kernel that shows its gates: each one's margin, and its formula without rounding.
+pub trait Gated<F: Float>: Sync {
+    /// What it is and what it promises.
+    fn info(&self) -> &'static KernelInfo;
 
     /// Every gate's margin on each case; `margins` has one entry a gate for each case in turn.
     fn margins(&self, cases: &[Case<F>], margins: &mut [F]);
@@ -139,19 +218,15 @@ pub trait Subject<F: Float>: Sync {
     }
 }
 
-/// A built-in kernel as a [`Subject`] of either scalar.
-pub struct Builtin<K>(PhantomData<fn() -> K>);
+/// A [`Kernel`], written for every arithmetic, as a [`Subject`] of either scalar.
+pub struct Generic<K>(PhantomData<fn() -> K>);
 
-impl<K> Builtin<K> {
+impl<K> Generic<K> {
     /// The only value.
-    pub const SUBJECT: Builtin<K> = Builtin(PhantomData);
+    pub const SUBJECT: Generic<K> = Generic(PhantomData);
 }
 
-impl<F: Float, K: Kernel> Subject<F> for Builtin<K> {
-    fn info(&self) -> &'static KernelInfo {
-        &const { K::INFO }
-    }
-
+impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
         for (case, verdict) in cases.iter().zip(verdicts) {
             let mut sink = Deciding::new(epsilons);
@@ -169,6 +244,16 @@ impl<F: Float, K: Kernel> Subject<F> for Builtin<K> {
         let mut sink = Deciding::new(epsilons);
         let hit = K::test_polygon(vertices, ray, &mut sink);
         Verdict::of(hit, sink.refused_by)
+    }
+
+    fn gated(&self) -> Option<&dyn Gated<F>> {
+        Some(self)
+    }
+}
+
+impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
+    fn info(&self) -> &'static KernelInfo {
+        &const { K::INFO }
     }
 
     fn margins(&self, cases: &[Case<F>], margins: &mut [F]) {

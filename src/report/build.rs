@@ -49,6 +49,7 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
 fn plan_part(plan: &Plan) -> PlanPart {
     let row = |row: &Row| RowPart {
         kernel: row.entry.info.name.to_owned(),
+        selector: row.entry.selector(),
         set: row.set.clone(),
         epsilons: row
             .tuned()
@@ -131,6 +132,8 @@ fn counts(count: &ClassCount, sample: bool) -> Counts {
         false_hits: of(Finding::FalseHit),
         bad_values: of(Finding::BadValue),
         panics: count.of(Finding::Panic),
+        crashes: count.of(Finding::Crash),
+        timeouts: count.of(Finding::Timeout),
     }
 }
 
@@ -274,11 +277,9 @@ pub(super) fn explain_command<F: Scalar>(
     index: u64,
     triangle: Option<usize>,
 ) -> String {
-    let mut command = format!(
-        "hairline explain {} --kernel {}",
-        source.explain_arguments::<F>(index, triangle),
-        row.entry.info.name
-    );
+    let arguments = source.explain_arguments::<F>(index, triangle);
+    let command = format!("hairline explain {arguments} {}", row.entry.selector());
+    let mut command = command.trim_end().to_owned();
     if let Some(epsilons) = row.epsilon_argument() {
         command.push_str(&format!(" --epsilon '{epsilons}'"));
     }

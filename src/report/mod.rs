@@ -15,6 +15,7 @@ mod why;
 
 pub use build::{Context, build};
 pub use record::*;
+pub(crate) use text::interval_of;
 
 use std::io::{self, Write};
 

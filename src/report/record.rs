@@ -71,6 +71,8 @@ pub struct PlanPart {
 pub struct RowPart {
     /// The kernel's name.
     pub kernel: String,
+    /// The flag that chooses it on a command line.
+    pub selector: String,
     /// What its epsilons are called.
     pub set: String,
     /// By gate; gates that take none are left out.
@@ -159,6 +161,10 @@ pub struct Counts {
     pub bad_values: Rate,
     /// Cases at which the kernel panicked.
     pub panics: u64,
+    /// Cases at which the kernel's process died, or wrote outside its output.
+    pub crashes: u64,
+    /// Cases on which the kernel's process gave no answer in time.
+    pub timeouts: u64,
 }
 
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
@@ -179,7 +185,7 @@ pub struct Rate {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
-    /// `false-miss`, `false-hit`, `bad-value`, `panic`.
+    /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
     pub finding: String,
     /// The class of the truth.
     pub class: String,

@@ -134,6 +134,7 @@ fn write_scalar(
                 .filter(|r| r.scalar == scalar && r.kernel == part.kernel && r.set == part.set)
                 .collect(),
         })
+        .filter(|row| !row.results.is_empty())
         .collect();
     let cases: u64 =
         record.result.sources.iter().filter(|s| s.scalar == scalar).map(|s| s.cases).sum();
@@ -180,8 +181,32 @@ fn write_scalar(
             writeln!(out, "    values in ulps: {errors}")?;
         }
     }
+    write_failures(&rows, out)?;
     write_exact_shares(record, scalar, &rows, out)?;
     write_worst(&rows, style, out)
+}
+
+/// The kernels that gave no verdict on some cases.
+fn write_failures(rows: &[RowView], out: &mut dyn Write) -> io::Result<()> {
+    for row in rows {
+        let sum = |count: fn(&Counts) -> u64| -> u64 {
+            row.results.iter().map(|result| count(&result.total)).sum()
+        };
+        let counts = [
+            ("panics", sum(|counts| counts.panics)),
+            ("crashes", sum(|counts| counts.crashes)),
+            ("timeouts", sum(|counts| counts.timeouts)),
+        ];
+        let words = counts.iter().filter(|(_, count)| *count > 0);
+        let words: Vec<String> =
+            words.map(|(what, count)| format!("{} {what}", group_digits(*count))).collect();
+        if !words.is_empty() {
+            let cases = group_digits(sum(|counts| counts.cases));
+            let (kernel, set) = (&row.part.kernel, &row.part.set);
+            writeln!(out, "{kernel} ({set}): {} in {cases} cases", words.join(", "))?;
+        }
+    }
+    Ok(())
 }
 
 /// For each mesh the share of its rays that meet an edge or a vertex exactly.
@@ -270,9 +295,9 @@ fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Resul
             )?;
             writeln!(
                 out,
-                "        hairline explain '{id}' --kernel {}{}",
-                row.part.kernel,
-                row.epsilon_flag()
+                "        {}",
+                format!("hairline explain '{id}' {}{}", row.part.selector, row.epsilon_flag())
+                    .trim_end()
             )?;
         }
     }
@@ -302,6 +327,9 @@ fn severity(finding: &FindingPart) -> f64 {
 }
 
 fn describe_severity(finding: &FindingPart) -> String {
+    if matches!(finding.finding.as_str(), "panic" | "crash" | "timeout") {
+        return "on the case below".to_owned();
+    }
     let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };
     let (distance, along) = severity_of(finding);
     if distance == 0.0 {
@@ -320,7 +348,8 @@ fn describe_severity(finding: &FindingPart) -> String {
     format!("by {distance:.2e} {what} ({ulps:.2e} ulps of the largest coordinate)")
 }
 
-fn interval_of(count: u64, of: u64) -> String {
+/// ` (20.3% [20.0%, 20.6%])`; nothing of nothing.
+pub(crate) fn interval_of(count: u64, of: u64) -> String {
     if of == 0 {
         return String::new();
     }

@@ -77,7 +77,7 @@ fn add<F: Scalar>(
     let info = request.row.entry.info;
     let given = request.row.epsilons::<F>();
     let mut margins = vec![F::zero(); chunk.cases.len() * info.gates.len()];
-    F::subject(request.row.entry).margins(&chunk.cases, &mut margins);
+    request.gated.margins(&chunk.cases, &mut margins);
     let obligations = chunk.obligations(&request.row.contract);
     for (margins, obligation) in margins.chunks_exact(info.gates.len()).zip(obligations) {
         let counts_of = match obligation {

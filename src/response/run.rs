@@ -8,15 +8,17 @@ use crate::arith::Float;
 use crate::audit::{CHUNK, Chunk, Observer, Place, Row, Source, SourceSummary};
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation};
-use crate::kernel::{Gate, Scalar, Subject, Tunable};
+use crate::kernel::{Gate, Gated, Scalar, Tunable};
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// A kernel whose response is asked for.
 #[derive(Clone, Copy)]
-pub struct Request<'a, F> {
+pub struct Request<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.
     pub row: &'a Row,
+    /// The kernel's gates.
+    pub gated: &'static dyn Gated<F>,
     /// The gates, each varied alone.
     pub gates: &'a [usize],
     /// Where the answer is exact.
@@ -90,7 +92,6 @@ pub fn run<F: Scalar>(
 /// A request with everything about its kernel looked up.
 struct Pass<'a, F: Scalar> {
     request: &'a Request<'a, F>,
-    subject: &'a dyn Subject<F>,
     gates: &'static [Gate],
     epsilons: Vec<F>,
     duties: Vec<Duty>,
@@ -115,10 +116,10 @@ impl<'a, F: Scalar> Pass<'a, F> {
     fn new(request: &'a Request<'a, F>, observer: &'a dyn Observer) -> Self {
         let Row { entry, .. } = request.row;
         let epsilons = request.row.epsilons();
-        let (subject, gates) = (F::subject(entry), entry.info.gates);
+        let gates = entry.info.gates;
         let duty = |gate| Duty::of(gates, gate, &request.row.contract);
         let duties = (0..gates.len()).map(duty).collect();
-        Pass { request, subject, gates, epsilons, duties, observer }
+        Pass { request, gates, epsilons, duties, observer }
     }
 
     fn over(&self, number: usize, source: &Source) -> SourceResponse<F> {
@@ -164,7 +165,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
         let obligations = chunk.obligations(contract);
         let groups = chunk.group_truths(contract);
         sums.margins.resize(chunk.cases.len() * self.gates.len(), F::zero());
-        self.subject.margins(&chunk.cases, &mut sums.margins);
+        self.request.gated.margins(&chunk.cases, &mut sums.margins);
         for (gate_sums, &gate) in sums.gates.iter_mut().zip(self.request.gates) {
             let scales = self
                 .request

@@ -11,12 +11,14 @@ use super::scaling::{AtScale, at_scales};
 use crate::arith::Float;
 use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_scalar};
 use crate::judge::{Class, Finding};
-use crate::kernel::{Gate, PRESETS, Preset, Scalar};
+use crate::kernel::{Gate, Gated, PRESETS, Preset, Scalar};
 
 /// What to study.
-pub struct StudyPlan<'a, F> {
+pub struct StudyPlan<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.
     pub row: &'a Row,
+    /// The kernel's gates.
+    pub gated: &'static dyn Gated<F>,
     /// The gates, each varied alone.
     pub gates: Vec<usize>,
     /// Further epsilons to weigh.
@@ -86,6 +88,7 @@ pub fn study<F: Scalar>(
     let axis = Axis::new(&edges);
     let request = Request {
         row: plan.row,
+        gated: plan.gated,
         gates: &plan.gates,
         axis: &axis,
         exact: plan.exact,

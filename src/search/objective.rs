@@ -173,7 +173,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     /// The margin of the target's gate, if the gate is reached and the margin is finite.
     fn reached_margin(&self, case: &Case<F>) -> Option<(usize, F)> {
         let gate = self.target.gate?;
-        let margins = F::subject(self.row.entry).measure(case).margins;
+        let margins = F::subject(self.row.entry)?.gated()?.measure(case).margins;
         let reached = refused_by(&margins, &self.epsilons).is_none_or(|refused| gate <= refused);
         let margin = margins[gate];
         (reached && margin.is_finite()).then_some((gate, margin))
@@ -182,7 +182,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     fn quick_margin(&self, case: &Case<F>) -> Option<f64> {
         let (gate, margin) = self.reached_margin(case)?;
         let wide = case.widen();
-        let exact = f64::subject(self.row.entry).measure(&wide).margins[gate];
+        let exact = f64::subject(self.row.entry)?.gated()?.measure(&wide).margins[gate];
         let scale = scale(&wide.ray, &wide.triangle, self.row.entry.info.gates[gate].dimension);
         let unit = scale.max(exact.abs()) * F::EPSILON.to_f64();
         let error = (margin.to_f64() - exact).abs() / unit;
@@ -191,7 +191,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
 
     fn exact_margin(&self, case: &Case<F>) -> Option<Exact> {
         let (gate, margin) = self.reached_margin(case)?;
-        let exact = F::subject(self.row.entry).measure_exact(case).margins.swap_remove(gate);
+        let gated = F::subject(self.row.entry)?.gated()?;
+        let exact = gated.measure_exact(case).margins.swap_remove(gate);
         let (ray, triangle) = case.exact();
         let scale = scale(&ray, &triangle, self.row.entry.info.gates[gate].dimension);
         let size = exact.abs();
@@ -279,7 +280,7 @@ pub(super) fn exactly_refusing<F: Scalar>(
     epsilons: &[F],
     case: &Case<F>,
 ) -> Option<usize> {
-    let run = F::subject(row.entry).run_exact(case, epsilons)?;
+    let run = F::subject(row.entry)?.gated()?.run_exact(case, epsilons)?;
     run.passed.iter().position(|passes| !passes)
 }
 
@@ -291,7 +292,10 @@ pub(super) fn verdict_and_finding<F: Scalar>(
     case: &Case<F>,
 ) -> (Truth, Verdict<F>, Option<Finding>) {
     let mut verdict = [Verdict::miss(None)];
-    F::subject(row.entry).run(std::slice::from_ref(case), epsilons, &mut verdict);
+    // A kernel that does not run in this scalar misses, and finds nothing.
+    if let Some(subject) = F::subject(row.entry) {
+        subject.run(std::slice::from_ref(case), epsilons, &mut verdict);
+    }
     let [verdict] = verdict;
     let truth = oracle::truth(case);
     let asked = asked(case, &truth, &row.contract, false);

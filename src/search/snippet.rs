@@ -31,7 +31,7 @@ fn {name}() {{
     use hairline::kernel::{{Scalar, Verdict, find}};
     let triangle = [{a}, {b}, {c}];
     let case = hairline::case::Case::<{scalar}>::new({origin}, {direction}, triangle);{interval}
-    let kernel = {scalar}::subject(find(\"{kernel}\").unwrap());
+    let kernel = {scalar}::subject(find(\"{kernel}\").unwrap()).unwrap();
     let mut verdict = [Verdict::miss(None)];
     kernel.run(&[case], &{epsilons}, &mut verdict);
     assert_eq!(hairline::oracle::truth(&case).to_string(), \"{truth}\");

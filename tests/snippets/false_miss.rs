@@ -5,7 +5,7 @@ fn moller_trumbore_f32_false_miss() {
     use hairline::kernel::{Scalar, Verdict, find};
     let triangle = [[0.0, -1.0, 0.0], [0.0, 1.0, 9.536743e-7], [0.0, 0.0, 0.0]];
     let case = hairline::case::Case::<f32>::new([0.0, 0.0, 2.3841858e-7], [1.0, 0.0, 0.0], triangle);
-    let kernel = f32::subject(find("moller-trumbore").unwrap());
+    let kernel = f32::subject(find("moller-trumbore").unwrap()).unwrap();
     let mut verdict = [Verdict::miss(None)];
     kernel.run(&[case], &[1e-6, 0.0], &mut verdict);
     assert_eq!(hairline::oracle::truth(&case).to_string(), "transversal, front, t at_min, interior");

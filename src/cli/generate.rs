@@ -1,0 +1,60 @@
+//! `hairline generate`: cases as lines for a kernel that is a filter.
+
+use super::exit::{Failure, Status};
+use super::output::write_result;
+use super::sources::{SourceArguments, total_indices};
+use crate::audit::Source;
+use crate::kernel::Scalar;
+use crate::plugin::text;
+use clap::Args;
+use std::io::{self, Write};
+
+/// Which cases.
+#[derive(Args)]
+pub struct GenerateArguments {
+    #[command(flatten)]
+    sources: SourceArguments,
+
+    /// Where to write; - is standard output
+    #[arg(short, long, default_value = "-", value_name = "FILE")]
+    output: String,
+}
+
+/// Runs the command.
+pub fn run(arguments: &GenerateArguments) -> Result<Status, Failure> {
+    let scalars = arguments.sources.scalars()?;
+    let sources = arguments.sources.sources(true, |_| true)?;
+    if sources.iter().any(|source| !source.is_remade_from_id()) {
+        let message = "generate: families only, without --exhaustive: `judge` makes each case again from its id alone";
+        return Err(Failure::usage(message));
+    }
+    total_indices(&sources, scalars)?;
+    write_result(&arguments.output, |out| {
+        let mut cases = 0;
+        for source in &sources {
+            if scalars[0] {
+                cases += write_cases::<f32>(out, source)?;
+            }
+            if scalars[1] {
+                cases += write_cases::<f64>(out, source)?;
+            }
+        }
+        out.write_all(text::end_line(cases).as_bytes())
+    })?;
+    Ok(Status::Success)
+}
+
+/// Writes all cases of a source in one scalar; returns how many.
+fn write_cases<F: Scalar>(out: &mut dyn Write, source: &Source) -> io::Result<u64> {
+    let mut written = 0;
+    for index in 0..source.count::<F>() {
+        let made = source.make::<F>(index);
+        let several = made.cases().len() > 1;
+        for (k, case) in made.cases().iter().enumerate() {
+            let id = source.id::<F>(index, several.then_some(k));
+            out.write_all(text::case_line(id, case).as_bytes())?;
+            written += 1;
+        }
+    }
+    Ok(written)
+}

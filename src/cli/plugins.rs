@@ -1,0 +1,126 @@
+//! The kernels that a command line brings along: libraries and commands.
+
+use super::exit::{Failure, Status};
+use crate::audit::quoted;
+use crate::kernel::{self, Entry, Scalar, Trouble};
+use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The flags that bring kernels along.
+#[derive(Args)]
+pub struct PluginArguments {
+    /// A shared library with the functions of include/hairline.h; may be repeated
+    #[arg(long, value_name = "FILE", help_heading = "Kernels of your own")]
+    kernel_lib: Vec<String>,
+
+    /// A command that answers cases over its pipes (docs/protocol.md); may be repeated
+    #[arg(long, value_name = "COMMAND", help_heading = "Kernels of your own")]
+    kernel_cmd: Vec<String>,
+
+    /// How long such a kernel may be silent when an answer is due
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 10.0,
+        help_heading = "Kernels of your own"
+    )]
+    kernel_timeout: f64,
+
+    /// On how many cases such a kernel may crash or hang before the run ends
+    #[arg(long, value_name = "N", default_value_t = 1000, help_heading = "Kernels of your own")]
+    kernel_failures: u64,
+}
+
+impl PluginArguments {
+    /// Whether any kernel is brought along.
+    pub fn names_kernels(&self) -> bool {
+        !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
+    }
+
+    /// Starts the kernels and puts them into the table.
+    pub fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
+        let limits = self.limits()?;
+        let libraries = self.kernel_lib.iter().map(|path| {
+            let flag = format!("--kernel-lib {}", quoted(path));
+            register(path, load(host_of(path)?, limits, flag))
+        });
+        let commands = self.kernel_cmd.iter().map(|line| {
+            let program = Program::parse(line)
+                .map_err(|error| Failure::usage(format!("--kernel-cmd '{line}': {error}")))?;
+            register(line, load(program, limits, format!("--kernel-cmd {}", quoted(line))))
+        });
+        libraries.chain(commands).collect()
+    }
+
+    fn limits(&self) -> Result<Limits, Failure> {
+        let seconds = self.kernel_timeout;
+        if !(0.001..=86_400.0).contains(&seconds) {
+            let message = format!("--kernel-timeout: {seconds} is not from 0.001 to 86400 seconds");
+            return Err(Failure::usage(message));
+        }
+        let silence = Duration::from_secs_f64(seconds);
+        Ok(Limits { silence, failures: self.kernel_failures })
+    }
+}
+
+/// This program again, as the process that loads a library.
+fn host_of(path: &str) -> Result<Program, Failure> {
+    if !cfg!(unix) {
+        let message = "--kernel-lib needs a Unix system; --kernel-cmd works everywhere".to_owned();
+        return Err(Failure::usage(message));
+    }
+    let whole = Path::new(path).canonicalize().map_err(|error| Failure::of_file(path, &error))?;
+    let this: PathBuf =
+        std::env::current_exe().map_err(|error| Failure::of_file("this program", &error))?;
+    let words = [this.as_os_str(), HOST_COMMAND.as_ref(), whole.as_os_str()];
+    let words = words.map(|word| word.to_str().map(str::to_owned));
+    let words = words.into_iter().collect::<Option<Vec<String>>>();
+    words
+        .map(Program::new)
+        .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
+}
+
+fn register(what: &str, loaded: Result<Entry, LoadError>) -> Result<&'static Entry, Failure> {
+    let entry = loaded.map_err(|error| match error {
+        LoadError::Start(error) => {
+            Failure::Message(Status::InputOutput, format!("{what}: it cannot be started: {error}"))
+        }
+        LoadError::Hello(message) => {
+            Failure::Message(Status::BadInput, format!("{what}: {message}"))
+        }
+    })?;
+    kernel::register(entry)
+        .map_err(|message| Failure::Message(Status::BadInput, format!("{what}: {message}")))
+}
+
+/// An error if the verdicts of a kernel are worth nothing.
+pub fn check() -> Result<(), Failure> {
+    match troubles().into_iter().find(|(_, trouble)| matches!(trouble, Trouble::GaveUp(_))) {
+        Some((kernel, Trouble::GaveUp(message))) => {
+            let message = format!("kernel '{kernel}': {message}");
+            Err(Failure::Message(Status::BadInput, message))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints what should be known of the kernels' processes.
+pub fn print_notes() {
+    for (kernel, trouble) in troubles() {
+        if let Trouble::Note(message) = trouble {
+            eprintln!("note: kernel '{kernel}': {message}");
+        }
+    }
+}
+
+/// What went wrong in each kernel, by name.
+fn troubles() -> Vec<(&'static str, Trouble)> {
+    let trouble = |entry: &'static Entry| {
+        let f32 = f32::subject(entry).and_then(|subject| subject.trouble());
+        let f64 = || f64::subject(entry).and_then(|subject| subject.trouble());
+        Some((entry.info.name, f32.or_else(f64)?))
+    };
+    kernel::all().into_iter().filter_map(trouble).collect()
+}

@@ -1,0 +1,247 @@
+//! Floor 6, beside the command line: an audit from a program's own tests.
+
+#![forbid(unsafe_code)]
+
+use crate::audit::{self, EpsilonChoice, Observer, Plan, PlanError, Source, did_you_mean};
+use crate::case::Parameters;
+use crate::contract::Contract;
+use crate::family::{FAMILIES, Family, find};
+use crate::kernel::{Entry, nearest_name};
+use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
+use std::fmt::{self, Write};
+
+/// An audit of a kernel, to be narrowed and run: all families, 2,000 cases of each, seed 1, the
+/// kernel's own epsilons and contract, unless said otherwise.
+///
+/// ```
+/// use hairline::arith::Vector;
+/// use hairline::case::Case;
+/// use hairline::contract::Contract;
+/// use hairline::kernel::{Entry, Hit, KernelInfo};
+///
+/// // The plane's t alone: whatever the triangle, it hits.
+/// fn plane(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
+///     let (ray, triangle) = (&case.ray, &case.triangle);
+///     let normal = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
+///     let t = normal.dot(triangle.a - ray.origin) / normal.dot(ray.direction);
+///     (t >= 0.0).then(|| Hit::at(t))
+/// }
+///
+/// const INFO: KernelInfo = KernelInfo::own("plane", Contract::CLOSED_RAY);
+/// let kernel = Entry::new(&INFO).f64(plane);
+/// hairline::audit(&kernel).families(["interior"]).count(500).assert_conforms();
+/// let outcome = hairline::audit(&kernel).families(["outside"]).count(500).run()?;
+/// assert!(outcome.findings().any(|finding| finding.finding == "false-hit"));
+/// # Ok::<(), hairline::audit::PlanError>(())
+/// ```
+pub fn audit(kernel: &Entry) -> Request {
+    Request {
+        entry: Box::leak(Box::new(*kernel)),
+        families: None,
+        count: 2000,
+        seed: 1,
+        parameters: Parameters::default(),
+        epsilons: EpsilonChoice::Source,
+        contract: None,
+    }
+}
+
+/// What to run; see [`audit()`].
+#[derive(Clone)]
+pub struct Request {
+    entry: &'static Entry,
+    families: Option<Vec<String>>,
+    count: u64,
+    seed: u64,
+    parameters: Parameters,
+    epsilons: EpsilonChoice,
+    contract: Option<Contract>,
+}
+
+impl Request {
+    /// These families only.
+    pub fn families<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Request {
+        self.families = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// This many indices of each family; 0 counts as 1.
+    pub fn count(mut self, count: u64) -> Request {
+        self.count = count.max(1);
+        self
+    }
+
+    /// Another set of random cases.
+    pub fn seed(mut self, seed: u64) -> Request {
+        self.seed = seed;
+        self
+    }
+
+    /// What the cases are put through: a scale, an offset, unit directions.
+    pub fn parameters(mut self, parameters: Parameters) -> Request {
+        self.parameters = parameters;
+        self
+    }
+
+    /// Epsilons by the names of their gates; the others as the kernel has them.
+    pub fn epsilons(mut self, pairs: &[(&str, &str)]) -> Request {
+        let owned = |(gate, value): &(&str, &str)| ((*gate).to_owned(), (*value).to_owned());
+        self.epsilons = EpsilonChoice::Given(pairs.iter().map(owned).collect());
+        self
+    }
+
+    /// Another contract than the kernel's own.
+    pub fn contract(mut self, contract: Contract) -> Request {
+        self.contract = Some(contract);
+        self
+    }
+
+    /// Runs it, in each scalar that the kernel runs in. An error names the family, gate or epsilon
+    /// that there is none of.
+    pub fn run(&self) -> Result<Outcome, PlanError> {
+        let mut rows = self.epsilons.rows(&[self.entry], None)?;
+        if let Some(contract) = self.contract {
+            rows.iter_mut().for_each(|row| row.contract = contract);
+        }
+        let source = |family| Source::Family {
+            family,
+            parameters: self.parameters.clone(),
+            seed: self.seed,
+            count: self.count,
+            exhaustive: false,
+        };
+        let plan = Plan {
+            rows,
+            sources: self.chosen_families()?.into_iter().map(source).collect(),
+            scalars: self.entry.scalars(),
+            examples: 3,
+            attribute: 0,
+        };
+        let sums = audit::run(&plan, &Unobserved);
+        let context = Context { seconds: 0.0, threads: rayon::current_num_threads() };
+        Ok(Outcome { record: build(&plan, &sums, &context) })
+    }
+
+    /// Runs it and panics unless the kernel keeps its contract on every case. The message has each
+    /// kind of finding with its rate and 95 % interval, and the first cases with the command that
+    /// shows their truth.
+    #[track_caller]
+    pub fn assert_conforms(&self) {
+        match self.run() {
+            Ok(outcome) => outcome.assert_conforms(),
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    fn chosen_families(&self) -> Result<Vec<&'static Family>, PlanError> {
+        let Some(names) = &self.families else { return Ok(FAMILIES.iter().collect()) };
+        let known = |name: &String| {
+            find(name).ok_or_else(|| {
+                let near = nearest_name(name, FAMILIES.iter().map(|family| family.name));
+                let advice = did_you_mean(near, "hairline list families");
+                PlanError(format!("unknown family '{name}'{advice}"))
+            })
+        };
+        names.iter().map(known).collect()
+    }
+}
+
+/// What an audit found.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The record, as `hairline audit --format json` writes it; its times are zero.
+    pub record: Record,
+}
+
+impl Outcome {
+    /// Each class of finding that occurred, by scalar, family and epsilons.
+    pub fn findings(&self) -> impl Iterator<Item = &FindingPart> {
+        self.record.result.results.iter().flat_map(|result| &result.findings)
+    }
+
+    /// Whether the kernel kept its contract on every case, and what it promises across triangles.
+    pub fn conforms(&self) -> bool {
+        conforms(&self.record)
+    }
+
+    /// Panics unless [`Outcome::conforms`].
+    #[track_caller]
+    pub fn assert_conforms(&self) {
+        if !self.conforms() {
+            panic!("{self}");
+        }
+    }
+}
+
+/// Whether every kernel of a record kept its contract, across triangles too.
+pub(crate) fn conforms(record: &Record) -> bool {
+    record.result.results.iter().all(|result| {
+        result.findings.is_empty() && broken_across(result).iter().all(|(_, r, _)| r.count == 0)
+    })
+}
+
+/// What a contract promises across triangles, what broke it and its first groups.
+fn broken_across(result: &KernelResult) -> Vec<(&'static str, &Rate, &[String])> {
+    let Some(across) = &result.across else { return Vec::new() };
+    let cracks = ("crack", &across.cracks, &across.first_cracks[..]);
+    let doubles = ("double", &across.doubles, &across.first_doubles[..]);
+    match across.promised.as_str() {
+        "at-least-one" => vec![cracks],
+        "exactly-one" => vec![cracks, doubles],
+        _ => Vec::new(),
+    }
+}
+
+/// How many findings a message shows in full.
+const SHOWN: usize = 8;
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        for result in &self.record.result.results {
+            let at = format!("{} {} ({})", result.scalar, result.family, result.set);
+            for part in &result.findings {
+                parts.push(describe(&at, part)?);
+            }
+            for (kind, rate, first) in broken_across(result).into_iter().filter(|b| b.1.count > 0) {
+                let share = interval_of(rate.count, rate.of);
+                let mut text = format!("{at}: {kind} in {} of {}{share}\n", rate.count, rate.of);
+                for id in first {
+                    writeln!(text, "    hairline explain '{id}'")?;
+                }
+                parts.push(text);
+            }
+        }
+        for row in &self.record.result.plan.rows {
+            let breaks = if parts.is_empty() { "keeps" } else { "breaks" };
+            writeln!(f, "{} ({}) {breaks} its contract: {}", row.kernel, row.set, row.contract)?;
+        }
+        parts.iter().take(SHOWN).try_for_each(|part| f.write_str(part))?;
+        match parts.len().saturating_sub(SHOWN) {
+            0 => Ok(()),
+            more => writeln!(f, "and {more} more classes of findings"),
+        }
+    }
+}
+
+/// A class of findings with its rate and its first cases.
+fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
+    let Rate { count, of, .. } = part.rate;
+    let share = interval_of(count, of);
+    let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
+    for example in &part.first {
+        writeln!(text, "    hairline explain '{}'\n        {}", example.case, example.bits)?;
+    }
+    Ok(text)
+}
+
+/// Watches nothing and times nothing.
+pub(crate) struct Unobserved;
+
+impl Observer for Unobserved {
+    fn advance(&self, _: u64) {}
+
+    fn now(&self) -> u64 {
+        0
+    }
+}

@@ -1,0 +1,108 @@
+//! The binary encoding: little-endian, a batch at a time. Records are laid out as the structures of
+//! include/hairline.h.
+
+#![forbid(unsafe_code)]
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::kernel::Verdict;
+use crate::truth::Facing;
+
+/// The first four bytes of a batch.
+pub(super) const BATCH: [u8; 4] = *b"HLB1";
+/// The first four bytes of the answer to one.
+pub(super) const ANSWER: [u8; 4] = *b"HLA1";
+/// Instead of an answer, from the host of a library: the kernel touched memory outside its buffers.
+pub(super) const OVERRUN: [u8; 4] = *b"HLX1";
+
+/// Bytes of a batch's head: [`BATCH`], bits of the scalar, number of cases, number of epsilons.
+pub(super) const BATCH_HEAD: usize = 16;
+/// Bytes of an answer's head: [`ANSWER`], number of verdicts.
+pub(super) const ANSWER_HEAD: usize = 8;
+/// Numbers in a case: origin, direction, a, b, c, t_min, t_max.
+pub(super) const CASE_NUMBERS: usize = 17;
+
+/// Bytes of a verdict: hit and facing as 32-bit integers, then t, u, v.
+pub(super) const fn verdict_bytes<F: Float>() -> usize {
+    8 + 3 * size_of::<F>()
+}
+
+fn push<F: Float>(bytes: &mut Vec<u8>, value: F) {
+    bytes.extend_from_slice(&value.to_bits().to_le_bytes()[..size_of::<F>()]);
+}
+
+/// A batch: the head, the epsilons, the cases.
+pub(super) fn batch<F: Float>(cases: &[Case<F>], epsilons: &[F]) -> Vec<u8> {
+    let numbers = epsilons.len() + CASE_NUMBERS * cases.len();
+    let mut bytes = Vec::with_capacity(BATCH_HEAD + numbers * size_of::<F>());
+    bytes.extend(BATCH);
+    for count in [8 * size_of::<F>(), cases.len(), epsilons.len()] {
+        bytes.extend((count as u32).to_le_bytes());
+    }
+    epsilons.iter().for_each(|epsilon| push(&mut bytes, *epsilon));
+    for case in cases {
+        case.vectors().as_flattened().iter().for_each(|x| push(&mut bytes, *x));
+        push(&mut bytes, case.ray.t_min);
+        push(&mut bytes, case.ray.t_max);
+    }
+    bytes
+}
+
+/// A verdict from its bytes; an error says what was expected.
+pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
+    let integer =
+        |at: usize| i32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+    let float = |place: usize| {
+        let mut bits = [0; 8];
+        let start = 8 + place * size_of::<F>();
+        bits[..size_of::<F>()].copy_from_slice(&bytes[start..start + size_of::<F>()]);
+        F::from_bits(u64::from_le_bytes(bits))
+    };
+    match integer(0) {
+        0 => return Ok(Verdict::miss(None)),
+        1 => {}
+        other => return Err(format!("hit is {other}, expected 0 or 1")),
+    }
+    let facing = match integer(4) {
+        0 => None,
+        1 => Some(Facing::Front),
+        2 => Some(Facing::Back),
+        other => return Err(format!("facing is {other}, expected 0, 1 (front) or 2 (back)")),
+    };
+    let [t, u, v] = [0, 1, 2].map(float);
+    Ok(Verdict { hit: true, facing, t, u, v, ..Verdict::miss(None) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_have_the_layout_of_the_header() {
+        let case = Case::<f32>::new([1.0; 3], [0.0, 0.0, -1.0], [[0.0; 3]; 3]).on(-1.0, 2.0);
+        let bytes = batch(&[case], &[0.5]);
+        assert_eq!(bytes.len(), 16 + 4 + 68);
+        assert_eq!(bytes[..20], *b"HLB1\x20\0\0\0\x01\0\0\0\x01\0\0\0\0\0\0\x3f");
+        assert_eq!(bytes[20..24], 1f32.to_le_bytes());
+        assert_eq!(bytes[80..], *b"\0\0\x80\xbf\0\0\0\x40");
+        assert_eq!((verdict_bytes::<f32>(), verdict_bytes::<f64>()), (20, 32));
+        let wide = batch(&[case.widen()], &[]);
+        assert_eq!((wide.len(), wide[4]), (16 + 136, 64));
+        assert_eq!(wide[16..24], 1f64.to_le_bytes());
+    }
+
+    #[test]
+    fn verdicts_are_read_and_what_is_none_is_refused() {
+        let record = |hit: i32, facing: i32| {
+            let mut bytes = [hit.to_le_bytes(), facing.to_le_bytes()].concat();
+            [0.5f64, 0.25, f64::NAN].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+            bytes
+        };
+        let read = verdict::<f64>(&record(1, 2)).unwrap();
+        assert_eq!((read.hit, read.facing, read.t, read.u), (true, Some(Facing::Back), 0.5, 0.25));
+        assert!(read.v.is_nan());
+        assert!(!verdict::<f64>(&record(0, 77)).unwrap().hit);
+        assert!(verdict::<f64>(&record(2, 0)).unwrap_err().contains("hit is 2"));
+        assert!(verdict::<f64>(&record(1, -1)).unwrap_err().contains("facing is -1"));
+    }
+}

@@ -1,0 +1,274 @@
+//! How a kernel announces itself: lines of text, the same in front of either encoding.
+
+#![forbid(unsafe_code)]
+
+use super::PROTOCOL;
+use crate::contract::Contract;
+use crate::corpus::number;
+use crate::kernel::{Dimension, EpsilonSet, Gate, Gives, KernelInfo, Tunable};
+
+/// A kernel's announcement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hello {
+    name: String,
+    source: String,
+    contract: Contract,
+    gives: [bool; 3],
+    epsilons: Vec<Epsilon>,
+    /// Whether it runs in `f32`, and in `f64`.
+    pub scalars: [bool; 2],
+    /// Whether cases and verdicts go in binary.
+    pub binary: bool,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Epsilon {
+    name: String,
+    value: String,
+    dimension: Dimension,
+    tunable: Tunable,
+    refuses: String,
+}
+
+/// A hello line by line.
+#[derive(Default)]
+pub struct Start {
+    lines: usize,
+    name: Option<String>,
+    source: Option<String>,
+    contract: Option<Contract>,
+    gives: Option<[bool; 3]>,
+    scalars: Option<[bool; 2]>,
+    binary: Option<bool>,
+    epsilons: Vec<Epsilon>,
+}
+
+impl Start {
+    /// Takes a line; the hello, if it was the last. An error says what was expected.
+    pub fn take(&mut self, line: &str) -> Result<Option<Hello>, String> {
+        self.lines += 1;
+        let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
+        let rest = rest.trim();
+        if word == "error" {
+            return Err(rest.to_owned());
+        }
+        if self.lines == 1 {
+            return first_line(line, word, rest).map(|()| None);
+        }
+        match word {
+            "name" => once("name", &mut self.name, rest.to_owned())?,
+            "source" => once("source", &mut self.source, rest.to_owned())?,
+            "contract" => {
+                let contract = rest.parse().map_err(|error| format!("contract: {error}"))?;
+                once("contract", &mut self.contract, contract)?;
+            }
+            "gives" => {
+                once("gives", &mut self.gives, subset(rest, "gives", ["t", "uv", "facing"])?)?
+            }
+            "scalars" => {
+                once("scalars", &mut self.scalars, subset(rest, "scalars", ["f32", "f64"])?)?;
+            }
+            "encoding" => match rest {
+                "text" => once("encoding", &mut self.binary, false)?,
+                "binary" => once("encoding", &mut self.binary, true)?,
+                other => return Err(format!("encoding: '{other}' is none of text, binary")),
+            },
+            "epsilon" => self.epsilons.push(epsilon(rest)?),
+            "ready" => return self.finish().map(Some),
+            _ => {
+                let known =
+                    "name, source, contract, gives, scalars, encoding, epsilon, ready, error";
+                return Err(format!("'{}' is none of {known}", shown(line)));
+            }
+        }
+        Ok(None)
+    }
+
+    fn finish(&mut self) -> Result<Hello, String> {
+        let missing = |what: &str| format!("its hello has no line '{what} …' before 'ready'");
+        let scalars = self.scalars.ok_or_else(|| missing("scalars"))?;
+        if scalars == [false; 2] {
+            return Err("scalars: none is named; there are f32 and f64".to_owned());
+        }
+        let epsilons = std::mem::take(&mut self.epsilons);
+        if let Some(i) =
+            (1..epsilons.len()).find(|&i| epsilons[..i].iter().any(|e| e.name == epsilons[i].name))
+        {
+            return Err(format!("epsilon '{}' is announced twice", epsilons[i].name));
+        }
+        Ok(Hello {
+            name: self
+                .name
+                .take()
+                .filter(|name| !name.is_empty())
+                .ok_or_else(|| missing("name"))?,
+            source: self.source.take().unwrap_or_else(|| "not told".to_owned()),
+            contract: self.contract.ok_or_else(|| missing("contract"))?,
+            gives: self.gives.unwrap_or_default(),
+            epsilons,
+            scalars,
+            binary: self.binary.unwrap_or(false),
+        })
+    }
+}
+
+impl Hello {
+    /// The kernel's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the table of kernels says of it; it lives as long as the process.
+    pub fn info(&self) -> &'static KernelInfo {
+        let [t, uv, facing] = self.gives;
+        let gate = |epsilon: &Epsilon| Gate {
+            name: leak(&epsilon.name),
+            refuses: leak(&epsilon.refuses),
+            dimension: epsilon.dimension,
+            epsilon: epsilon.tunable,
+        };
+        let values: Vec<&'static str> = self.epsilons.iter().map(|e| leak(&e.value)).collect();
+        let sets = vec![EpsilonSet { name: "own", values: values.leak() }];
+        Box::leak(Box::new(KernelInfo {
+            source: leak(&self.source),
+            gates: self.epsilons.iter().map(gate).collect::<Vec<_>>().leak(),
+            epsilon_sets: sets.leak(),
+            gives: Gives { t, uv, facing },
+            ..KernelInfo::own(leak(&self.name), self.contract)
+        }))
+    }
+}
+
+fn leak(text: &str) -> &'static str {
+    text.to_owned().leak()
+}
+
+fn first_line(line: &str, word: &str, rest: &str) -> Result<(), String> {
+    if word != "hairline-kernel" {
+        let line = shown(line);
+        return Err(format!("its first line is '{line}', expected 'hairline-kernel {PROTOCOL}'"));
+    }
+    if rest.parse() != Ok(PROTOCOL) {
+        let rest = shown(rest);
+        return Err(format!("it speaks protocol '{rest}', this program speaks {PROTOCOL}"));
+    }
+    Ok(())
+}
+
+fn once<T>(what: &str, place: &mut Option<T>, value: T) -> Result<(), String> {
+    match place.replace(value) {
+        None => Ok(()),
+        Some(_) => Err(format!("'{what}' is said twice")),
+    }
+}
+
+/// Which of some words a line has.
+fn subset<const N: usize>(text: &str, what: &str, known: [&str; N]) -> Result<[bool; N], String> {
+    let mut found = [false; N];
+    for word in text.split_whitespace() {
+        let place = known
+            .iter()
+            .position(|known| *known == word)
+            .ok_or_else(|| format!("{what}: '{}' is none of {}", shown(word), known.join(", ")))?;
+        found[place] = true;
+    }
+    Ok(found)
+}
+
+/// `NAME VALUE LENGTH DIRECTION signed|non-negative MEANING…`.
+fn epsilon(text: &str) -> Result<Epsilon, String> {
+    let shape = || {
+        format!(
+            "epsilon: '{}' is not NAME VALUE LENGTH DIRECTION signed|non-negative [MEANING], as: parallel 1e-6 2 1 non-negative abs(det) < e",
+            shown(text)
+        )
+    };
+    let mut words = text.split_whitespace();
+    let mut next = || words.next().ok_or_else(shape);
+    let (name, value, length, direction, tunable) = (next()?, next()?, next()?, next()?, next()?);
+    let power = |word: &str| word.parse::<i8>().map_err(|_| shape());
+    let dimension = Dimension::new(power(length)?, power(direction)?);
+    let tunable = match tunable {
+        "signed" => Tunable::Signed,
+        "non-negative" => Tunable::NonNegative,
+        _ => return Err(shape()),
+    };
+    let finite = [number::parse::<f32>(value).map(f64::from), number::parse::<f64>(value)];
+    let fits = |x: &f64| x.is_finite() && (tunable == Tunable::Signed || *x >= 0.0);
+    if !finite.iter().all(|x| x.as_ref().is_ok_and(fits)) || value.contains(['x', 'X']) {
+        return Err(format!("epsilon {name}: '{}' is no epsilon that it can take", shown(value)));
+    }
+    let meaning = words.collect::<Vec<_>>().join(" ");
+    let refuses = if meaning.is_empty() { "not told".to_owned() } else { meaning };
+    Ok(Epsilon { name: name.to_owned(), value: value.to_owned(), dimension, tunable, refuses })
+}
+
+/// The beginning of what a process wrote, on one line.
+pub fn shown(text: &str) -> String {
+    let start: String = text.chars().take(60).collect();
+    let dots = if start.len() < text.len() { "…" } else { "" };
+    start.chars().flat_map(char::escape_debug).collect::<String>() + dots
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Hello, String> {
+        let mut start = Start::default();
+        for line in text.lines() {
+            if let Some(hello) = start.take(line)? {
+                return Ok(hello);
+            }
+        }
+        Err("no 'ready'".to_owned())
+    }
+
+    const WHOLE: &str = "hairline-kernel 1\nname mine\nsource here and there\nscalars f64\n\
+        contract closed-ray,invalid=free\ngives t facing\nencoding binary\n\
+        epsilon parallel 1e-6 2 1 non-negative abs(det) < e\nepsilon edge -1e-3 0 0 signed\nready\n";
+
+    #[test]
+    fn a_whole_hello_is_a_row_of_the_table() {
+        let hello = read(WHOLE).unwrap();
+        let info = hello.info();
+        assert_eq!((info.name, info.source), ("mine", "here and there"));
+        assert_eq!((hello.scalars, hello.binary), ([false, true], true));
+        assert_eq!((info.gives.t, info.gives.uv, info.gives.facing), (true, false, true));
+        assert_eq!(info.contract, "closed-ray,invalid=free".parse().unwrap());
+        assert_eq!(info.epsilon_sets[0].values, ["1e-6", "-1e-3"]);
+        assert_eq!(info.gates[0].refuses, "abs(det) < e");
+        assert_eq!(info.gates[0].dimension, Dimension::new(2, 1));
+        assert_eq!((info.gates[1].epsilon, info.gates[1].refuses), (Tunable::Signed, "not told"));
+    }
+
+    #[test]
+    fn what_is_missing_twice_or_unknown_is_named() {
+        for (old, new, message) in [
+            (
+                "hairline-kernel 1",
+                "hello",
+                "its first line is 'hello', expected 'hairline-kernel 1'",
+            ),
+            ("kernel 1", "kernel 2", "it speaks protocol '2', this program speaks 1"),
+            ("name mine\n", "", "its hello has no line 'name …' before 'ready'"),
+            ("scalars f64\n", "", "its hello has no line 'scalars …' before 'ready'"),
+            ("contract closed-ray,invalid=free\n", "", "its hello has no line 'contract …'"),
+            ("scalars f64", "scalars f16", "scalars: 'f16' is none of f32, f64"),
+            ("scalars f64", "scalars", "scalars: none is named"),
+            ("name mine", "name mine\nname yours", "'name' is said twice"),
+            ("gives t facing", "gives everything", "gives: 'everything' is none of t, uv, facing"),
+            ("encoding binary", "encoding morse", "encoding: 'morse' is none of text, binary"),
+            ("closed-ray,invalid=free", "closed-rai", "contract: 'closed-rai' is no contract"),
+            ("epsilon edge -1e-3", "epsilon parallel 1", "epsilon 'parallel' is announced twice"),
+            ("epsilon edge -1e-3 0 0 signed", "epsilon edge 0", "epsilon: 'edge 0' is not NAME"),
+            ("1e-6 2 1 non", "-1e-6 2 1 non", "epsilon parallel: '-1e-6' is no epsilon"),
+            ("1e-6 2 1 non", "1e-6 two 1 non", "epsilon: 'parallel 1e-6 two"),
+            ("source here", "sauce here", "'sauce here and there' is none of name, source,"),
+            ("source here", "error three is not installed\nsource", "three is not installed"),
+        ] {
+            let error = read(&WHOLE.replacen(old, new, 1)).unwrap_err();
+            assert!(error.starts_with(message), "{old} -> {new}: {error}");
+        }
+    }
+}

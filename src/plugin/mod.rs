@@ -1,0 +1,36 @@
+//! Floor 6, beside the command line: kernels in processes of their own. A command that speaks the
+//! protocol of docs/protocol.md over its pipes, or a shared library with the functions of
+//! include/hairline.h, which a child of this program loads.
+//!
+//! A process may crash, hang, exit or write where it must not: that is a finding about the case, and
+//! the run goes on with a new process. An answer that is no answer is the end of the run.
+
+#![deny(unsafe_code)]
+
+mod binary;
+mod hello;
+#[cfg(unix)]
+mod host;
+mod process;
+mod running;
+pub mod text;
+
+pub use hello::{Hello, Start};
+pub use process::{Limits, LoadError, load};
+pub use running::Program;
+
+#[cfg(unix)]
+pub use host::serve;
+
+/// The protocol's version, in the first line of a hello.
+pub const PROTOCOL: u32 = 1;
+
+/// The hidden command by which this program loads a library: `hairline kernel-host FILE`.
+pub const HOST_COMMAND: &str = "kernel-host";
+
+/// On other systems a library has no host.
+#[cfg(not(unix))]
+pub fn serve(_: &std::path::Path) -> u8 {
+    eprintln!("hairline: --kernel-lib needs a Unix system: its library runs behind guard pages");
+    1
+}

@@ -1,0 +1,279 @@
+//! A kernel in processes of its own, as a [`Subject`]: one process a thread, each asked in batches;
+//! what a process dies of is pinned case by case.
+
+#![forbid(unsafe_code)]
+
+use super::hello::{Hello, Start, shown};
+use super::running::{Lost, Program, Running};
+use super::{binary, text};
+use crate::arith::Float;
+use crate::case::Case;
+use crate::kernel::{Entry, Failure, Subject, Trouble, Verdict};
+use std::io;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// How much a process may try this program's patience.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// How long it may be silent when an answer is due.
+    pub silence: Duration,
+    /// On how many cases it may crash or hang before no more are asked.
+    pub failures: u64,
+}
+
+/// Why a kernel's process is none.
+#[derive(Debug)]
+pub enum LoadError {
+    /// It cannot be started.
+    Start(io::Error),
+    /// Its hello is none; one line.
+    Hello(String),
+}
+
+/// Starts a kernel's process and reads its hello. The entry lives as long as this process; `flag`
+/// chooses it on a command line.
+pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, LoadError> {
+    let running = program.start().map_err(LoadError::Start)?;
+    let (hello, running) = greet(running, limits).map_err(|lost| {
+        LoadError::Hello(match lost {
+            Lost::Garbled(message) => message,
+            Lost::Failed(Failure::Timeout) => {
+                format!("it said no hello within {} s", limits.silence.as_secs_f64())
+            }
+            Lost::Failed(failure) => format!("before its hello was over it {failure}"),
+        })
+    })?;
+    let info = hello.info();
+    let scalars = hello.scalars;
+    let state = Mutex::new(State { idle: vec![running], ..State::default() });
+    let kernel = Process { program, limits, hello, state };
+    let kernel: &'static Process = Box::leak(Box::new(kernel));
+    let mut entry = Entry::new(info).chosen_by(flag.leak());
+    if scalars[0] {
+        entry = entry.with_f32(kernel);
+    }
+    if scalars[1] {
+        entry = entry.with_f64(kernel);
+    }
+    Ok(entry)
+}
+
+/// Reads a process's hello.
+fn greet(mut running: Running, limits: Limits) -> Result<(Hello, Running), Lost> {
+    let mut start = Start::default();
+    loop {
+        let line = running.line(limits.silence)?;
+        if let Some(hello) = start.take(&line).map_err(Lost::Garbled)? {
+            return Ok((hello, running));
+        }
+    }
+}
+
+struct Process {
+    program: Program,
+    limits: Limits,
+    hello: Hello,
+    state: Mutex<State>,
+}
+
+#[derive(Default)]
+struct State {
+    /// Processes that nobody asks at the moment.
+    idle: Vec<Running>,
+    /// Cases that killed a process.
+    failures: u64,
+    /// The first of them.
+    first: Option<String>,
+    note: Option<String>,
+    gave_up: Option<String>,
+}
+
+impl Process {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Asks a process for the verdicts on a batch. It goes back to the idle ones if it answered.
+    fn ask<F: Float>(
+        &self,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Result<(), Lost> {
+        let idle = self.state().idle.pop();
+        let mut running = match idle {
+            Some(running) => running,
+            None => self.another()?,
+        };
+        if self.hello.binary {
+            self.ask_in_binary(&mut running, cases, epsilons, verdicts)?;
+        } else {
+            self.ask_in_text(&mut running, cases, epsilons, verdicts)?;
+        }
+        if running.has_unread() {
+            return Err(Lost::Garbled("it wrote more than was asked for".to_owned()));
+        }
+        self.state().idle.push(running);
+        Ok(())
+    }
+
+    fn another(&self) -> Result<Running, Lost> {
+        let cannot = |error| Lost::Garbled(format!("it cannot be started again: {error}"));
+        let (hello, running) = greet(self.program.start().map_err(cannot)?, self.limits)?;
+        if hello != self.hello {
+            let message = "started again, it announced itself differently".to_owned();
+            return Err(Lost::Garbled(message));
+        }
+        Ok(running)
+    }
+
+    fn ask_in_text<F: Float>(
+        &self,
+        running: &mut Running,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Result<(), Lost> {
+        let mut lines = String::new();
+        if !epsilons.is_empty() {
+            lines.push_str(&text::epsilons_line(epsilons));
+        }
+        for (id, case) in cases.iter().enumerate() {
+            lines.push_str(&text::case_line(id, case));
+        }
+        let count = cases.len() as u64;
+        lines.push_str(&text::end_line(count));
+        running.send(lines.into_bytes());
+        for (id, place) in verdicts.iter_mut().enumerate() {
+            let line = running.line(self.limits.silence)?;
+            match text::answer::<F>(&line).map_err(Lost::Garbled)? {
+                text::Answer::Verdict(name, verdict) if name.parse() == Ok(id) => *place = verdict,
+                _ => {
+                    let line = shown(&line);
+                    let message =
+                        format!("expected the verdict on case {id} of {count}, found '{line}'");
+                    return Err(Lost::Garbled(message));
+                }
+            }
+        }
+        let line = running.line(self.limits.silence)?;
+        if text::answer::<F>(&line) != Ok(text::Answer::End(count)) {
+            let message =
+                format!("after {count} verdicts expected 'end {count}', found '{}'", shown(&line));
+            return Err(Lost::Garbled(message));
+        }
+        Ok(())
+    }
+
+    fn ask_in_binary<F: Float>(
+        &self,
+        running: &mut Running,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Result<(), Lost> {
+        running.send(binary::batch(cases, epsilons));
+        let head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
+        if head[..4] == binary::OVERRUN {
+            return Err(Lost::Failed(Failure::Overrun));
+        }
+        let mut expected = binary::ANSWER.to_vec();
+        expected.extend((cases.len() as u32).to_le_bytes());
+        if head != expected {
+            let [head, expected] = [&head, &expected].map(|bytes| bytes.escape_ascii());
+            let message = format!("its answer begins with '{head}', expected '{expected}'");
+            return Err(Lost::Garbled(message));
+        }
+        let size = binary::verdict_bytes::<F>();
+        let bytes = running.bytes(size * cases.len(), self.limits.silence)?;
+        for (id, (record, place)) in bytes.chunks_exact(size).zip(verdicts).enumerate() {
+            let of = cases.len();
+            *place = binary::verdict(record)
+                .map_err(|message| Lost::Garbled(format!("verdict {id} of {of}: {message}")))?;
+        }
+        Ok(())
+    }
+
+    /// Asks one case.
+    fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
+        let mut verdict = [Verdict::miss(None)];
+        match self.ask(std::slice::from_ref(case), epsilons, &mut verdict) {
+            Ok(()) => Ok(verdict[0]),
+            Err(Lost::Garbled(message)) => Err(message),
+            Err(Lost::Failed(failure)) => self.pinned(failure, case),
+        }
+    }
+
+    /// The verdict where a case by itself is a process's end; an error where that is too often.
+    fn pinned<F: Float>(&self, failure: Failure, case: &Case<F>) -> Result<Verdict<F>, String> {
+        let mut state = self.state();
+        state.failures += 1;
+        let (failures, most) = (state.failures, self.limits.failures);
+        let first = state.first.get_or_insert_with(|| format!("{failure} on {}", case.hex()));
+        if failures > most {
+            return Err(format!(
+                "it failed on more than {most} cases, the limit of --kernel-failures; first: {first}"
+            ));
+        }
+        Ok(Verdict::failed(failure))
+    }
+
+    /// The verdicts on a batch that killed a process, case by case.
+    fn pin_all<F: Float>(
+        &self,
+        of_batch: Failure,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Result<(), String> {
+        for (case, verdict) in cases.iter().zip(&mut *verdicts) {
+            *verdict = self.ask_one(case, epsilons)?;
+        }
+        if verdicts.iter().all(|verdict| verdict.failure.is_none()) {
+            let count = cases.len();
+            self.state().note.get_or_insert_with(|| {
+                format!("asked {count} cases at once it {of_batch}; asked one by one it answered them all, and these answers count")
+            });
+        }
+        Ok(())
+    }
+}
+
+impl<F: Float> Subject<F> for Process {
+    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        verdicts.fill(Verdict::miss(None));
+        let has_given_up = self.state().gave_up.is_some();
+        if has_given_up {
+            return;
+        }
+        if let Err(message) = self.try_run(cases, epsilons, verdicts) {
+            self.state().gave_up.get_or_insert(message);
+        }
+    }
+
+    fn trouble(&self) -> Option<Trouble> {
+        let state = self.state();
+        let gave_up = state.gave_up.clone().map(Trouble::GaveUp);
+        gave_up.or_else(|| state.note.clone().map(Trouble::Note))
+    }
+}
+
+impl Process {
+    fn try_run<F: Float>(
+        &self,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Result<(), String> {
+        match (self.ask(cases, epsilons, verdicts), cases) {
+            (Ok(()), _) => Ok(()),
+            (Err(Lost::Garbled(message)), _) => Err(message),
+            (Err(Lost::Failed(failure)), [case]) => {
+                verdicts[0] = self.pinned(failure, case)?;
+                Ok(())
+            }
+            (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts),
+        }
+    }
+}
