@@ -76,9 +76,10 @@ fn limits_move_with_scale_by_the_power_of_the_gates_dimension() {
         assert_eq!(f64::from(scaling.predicted), power, "{kernel} {gate}");
         let slope = scaling.misses.expect("a slope");
         assert!((slope - power).abs() < 0.01, "{kernel} {gate}: {slope}");
-        let limits: Vec<&String> =
-            scaling.relative.rows.iter().map(|(_, limit, _)| limit).collect();
-        let first = number(limits[0]);
+        let limits: Vec<String> =
+            scaling.relative.rows.into_iter().filter_map(|row| row.misses_up_to).collect();
+        assert_eq!(limits.len(), 5, "{kernel} {gate}");
+        let first = number(&limits[0]);
         let same = limits.iter().all(|limit| (number(limit) / first - 1.0).abs() < 1e-6);
         assert!(same, "{kernel} {gate}: {limits:?}");
     }
@@ -196,6 +197,10 @@ fn bad_arguments_are_refused_with_a_reason() {
     refused(&["--kernel", "havel-herout"], "no gate of it takes an epsilon");
     refused(&with(&["--map"]), "name two gates");
     refused(&with(&["--at", "nan"]), "not a finite number");
+    refused(&with(&["--gate", "parallel", "--at", "-1"]), "means nothing");
+    refused(&with(&["--relative", "--at", "1"]), "nothing to show");
+    refused(&["--kernel", "cramer,havel-herout"], "no gate of it takes an epsilon");
+    refused(&with(&["--family", "interior,interior"]), "given twice");
     refused(&with(&["--scales", "3"]), "not a scale");
     refused(&with(&["--format", "pdf"]), "unknown format 'pdf'");
     refused(&with(&["-n", "0"]), "number of cases");

@@ -2,8 +2,8 @@
 //!
 //! An ulp is that of the float nearest to the exact value. An exact u or v of 0 is measured in ulps of
 //! 1, since weights add up to it; an exact t of 0 in the t that moves the point by one ulp of the
-//! largest coordinate of the case's points; the point in ulps of its largest coordinate, as it is
-//! formed in the scalar, rounding and all.
+//! largest coordinate of the case's points; the point in ulps of that coordinate too, as it is formed
+//! in the scalar, rounding and all.
 
 use super::histogram::Histogram;
 use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector};
@@ -141,12 +141,7 @@ impl<'a, F: Float> Measure<'a, F> {
         let [o, d, ..] = self.case.vectors();
         let exact_t = if self.zeros[0] { &R::zero() } else { exact_t };
         let exact = ray.origin.plus(&ray.direction.times(exact_t));
-        let smallest = ulp_of_points(self.case).to_f64();
-        let mut largest = 0.0f64;
-        for axis in 0..3 {
-            largest = largest.max(float(&exact.at(axis), smallest)?.abs());
-        }
-        let ulp = nearest::<F>(largest).ulp().to_f64();
+        let ulp = ulp_of_points(self.case).to_f64();
         let mut worst = 0.0f64;
         for axis in 0..3 {
             let found = o[axis] + t * d[axis];

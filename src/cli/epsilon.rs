@@ -11,7 +11,7 @@ use crate::family::Family;
 use crate::kernel::{Gate, Scalar, nearest_name};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
-use crate::response::{StudyPlan, study, tunable_gates};
+use crate::response::{StudyPlan, floor, study, tunable_gates};
 use clap::Args;
 
 /// Which kernel, gate and cases, and how to report.
@@ -36,7 +36,7 @@ pub struct EpsilonArguments {
     #[arg(long)]
     relative: bool,
 
-    /// Weigh two gates against each other
+    /// Weigh two gates against each other (in text and JSON)
     #[arg(long)]
     map: bool,
 
@@ -87,6 +87,9 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         &arguments.output,
     )?;
     let rows = arguments.rows()?;
+    for row in &rows {
+        arguments.gates(row)?;
+    }
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;
@@ -121,6 +124,10 @@ impl EpsilonArguments {
         }
         let mut rows = self.kernels.rows()?;
         rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
+        if self.relative && (self.map || !self.at.is_empty()) {
+            let message = "--relative: no kernel is run with such an epsilon, so --map and --at have nothing to show";
+            return Err(Failure::usage(message));
+        }
         if self.map && self.gate.len() != 2 {
             return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
         }
@@ -169,11 +176,20 @@ impl EpsilonArguments {
         sources: &[Source],
         progress: &Progress,
     ) -> Result<(Vec<GatePart>, Option<MapPart>), Failure> {
+        let chosen = self.gates(row)?;
         let at = self.at.iter().map(|text| {
-            F::parse(text).filter(|e| e.is_finite()).ok_or_else(|| {
+            let e = F::parse(text).filter(|e| e.is_finite()).ok_or_else(|| {
                 let message = format!("--at: '{text}' is not a finite number of {}", F::NAME);
                 Failure::usage(message)
-            })
+            })?;
+            let gates = row.entry.info.gates;
+            match chosen.iter().find(|gate| e < floor::<F>(&gates[**gate])) {
+                Some(gate) => Err(Failure::usage(format!(
+                    "--at: gate '{}' refuses where {}: below 0 that is the same as 0, so {text} means nothing",
+                    gates[*gate].name, gates[*gate].refuses
+                ))),
+                None => Ok(e),
+            }
         });
         let gated = F::subject(row.entry).and_then(|subject| subject.gated()).ok_or_else(|| {
             let kernel = row.entry.info.name;
@@ -183,8 +199,8 @@ impl EpsilonArguments {
         let plan = StudyPlan::<F> {
             row,
             gated,
-            gates: self.gates(row)?,
             at: at.collect::<Result<_, _>>()?,
+            gates: chosen.clone(),
             exact: self.exact,
             relative: self.relative,
             scales: self.exponents()?,

@@ -1,7 +1,6 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
-use super::select::unknown;
 use clap::ValueEnum;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -41,7 +40,8 @@ pub fn paired_outputs<'a, T>(
     let find = |name: &String| {
         let found = table.iter().find(|format| name_of(format) == name);
         found.ok_or_else(|| {
-            unknown("format", name, table.iter().map(name_of), "the command's --help")
+            let names: Vec<&str> = table.iter().map(name_of).collect();
+            Failure::usage(format!("unknown format '{name}': there are {}", names.join(", ")))
         })
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;

@@ -122,6 +122,11 @@ impl SourceArguments {
                 FAMILIES.iter().filter(|family| usual(family)).collect()
             });
         }
+        if let Some(i) =
+            (1..self.family.len()).find(|&i| self.family[..i].contains(&self.family[i]))
+        {
+            return Err(Failure::usage(format!("--family: '{}' is given twice", self.family[i])));
+        }
         self.family
             .iter()
             .map(|name| {

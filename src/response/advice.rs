@@ -1,6 +1,7 @@
 //! What follows from a response: which epsilons are right, and what the others cost.
 
 use super::curve::{Bracket, Curve, Question};
+use super::duty::Duty;
 use super::run::{Response, SourceResponse, floor};
 use crate::arith::Float;
 use crate::audit::{Place, Source};
@@ -38,11 +39,17 @@ pub struct Side<F> {
 
 impl<F: Scalar> Trade<F> {
     /// Of one gate (the n-th of the request), over the sources of a run.
-    pub fn new(gate: &Gate, n: usize, sources: &[Source], run: &[SourceResponse<F>]) -> Trade<F> {
+    pub fn new(
+        gate: &Gate,
+        duty: &Duty,
+        n: usize,
+        sources: &[Source],
+        run: &[SourceResponse<F>],
+    ) -> Trade<F> {
         let largest = F::infinity().offset_ulps(-1);
         let floor = floor(gate);
         let respawned =
-            |source: &Source| gate.guards_start() && source.grouping() == Grouping::Respawn;
+            |source: &Source| duty.guards_start() && source.grouping() == Grouping::Respawn;
         let side = |question: Question, counts: &dyn Fn(&Source) -> bool| {
             let counted = |(i, source): (usize, &Source)| counts(source).then_some(i);
             let counted = sources.iter().enumerate().filter_map(counted);

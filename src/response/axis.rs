@@ -1,6 +1,6 @@
 //! The epsilons at which a response is exact, and the cells between them.
 
-use crate::arith::Float;
+use crate::arith::{Float, scale_by_power_of_two};
 
 /// Cells to a power of two: their lower ends are 2^k·m with m = 64..127.
 const PER_OCTAVE: usize = 64;
@@ -22,10 +22,9 @@ impl<F: Float> Axis<F> {
         edges.extend(marks.iter().filter(|mark| mark.is_finite()));
         for exponent in F::MIN_EXPONENT..=F::MAX_EXPONENT {
             for m in PER_OCTAVE..2 * PER_OCTAVE {
-                let value = m as f64 * 2f64.powi(exponent - 6);
-                let edge = F::from_f64(value);
+                let edge = F::from_f64(scale_by_power_of_two(m as f64, exponent - 6));
                 // Few of them are subnormal numbers.
-                if edge.to_f64() == value && value > 0.0 {
+                if scale_by_power_of_two(edge.to_f64(), 6 - exponent) == m as f64 {
                     edges.extend([edge, -edge]);
                 }
             }
@@ -123,6 +122,11 @@ mod tests {
         let axis = Axis::<f32>::new(&[]);
         for (m, k) in [(64, 0), (127, 10), (65, -120), (97, -155), (64, -155), (1, -149)] {
             let edge = (f64::from(m) * 2f64.powi(k)) as f32;
+            assert!(axis.edges().contains(&edge) && axis.edges().contains(&-edge), "{m} 2^{k}");
+        }
+        let axis = Axis::<f64>::new(&[]);
+        for (m, k) in [(64, 0), (127, -1074), (65, -1074), (97, 900), (1, -1074), (3, -1073)] {
+            let edge = scale_by_power_of_two(f64::from(m), k);
             assert!(axis.edges().contains(&edge) && axis.edges().contains(&-edge), "{m} 2^{k}");
         }
     }

@@ -4,13 +4,17 @@ use crate::contract::{Contract, Extent, Sides};
 use crate::judge::Class;
 use crate::kernel::{Gate, Tunable};
 
-/// By [`Class::number`]: whether a gate is there to refuse cases of the class that must be missed.
+/// Which cases that must be missed a gate is there to refuse.
 ///
 /// A gate on t guards the ends of the extent; a gate on the determinant or on n·d guards rays
 /// parallel to the plane and triangles without area, and with a sign the side as well; edge gates
 /// guard everything else, and whatever has no gate of its own.
 #[derive(Clone, Debug)]
-pub struct Duty([bool; Class::COUNT]);
+pub struct Duty {
+    /// By [`Class::number`].
+    classes: [bool; Class::COUNT],
+    guards_start: bool,
+}
 
 const PARALLEL: &str = "parallel";
 const T: &str = "t";
@@ -39,12 +43,18 @@ impl Duty {
                 }
             };
         }
-        Duty(classes)
+        let guards_start = gates[gate].guards_start() && contract.extent != Extent::Line;
+        Duty { classes, guards_start }
     }
 
     /// Whether the gate guards a class.
     pub fn guards(&self, class: Class) -> bool {
-        self.0[class.number()]
+        self.classes[class.number()]
+    }
+
+    /// Whether it is there to keep a ray from hitting the triangle that it starts on.
+    pub fn guards_start(&self) -> bool {
+        self.guards_start
     }
 }
 

@@ -189,7 +189,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
         let axis = self.request.axis;
         let [misses, hits, _, _, self_hits, own] = &mut sums.lanes;
         let respawned = chunk.grouping == Grouping::Respawn;
-        let guards_start = self.gates[gate].guards_start();
+        let guards_start = self.duties[gate].guards_start();
         sums.effective.clear();
         let rows = margins.chunks_exact(self.gates.len());
         for (i, (margins, obligation)) in rows.zip(obligations).enumerate() {

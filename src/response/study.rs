@@ -82,7 +82,10 @@ pub fn study<F: Scalar>(
 ) -> Result<Study<F>, String> {
     let gates = plan.row.entry.info.gates;
     let own: Vec<F> = plan.row.epsilons();
-    let marks_of = |gate: usize| marks(&gates[gate], plan.row, own[gate]);
+    let marks_of = |gate: usize| {
+        // A published epsilon is no multiple of a case's size.
+        if plan.relative { Vec::new() } else { marks(&gates[gate], plan.row, own[gate]) }
+    };
     let mut edges: Vec<F> = decades().chain(plan.at.iter().copied()).collect();
     edges.extend(plan.gates.iter().flat_map(|gate| marks_of(*gate)).map(|(_, epsilon)| epsilon));
     let axis = Axis::new(&edges);
@@ -102,13 +105,15 @@ pub fn study<F: Scalar>(
     let scales = [scales(false), scales(true)];
     let mut studies = Vec::new();
     for (n, &gate) in plan.gates.iter().enumerate() {
-        let trade = Trade::new(&gates[gate], n, sources, &responses);
-        let marks = marks_of(gate);
+        let duty = Duty::of(gates, gate, &plan.row.contract);
+        let trade = Trade::new(&gates[gate], &duty, n, sources, &responses);
+        let mut marks = marks_of(gate);
         let mut weighed = candidates(&trade, DECADES_WEIGHED);
         weighed.extend(marks.iter().map(|(_, epsilon)| *epsilon).chain(plan.at.iter().copied()));
         weighed.retain(|epsilon| trade.floor <= *epsilon);
-        if trade.settled().is_none() {
-            weighed.extend(trade.knee(axis.edges()));
+        if let (None, Some(knee)) = (trade.settled(), trade.knee(axis.edges())) {
+            weighed.push(knee);
+            marks.push(("least sum of both".to_owned(), knee));
         }
         weighed.sort_by_key(|epsilon| epsilon.place());
         weighed.dedup_by(|a, b| a == b);
@@ -118,8 +123,7 @@ pub fn study<F: Scalar>(
         } else {
             prices(plan.row, gate, &weighed, sources, observer)
         };
-        let duty = Duty::of(gates, gate, &plan.row.contract);
-        check(&prices, &gates[gate], &duty, n, &responses)?;
+        check(&prices, &duty, n, &responses)?;
         let scales = scales.each_ref().map(|scales| scales[n].clone());
         studies.push(GateStudy { gate, total, trade, marks, prices, scales });
     }
@@ -177,8 +181,8 @@ fn prices<F: Scalar>(
 }
 
 /// The false hits that a gate is there to refuse, and of how many.
-pub fn own_false_hits(gate: &Gate, duty: &Duty, tally: &Tally) -> (u64, u64) {
-    if gate.guards_start() && tally.self_hits.rays > 0 {
+pub fn own_false_hits(duty: &Duty, tally: &Tally) -> (u64, u64) {
+    if duty.guards_start() && tally.self_hits.rays > 0 {
         return (tally.self_hits.hits, tally.self_hits.rays);
     }
     let guarded = Class::all().filter(|class| duty.guards(*class));
@@ -191,7 +195,6 @@ pub fn own_false_hits(gate: &Gate, duty: &Duty, tally: &Tally) -> (u64, u64) {
 /// Holds the responses to what the audit counted.
 fn check<F: Scalar>(
     prices: &[Price<F>],
-    gate: &Gate,
     duty: &Duty,
     n: usize,
     responses: &[SourceResponse<F>],
@@ -205,7 +208,7 @@ fn check<F: Scalar>(
                 (Question::Crack, tally.groups.cracks),
                 (Question::Double, tally.groups.doubles),
                 (Question::SelfHit, tally.self_hits.hits),
-                (Question::OwnFalseHit, own_false_hits(gate, duty, tally).0),
+                (Question::OwnFalseHit, own_false_hits(duty, tally).0),
             ];
             for (question, count) in counts {
                 let wrong = response.gates[n].curve(question).wrong(price.epsilon);

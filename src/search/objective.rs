@@ -214,6 +214,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let [t, u, v] = line_and_plane(&wide.ray, &wide.triangle);
         let error = |computed: F, exact: f64| (computed.to_f64() - exact).abs();
         let error = match self.target.objective {
+            // Of an exact t of zero there is no ulp.
+            Objective::T if t == 0.0 => return None,
             Objective::T => error(verdict.t, t) / F::from_f64(t).ulp().to_f64(),
             _ => error(verdict.u, u).max(error(verdict.v, v)) / F::EPSILON.to_f64(),
         };
@@ -226,6 +228,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let [t, u, v] = line_and_plane(&ray, &triangle);
         let error = |computed: F, exact: &Exact| (of(computed) - exact).abs();
         let error = match self.target.objective {
+            Objective::T if t.is_zero() => return None,
             Objective::T => error(verdict.t, &t) / of(F::from_f64(t.approximate()).ulp()),
             _ => {
                 let (u, v) = (error(verdict.u, &u), error(verdict.v, &v));

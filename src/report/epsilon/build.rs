@@ -76,6 +76,7 @@ fn gate_part<F: Scalar>(
         gate: gate.name.to_owned(),
         refuses: gate.refuses.to_owned(),
         dimension: [gate.dimension.length, gate.dimension.direction],
+        unit: form.as_ref().map_or("", |_| unit_of_length(gate.dimension)).to_owned(),
         form: form.unwrap_or_else(|| "e".to_owned()),
         others: others.map(|(gate, text)| (gate.name.to_owned(), text.to_string())).collect(),
         contract: plan.row.contract.describe(),
@@ -167,7 +168,6 @@ fn price_parts<F: Scalar>(
 
 /// What the prices of one gate are worked out from.
 struct Pricing<'a, F> {
-    gate: &'a Gate,
     duty: Duty,
     sources: &'a [Source],
     marks: &'a [(String, F)],
@@ -182,7 +182,6 @@ impl<'a, F: Scalar> Pricing<'a, F> {
         let refused =
             |response: &SourceResponse<F>| response.gates[n].refused_by_others.iter().sum();
         Pricing {
-            gate: &info.gates[gate],
             duty: Duty::of(info.gates, gate, &row.contract),
             sources,
             marks: &study.gates[n].marks,
@@ -239,12 +238,12 @@ impl<'a, F: Scalar> Pricing<'a, F> {
         let [misses, hits] = [Finding::FalseMiss, Finding::FalseHit]
             .map(|kind| (total.of(kind), total.trials(kind)));
         let respawned = self.sources[source].grouping() == Grouping::Respawn;
-        let lost = if self.gate.guards_start() && respawned {
+        let lost = if self.duty.guards_start() && respawned {
             (0, 0)
         } else {
             (misses.0.saturating_sub(self.refused_by_others[source]), misses.1)
         };
-        [lost, own_false_hits(self.gate, &self.duty, tally), misses, hits]
+        [lost, own_false_hits(&self.duty, tally), misses, hits]
     }
 
     /// The false hit farthest outside, by the tallies' approximation; its distance is exact.
@@ -283,15 +282,19 @@ fn distance(class: Class, in_space: f64, along: Option<f64>) -> f64 {
 fn scaling_part<F: Scalar>(gate: &Gate, study: &GateStudy<F>) -> Option<ScalingPart> {
     let [absolute, relative] = &study.scales;
     let (first, last) = (absolute.first()?, absolute.last()?);
-    let rows = |scales: &[AtScale<F>]| ScaleRows {
-        rows: scales
-            .iter()
-            .map(|row| (format!("2^{}", row.exponent), text(row.misses_up_to), text(row.hits_from)))
-            .collect(),
-        common: common(scales).map(|(from, to)| [text(from), text(to)]),
+    let row = |row: &AtScale<F>| ScaleRow {
+        scale: format!("2^{}", row.exponent),
+        misses_up_to: row.misses_up_to.map(text),
+        hits_from: row.hits_from.map(text),
+        missed_anyway: row.missed_anyway.0,
+        must_hit: row.missed_anyway.1,
     };
-    let slope_of = |limit: fn(&AtScale<F>) -> F| {
-        slope((first.exponent, limit(first)), (last.exponent, limit(last)))
+    let rows = |scales: &[AtScale<F>]| ScaleRows {
+        rows: scales.iter().map(row).collect(),
+        common: common(scales).map(|(from, to)| [from.map(text), to.map(text)]),
+    };
+    let slope_of = |limit: fn(&AtScale<F>) -> Option<F>| {
+        slope((first.exponent, limit(first)?), (last.exponent, limit(last)?))
     };
     Some(ScalingPart {
         predicted: gate.dimension.length,

@@ -8,11 +8,11 @@ use crate::audit::clopper_pearson;
 use crate::report::Style;
 use std::io::{self, Write};
 
-const WIDTH: f64 = 860.0;
-const PANEL: f64 = 420.0;
+const WIDTH: f64 = 940.0;
+const PANEL: f64 = 480.0;
 const LEFT: f64 = 76.0;
-const RIGHT: f64 = 24.0;
-const TOP: f64 = 128.0;
+const RIGHT: f64 = 110.0;
+const TOP: f64 = 190.0;
 const BOTTOM: f64 = 56.0;
 /// The width of the stretch around zero.
 const ZERO: f64 = 36.0;
@@ -198,7 +198,10 @@ impl<'a> Panel<'a> {
         let middle = (start + end) / 2.0;
         for (span, sign) in self.decades.iter().zip([-1.0, 1.0]) {
             let Some((low, high)) = *span else { continue };
-            let stride = usize::try_from((high - low) / 12 + 1).unwrap_or(1);
+            let decade =
+                (self.x(sign * 10f64.powi(low + 1)) - self.x(sign * 10f64.powi(low))).abs();
+            // A label is some 46 wide.
+            let stride = (46.0 / decade.max(0.1)).ceil() as usize;
             for exponent in (low..=high).step_by(stride) {
                 let x = self.x(sign * 10f64.powi(exponent));
                 if (x - middle).abs() < 30.0 {

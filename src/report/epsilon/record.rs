@@ -61,6 +61,8 @@ pub struct GatePart {
     pub dimension: [i8; 2],
     /// What `e` stands for: `e`, or with --relative its multiple, as `e * L^2 * |d|`.
     pub form: String,
+    /// What the unit of length in the form is; empty if there is none.
+    pub unit: String,
     /// The epsilons of the other gates.
     pub others: BTreeMap<String, String>,
     /// The contract, in words.
@@ -212,10 +214,26 @@ pub struct ScalingPart {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScaleRows {
-    /// `2^k`, the last epsilon without an avoidable miss, the first without an avoidable hit.
-    pub rows: Vec<(String, String, String)>,
-    /// The epsilons that are best at every scale, from and to.
-    pub common: Option<[String; 2]>,
+    /// Scale by scale.
+    pub rows: Vec<ScaleRow>,
+    /// The epsilons that are best at every scale, from and to, each none if no case sets it.
+    pub common: Option<[Option<String>; 2]>,
+}
+
+/// The limits at one scale.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScaleRow {
+    /// `2^k`.
+    pub scale: String,
+    /// The last epsilon without an avoidable miss; none if no case sets one.
+    pub misses_up_to: Option<String>,
+    /// The first epsilon without an avoidable false hit; none if no case sets one.
+    pub hits_from: Option<String>,
+    /// Of the cases that must be hit, those missed at every epsilon.
+    pub missed_anyway: u64,
+    /// The cases that must be hit.
+    pub must_hit: u64,
 }
 
 /// Two gates against each other.

@@ -30,7 +30,11 @@ fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<(
     let GatePart { kernel, scalar, gate, refuses, form, .. } = part;
     writeln!(out, "{kernel} {scalar}, gate {gate}: refuses where {refuses}")?;
     if form != "e" {
-        writeln!(out, "  with {form} in place of e")?;
+        let unit = match part.unit.as_str() {
+            "" => String::new(),
+            unit => format!(", {unit}"),
+        };
+        writeln!(out, "  with {form} in place of e{unit}; no kernel is run with such an epsilon")?;
     }
     let others: Vec<String> =
         part.others.iter().map(|(gate, epsilon)| format!("{gate} = {epsilon}")).collect();
@@ -53,37 +57,47 @@ fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<(
 /// The largest and smallest epsilons that repair all that can be repaired.
 fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
     let TradePart { misses, hits, settled, refused_by_others, .. } = &part.trade;
-    let e = &part.form;
     let least = |limit: &LimitPart, kind: &str| match (limit.of, limit.unavoidable) {
         (0, _) => format!("no case asks about {kind}"),
-        (_, 0) => format!("no {kind}"),
+        (of, 0) => format!("none of {} {kind}", group_digits(of)),
         (of, n) => {
             let (n, of) = (group_digits(n), group_digits(of));
-            format!("the fewest {kind} that any epsilon reaches, {n} of {of}")
+            format!("{n} of {of} {kind}, and no epsilon does better")
         }
     };
     let decided = |limit: &LimitPart, out: &mut dyn Write| match &limit.command {
         Some(command) => writeln!(out, "      decided by {command}"),
         None => Ok(()),
     };
-    let what = "false hits of the kinds that this gate is there to refuse";
+    let what = "possible false hits of the kinds that this gate is there to refuse";
     writeln!(out, "  right epsilons:")?;
     if misses.command.is_none() {
-        writeln!(out, "    every e: {}", least(misses, "false misses"))?;
+        writeln!(out, "    every e: {}", least(misses, "possible false misses"))?;
     } else {
-        writeln!(out, "    {e} <= {}: {}", misses.limit, least(misses, "false misses"))?;
+        writeln!(out, "    e <= {}: {}", misses.limit, least(misses, "possible false misses"))?;
         decided(misses, out)?;
     }
     for (gate, count) in refused_by_others {
-        writeln!(out, "      {} that gate {gate} refuses, whatever e is", group_digits(*count))?;
+        writeln!(
+            out,
+            "      {} that gate {gate} refuses first, whatever e is",
+            group_digits(*count)
+        )?;
     }
     if hits.command.is_none() {
         writeln!(out, "    every e: {}", least(hits, what))?;
     } else {
-        writeln!(out, "    {e} >= {}: {}", hits.limit, least(hits, what))?;
+        writeln!(out, "    e >= {}: {}", hits.limit, least(hits, what))?;
         decided(hits, out)?;
     }
     match settled {
+        _ if misses.of == 0 || hits.of == 0 => {
+            let (side, limit) = if hits.of == 0 { ("lower", "hits") } else { ("upper", "misses") };
+            writeln!(
+                out,
+                "    these cases set no {side} limit: nothing is asked about false {limit}"
+            )
+        }
         Some([from, to]) if misses.command.is_none() && hits.command.is_none() => {
             writeln!(out, "    so this gate decides nothing here: any e will do ({from} to {to})")
         }
@@ -111,23 +125,14 @@ fn prices(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         out,
         "  what an epsilon costs (the kernel was run with it; * marks the best trades):"
     )?;
-    writeln!(
-        out,
-        "    {:<14}{:>24}{:>24}{:>10}{:>10}{columns}",
-        "", "this gate", "this gate", "all false", "all false"
-    )?;
-    writeln!(
-        out,
-        "    {:<14}{:>24}{:>24}{:>10}{:>10}",
-        part.form.chars().next().unwrap_or('e'),
-        "loses",
-        "lets through",
-        "misses",
-        "hits"
-    )?;
+    let (gate, all) = ("this gate", "all false");
+    let width = part.prices.iter().map(|price| price.epsilon.len()).max().unwrap_or(0).max(12);
+    writeln!(out, "    {:width$} {gate:>24}{gate:>24}{all:>10}{all:>10}{columns}", "")?;
+    let (loses, lets) = ("loses", "lets through");
+    writeln!(out, "    {:width$} {loses:>24}{lets:>24}{:>10}{:>10}", "e", "misses", "hits")?;
     for price in &part.prices {
         let mark = if price.on_front { '*' } else { ' ' };
-        write!(out, "  {mark} {:<14}", price.epsilon)?;
+        write!(out, "  {mark} {:<width$} ", price.epsilon)?;
         write!(out, "{:>24}{:>24}", share(&price.lost), share(&price.let_through))?;
         write!(out, "{:>10}{:>10}", short(&price.false_misses), short(&price.false_hits))?;
         if groups {
@@ -162,10 +167,12 @@ fn sentence(price: &PricePart) -> String {
     let lost = worst(|family| &family.lost);
     let admitted = worst(|family| &family.let_through);
     let mut text = match lost.as_str() {
+        "" if price.lost.of == 0 => "no case must be hit".to_owned(),
         "" => "loses nothing".to_owned(),
         lost => format!("loses {lost}"),
     };
     text.push_str(&match admitted.as_str() {
+        "" if price.let_through.of == 0 => "; no case is this gate's to refuse".to_owned(),
         "" => "; lets no false hit through".to_owned(),
         admitted => format!("; lets through {admitted}"),
     });
@@ -203,32 +210,49 @@ fn write_scaling(part: &GatePart, scaling: &ScalingPart, out: &mut dyn Write) ->
     )?;
     let slope = |slope: Option<f64>| slope.map_or("-".to_owned(), |slope| format!("{slope:.2}"));
     let relative = scaling.form.as_deref().filter(|_| !scaling.relative.rows.is_empty());
-    let second = relative.map_or(String::new(), |form| format!("    with {form}"));
-    writeln!(out, "    {:<8}{:>18}{:>18}{second}", "scale", "no miss up to", "no hit from")?;
-    for (i, (scale, misses, hits)) in scaling.absolute.rows.iter().enumerate() {
-        write!(out, "    {scale:<8}{misses:>18}{hits:>18}")?;
+    let second = relative.map_or(String::new(), |form| format!("   with {form}:"));
+    writeln!(
+        out,
+        "    {:<8} {:>23} {:>23} {:>13}{second}",
+        "scale", "no avoidable miss up to", "no such hit from", "missed anyway"
+    )?;
+    let or_dash = |limit: &Option<String>| limit.clone().unwrap_or("-".to_owned());
+    for (i, row) in scaling.absolute.rows.iter().enumerate() {
+        let anyway = match row.must_hit {
+            0 => "-".to_owned(),
+            of => percent(row.missed_anyway as f64 / of as f64),
+        };
+        let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));
+        write!(out, "    {:<8} {misses:>23} {hits:>23} {anyway:>13}", row.scale)?;
         match relative.and(scaling.relative.rows.get(i)) {
-            Some((_, misses, hits)) => writeln!(out, "    {misses:>16}{hits:>16}")?,
+            Some(row) => {
+                let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));
+                writeln!(out, "   {misses:>23} {hits:>23}")?;
+            }
             None => writeln!(out)?,
         }
     }
     let (misses, hits) = (slope(scaling.misses), slope(scaling.hits));
     writeln!(out, "    measured powers: {misses} and {hits}; predicted: {}", scaling.predicted)?;
-    let absolute = match &scaling.absolute.common {
-        Some([from, to]) => format!("an absolute e from {from} to {to} is right at all of them"),
-        None => "no absolute e is right at all of them".to_owned(),
-    };
-    writeln!(out, "    {absolute}")?;
+    writeln!(out, "    an absolute e: {}", at_all_scales(&scaling.absolute.common))?;
     let Some(form) = relative else { return Ok(()) };
-    let common = match &scaling.relative.common {
-        Some([from, to]) => format!("e from {from} to {to} is right at all of them"),
-        None => "no e is right at all of them either, for it trades at each".to_owned(),
-    };
     let unit = match scaling.unit.as_str() {
         "" => String::new(),
         unit => format!(", with {unit}"),
     };
+    let common = at_all_scales(&scaling.relative.common);
     writeln!(out, "    scale-free form: {form}{unit}: {common}")
+}
+
+/// Which epsilons are best at every scale.
+fn at_all_scales(common: &Option<[Option<String>; 2]>) -> String {
+    match common {
+        None => "none is right at all of them".to_owned(),
+        Some([None, None]) => "no case sets a limit".to_owned(),
+        Some([Some(from), None]) => format!("any from {from} up is right at all of them"),
+        Some([None, Some(to)]) => format!("any up to {to} is right at all of them"),
+        Some([Some(from), Some(to)]) => format!("from {from} to {to} it is right at all of them"),
+    }
 }
 
 fn write_map(map: &MapPart, out: &mut dyn Write) -> io::Result<()> {
