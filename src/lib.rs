@@ -42,6 +42,7 @@ pub mod oracle;
 pub mod judge;
 
 pub mod audit;
+pub mod fuzzing;
 pub mod response;
 pub mod search;
 pub mod selfcheck;

@@ -1,13 +1,11 @@
-//! The fast oracle against its definition, in both scalars.
+//! The fast oracle against its definition in rationals, one by one and in lanes.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::oracle::{define, truth};
+use hairline::fuzzing::check_oracle;
+use hairline_fuzz::{hold, with_input};
 
 fn compare(data: &[u8]) {
-    let narrow = hairline_fuzz::case::<f32>(data);
-    assert_eq!(truth(&narrow), define(&narrow).truth, "{}", narrow.hex());
-    let wide = hairline_fuzz::case::<f64>(data);
-    assert_eq!(truth(&wide), define(&wide).truth, "{}", wide.hex());
+    with_input!(data, |input| hold(check_oracle(&input.case)));
 }
 
-hairline_fuzz::target!(compare);
+hairline_fuzz::target!(compare, cases);

@@ -1,22 +1,73 @@
 //! What the fuzz targets share. Each target is a libFuzzer program under cargo-fuzz, and without it a
 //! plain program that replays the files and folders named on its command line.
 
-use hairline::arith::Float;
-use hairline::case::Case;
+mod pinned;
+
+pub use pinned::Pinned;
+
+use hairline::case::Draw;
+use hairline::fuzzing::AnyInput;
 use std::{env, fs, path::Path};
 
-/// Declares a fuzz target over bytes.
+/// Declares a fuzz target over bytes: `target!(function)`; with `target!(function, cases)` bytes are
+/// inputs of `hairline::fuzzing`, which are moved as such.
 #[macro_export]
 macro_rules! target {
-    ($function:path) => {
+    ($function:path $(, $cases:ident)?) => {
         #[cfg(fuzzing)]
         libfuzzer_sys::fuzz_target!(|data: &[u8]| $function(data));
+
+        $($crate::target!(@mutator $cases);)?
 
         #[cfg(not(fuzzing))]
         fn main() {
             $crate::replay($function);
         }
     };
+    (@mutator cases) => {
+        #[cfg(fuzzing)]
+        libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+            $crate::move_input(data, size, max_size, seed)
+                .unwrap_or_else(|| libfuzzer_sys::fuzzer_mutate(data, size, max_size))
+        });
+    };
+}
+
+/// Moves the input in `data[..size]` one or two steps, and gives its new size; none, for libFuzzer's own
+/// mutations, once in four and where it does not fit.
+pub fn move_input(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> Option<usize> {
+    let mut draw = Draw::new("fuzz", u64::from(seed), 0);
+    if draw.below(4) == 0 {
+        return None;
+    }
+    let mut input = AnyInput::from_bytes(&data[..size]).mutated(&mut draw);
+    if draw.coin() {
+        input = input.mutated(&mut draw);
+    }
+    let bytes = input.to_bytes();
+    let fits = bytes.len() <= max_size.min(data.len());
+    fits.then(|| {
+        data[..bytes.len()].copy_from_slice(&bytes);
+        bytes.len()
+    })
+}
+
+/// Calls a generic function with the input that bytes are, in its scalar.
+#[macro_export]
+macro_rules! with_input {
+    ($data:expr, |$input:ident| $body:expr) => {
+        match hairline::fuzzing::AnyInput::from_bytes($data) {
+            hairline::fuzzing::AnyInput::F32($input) => $body,
+            hairline::fuzzing::AnyInput::F64($input) => $body,
+        }
+    };
+}
+
+/// Ends a target's run where two parts of hairline contradict each other.
+pub fn hold<T, E: std::fmt::Display>(result: Result<T, E>) {
+    if let Err(contradiction) = result {
+        panic!("{contradiction}");
+    }
 }
 
 /// Runs a target on every file named on the command line, and on every file of every folder.
@@ -36,23 +87,4 @@ fn replay_path(path: &Path, target: fn(&[u8])) -> usize {
     }
     target(&fs::read(path).expect("a file that can be read"));
     1
-}
-
-/// A case near trouble, from bytes: the first one chooses how the others become coordinates (a small
-/// lattice, raw bits, or lattice points moved by ulps), so that mutations keep coincidences.
-pub fn case<F: Float>(data: &[u8]) -> Case<F> {
-    let byte = |i: usize| data.get(i).copied().unwrap_or(0);
-    let mode = byte(0) % 3;
-    let number = |k: usize| -> F {
-        let raw: u64 = (0..8).fold(0, |bits, i| bits << 8 | u64::from(byte(1 + 8 * k + i)));
-        let lattice = F::from_f64(f64::from((byte(1 + 8 * k) % 9) as i8 - 4));
-        match mode {
-            0 => lattice,
-            1 => F::from_bits(raw),
-            _ => lattice.offset_ulps(i64::from((raw as u8 % 7) as i8 - 3)),
-        }
-    };
-    let vector = |v: usize| std::array::from_fn(|i| number(3 * v + i));
-    let case = Case::new(vector(0), vector(1), [vector(2), vector(3), vector(4)]);
-    if byte(0) & 0x80 == 0 { case } else { case.on(number(15), number(16)) }
 }

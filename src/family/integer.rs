@@ -4,7 +4,7 @@ use super::Made;
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 
-pub(super) type Point = [i64; 3];
+pub(crate) type Point = [i64; 3];
 
 /// A case in integers, times a power of two.
 #[derive(Clone, Copy, Debug)]
@@ -25,15 +25,15 @@ impl IntegerCase {
     }
 }
 
-pub(super) fn plus(a: Point, b: Point) -> Point {
+pub(crate) fn plus(a: Point, b: Point) -> Point {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-pub(super) fn minus(a: Point, b: Point) -> Point {
+pub(crate) fn minus(a: Point, b: Point) -> Point {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
-pub(super) fn times(a: Point, factor: i64) -> Point {
+pub(crate) fn times(a: Point, factor: i64) -> Point {
     a.map(|x| x * factor)
 }
 

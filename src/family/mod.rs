@@ -9,7 +9,7 @@ mod boundary;
 mod control;
 mod directions;
 mod flat;
-mod integer;
+pub(crate) mod integer;
 mod interval;
 mod lattice;
 mod mesh;

@@ -1,0 +1,11 @@
+//! Orientation predicates against the determinant in rationals.
+#![cfg_attr(fuzzing, no_main)]
+
+use hairline::fuzzing::check_orientation;
+use hairline_fuzz::{hold, with_input};
+
+fn compare(data: &[u8]) {
+    with_input!(data, |input| hold(check_orientation(&input.case)));
+}
+
+hairline_fuzz::target!(compare, cases);

@@ -1,0 +1,19 @@
+//! What is said about every epsilon against running the kernel at it.
+#![cfg_attr(fuzzing, no_main)]
+
+use hairline::fuzzing::{AnyInput, check_response};
+use hairline::response::Axis;
+use hairline_fuzz::hold;
+use std::sync::LazyLock;
+
+static NARROW: LazyLock<Axis<f32>> = LazyLock::new(|| Axis::new(&[]));
+static WIDE: LazyLock<Axis<f64>> = LazyLock::new(|| Axis::new(&[]));
+
+fn compare(data: &[u8]) {
+    match AnyInput::from_bytes(data) {
+        AnyInput::F32(input) => hold(check_response(&input, &NARROW)),
+        AnyInput::F64(input) => hold(check_response(&input, &WIDE)),
+    }
+}
+
+hairline_fuzz::target!(compare, cases);
