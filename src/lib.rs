@@ -46,6 +46,8 @@ pub mod fuzzing;
 pub mod response;
 pub mod search;
 pub mod selfcheck;
+#[cfg(feature = "proptest")]
+pub mod strategy;
 
 pub mod orientation;
 
