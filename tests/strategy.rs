@@ -179,7 +179,7 @@ fn builtin(name: &str) -> impl Fn(&Case<f32>) -> Option<f32> + use<> {
         entry.info.epsilon_sets[0].values.iter().map(|text| text.parse().unwrap()).collect();
     move |case| {
         let mut verdict = [Verdict::miss(None)];
-        f32::subject(entry).run(std::slice::from_ref(case), &epsilons, &mut verdict);
+        f32::subject(entry).unwrap().run(std::slice::from_ref(case), &epsilons, &mut verdict);
         verdict[0].hit.then_some(verdict[0].t)
     }
 }

@@ -1,12 +1,12 @@
 //! What must hold for every input, whatever its kernel gets wrong: the parts of this crate agree with
 //! each other. A kernel's own disagreements are told apart from these.
 
-use super::input::Input;
+use super::input::{Input, of_kernel};
 use crate::arith::Float;
 use crate::audit::{CorpusSet, Observer, Source};
 use crate::case::{Case, Draw};
 use crate::corpus::lines::AnyCase;
-use crate::judge::{Obligation, obligation, promises_direction};
+use crate::judge::{self, Obligation};
 use crate::kernel::{Scalar, Subject, Verdict, refused_by};
 use crate::oracle::{self, Layers};
 use crate::orientation::{self, Points, ScaledPoints, default_rows, defined_determinant};
@@ -104,9 +104,9 @@ fn verdict<F: Float>(subject: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -
 /// A kernel's run agrees with its margins: at the given epsilons, at each margin and just above it.
 pub fn check_kernel<F: Scalar>(input: &Input<F>) -> Result<(), Contradiction> {
     let Input { entry, epsilons, case } = input;
-    let subject = F::subject(entry);
+    let (subject, gated) = of_kernel::<F>(entry);
     let about = format!("{} {} {epsilons:?} on {}", entry.info.name, F::NAME, case.hex());
-    let measured = subject.measure(case);
+    let measured = gated.measure(case);
     let margins = &measured.margins;
     let refusal = |epsilons: &[F]| {
         let verdict = verdict(subject, case, epsilons);
@@ -156,14 +156,15 @@ where
     let Input { entry, epsilons, case } = input;
     let mut cases = vec![*case];
     cases.extend((0..7).map(|i| mutate(case, &mut Draw::new("response", 1, i))));
-    let (row, subject) = (input.row(), F::subject(entry));
-    let asked: Vec<Obligation> = cases.iter().map(|case| asked(&row.contract, case)).collect();
+    let (row, (subject, gated)) = (input.row(), of_kernel::<F>(entry));
+    let asked = |case| judge::asked(case, &oracle::truth(case), &row.contract, false);
+    let asked: Vec<Obligation> = cases.iter().map(asked).collect();
     let sources = [Source::Corpus(stored(&cases))];
     let gates = tunable_gates(entry.info.gates);
-    let request = Request { row: &row, gates: &gates, axis, exact: true, relative: false };
+    let request = Request { row: &row, gated, gates: &gates, axis, exact: true, relative: false };
     for response in &run(&request, &sources, &Silent)[0].gates {
         let gate = response.gate;
-        let margin = |case: &Case<F>| subject.measure(case).margins[gate];
+        let margin = |case: &Case<F>| gated.measure(case).margins[gate];
         let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());
         let about = margins.flat_map(|m| [m.offset_ulps(-1), m, m.offset_ulps(1)]);
         let lowest = crate::response::floor::<F>(&entry.info.gates[gate]);
@@ -183,13 +184,6 @@ where
         }
     }
     Ok(())
-}
-
-fn asked<F: Float>(contract: &crate::contract::Contract, case: &Case<F>) -> Obligation {
-    if !promises_direction(contract.direction, case.ray.direction.into()) {
-        return Obligation::Free;
-    }
-    obligation(&oracle::truth(case), contract, false)
 }
 
 fn stored<F: Float>(cases: &[Case<F>]) -> CorpusSet

@@ -6,7 +6,7 @@ use crate::arith::Float;
 use crate::audit::{EpsilonText, Row};
 use crate::case::{Case, Draw};
 use crate::corpus::lines::AnyCase;
-use crate::kernel::{Entry, KERNELS, Scalar, Tunable};
+use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
 use crate::search::mutate;
 
 /// As many gates as a kernel may have for its epsilons to be told.
@@ -22,7 +22,7 @@ const GIVEN: u8 = 255;
 /// A question to a kernel in one scalar.
 #[derive(Clone)]
 pub struct Input<F: Float> {
-    /// The kernel.
+    /// The kernel, a built-in one.
     pub entry: &'static Entry,
     /// One a gate, each such that the command line takes it.
     pub epsilons: Vec<F>,
@@ -88,7 +88,7 @@ impl<F: Scalar> Input<F> {
         let choices = [(); MAX_GATES].map(|()| bytes.byte());
         let case = if flags & HAS_NUMBERS == 0 { construct(bytes) } else { read_case(bytes) };
         let mut input = Input::of_source(entry, case);
-        let margins = F::subject(entry).measure(&case).margins;
+        let margins = of_kernel::<F>(entry).1.measure(&case).margins;
         for (gate, choice) in choices.into_iter().enumerate().take(margins.len()) {
             input.epsilons[gate] = match choice {
                 GIVEN => allowed(entry, gate, bytes.number()),
@@ -116,7 +116,7 @@ impl<F: Scalar> Input<F> {
         match draw.below(8) {
             0 => return Input::of_source(&KERNELS[draw.below(KERNELS.len())], self.case),
             1 | 2 => {
-                let margins = F::subject(self.entry).measure(&self.case).margins;
+                let margins = of_kernel::<F>(self.entry).1.measure(&self.case).margins;
                 let gate = draw.below(margins.len());
                 let choice = draw.integer(0, i64::from(GIVEN) - 1) as u8;
                 input.epsilons[gate] = chosen(self.entry, gate, margins[gate], choice);
@@ -137,6 +137,14 @@ impl<F: Scalar> Input<F> {
             contract_name: None,
         }
     }
+}
+
+/// A built-in kernel and its gates: all of those have both scalars, and show their gates.
+pub(super) fn of_kernel<F: Scalar>(
+    entry: &Entry,
+) -> (&'static dyn Subject<F>, &'static dyn Gated<F>) {
+    let subject = F::subject(entry).expect("a built-in kernel has both scalars");
+    (subject, subject.gated().expect("a built-in kernel shows its gates"))
 }
 
 fn read_case<F: Float>(bytes: &mut Bytes) -> Case<F> {

@@ -5,9 +5,7 @@ use crate::case::Case;
 use crate::contract::{Across, Contract};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::family::Grouping;
-use crate::judge::{
-    Finding, GroupTruth, Obligation, group_truth, judge, obligation, promises_direction,
-};
+use crate::judge::{Finding, GroupTruth, asked, group_truth, judge};
 use crate::kernel::{Gives, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
@@ -41,11 +39,7 @@ where
     AnyCase: From<Case<F>>,
 {
     let (truth, t) = (oracle::truth(case), kernel(case));
-    let asked = if promises_direction(contract.direction, case.ray.direction.into()) {
-        obligation(&truth, contract, false)
-    } else {
-        Obligation::Free
-    };
+    let asked = asked(case, &truth, contract, false);
     let gives = Gives { t: true, uv: false, facing: false };
     let found = judge(asked, &truth, gives, &verdict(t));
     let Some(finding) = found.map(Finding::name) else { return Ok(()) };
