@@ -113,9 +113,13 @@ fn to_lattice<F: Float>(parts: &mut Parts<F>, draw: &mut Draw) {
     // Places count in bits: clearing the low ones of a place rounds the significand.
     let step = 1i64 << (i64::from(F::DIGITS) - 1 - draw.integer(0, 6));
     let rounded = |x: F| {
+        // The places of some NaNs have no sum with half a step.
+        if !x.is_finite() {
+            return x;
+        }
         let place = x.place();
         let magnitude = (place.abs() + step / 2) / step * step;
-        if x.is_finite() { F::from_place(magnitude * place.signum()) } else { x }
+        F::from_place(magnitude * place.signum())
     };
     if draw.below(4) == 0 {
         parts.vectors = parts.vectors.map(|vector| vector.map(rounded));
