@@ -101,5 +101,5 @@ fn finish<F: Float>(bytes: &mut Bytes, case: Case<F>, t: i64) -> Case<F> {
 fn power<F: Float>(bytes: &mut Bytes) -> i32 {
     let byte = bytes.byte();
     let reach = if F::NAME == f32::NAME { 1 } else { 8 };
-    if byte % 2 == 0 { 0 } else { i32::from(byte as i8) * reach }
+    if byte.is_multiple_of(2) { 0 } else { i32::from(byte as i8) * reach }
 }
