@@ -2,8 +2,8 @@
 
 use super::source::Source;
 use crate::arith::Float;
-use crate::contract::{Contract, NamedContract};
-use crate::kernel::{Entry, Gate, PRESETS, Preset, PresetValue, Tunable, nearest_name};
+use crate::contract::{Contract, NAMED, NamedContract};
+use crate::kernel::{Entry, Gate, PRESETS, Preset, PresetValue, Tunable, find, nearest_name};
 use std::fmt;
 
 /// An epsilon before it is rounded to a scalar.
@@ -52,6 +52,21 @@ pub struct Row {
 }
 
 impl Row {
+    /// The row of a kernel, its epsilons as [`Row::epsilon_argument`] writes them (none: as the source
+    /// has them), and a contract by name, `own` for the kernel's own.
+    pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, PlanError> {
+        let entry = find(kernel).ok_or_else(|| PlanError(format!("unknown kernel '{kernel}'")))?;
+        let named = NAMED.iter().find(|named| named.name == contract);
+        if named.is_none() && contract != "own" {
+            return Err(PlanError(format!("unknown contract '{contract}'")));
+        }
+        let choice = match epsilons {
+            Some(text) => EpsilonChoice::parse(text)?,
+            None => EpsilonChoice::Source,
+        };
+        Ok(choice.rows(&[entry], named)?.swap_remove(0))
+    }
+
     /// `kernel (set)`.
     pub fn label(&self) -> String {
         format!("{} ({})", self.entry.info.name, self.set)
@@ -115,6 +130,21 @@ impl fmt::Display for PlanError {
 impl std::error::Error for PlanError {}
 
 impl EpsilonChoice {
+    /// From `gate=value,...`; no gate twice.
+    pub fn parse(text: &str) -> Result<EpsilonChoice, PlanError> {
+        let pairs = text.split(',').map(|pair| {
+            let (gate, value) = pair.split_once('=').ok_or_else(|| {
+                PlanError(format!("'{pair}' is not GATE=VALUE, as parallel=1e-6"))
+            })?;
+            Ok((gate.trim().to_owned(), value.trim().to_owned()))
+        });
+        let pairs: Vec<(String, String)> = pairs.collect::<Result<_, PlanError>>()?;
+        if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
+            return Err(PlanError(format!("gate '{}' is given twice", pairs[i].0)));
+        }
+        Ok(EpsilonChoice::Given(pairs))
+    }
+
     /// The rows of some kernels under this choice; a named contract overrides each kernel's own.
     pub fn rows(
         &self,

@@ -107,6 +107,7 @@ fn write_family<F: Scalar>(
                 line: 0,
                 why: None,
                 url: None,
+                found: None,
             };
             stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
             writeln!(out, "{}", write_case(&stored))?;

@@ -9,6 +9,7 @@ mod epsilon;
 mod exit;
 mod explain;
 mod generate;
+mod fuzz;
 mod input;
 mod judge;
 mod list;
@@ -52,6 +53,8 @@ enum Command {
     Explain(explain::ExplainArguments),
     /// Search for the worst case of each kernel and gate; keep the worst known
     Worst(Box<worst::WorstArguments>),
+    /// Search on and on for kinds of findings, and keep one small example of each in a directory
+    Fuzz(Box<fuzz::FuzzArguments>),
     /// Make a case with a finding as simple as it can be, as JSON, Rust and C to paste into a test
     Shrink(shrink::ShrinkArguments),
     /// List kernels, families, contracts or epsilon presets
@@ -115,6 +118,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Worst(arguments) => worst::run(&arguments),
+        Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Shrink(arguments) => shrink::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),

@@ -25,6 +25,21 @@ impl Progress {
         Progress { bar, start: Instant::now() }
     }
 
+    /// For something without an end: what it does is told by [`Progress::tell`].
+    pub fn without_end(quiet: bool) -> Progress {
+        let progress = Progress::new(0, "", quiet);
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {wide_msg}") {
+            progress.bar.set_style(style);
+        }
+        progress
+    }
+
+    /// Shows one line.
+    pub fn tell(&self, message: String) {
+        self.bar.set_message(message);
+        self.bar.tick();
+    }
+
     /// Sets how far it is.
     pub fn set(&self, position: u64) {
         self.bar.set_position(position);

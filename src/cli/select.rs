@@ -6,9 +6,11 @@ use crate::audit::{EpsilonChoice, Row};
 use crate::contract::{Band, NAMED, NamedContract};
 use crate::kernel::{self, Entry, nearest_name};
 use clap::Args;
+use serde::{Deserialize, Serialize};
 
 /// The flags that choose kernels, their epsilons and the contract.
-#[derive(Args)]
+#[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct KernelArguments {
     /// A kernel, or several separated by commas [default: all, or those of your own alone]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
@@ -97,17 +99,8 @@ impl KernelArguments {
             });
         }
         let Some(text) = &self.epsilon else { return Ok(EpsilonChoice::Source) };
-        let pairs = text.split(',').map(|pair| {
-            let (gate, value) = pair.split_once('=').ok_or_else(|| {
-                Failure::usage(format!("--epsilon: '{pair}' is not GATE=VALUE, as parallel=1e-6"))
-            })?;
-            Ok((gate.trim().to_owned(), value.trim().to_owned()))
-        });
-        let pairs: Vec<(String, String)> = pairs.collect::<Result<_, Failure>>()?;
-        if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
-            return Err(Failure::usage(format!("--epsilon: gate '{}' is given twice", pairs[i].0)));
-        }
-        Ok(EpsilonChoice::Given(pairs))
+        EpsilonChoice::parse(text)
+            .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))
     }
 }
 

@@ -125,6 +125,7 @@ where
         line: 0,
         why: Some(signature.to_string()),
         url: None,
+        found: None,
     };
     stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
     write_case(&stored)

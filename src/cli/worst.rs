@@ -279,7 +279,15 @@ fn relative_error(entry: &Entry) -> Option<f64> {
 
 /// A case as JSON without its bits: its numbers say the same.
 fn bare_line(case: &AnyCase) -> String {
-    let stored = StoredCase { name: None, case: *case, truth: None, line: 0, why: None, url: None };
+    let stored = StoredCase {
+        name: None,
+        case: *case,
+        truth: None,
+        line: 0,
+        why: None,
+        url: None,
+        found: None,
+    };
     let line = write_case(&stored);
     match line.split_once(",\"bits\"") {
         Some((numbers, _)) => format!("{numbers}}}"),

@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 use super::lines::{AnyCase, StoredCase, StoredTruth};
-use super::{json, number};
+use super::{Provenance, json, number};
 use crate::arith::Float;
 use crate::case::Case;
 use serde_json::Value;
@@ -17,7 +17,7 @@ const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"]
 
 /// The case that stands in a line, and what stands beside it.
 pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
-    let [name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url] =
+    let [name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found] =
         json::fields(
             text,
             [
@@ -34,6 +34,7 @@ pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
                 "bits",
                 "why",
                 "url",
+                "found",
             ],
         )?;
     let scalar = json::string(json::required("scalar", scalar)?)
@@ -48,6 +49,7 @@ pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         value.map(json::string).transpose().map_err(|message| format!("{field}: {message}"))
     };
     let truth = truth.map(|truth| StoredTruth::parse(truth.get())).transpose();
+    let found = found.map(|found| Provenance::parse(found.get())).transpose();
     Ok(StoredCase {
         name: text("name", name)?,
         case,
@@ -55,6 +57,7 @@ pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         line,
         why: text("why", why)?,
         url: text("url", url)?,
+        found: found.map_err(|message| format!("found: {message}"))?,
     })
 }
 
@@ -149,6 +152,7 @@ pub(super) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
     fields.push(("bits", object(&bits)));
     fields.extend(stored.why.as_ref().map(|why| ("why", text(why))));
     fields.extend(stored.url.as_ref().map(|url| ("url", text(url))));
+    fields.extend(stored.found.as_ref().map(|found| ("found", found.to_json())));
     object(&fields)
 }
 
@@ -248,7 +252,8 @@ mod tests {
     fn check_round_trip<F: Float>(case: Case<F>, any: AnyCase, name: String) -> String {
         let truth = StoredTruth::parse(r#"{"facing":null,"u_exact":"1/3"}"#).ok();
         let (why, url) = (Some("tab\t\"quote\"".to_owned()), Some("ü\n".to_owned()));
-        let stored = StoredCase { name: Some(name), case: any, truth, line: 7, why, url };
+        let stored =
+            StoredCase { name: Some(name), case: any, truth, line: 7, why, url, found: None };
         let text = write_case(&stored);
         assert!(!text.contains('\n'));
         let read = parse(&text, 7).unwrap();
@@ -284,6 +289,7 @@ mod tests {
             line: 0,
             why: None,
             url: None,
+            found: None,
         };
         let expected = concat!(
             r#"{"name":"x","scalar":"f32","origin":[0.5,-0.0,1.0000000116860974e-7],"#,

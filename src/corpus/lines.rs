@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub use super::stored_truth::{Stored, StoredContact, StoredTruth};
-use super::{InputError, case_json};
+use super::{InputError, Provenance, case_json};
 use crate::case::Case;
 use std::io::{self, BufRead, Read};
 use std::iter;
@@ -47,6 +47,8 @@ pub struct StoredCase {
     pub why: Option<String>,
     /// Where it comes from.
     pub url: Option<String>,
+    /// Which kernel shows what on it, if it was found by a campaign or by `triage`.
+    pub found: Option<Provenance>,
 }
 
 /// The cases of a corpus file, one after the other; blank lines are skipped. `file` is the name in
@@ -178,7 +180,7 @@ mod tests {
         for (line, message) in [
             (
                 r#"{"orign":1}"#,
-                "unknown field 'orign', expected one of name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url",
+                "unknown field 'orign', expected one of name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found",
             ),
             (r#"{"a\nb":1}"#, "unknown field 'a\\nb', expected one of name, "),
             (r#"{CASE,"a":[0,0,0]}"#, "duplicate field 'a'"),

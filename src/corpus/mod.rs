@@ -10,9 +10,12 @@ pub mod manifest;
 pub mod mesh;
 pub mod number;
 mod obj;
+mod provenance;
 pub mod shapes;
 mod stored_truth;
 pub mod truth_json;
+
+pub use provenance::Provenance;
 
 use std::fmt;
 

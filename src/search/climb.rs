@@ -130,7 +130,7 @@ impl<'a, F: Scalar> Climb<'a, F> {
     fn start(&mut self, draw: &mut Draw, evaluations: u64) -> (f64, Case<F>) {
         let mut best: Option<(f64, Case<F>)> = None;
         for _ in 0..STARTS {
-            let case = family_case(draw);
+            let case = family_case(&Parameters::default(), draw);
             let score = self.score(&case);
             if best.is_none_or(|(most, _)| most < score) {
                 best = Some((score, case));
@@ -139,7 +139,7 @@ impl<'a, F: Scalar> Climb<'a, F> {
                 break;
             }
         }
-        best.unwrap_or_else(|| (f64::NEG_INFINITY, family_case(draw)))
+        best.unwrap_or_else(|| (f64::NEG_INFINITY, family_case(&Parameters::default(), draw)))
     }
 
     fn score(&mut self, case: &Case<F>) -> f64 {
@@ -152,10 +152,10 @@ impl<'a, F: Scalar> Climb<'a, F> {
     }
 }
 
-/// Any case of any family.
-fn family_case<F: Scalar>(draw: &mut Draw) -> Case<F> {
+/// Any case of any family, put through the parameters.
+pub(crate) fn family_case<F: Scalar>(parameters: &Parameters, draw: &mut Draw) -> Case<F> {
     let family = &FAMILIES[draw.below(FAMILIES.len())];
-    let made = family.make::<F>(&Parameters::default(), draw.bits(), draw.bits() >> 1);
+    let made = family.make::<F>(parameters, draw.bits(), draw.bits() >> 1);
     let cases = made.cases();
     cases[draw.below(cases.len())]
 }

@@ -21,11 +21,13 @@ mod simplify;
 mod snippet;
 mod table;
 
+pub(crate) use climb::family_case;
 pub use climb::{Found, Goal, LANES, exact_score, search};
 pub use decimal::Decimal;
 pub use domain::Domain;
 pub use moves::mutate;
 pub use objective::{Objective, Scorer, Target};
+pub(crate) use objective::{scale, verdict_and_finding};
 pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored};
 pub use signature::Signature;
 pub use simplify::{Change, SIMPLIFICATIONS, ScaleBy, Simplification, Size};

@@ -278,7 +278,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
 }
 
 /// The first gate that refuses in exact arithmetic; none if the formula without rounding hits.
-pub(super) fn exactly_refusing<F: Scalar>(
+pub(crate) fn exactly_refusing<F: Scalar>(
     row: &Row,
     epsilons: &[F],
     case: &Case<F>,
@@ -289,7 +289,7 @@ pub(super) fn exactly_refusing<F: Scalar>(
 
 /// What is true, what the kernel said, and what `judge` makes of the two. Cases are judged one by
 /// one: nothing is asked of a ray that respawned.
-pub(super) fn verdict_and_finding<F: Scalar>(
+pub(crate) fn verdict_and_finding<F: Scalar>(
     row: &Row,
     epsilons: &[F],
     case: &Case<F>,
@@ -325,7 +325,11 @@ fn nearest(value: &Exact) -> f64 {
 }
 
 /// A gate's scale on a case: E^p·|d|^q.
-fn scale<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, dimension: Dimension) -> V::Real {
+pub(crate) fn scale<V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+    dimension: Dimension,
+) -> V::Real {
     let larger = |x: V::Real, v: V| {
         [0, 1, 2]
             .into_iter()

@@ -64,7 +64,7 @@ pub fn shrink<F: Float>(case: &Case<F>, keeps: impl Fn(&Case<F>) -> bool) -> Shr
 /// The simplest case with the same signature; none if the row shows no finding on the case.
 pub fn shrink_finding<F: Scalar>(row: &Row, case: &Case<F>) -> Option<(Signature, Shrunk<F>)> {
     let signature = Signature::of(row, case)?;
-    let shrunk = shrink(case, |case| Signature::of(row, case).as_ref() == Some(&signature));
+    let shrunk = shrink(case, |case| signature.is_shown(row, case));
     Some((signature, shrunk))
 }
 

@@ -43,6 +43,20 @@ impl Signature {
             exactly: exactly_refusing(row, &epsilons, case).map(name),
         })
     }
+
+    /// Whether a row shows this signature on a case. Most other cases are told apart by what costs
+    /// little, without exact arithmetic.
+    pub fn is_shown<F: Scalar>(&self, row: &Row, case: &Case<F>) -> bool {
+        let (truth, verdict, finding) = verdict_and_finding(row, &row.epsilons::<F>(), case);
+        let gate = verdict.refused_by.map(|gate| row.entry.info.gates[usize::from(gate)].name);
+        (finding, gate, Class::of(&truth)) == (Some(self.finding), self.gate, self.class)
+            && Signature::of(row, case).as_ref() == Some(self)
+    }
+
+    /// The kind alone: the same whatever the epsilons are.
+    pub fn kind(&self) -> Signature {
+        Signature { epsilons: None, ..self.clone() }
+    }
 }
 
 impl fmt::Display for Signature {

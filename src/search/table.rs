@@ -11,12 +11,12 @@ use super::domain::Domain;
 use super::objective::Target;
 use super::shrink::shrink_scored;
 use super::simplify::Size;
-use crate::audit::{EpsilonChoice, Row};
+use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
-use crate::kernel::{self, Scalar};
+use crate::kernel::Scalar;
 use crate::oracle;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -109,6 +109,7 @@ impl Entry {
             line: 0,
             why: Some(why),
             url: None,
+            found: None,
         }
     }
 
@@ -158,14 +159,9 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<Goal, String> {
     if scalar != case_scalar {
         return Err(format!("'{name}' is of {scalar}, its case of {case_scalar}"));
     }
-    let entry = kernel::find(kernel).ok_or_else(|| format!("unknown kernel '{kernel}'"))?;
-    let pairs = epsilons.split(',').filter(|pair| *pair != "-");
-    let pairs = pairs.map(|pair| pair.split_once('=').ok_or_else(shape));
-    let pairs: Vec<(&str, &str)> = pairs.collect::<Result<_, _>>()?;
-    let given = pairs.iter().map(|(gate, value)| ((*gate).to_owned(), (*value).to_owned()));
-    let rows = EpsilonChoice::Given(given.collect()).rows(&[entry], None);
-    let row: Row = rows.map_err(|error| error.0)?.swap_remove(0);
-    let target = Target::find(target, entry.info)
+    let epsilons = Some(epsilons).filter(|text| *text != "-");
+    let row = Row::named(kernel, epsilons, "own").map_err(|error| error.0)?;
+    let target = Target::find(target, row.entry.info)
         .ok_or_else(|| format!("'{target}' is nothing that {kernel} is searched for"))?;
     let domain = Domain::find(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
     Ok(Goal { row, target, domain })

@@ -1,0 +1,233 @@
+//! `hairline fuzz`: a campaign that goes on past the first finding.
+
+mod directory;
+mod lock;
+mod summary;
+
+pub use directory::{CAMPAIGN, FINDS, read_begun, read_finds};
+pub use summary::explain_command;
+
+use super::exit::{Failure, Status};
+use super::output::write_result;
+use super::progress::Progress;
+use super::select::{KernelArguments, chosen_scalars};
+use super::sources::set_threads;
+use crate::fuzz::{Campaign, Find, Plan, State};
+use clap::Args;
+use directory::{Begun, Directory};
+use std::io::{self, Write};
+use summary::{Counters, write_summary};
+
+/// The seconds between two savings of counters and population.
+const SAVE_EVERY: f64 = 10.0;
+
+/// Where the campaign is kept, what it looks at, and how long it goes on.
+#[derive(Args)]
+pub struct FuzzArguments {
+    /// The campaign's directory; an old campaign goes on, with what it was begun with
+    #[arg(value_name = "DIR", required_unless_present = "output", conflicts_with = "output")]
+    directory: Option<String>,
+
+    /// The same as DIR
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<String>,
+
+    #[command(flatten)]
+    kernels: KernelArguments,
+
+    /// f32, f64, or both separated by a comma [default: both]
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR")]
+    scalar: Vec<String>,
+
+    /// Which random cases [default: 1]
+    #[arg(long)]
+    seed: Option<u64>,
+
+    /// Stop this session after so many seconds [default: when it is killed, which loses nothing]
+    #[arg(long, value_name = "SECONDS")]
+    time: Option<f64>,
+
+    /// Stop when the campaign has made so many evaluations; then the finds depend on the seed only
+    #[arg(long, short = 'n', value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    evaluations: Option<u64>,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    /// Print the name of each find once it is on the disk
+    #[arg(long)]
+    print: bool,
+
+    /// No live status
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
+    let path = arguments.directory.as_ref().or(arguments.output.as_ref());
+    let path = path.ok_or_else(|| Failure::usage("say where the campaign is kept: DIR"))?;
+    if let Some(seconds) = arguments.time.filter(|seconds| !(*seconds >= 0.0)) {
+        return Err(Failure::usage(format!("--time: {seconds} is no number of seconds")));
+    }
+    // Wrong flags are found out before a directory is made.
+    plan(&arguments.asked())?;
+    set_threads(arguments.threads)?;
+    let mut directory = Directory::open(path)?;
+    let begun = arguments.begun(&directory, path)?;
+    let mut campaign = Campaign::new(&plan(&begun)?);
+    let finds = directory.finds()?;
+    finds.iter().for_each(|find| campaign.learn(find));
+    let state = directory.state()?;
+    campaign.restore(&state).map_err(|message| directory.wrong_state(message))?;
+    let mut session = Session::new(arguments, directory, campaign, finds, &state);
+    let outcome = session.go_on(arguments);
+    session.progress.finish();
+    // The summary is owed also where a disk is full.
+    write_result("-", |out| write_summary(out, path, &session.finds, &session.counters()))?;
+    outcome.map(|()| Status::Success)
+}
+
+/// The plan of a campaign.
+fn plan(begun: &Begun) -> Result<Plan, Failure> {
+    Ok(Plan {
+        rows: begun.kernels.rows()?,
+        varies: !begun.kernels.chooses_epsilons(),
+        scalars: chosen_scalars(&begun.scalar)?,
+        seed: begun.seed,
+    })
+}
+
+impl FuzzArguments {
+    /// What the flags ask for, if the campaign is new.
+    fn asked(&self) -> Begun {
+        let both = || vec!["f32".to_owned(), "f64".to_owned()];
+        let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };
+        Begun::new(self.kernels.clone(), scalar, self.seed.unwrap_or(1))
+    }
+
+    /// What the campaign was begun with; a new one is begun. Flags that are given must agree.
+    fn begun(&self, directory: &Directory, path: &str) -> Result<Begun, Failure> {
+        let asked = self.asked();
+        let Some(begun) = directory.begun()? else {
+            directory.begin(&asked)?;
+            return Ok(asked);
+        };
+        let other = [
+            ("kernels, epsilons or contract", {
+                self.kernels != KernelArguments::default() && asked.kernels != begun.kernels
+            }),
+            ("scalars", !self.scalar.is_empty() && asked.scalar != begun.scalar),
+            ("seed", self.seed.is_some() && asked.seed != begun.seed),
+        ];
+        match other.into_iter().find(|(_, differs)| *differs) {
+            None => Ok(begun),
+            Some((what, _)) => Err(Failure::usage(format!(
+                "{path}: the campaign was begun with other {what} (see {path}/{CAMPAIGN}); leave those flags out to go on with it, or name another directory"
+            ))),
+        }
+    }
+}
+
+/// A campaign that runs.
+struct Session {
+    directory: Directory,
+    campaign: Campaign,
+    finds: Vec<Find>,
+    progress: Progress,
+    /// The sessions with this one.
+    sessions: u64,
+    /// The seconds of the sessions before.
+    seconds_before: f64,
+    finds_before: usize,
+    evaluations_before: u64,
+}
+
+impl Session {
+    fn new(
+        arguments: &FuzzArguments,
+        directory: Directory,
+        campaign: Campaign,
+        finds: Vec<Find>,
+        state: &State,
+    ) -> Session {
+        // Finds may be younger than the state.
+        let last = finds.iter().filter_map(|find| find.seconds).fold(0.0, f64::max);
+        Session {
+            progress: Progress::without_end(arguments.quiet),
+            sessions: state.sessions + 1,
+            seconds_before: state.seconds.max(last),
+            finds_before: finds.len(),
+            evaluations_before: campaign.evaluations,
+            directory,
+            campaign,
+            finds,
+        }
+    }
+
+    /// Round after round, until time or evaluations are used up.
+    fn go_on(&mut self, arguments: &FuzzArguments) -> Result<(), Failure> {
+        self.save()?;
+        let mut saved = 0.0;
+        loop {
+            let left = arguments.evaluations.map(|n| n.saturating_sub(self.campaign.evaluations));
+            let time_is_up = arguments.time.is_some_and(|limit| limit <= self.progress.seconds());
+            if time_is_up || left == Some(0) {
+                return self.save();
+            }
+            for find in self.campaign.round(left.unwrap_or(u64::MAX)) {
+                self.keep(find, arguments.print)?;
+            }
+            self.progress.tell(self.status());
+            if self.progress.seconds() - saved >= SAVE_EVERY {
+                self.save()?;
+                saved = self.progress.seconds();
+            }
+        }
+    }
+
+    /// A find counts, and is printed, once it is on the disk.
+    fn keep(&mut self, find: Find, print: bool) -> Result<(), Failure> {
+        let seconds = (self.seconds() * 10.0).round() / 10.0;
+        let find = Find { seconds: Some(seconds), ..find };
+        self.directory.append(&find)?;
+        if print {
+            let mut out = io::stdout().lock();
+            writeln!(out, "{}", find.name()).and_then(|()| out.flush())?;
+        }
+        self.finds.push(find);
+        Ok(())
+    }
+
+    fn save(&self) -> Result<(), Failure> {
+        self.directory.save(&self.campaign.state(self.seconds(), self.sessions))
+    }
+
+    fn seconds(&self) -> f64 {
+        self.seconds_before + self.progress.seconds()
+    }
+
+    fn status(&self) -> String {
+        let here = self.campaign.evaluations - self.evaluations_before;
+        let last =
+            self.finds.last().map_or(String::new(), |find| format!("; last: {}", find.name()));
+        format!(
+            "{:.0} s, {} evaluations ({:.0}/s), {} signatures (+{}){last}",
+            self.seconds(),
+            self.campaign.evaluations,
+            here as f64 / self.progress.seconds(),
+            self.finds.len(),
+            self.finds.len() - self.finds_before,
+        )
+    }
+
+    fn counters(&self) -> Counters {
+        Counters {
+            seconds: self.seconds(),
+            evaluations: self.campaign.evaluations,
+            sessions: self.sessions,
+            new: self.finds.len() - self.finds_before,
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! A campaign's directory:
+//!
+//! - `campaign.json`: what it was begun with; written once;
+//! - `finds.jsonl`: one line a find, appended in one write each and synced to the disk before the find
+//!   is reported;
+//! - `state.json`: counters and population, written beside and renamed now and then; it may be older
+//!   than the finds;
+//! - `lock`: one process at a time.
+
+use super::lock::{Lock, LockError};
+use crate::cli::exit::{Failure, Status};
+use crate::cli::output::write_file;
+use crate::cli::select::KernelArguments;
+use crate::corpus::InputError;
+use crate::corpus::lines::{self, write_case};
+use crate::fuzz::{Find, State};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The version of the directory's files.
+const FORMAT: u32 = 1;
+
+/// The file that says what a campaign was begun with.
+pub const CAMPAIGN: &str = "campaign.json";
+
+/// The file of the finds.
+pub const FINDS: &str = "finds.jsonl";
+
+const STATE: &str = "state.json";
+
+/// What a campaign was begun with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Begun {
+    /// The version of these files.
+    pub format: u32,
+    /// The version of hairline that began it.
+    pub version: String,
+    /// Which kernels, epsilons and contract.
+    pub kernels: KernelArguments,
+    /// Which scalars.
+    pub scalar: Vec<String>,
+    /// Which random cases.
+    pub seed: u64,
+}
+
+impl Begun {
+    /// With this program.
+    pub fn new(kernels: KernelArguments, scalar: Vec<String>, seed: u64) -> Begun {
+        Begun {
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            kernels,
+            scalar,
+            seed,
+        }
+    }
+}
+
+/// An open campaign directory.
+pub struct Directory {
+    path: PathBuf,
+    finds: File,
+    /// The length of the finds that are whole.
+    length: u64,
+    _lock: Lock,
+}
+
+impl Directory {
+    /// Makes the directory, if there is none, and takes its lock.
+    pub fn open(path: &str) -> Result<Directory, Failure> {
+        let path = PathBuf::from(path);
+        let failed = |path: &Path, error: io::Error| of_path(path, &error);
+        fs::create_dir_all(&path).map_err(|error| failed(&path, error))?;
+        let lock_path = path.join("lock");
+        let (lock, taken_over) = Lock::take(&lock_path).map_err(|error| match error {
+            LockError::Held(message) => {
+                let message = format!("{}: {message}", path.display());
+                Failure::Message(Status::InputOutput, message)
+            }
+            LockError::Io(error) => failed(&lock_path, error),
+        })?;
+        if taken_over {
+            eprintln!("{}: its process is gone; the campaign goes on here", lock_path.display());
+        }
+        let finds_path = path.join(FINDS);
+        let finds = File::options().create(true).append(true).open(&finds_path);
+        let finds = finds.map_err(|error| failed(&finds_path, error))?;
+        Ok(Directory { path, finds, length: 0, _lock: lock })
+    }
+
+    /// What the campaign was begun with; none of a new one.
+    pub fn begun(&self) -> Result<Option<Begun>, Failure> {
+        let begun = read_begun(&self.path)?;
+        let finds = fs::metadata(self.path.join(FINDS)).map_or(0, |metadata| metadata.len());
+        if begun.is_none() && finds > 0 {
+            let message =
+                format!("{FINDS} is there, but {CAMPAIGN} is not: no campaign of this program");
+            return Err(InputError::of(&self.path.display().to_string(), message).into());
+        }
+        Ok(begun)
+    }
+
+    /// Writes what the campaign is begun with.
+    pub fn begin(&self, begun: &Begun) -> Result<(), Failure> {
+        self.write(CAMPAIGN, begun)
+    }
+
+    /// The finds until now, each run again; a last line without its end is cut off.
+    pub fn finds(&mut self) -> Result<Vec<Find>, Failure> {
+        let path = self.path.join(FINDS);
+        let bytes = fs::read(&path).map_err(|error| of_path(&path, &error))?;
+        let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        let name = path.display().to_string();
+        // First read, then cut: a file that is no finds file is left alone.
+        let finds = read_finds(&bytes[..whole], &name)?;
+        if whole < bytes.len() {
+            self.finds.set_len(whole as u64).map_err(|error| of_path(&path, &error))?;
+            let cut = bytes.len() - whole;
+            eprintln!(
+                "{name}: the last line was cut short, as by a kill; its {cut} bytes are removed (that find was not reported)"
+            );
+        }
+        self.length = whole as u64;
+        Ok(finds)
+    }
+
+    /// Appends a find in one write, and returns once it is on the disk. What a full disk leaves of it
+    /// is taken back.
+    pub fn append(&mut self, find: &Find) -> Result<(), Failure> {
+        let line = write_case(&find.stored()) + "\n";
+        let written = self.finds.write(line.as_bytes()).and_then(|count| {
+            let short = || io::Error::new(ErrorKind::StorageFull, "the disk took half a line");
+            if count == line.len() { self.finds.sync_data() } else { Err(short()) }
+        });
+        if let Err(error) = written {
+            let _ = self.finds.set_len(self.length);
+            let path = self.path.join(FINDS);
+            let message = format!("{}: {error}; the finds before are kept", path.display());
+            return Err(Failure::Message(Status::InputOutput, message));
+        }
+        self.length += line.len() as u64;
+        Ok(())
+    }
+
+    /// The counters and the population that were saved last, if any were.
+    pub fn state(&self) -> Result<State, Failure> {
+        Ok(read_json(
+            &self.path.join(STATE),
+            "; without it the campaign begins anew and knows its finds",
+        )?
+        .unwrap_or_default())
+    }
+
+    /// An error about the state.
+    pub fn wrong_state(&self, message: String) -> Failure {
+        InputError::of(&self.path.join(STATE).display().to_string(), message).into()
+    }
+
+    /// Saves counters and population.
+    pub fn save(&self, state: &State) -> Result<(), Failure> {
+        self.write(STATE, state)
+    }
+
+    fn write(&self, name: &str, value: &impl Serialize) -> Result<(), Failure> {
+        let path = self.path.join(name);
+        let write = |out: &mut dyn Write| {
+            serde_json::to_writer(&mut *out, value).map_err(io::Error::from)?;
+            writeln!(out)
+        };
+        write_file(&path, write).map_err(|error| of_path(&path, &error))
+    }
+}
+
+/// What the campaign in a directory was begun with; none if none is there.
+pub fn read_begun(directory: &Path) -> Result<Option<Begun>, Failure> {
+    let path = directory.join(CAMPAIGN);
+    // The version first: of another one the other fields may be others.
+    let Some(any) = read_json::<serde_json::Value>(&path, "")? else { return Ok(None) };
+    let format = any.get("format").and_then(serde_json::Value::as_u64);
+    if let Some(other) = format.filter(|format| *format != u64::from(FORMAT)) {
+        let message = format!("is of format {other}; this program reads format {FORMAT}");
+        return Err(InputError::of(&path.display().to_string(), message).into());
+    }
+    read_json(&path, "")
+}
+
+/// The finds in a text of whole lines.
+pub fn read_finds(text: &[u8], name: &str) -> Result<Vec<Find>, Failure> {
+    let finds = lines::read(text, name).map(|stored| {
+        let stored = stored?;
+        let at_line = |message: String| InputError::at(name, stored.line, message);
+        Find::of_stored(&stored).map_err(|error| at_line(error.to_string()))
+    });
+    Ok(finds.collect::<Result<_, InputError>>()?)
+}
+
+fn read_json<T: DeserializeOwned>(path: &Path, advice: &str) -> Result<Option<T>, Failure> {
+    let text = match fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        text => text.map_err(|error| of_path(path, &error))?,
+    };
+    let read = serde_json::from_slice(&text);
+    let damaged = |error: serde_json::Error| {
+        InputError::at(&path.display().to_string(), error.line(), format!("{error}{advice}"))
+    };
+    Ok(Some(read.map_err(damaged)?))
+}
+
+fn of_path(path: &Path, error: &io::Error) -> Failure {
+    Failure::of_file(&path.display().to_string(), error)
+}

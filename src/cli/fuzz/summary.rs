@@ -1,0 +1,88 @@
+//! What a campaign says when it stops.
+
+use crate::fuzz::Find;
+use crate::judge::Finding;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// The counters of a campaign.
+pub struct Counters {
+    /// Seconds until now, of all sessions.
+    pub seconds: f64,
+    /// Evaluations until now, of all sessions.
+    pub evaluations: u64,
+    /// How often it was begun or resumed.
+    pub sessions: u64,
+    /// Signatures that this session added.
+    pub new: usize,
+}
+
+/// The moments of the table, in seconds.
+const MOMENTS: [f64; 14] =
+    [1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 60.0, 120.0, 180.0, 300.0, 600.0, 1800.0, 3600.0, 36000.0];
+
+/// Writes the summary.
+pub fn write_summary(
+    out: &mut dyn Write,
+    path: &str,
+    finds: &[Find],
+    counters: &Counters,
+) -> io::Result<()> {
+    let Counters { seconds, evaluations, sessions, new } = counters;
+    let rate = *evaluations as f64 / seconds.max(1e-9);
+    writeln!(
+        out,
+        "{path}: {} distinct signatures, {new} of them new; {evaluations} evaluations in {seconds:.1} s \
+         ({rate:.0}/s, simplifying included), session {sessions}",
+        finds.len()
+    )?;
+    write_growth(out, finds, *seconds)?;
+    write_kernels(out, finds)?;
+    if let Some(find) = finds.last() {
+        writeln!(out, "The last one")?;
+        writeln!(out, "    {}", find.signature)?;
+        writeln!(out, "    {}", explain_command(find, &format!("{path}/{}", super::FINDS)))?;
+    }
+    Ok(())
+}
+
+/// The command that shows a find.
+pub fn explain_command(find: &Find, file: &str) -> String {
+    let epsilons = find.row.epsilon_argument();
+    let epsilons = epsilons.map_or(String::new(), |text| format!(" --epsilon '{text}'"));
+    let contract = match find.row.contract_name {
+        Some(name) => format!(" --contract {name}"),
+        None => String::new(),
+    };
+    let (name, kernel) = (find.name(), find.signature.kernel);
+    format!("hairline explain '{name}' --corpus {file} --kernel {kernel}{epsilons}{contract}")
+}
+
+/// How many signatures were known after how many seconds.
+fn write_growth(out: &mut dyn Write, finds: &[Find], seconds: f64) -> io::Result<()> {
+    let moments = MOMENTS.into_iter().filter(|moment| *moment < seconds).chain([seconds]);
+    let known = |moment: f64| {
+        let before = |find: &&Find| find.seconds.is_some_and(|seconds| seconds <= moment);
+        finds.iter().filter(before).count()
+    };
+    writeln!(out, "Signatures known after so many seconds")?;
+    moments
+        .into_iter()
+        .try_for_each(|moment| writeln!(out, "    {moment:>8.0}  {:>6}", known(moment)))
+}
+
+/// Signatures by kernel and finding.
+fn write_kernels(out: &mut dyn Write, finds: &[Find]) -> io::Result<()> {
+    let mut kernels: BTreeMap<&str, [usize; Finding::ALL.len()]> = BTreeMap::new();
+    for find in finds {
+        kernels.entry(find.signature.kernel).or_default()[find.signature.finding as usize] += 1;
+    }
+    let shown = [Finding::FalseMiss, Finding::FalseHit, Finding::BadValue];
+    let head = shown.map(|finding| format!("{:>12}", finding.name())).concat();
+    writeln!(out, "Signatures by kernel {:>15}{head}", "all")?;
+    for (kernel, counts) in kernels {
+        let cells = shown.map(|finding| format!("{:>12}", counts[finding as usize])).concat();
+        writeln!(out, "    {kernel:<26}{:>6}{cells}", counts.iter().sum::<usize>())?;
+    }
+    Ok(())
+}

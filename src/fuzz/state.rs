@@ -1,0 +1,33 @@
+//! What a campaign saves now and then: counters and population. The kinds are in its finds.
+
+use serde::{Deserialize, Serialize};
+
+/// Counters and population between two rounds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// Rounds until now.
+    pub rounds: u64,
+    /// Evaluations until now.
+    pub evaluations: u64,
+    /// Seconds until now, as whoever has a clock counted them.
+    pub seconds: f64,
+    /// Sessions until now: how often the campaign was begun or resumed.
+    pub sessions: u64,
+    /// Everyone.
+    pub population: Vec<SavedIndividual>,
+}
+
+/// A case with epsilons.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedIndividual {
+    /// The kernel.
+    pub kernel: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The epsilons, as `--epsilon` takes them.
+    pub epsilons: Option<String>,
+    /// The case's bits, as [`Case::bits`](crate::case::Case::bits) has them.
+    pub bits: Vec<u64>,
+}
