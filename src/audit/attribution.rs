@@ -11,7 +11,7 @@ use crate::kernel::{Gated, Subject, TrackedRun};
 use crate::truth::Truth;
 
 /// Why a finding happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Attribution {
     /// The formula means something else than the contract: even without rounding and without an
     /// epsilon it gives this finding.

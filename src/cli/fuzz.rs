@@ -176,9 +176,8 @@ impl Session {
             if time_is_up || left == Some(0) {
                 return self.save();
             }
-            for find in self.campaign.round(left.unwrap_or(u64::MAX)) {
-                self.keep(find, arguments.print)?;
-            }
+            let finds = self.campaign.round(left.unwrap_or(u64::MAX));
+            self.keep(finds, arguments.print)?;
             self.progress.tell(self.status());
             if self.progress.seconds() - saved >= SAVE_EVERY {
                 self.save()?;
@@ -187,16 +186,20 @@ impl Session {
         }
     }
 
-    /// A find counts, and is printed, once it is on the disk.
-    fn keep(&mut self, find: Find, print: bool) -> Result<(), Failure> {
+    /// Finds count, and are printed, once they are on the disk.
+    fn keep(&mut self, mut finds: Vec<Find>, print: bool) -> Result<(), Failure> {
+        if finds.is_empty() {
+            return Ok(());
+        }
         let seconds = (self.seconds() * 10.0).round() / 10.0;
-        let find = Find { seconds: Some(seconds), ..find };
-        self.directory.append(&find)?;
+        finds.iter_mut().for_each(|find| find.seconds = Some(seconds));
+        self.directory.append(&finds)?;
         if print {
             let mut out = io::stdout().lock();
-            writeln!(out, "{}", find.name()).and_then(|()| out.flush())?;
+            finds.iter().try_for_each(|find| writeln!(out, "{}", find.name()))?;
+            out.flush()?;
         }
-        self.finds.push(find);
+        self.finds.extend(finds);
         Ok(())
     }
 

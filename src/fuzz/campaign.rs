@@ -14,7 +14,7 @@ use rayon::prelude::*;
 const LANES: u64 = 4;
 
 /// The evaluations of a lane in a round.
-const STEPS: u64 = 512;
+const STEPS: u64 = 256;
 
 /// What a campaign looks at.
 #[derive(Clone)]

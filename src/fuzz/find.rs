@@ -1,6 +1,6 @@
 //! A find: a finding of a kind, on a case as simple as it was made, as a line of a corpus file.
 
-use crate::audit::Row;
+use crate::audit::{Attribution, Row};
 use crate::corpus::Provenance;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
@@ -118,12 +118,19 @@ impl Find {
         }
     }
 
-    /// `found:kernel/scalar/finding/class/gate/gate without rounding`: a name for each kind.
+    /// `found:kernel/scalar/finding/class/gate/gate without rounding/attribution`: a name for each
+    /// kind.
     pub fn name(&self) -> String {
-        let Signature { kernel, scalar, finding, class, gate, exactly, .. } = &self.signature;
+        let Signature { kernel, scalar, finding, class, gate, exactly, attribution, .. } =
+            &self.signature;
         let named = |gate: &Option<&'static str>| gate.unwrap_or("hit");
         let (finding, class) = (finding.name(), class.name().replace('/', "-"));
-        format!("found:{kernel}/{scalar}/{finding}/{class}/{}/{}", named(gate), named(exactly))
+        let why = attribution.map_or("untold", Attribution::name);
+        format!(
+            "found:{kernel}/{scalar}/{finding}/{class}/{}/{}/{why}",
+            named(gate),
+            named(exactly)
+        )
     }
 
     /// The contract's name; `own` for the kernel's own.

@@ -1,11 +1,12 @@
 //! The cases that an island keeps, by what they show.
 
 use crate::arith::Float;
-use crate::audit::{Distances, Row};
+use crate::audit::Row;
 use crate::case::{Case, Draw};
-use crate::judge::{Class, Finding};
+use crate::judge::{Class, Distances, Finding};
 use crate::kernel::Scalar;
 use crate::search::{Signature, scale, verdict_and_finding};
+use crate::truth::Truth;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -62,10 +63,9 @@ impl<F: Scalar> Individual<F> {
         let gate = verdict.refused_by.map(|gate| gates[usize::from(gate)].name);
         let glance = Glance { finding, class: Class::of(&truth), gate };
         let score = match finding {
-            Some(finding) => {
-                Distances::of(&self.case).severity(&truth, finding, self.row.contract.extent)
-            }
-            None => -self.distance_from_a_change(&epsilons, verdict.hit),
+            _ if truth == Truth::Invalid => 0.0,
+            Some(_) => Distances::of(&self.case, &truth).to_change(&truth, &self.row.contract),
+            None => -self.distance_from_a_change(&epsilons, &truth, verdict.hit),
         };
         (glance, if score.is_nan() { f64::NEG_INFINITY } else { score })
     }
@@ -73,7 +73,7 @@ impl<F: Scalar> Individual<F> {
     /// How far the margins are from where the verdict changes, in shares of the gates' scales: of a
     /// hit the nearest gate, of a miss the farthest of those that refuse. Where a gate without an
     /// epsilon refuses, how far the line is from the triangle's boundary.
-    fn distance_from_a_change(&self, epsilons: &[F], hit: bool) -> f64 {
+    fn distance_from_a_change(&self, epsilons: &[F], truth: &Truth, hit: bool) -> f64 {
         let gates = self.row.entry.info.gates;
         let margins = F::subject(self.row.entry).measure(&self.case).margins;
         let wide = self.case.widen();
@@ -89,7 +89,11 @@ impl<F: Scalar> Individual<F> {
         } else {
             all.filter(refused).map(|i| -gap(i)).fold(0.0, f64::max)
         };
-        if distance.is_finite() { distance.abs() } else { Distances::of(&self.case).in_space }
+        if distance.is_finite() {
+            distance.abs()
+        } else {
+            Distances::of(&self.case, truth).in_space
+        }
     }
 }
 

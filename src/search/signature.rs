@@ -1,9 +1,9 @@
 //! What makes two findings the same kind.
 
 use super::objective::{exactly_refusing, verdict_and_finding};
-use crate::audit::Row;
+use crate::audit::{Attribution, Row, attribute};
 use crate::case::Case;
-use crate::judge::{Class, Finding};
+use crate::judge::{Class, Finding, asked};
 use crate::kernel::Scalar;
 use std::fmt;
 
@@ -24,6 +24,8 @@ pub struct Signature {
     pub gate: Option<&'static str>,
     /// The first gate that refuses when the same formula is run without rounding; none if it hits.
     pub exactly: Option<&'static str>,
+    /// Why it happened; none where the kernel has no exact arithmetic to tell.
+    pub attribution: Option<Attribution>,
 }
 
 impl Signature {
@@ -33,6 +35,7 @@ impl Signature {
         let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);
         let finding = finding?;
         let name = |gate: usize| row.entry.info.gates[gate].name;
+        let (subject, asked) = (F::subject(row.entry), asked(case, &truth, &row.contract, false));
         Some(Signature {
             kernel: row.entry.info.name,
             scalar: F::NAME,
@@ -41,6 +44,7 @@ impl Signature {
             class: Class::of(&truth),
             gate: verdict.refused_by.map(usize::from).map(name),
             exactly: exactly_refusing(row, &epsilons, case).map(name),
+            attribution: attribute(subject, case, &epsilons, &truth, asked),
         })
     }
 
@@ -61,7 +65,7 @@ impl Signature {
 
 impl fmt::Display for Signature {
     /// `moller-trumbore (parallel=1e-6,edge=0), f32: false-miss of interior/front/within, refused by
-    /// 'parallel', without rounding too`.
+    /// 'parallel', without rounding too (epsilon)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.kernel)?;
         if let Some(epsilons) = &self.epsilons {
@@ -75,6 +79,7 @@ impl fmt::Display for Signature {
             same if same == self.gate => f.write_str(", without rounding too"),
             Some(gate) => write!(f, "; without rounding '{gate}' refuses"),
             None => f.write_str("; without rounding a hit"),
-        }
+        }?;
+        self.attribution.map_or(Ok(()), |attribution| write!(f, " ({})", attribution.name()))
     }
 }

@@ -1,8 +1,8 @@
 //! A campaign's directory:
 //!
 //! - `campaign.json`: what it was begun with; written once;
-//! - `finds.jsonl`: one line a find, appended in one write each and synced to the disk before the find
-//!   is reported;
+//! - `finds.jsonl`: one line a find, appended in one write each, and synced to the disk before the
+//!   find is reported;
 //! - `state.json`: counters and population, written beside and renamed now and then; it may be older
 //!   than the finds;
 //! - `lock`: one process at a time.
@@ -128,22 +128,28 @@ impl Directory {
         Ok(finds)
     }
 
-    /// Appends a find in one write, and returns once it is on the disk. What a full disk leaves of it
-    /// is taken back.
-    pub fn append(&mut self, find: &Find) -> Result<(), Failure> {
-        let line = write_case(&find.stored()) + "\n";
-        let written = self.finds.write(line.as_bytes()).and_then(|count| {
-            let short = || io::Error::new(ErrorKind::StorageFull, "the disk took half a line");
-            if count == line.len() { self.finds.sync_data() } else { Err(short()) }
-        });
-        if let Err(error) = written {
-            let _ = self.finds.set_len(self.length);
+    /// Appends finds, each line in one write, and returns once they are on the disk. What a full disk
+    /// leaves of a line is taken back.
+    pub fn append(&mut self, finds: &[Find]) -> Result<(), Failure> {
+        let appended = finds.iter().try_for_each(|find| self.append_line(find));
+        let appended = appended.and_then(|()| self.finds.sync_data());
+        appended.map_err(|error| {
             let path = self.path.join(FINDS);
             let message = format!("{}: {error}; the finds before are kept", path.display());
-            return Err(Failure::Message(Status::InputOutput, message));
+            Failure::Message(Status::InputOutput, message)
+        })
+    }
+
+    fn append_line(&mut self, find: &Find) -> io::Result<()> {
+        let line = write_case(&find.stored()) + "\n";
+        let short = || io::Error::new(ErrorKind::StorageFull, "the disk took half a line");
+        let written = self.finds.write(line.as_bytes());
+        let whole = written.and_then(|n| if n == line.len() { Ok(()) } else { Err(short()) });
+        match whole {
+            Ok(()) => self.length += line.len() as u64,
+            Err(_) => self.finds.set_len(self.length)?,
         }
-        self.length += line.len() as u64;
-        Ok(())
+        whole
     }
 
     /// The counters and the population that were saved last, if any were.
