@@ -15,7 +15,7 @@
 //! |---|---|
 //! | 6 | [`cli`]: one file a command, the only place that prints; [`audit()`]: an audit from a program's own tests |
 //! | 5 | [`report`]: the record and its formats |
-//! | 4 | [`mod@audit`]: plans, runs, sums, severity; [`response`]: every epsilon; [`search`]: the worst and the simplest; [`fuzz`]: campaigns; [`selfcheck`]: the oracle held to its definition |
+//! | 4 | [`mod@audit`]: plans, runs, sums, severity; [`response`]: every epsilon; [`search`]: the worst and the simplest; [`campaign`]: campaigns; [`selfcheck`]: the oracle held to its definition |
 //! | 3 | [`judge`]: the only place that compares a verdict with a truth |
 //! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
 //! | 1 | [`case`], [`truth`], [`contract`]: the words |
@@ -43,7 +43,7 @@ pub mod judge;
 
 pub mod audit;
 pub mod fuzzing;
-pub mod fuzz;
+pub mod campaign;
 pub mod response;
 pub mod search;
 pub mod selfcheck;

@@ -4,6 +4,7 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_files, open, read_corpus};
 use super::output::{write_file, write_result};
 use super::select::unknown;
+use crate::campaign::Find;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
@@ -122,17 +123,25 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let stored = read_corpus(&file)?;
         let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
         // read_corpus holds the stored truths to the definition; the fast oracle must agree.
-        let mut scores = 0;
+        let (mut scores, mut finds) = (0, 0);
         for case in &stored {
             agree(&file, case)?;
             let replayed = search::replay(case);
             scores +=
                 u64::from(replayed.map_err(|message| InputError::at(&file, case.line, message))?);
+            if case.found.is_some() {
+                let shown = Find::of_stored(case);
+                shown.map_err(|error| InputError::at(&file, case.line, error.to_string()))?;
+                finds += 1;
+            }
         }
+        let finds = if finds > 0 { format!(", {finds} finds shown again") } else { String::new() };
         let scores =
             if scores > 0 { format!(", {scores} stored scores right") } else { String::new() };
         let cases = stored.len();
-        report.push(format!("{file}: {cases} cases, {with_truth} stored truths right{scores}"));
+        report.push(format!(
+            "{file}: {cases} cases, {with_truth} stored truths right{scores}{finds}"
+        ));
     }
     let manifest_path = Path::new(path).join(MANIFEST);
     if manifest_path.exists() {

@@ -22,6 +22,7 @@ mod select;
 mod selfcheck;
 mod shrink;
 mod sources;
+mod triage;
 mod truth;
 mod worst;
 
@@ -55,6 +56,8 @@ enum Command {
     Worst(Box<worst::WorstArguments>),
     /// Search on and on for kinds of findings, and keep one small example of each in a directory
     Fuzz(Box<fuzz::FuzzArguments>),
+    /// Keep one small find of each kind, out of campaigns, corpora and cargo-fuzz artifacts
+    Triage(triage::TriageArguments),
     /// Make a case with a finding as simple as it can be, as JSON, Rust and C to paste into a test
     Shrink(shrink::ShrinkArguments),
     /// List kernels, families, contracts or epsilon presets
@@ -119,6 +122,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Worst(arguments) => worst::run(&arguments),
         Command::Fuzz(arguments) => fuzz::run(&arguments),
+        Command::Triage(arguments) => triage::run(&arguments),
         Command::Shrink(arguments) => shrink::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),

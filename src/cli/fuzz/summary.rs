@@ -1,6 +1,6 @@
 //! What a campaign says when it stops.
 
-use crate::fuzz::Find;
+use crate::campaign::Find;
 use crate::judge::Finding;
 use std::collections::BTreeMap;
 use std::io::{self, Write};

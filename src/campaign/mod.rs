@@ -12,13 +12,13 @@
 
 #![forbid(unsafe_code)]
 
-mod campaign;
 mod epsilons;
 mod find;
 mod island;
 mod population;
+mod run;
 mod state;
 
-pub use campaign::{Campaign, Plan};
 pub use find::{Find, FindError};
+pub use run::{Campaign, Plan};
 pub use state::{SavedIndividual, State};
