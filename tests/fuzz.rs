@@ -73,7 +73,7 @@ fn known_facts_come_out_from_scratch() {
     let (miss, inside) = (Finding::FalseMiss, "interior/front/within");
     shows("moller-trumbore", miss, inside, Some("parallel"), Attribution::Epsilon);
     shows("plane-inside-out", miss, inside, Some("parallel"), Attribution::Epsilon);
-    shows("woop-watertight", miss, "edge", Some("edge"), Attribution::Rounding);
+    shows("woop-watertight", miss, inside, Some("edge"), Attribution::Rounding);
     let kinds: BTreeSet<_> = finds.iter().map(|find| find.signature.kind()).collect();
     assert_eq!(kinds.len(), finds.len(), "each kind once");
 }

@@ -13,8 +13,9 @@ use rayon::prelude::*;
 /// The lanes of an island, which know nothing of each other within a round.
 const LANES: u64 = 4;
 
-/// The evaluations of a lane in a round.
+/// The evaluations of a lane in a round, and in the first, which finds the most: from there they double.
 const STEPS: u64 = 256;
+const FIRST_STEPS: u64 = 8;
 
 /// What a campaign looks at.
 #[derive(Clone)]
@@ -66,7 +67,8 @@ impl Campaign {
     /// that does not depend on the threads.
     pub fn round(&mut self, most: u64) -> Vec<Find> {
         let tasks = (self.f32.len() + self.f64.len()) as u64 * LANES;
-        let evaluations = most.min(tasks * STEPS);
+        let steps = STEPS.min(FIRST_STEPS << self.rounds.min(16));
+        let evaluations = most.min(tasks * steps);
         let share = |task: u64| evaluations / tasks + u64::from(task < evaluations % tasks);
         let (seed, round) = (self.seed, self.rounds);
         let first_wide = self.f32.len() as u64 * LANES;

@@ -237,6 +237,21 @@ mod tests {
     }
 
     #[test]
+    fn any_numbers_can_be_moved() {
+        fn mutants<F: Float>() {
+            let mut draw = Draw::new("any-numbers", 1, 0);
+            let odd = [u64::MAX, u64::MAX >> 1, 1, 0, F::infinity().to_bits()].map(F::from_bits);
+            for _ in 0..5000 {
+                let mut vector = || [(); 3].map(|()| draw.pick(&odd));
+                let case = Case::new(vector(), vector(), [vector(), vector(), vector()]);
+                mutate(&case, &mut draw);
+            }
+        }
+        mutants::<f32>();
+        mutants::<f64>();
+    }
+
+    #[test]
     fn every_number_of_a_case_can_change() {
         for all in [mutants::<f32>(1), mutants::<f64>(1)] {
             for number in 0..17 {
