@@ -73,7 +73,7 @@ impl Campaign {
         let (seed, round) = (self.seed, self.rounds);
         let first_wide = self.f32.len() as u64 * LANES;
         let (narrow, wide) = rayon::join(
-            || grow(&mut self.f32, seed, round, |task| share(task)),
+            || grow(&mut self.f32, seed, round, share),
             || grow(&mut self.f64, seed, round, |task| share(first_wide + task)),
         );
         self.rounds += 1;

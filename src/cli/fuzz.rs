@@ -18,8 +18,9 @@ use directory::{Begun, Directory};
 use std::io::{self, Write};
 use summary::{Counters, write_summary};
 
-/// The seconds between two savings of counters and population.
-const SAVE_EVERY: f64 = 10.0;
+/// The seconds between two savings of counters and population, at least and at most: a session that
+/// is killed early should not have been for nothing.
+const SAVE_EVERY: [f64; 2] = [0.5, 10.0];
 
 /// Where the campaign is kept, what it looks at, and how long it goes on.
 #[derive(Args)]
@@ -68,7 +69,7 @@ pub struct FuzzArguments {
 pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let path = arguments.directory.as_ref().or(arguments.output.as_ref());
     let path = path.ok_or_else(|| Failure::usage("say where the campaign is kept: DIR"))?;
-    if let Some(seconds) = arguments.time.filter(|seconds| !(*seconds >= 0.0)) {
+    if let Some(seconds) = arguments.time.filter(|seconds| seconds.is_nan() || *seconds < 0.0) {
         return Err(Failure::usage(format!("--time: {seconds} is no number of seconds")));
     }
     // Wrong flags are found out before a directory is made.
@@ -179,7 +180,8 @@ impl Session {
             let finds = self.campaign.round(left.unwrap_or(u64::MAX));
             self.keep(finds, arguments.print)?;
             self.progress.tell(self.status());
-            if self.progress.seconds() - saved >= SAVE_EVERY {
+            let [least, most] = SAVE_EVERY;
+            if self.progress.seconds() - saved >= f64::clamp(saved, least, most) {
                 self.save()?;
                 saved = self.progress.seconds();
             }
