@@ -42,8 +42,8 @@ pub mod oracle;
 pub mod judge;
 
 pub mod audit;
-pub mod fuzzing;
 pub mod campaign;
+pub mod fuzzing;
 pub mod response;
 pub mod search;
 pub mod selfcheck;

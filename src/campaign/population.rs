@@ -75,7 +75,9 @@ impl<F: Scalar> Individual<F> {
     /// epsilon refuses, how far the line is from the triangle's boundary.
     fn distance_from_a_change(&self, epsilons: &[F], truth: &Truth, hit: bool) -> f64 {
         let gates = self.row.entry.info.gates;
-        let margins = F::subject(self.row.entry).measure(&self.case).margins;
+        let gated = F::subject(self.row.entry).and_then(|subject| subject.gated());
+        let Some(gated) = gated else { return Distances::of(&self.case, truth).in_space };
+        let margins = gated.measure(&self.case).margins;
         let wide = self.case.widen();
         let gap = |i: usize| {
             let (margin, epsilon) = (margins[i].to_f64(), epsilons[i].to_f64());

@@ -5,11 +5,13 @@ use crate::audit::quoted;
 use crate::kernel::{self, Entry, Scalar, Trouble};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
 use clap::Args;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The flags that bring kernels along.
-#[derive(Args)]
+#[derive(Args, Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PluginArguments {
     /// A shared library with the functions of include/hairline.h; may be repeated
     #[arg(long, value_name = "FILE", help_heading = "Kernels of your own")]
@@ -23,14 +25,31 @@ pub struct PluginArguments {
     #[arg(
         long,
         value_name = "SECONDS",
-        default_value_t = 10.0,
+        default_value_t = TIMEOUT_SECONDS,
         help_heading = "Kernels of your own"
     )]
     kernel_timeout: f64,
 
     /// On how many cases such a kernel may crash or hang before the run ends
-    #[arg(long, value_name = "N", default_value_t = 1000, help_heading = "Kernels of your own")]
+    #[arg(long, value_name = "N", default_value_t = FAILURES, help_heading = "Kernels of your own")]
     kernel_failures: u64,
+}
+
+/// How long a kernel may be silent if nothing else is said.
+const TIMEOUT_SECONDS: f64 = 10.0;
+
+/// On how many cases it may fail if nothing else is said.
+const FAILURES: u64 = 1000;
+
+impl Default for PluginArguments {
+    fn default() -> PluginArguments {
+        PluginArguments {
+            kernel_lib: Vec::new(),
+            kernel_cmd: Vec::new(),
+            kernel_timeout: TIMEOUT_SECONDS,
+            kernel_failures: FAILURES,
+        }
+    }
 }
 
 impl PluginArguments {

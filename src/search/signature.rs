@@ -44,7 +44,8 @@ impl Signature {
             class: Class::of(&truth),
             gate: verdict.refused_by.map(usize::from).map(name),
             exactly: exactly_refusing(row, &epsilons, case).map(name),
-            attribution: attribute(subject, case, &epsilons, &truth, asked),
+            attribution: subject
+                .and_then(|subject| attribute(subject, case, &epsilons, &truth, asked)),
         })
     }
 
