@@ -17,6 +17,7 @@ use crate::family::Grouping;
 use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// What a contract asks of a kernel on a case.
@@ -31,7 +32,7 @@ pub enum Obligation {
 }
 
 /// A disagreement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Finding {
     /// It must hit, and missed.
     FalseMiss,

@@ -11,10 +11,11 @@ use crate::case::{Case, Ray, Triangle};
 use crate::judge::ulp_of_points;
 use crate::kernel::{Gives, Verdict};
 use crate::truth::{Crossing, Feature};
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// Errors of hits in ulps.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// Of t.
     pub t: Histogram,

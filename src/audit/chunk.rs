@@ -2,6 +2,7 @@
 
 use super::run::Observer;
 use super::source::Source;
+use super::stored::ScalarName;
 use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
@@ -10,18 +11,20 @@ use crate::judge::{self, Class, GroupTruth, Obligation, group_truth};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Indices that go through a run together.
 pub(crate) const CHUNK: u64 = 1024;
 
 /// What a source gave in one scalar.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub struct SourceSummary {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    #[serde(with = "super::stored::scalar_name")]
+    pub scalar: ScalarName,
     /// Indices made.
     pub indices: u64,
     /// Cases in them: a group has several.

@@ -1,14 +1,16 @@
 //! Distributions in constant memory: counts in logarithmic bins, eight to the octave.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Counts of numbers that are not negative. Merging is commutative, and the number of bins is bounded
 /// by the range of `f64`.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {
     /// By [`bin`]; zero has a bin of its own.
     bins: BTreeMap<u16, u64>,
     count: u64,
+    #[serde(with = "super::stored::bits")]
     largest: f64,
 }
 

@@ -19,19 +19,24 @@ const TAIL: f64 = 0.025;
 ///
 /// Its ends are the quantiles of Beta(k, n-k+1) at 2.5 % and of Beta(k+1, n-k) at 97.5 %.
 pub fn clopper_pearson(successes: u64, trials: u64) -> Interval {
+    clopper_pearson_at(successes, trials, TAIL)
+}
+
+/// The same with another share left out at each end.
+pub fn clopper_pearson_at(successes: u64, trials: u64, tail: f64) -> Interval {
     let (k, n) = (successes as f64, trials as f64);
     // With no success (or no failure) the beta distribution has a closed form.
-    let all_of_one_kind = -expm1(log(TAIL) / n);
+    let all_of_one_kind = -expm1(log(tail) / n);
     Interval {
         low: match successes {
             0 => 0.0,
             _ if successes == trials => 1.0 - all_of_one_kind,
-            _ => beta_quantile(k, n - k + 1.0, TAIL),
+            _ => beta_quantile(k, n - k + 1.0, tail),
         },
         high: match successes {
             _ if successes >= trials => 1.0,
             0 => all_of_one_kind,
-            _ => beta_quantile(k + 1.0, n - k, 1.0 - TAIL),
+            _ => beta_quantile(k + 1.0, n - k, 1.0 - tail),
         },
     }
 }
@@ -116,6 +121,8 @@ mod tests {
         assert_near(clopper_pearson(5, 10), 0.18709, 0.81291);
         assert_near(clopper_pearson(1, 20), 0.00127, 0.24873);
         assert_near(clopper_pearson(0, 0), 0.0, 1.0);
+        // Less left out is wider: 1 - (10^-5)^(1/100).
+        assert_near(clopper_pearson_at(0, 100, 1e-5), 0.0, 1.0 - 1e-5f64.powf(0.01));
         // Where n is large the normal approximation agrees to its own accuracy.
         for (k, n) in [(3_000_000u64, 10_000_000u64), (40_000_000, 100_000_000_000)] {
             let Interval { low, high } = clopper_pearson(k, n);

@@ -11,12 +11,15 @@ mod answers;
 mod attribution;
 mod causes;
 mod chunk;
+mod digest;
 mod histogram;
 mod interval;
 mod plan;
 mod run;
 mod severity;
+mod shard;
 mod source;
+mod stored;
 mod tally;
 
 pub use accuracy::{Accuracy, Errors};
@@ -25,13 +28,16 @@ pub use attribution::{Attribution, attribute};
 pub use causes::Causes;
 pub use chunk::SourceSummary;
 pub(crate) use chunk::{CHUNK, Chunk};
+pub use digest::Digest;
 pub use histogram::Histogram;
-pub use interval::{Interval, clopper_pearson};
+pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
 pub(crate) use plan::did_you_mean;
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
-pub use run::{Audit, Cell, Observer, run, run_scalar};
+pub use run::{Audit, Cell, Observer, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity};
+pub use shard::Shard;
 pub use source::{CorpusSet, Source, quoted};
+pub use stored::{StoredPlan, StoredSource};
 pub use tally::{
     ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Severities, Tally,
 };

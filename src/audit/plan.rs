@@ -4,10 +4,11 @@ use super::source::Source;
 use crate::arith::Float;
 use crate::contract::{Contract, NAMED, NamedContract};
 use crate::kernel::{Entry, Gate, PRESETS, Preset, PresetValue, Tunable, find, nearest_name};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// An epsilon before it is rounded to a scalar.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum EpsilonText {
     /// Decimal text, rounded to the nearest number of the scalar.
     Decimal(String),

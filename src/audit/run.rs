@@ -4,8 +4,10 @@ use super::accuracy::Errors;
 use super::causes::{self, Causes};
 use super::chunk::{CHUNK, Chunk, SourceSummary};
 use super::plan::{Plan, Row};
+use super::shard::Shard;
 use super::source::Source;
-use super::tally::{ClassCount, Tally};
+use super::stored::ScalarName;
+use super::tally::{ClassCount, Place, Tally};
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
@@ -15,7 +17,9 @@ use crate::judge::{
 use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
 use crate::truth::{Feature, Truth};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What a run tells while it goes on, and where it reads a clock.
@@ -27,23 +31,39 @@ pub trait Observer: Sync {
 }
 
 /// One kernel row on one source in one scalar.
+#[derive(Clone, Serialize, Deserialize)]
 pub struct Cell {
     /// The row's place in the plan.
     pub row: usize,
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    pub scalar: &'static str,
+    #[serde(with = "super::stored::scalar_name")]
+    pub scalar: ScalarName,
     /// What was found.
     pub tally: Tally,
-    /// Why, by class and finding.
+    /// Why, by class and finding; once finished.
+    #[serde(skip)]
     pub causes: BTreeMap<(Class, Finding), Causes>,
     /// Time spent in the kernel, over all threads.
     pub nanoseconds: u64,
 }
 
+impl Cell {
+    /// Of a tally; its causes are not looked for yet.
+    fn new(
+        row: usize,
+        source: usize,
+        scalar: &'static str,
+        tally: Tally,
+        nanoseconds: u64,
+    ) -> Cell {
+        Cell { row, source, scalar, tally, causes: BTreeMap::new(), nanoseconds }
+    }
+}
+
 /// All sums of a run.
-#[derive(Default)]
+#[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Audit {
     /// By scalar, source and row, in the order of the plan.
     pub cells: Vec<Cell>,
@@ -53,31 +73,81 @@ pub struct Audit {
 
 /// Runs a plan.
 pub fn run(plan: &Plan, observer: &dyn Observer) -> Audit {
+    let mut audit = sum(plan, Shard::WHOLE, observer);
+    finish(plan, observer, &mut audit);
+    audit
+}
+
+/// The sums of a part of a plan. Those of all parts can be merged, and are then to be finished.
+pub fn sum(plan: &Plan, shard: Shard, observer: &dyn Observer) -> Audit {
     let mut audit = Audit::default();
     if plan.scalars[0] {
-        run_scalar::<f32>(plan, observer, &mut audit);
+        sum_scalar::<f32>(plan, shard, observer, &mut audit);
     }
     if plan.scalars[1] {
-        run_scalar::<f64>(plan, observer, &mut audit);
+        sum_scalar::<f64>(plan, shard, observer, &mut audit);
     }
     audit
 }
 
+/// Finds the causes of the findings, of the first by index, and keeps as many examples as the plan asks.
+pub fn finish(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
+    finish_scalar::<f32>(plan, observer, audit);
+    finish_scalar::<f64>(plan, observer, audit);
+}
+
 /// Runs a plan in one scalar.
 pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
+    sum_scalar::<F>(plan, Shard::WHOLE, observer, audit);
+    finish_scalar::<F>(plan, observer, audit);
+}
+
+fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, audit: &mut Audit) {
     let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
     for (number, source) in plan.sources.iter().enumerate() {
-        let count = source.count::<F>();
+        let Range { start, end } = shard.range(source.count::<F>());
         let empty = || runner.no_sums(plan.examples, number);
-        let sums = (0..count.div_ceil(CHUNK))
+        let sums = (0..(end - start).div_ceil(CHUNK))
             .into_par_iter()
             .fold(empty, |mut sums, chunk| {
-                let indices = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
-                runner.add_chunk(source, indices, &mut sums);
+                let first = start + chunk * CHUNK;
+                runner.add_chunk(source, first..end.min(first + CHUNK), &mut sums);
                 sums
             })
             .reduce(empty, Sums::merged);
-        runner.finish(sums, source, plan.examples, audit);
+        runner.add_to(sums, audit);
+    }
+}
+
+fn finish_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
+    let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
+    for cell in audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME) {
+        runner.finish_cell(&plan.sources[cell.source], plan.examples, cell);
+    }
+}
+
+impl Audit {
+    /// The sums of no case.
+    pub fn of_nothing(plan: &Plan) -> Audit {
+        let mut audit = Audit::default();
+        if plan.scalars[0] {
+            audit.add_nothing::<f32>(plan);
+        }
+        if plan.scalars[1] {
+            audit.add_nothing::<f64>(plan);
+        }
+        audit
+    }
+
+    fn add_nothing<F: Scalar>(&mut self, plan: &Plan) {
+        for source in 0..plan.sources.len() {
+            self.sources.push(SourceSummary::new(source, F::NAME));
+            let rows = plan.rows.iter().enumerate();
+            let running = rows.filter(|(_, row)| F::subject(row.entry).is_some());
+            self.cells.extend(running.map(|(row, _)| {
+                Cell::new(row, source, F::NAME, Tally::new(plan.examples, plan.attribute), 0)
+            }));
+        }
     }
 }
 
@@ -155,19 +225,25 @@ impl<'a, F: Scalar> Runner<'a, F> {
     }
 
     /// Puts what a source added up to at the end of the sums.
-    pub fn finish(&self, sums: Sums, source: &Source, examples: usize, audit: &mut Audit) {
-        let number = sums.summary.source;
+    pub fn add_to(&self, sums: Sums, audit: &mut Audit) {
+        let source = sums.summary.source;
         audit.sources.push(sums.summary);
         let rows = self.rows.iter().zip(sums.rows);
-        audit.cells.extend(rows.map(|(row, (mut tally, nanoseconds))| {
-            let contract = &self.contracts[row.contract];
-            let causes = causes::causes(source, row, contract, &tally, self.attribute);
-            tally.keep_examples(examples);
-            Cell { row: row.number, source: number, scalar: F::NAME, tally, causes, nanoseconds }
+        audit.cells.extend(rows.map(|(row, (tally, nanoseconds))| {
+            Cell::new(row.number, source, F::NAME, tally, nanoseconds)
         }));
     }
 
-    pub fn add_chunk(&self, source: &Source, indices: std::ops::Range<u64>, sums: &mut Sums) {
+    /// Finds the causes of a cell's findings, and keeps as many examples as asked.
+    pub fn finish_cell(&self, source: &Source, examples: usize, cell: &mut Cell) {
+        if let Some(row) = self.rows.iter().find(|row| row.number == cell.row) {
+            let contract = &self.contracts[row.contract];
+            cell.causes = causes::causes(source, row, contract, &cell.tally, self.attribute);
+        }
+        cell.tally.keep_examples(examples);
+    }
+
+    pub fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut Sums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
         let measured = self.attribute as u64;
         let sample_every = (measured > 0).then(|| source.count::<F>().div_ceil(measured).max(1));
@@ -273,22 +349,28 @@ impl<F: Scalar> RunnerRow<F> {
 
     /// Asks about each polygon as a whole; the truth is the union of its fan.
     fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
-        for (_, range) in chunk.groups() {
+        for (index, range) in chunk.groups() {
             let cases = &chunk.cases[range.clone()];
             let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
             vertices.extend(cases.iter().map(|case| case.triangle.c));
             let asked = obligation(&polygon_truth(&chunk.truths[range]), contract, false);
             let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
             let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
-            let polygons = &mut tally.polygons;
+            let (polygons, place) = (&mut tally.polygons, Place { index, triangle: 0 });
             match asked {
                 Obligation::MustHit => {
                     polygons.must_hit += 1;
-                    polygons.false_miss += u64::from(!hit);
+                    if !hit {
+                        polygons.false_miss += 1;
+                        polygons.false_miss_digest.add(place);
+                    }
                 }
                 Obligation::MustMiss => {
                     polygons.must_miss += 1;
-                    polygons.false_hit += u64::from(hit);
+                    if hit {
+                        polygons.false_hit += 1;
+                        polygons.false_hit_digest.add(place);
+                    }
                 }
                 Obligation::Free => {}
             }

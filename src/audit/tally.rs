@@ -1,13 +1,15 @@
 //! Sums of findings: a commutative monoid, so that any split of a run adds up to the same.
 
 use super::accuracy::Accuracy;
+use super::digest::Digest;
 use super::histogram::Histogram;
 use crate::judge::{Class, Finding, GroupTruth, Obligation};
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Where a case stands in its source: the index, and the triangle of a group.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Place {
     /// The index.
     pub index: u64,
@@ -16,7 +18,7 @@ pub struct Place {
 }
 
 /// The counts of one class of truths.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClassCount {
     /// Cases of the class.
     pub cases: u64,
@@ -72,12 +74,15 @@ impl ClassCount {
 }
 
 /// Examples of one finding in one class: the first by index, and the worst.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Examples {
     /// In order of their place.
     pub first: Vec<Place>,
     /// The one with the largest approximate severity, the first of equals.
+    #[serde(with = "super::stored::scored")]
     pub worst: Option<(f64, Place)>,
+    /// Of all places with the finding.
+    pub digest: Digest,
 }
 
 impl Examples {
@@ -85,6 +90,7 @@ impl Examples {
         if self.first.len() < limit {
             self.first.push(place);
         }
+        self.digest.add(place);
         self.propose((severity, place));
     }
 
@@ -100,6 +106,7 @@ impl Examples {
     }
 
     fn merge(&mut self, other: Examples, limit: usize) {
+        self.digest.merge(other.digest);
         self.first.extend(other.first);
         self.first.sort_unstable();
         self.first.truncate(limit);
@@ -110,7 +117,7 @@ impl Examples {
 }
 
 /// What the triangles of groups did together.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GroupCount {
     /// Groups in which one hit is right.
     pub crossings: u64,
@@ -128,6 +135,10 @@ pub struct GroupCount {
     pub first_cracks: Vec<u64>,
     /// The first doubles, by index.
     pub first_doubles: Vec<u64>,
+    /// Of all cracks.
+    pub crack_digest: Digest,
+    /// Of all doubles.
+    pub double_digest: Digest,
 }
 
 impl GroupCount {
@@ -143,9 +154,11 @@ impl GroupCount {
                 self.crossings += 1;
                 if hits == 0 {
                     self.cracks += 1;
+                    self.crack_digest.add(Place { index, triangle: 0 });
                     note(&mut self.first_cracks);
                 } else if hits > 1 {
                     self.doubles += 1;
+                    self.double_digest.add(Place { index, triangle: 0 });
                     note(&mut self.first_doubles);
                 }
             }
@@ -164,6 +177,8 @@ impl GroupCount {
         self.folds += other.folds;
         self.odd_folds += other.odd_folds;
         self.missed_folds += other.missed_folds;
+        self.crack_digest.merge(other.crack_digest);
+        self.double_digest.merge(other.double_digest);
         for (list, more) in [
             (&mut self.first_cracks, other.first_cracks),
             (&mut self.first_doubles, other.first_doubles),
@@ -176,20 +191,24 @@ impl GroupCount {
 }
 
 /// A polygon kernel's answers about whole polygons.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PolygonCount {
     /// Polygons that must be hit.
     pub must_hit: u64,
     /// Of these, missed.
     pub false_miss: u64,
+    /// Which.
+    pub false_miss_digest: Digest,
     /// Polygons that must be missed.
     pub must_miss: u64,
     /// Of these, hit.
     pub false_hit: u64,
+    /// Which.
+    pub false_hit_digest: Digest,
 }
 
 /// Second hits on the triangle that a ray starts on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SelfHits {
     /// Rays that start at a kernel's own hit point.
     pub rays: u64,
@@ -198,7 +217,7 @@ pub struct SelfHits {
 }
 
 /// How far findings are from where the verdict would be right.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Severities {
     /// In longest edges of the triangle.
     pub edges: Histogram,
@@ -215,13 +234,15 @@ impl Severities {
 }
 
 /// Everything that is added up for one kernel row on one source in one scalar.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     /// One a class, by [`Class::number`].
     pub classes: Vec<ClassCount>,
     /// Examples by class and finding.
+    #[serde(with = "super::stored::pairs")]
     pub examples: BTreeMap<(Class, Finding), Examples>,
     /// How far false misses and false hits are from where the verdict would be right.
+    #[serde(with = "super::stored::pairs")]
     pub severities: BTreeMap<Finding, Severities>,
     /// How accurate the values of right hits are, of a sample.
     pub accuracy: Accuracy,
@@ -317,6 +338,8 @@ impl Tally {
         self.polygons.false_miss += other.polygons.false_miss;
         self.polygons.must_miss += other.polygons.must_miss;
         self.polygons.false_hit += other.polygons.false_hit;
+        self.polygons.false_miss_digest.merge(other.polygons.false_miss_digest);
+        self.polygons.false_hit_digest.merge(other.polygons.false_hit_digest);
         self.self_hits.rays += other.self_hits.rays;
         self.self_hits.hits += other.self_hits.hits;
     }

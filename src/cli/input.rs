@@ -8,6 +8,8 @@ use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::{Mesh, read_obj};
 use crate::corpus::truth_json::TruthLine;
 use crate::oracle;
+use crate::report::{Record, SCHEMA};
+use serde::Deserialize;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -23,6 +25,33 @@ pub fn open(path: &str) -> Result<Box<dyn Read>, Failure> {
         return Err(Failure::of_file(path, &io::Error::from(io::ErrorKind::IsADirectory)));
     }
     Ok(Box::new(file))
+}
+
+/// Reads a text file whole.
+pub fn read_text(path: &str) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    open(path)?.read_to_end(&mut bytes).map_err(|error| Failure::of_file(path, &error))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        InputError::at(path, line, "not UTF-8").into()
+    })
+}
+
+/// Reads a record. One of another version is refused as such.
+pub fn read_record(path: &str) -> Result<Record, Failure> {
+    #[derive(Deserialize)]
+    struct Version {
+        schema: String,
+    }
+    let text = read_text(path)?;
+    let bad = |error: serde_json::Error| InputError::at(path, error.line(), error.to_string());
+    let version: Version = serde_json::from_str(&text).map_err(bad)?;
+    if version.schema != SCHEMA {
+        let message = format!("a record of schema '{}', expected '{SCHEMA}'", version.schema);
+        return Err(InputError::of(path, message).into());
+    }
+    Ok(serde_json::from_str(&text).map_err(bad)?)
 }
 
 /// Reads a mesh, with a progress bar for a large one, and prints its notes.

@@ -4,7 +4,7 @@
 use super::case::family_of;
 use super::exit::{Failure, Status};
 use super::input::open;
-use super::reports::ReportArguments;
+use super::reporting::ReportArguments;
 use super::select::named_contract;
 use crate::arith::Float;
 use crate::audit::{Answers, Audit, CHUNK, EpsilonChoice, Given, Plan, Row, Source};
@@ -30,12 +30,16 @@ pub struct JudgeArguments {
     contract: Option<String>,
 
     #[command(flatten)]
-    reports: ReportArguments,
+    report: ReportArguments,
+
+    /// How many examples of each class of finding to keep
+    #[arg(long, default_value_t = 3, value_name = "N")]
+    examples: usize,
 }
 
 /// Runs the command.
 pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
-    let outputs = arguments.reports.outputs()?;
+    let outputs = arguments.report.outputs()?;
     let named = arguments.contract.as_deref().map(named_contract).transpose()?.flatten();
     let mut lines = Lines::open(&arguments.file)?;
     let mut line = lines.next()?;
@@ -57,7 +61,7 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
         let message = "there is no hello that states a contract: give --contract NAME";
         return Err(lines.error(message).into());
     }
-    let mut sets = Sets::new(info, named, arguments.reports.examples)?;
+    let mut sets = Sets::new(info, named, arguments.examples)?;
     let mut count = 0;
     let ended = loop {
         let Some(text) = line else { break false };
@@ -88,7 +92,7 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
     let (plan, audit) = sets.finish(&lines)?;
     let context = Context { seconds: 0.0, threads: 1 };
     let record = build(&plan, &audit, &context);
-    arguments.reports.write(&outputs, &record)?;
+    outputs.write(&record)?;
     Ok(if conforms(&record) { Status::Success } else { Status::Disagreements })
 }
 

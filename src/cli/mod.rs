@@ -4,22 +4,28 @@
 
 mod audit;
 mod case;
+mod check;
+mod config;
 mod corpus;
+mod diff;
 mod epsilon;
 mod exit;
 mod explain;
 mod fuzz;
 mod generate;
+mod github;
 mod input;
 mod judge;
 mod list;
+mod merge;
 mod orient;
 mod output;
 mod plugins;
 mod progress;
-mod reports;
+mod reporting;
 mod select;
 mod selfcheck;
+mod settings;
 mod shrink;
 mod sources;
 mod triage;
@@ -46,6 +52,16 @@ struct Arguments {
 enum Command {
     /// Run kernels on families of cases, a mesh or a corpus, and say where they are wrong
     Audit(Box<audit::AuditArguments>),
+    /// Run the project's plan and compare with its known disagreements: the gate for CI
+    Check(Box<check::CheckArguments>),
+    /// Make one record of those of all shards
+    Merge(merge::MergeArguments),
+    /// Say what got better and what got worse between two records
+    Diff(diff::DiffArguments),
+    /// Print the settings of `check` with their defaults
+    Config(config::ConfigArguments),
+    /// Print the JSON Schema of the record that `--format json` writes
+    Schema,
     /// Say what every epsilon of a kernel would do, and which to use
     Epsilon(Box<epsilon::EpsilonArguments>),
     /// Print the exact truth of cases, one JSON line each
@@ -117,6 +133,12 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Audit(arguments) => audit::run(&arguments),
+        // Read again, under the environment and hairline.toml.
+        Command::Check(_) => check::run(&std::env::args_os().skip(2).collect::<Vec<_>>()),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Diff(arguments) => diff::run(&arguments),
+        Command::Config(arguments) => config::run(&arguments),
+        Command::Schema => config::schema(),
         Command::Epsilon(arguments) => epsilon::run(&arguments),
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

@@ -69,11 +69,6 @@ impl SourceArguments {
         chosen_scalars(&self.scalar)
     }
 
-    /// The scalars as given, joined by a word.
-    pub fn scalar_names(&self, between: &str) -> String {
-        self.scalar.join(between)
-    }
-
     /// The sources, meshes and corpora read.
     /// `usual` picks the families that are run if nothing is named.
     pub fn sources(

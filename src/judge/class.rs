@@ -1,9 +1,11 @@
 //! Classes of truths: what reports count by.
 
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
+use serde::{Deserialize, Serialize};
 
 /// A coarse class of truths: what reports count by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(into = "u8", try_from = "u8")]
 pub struct Class(u8);
 
 const PARTS: [&str; 4] = ["interior", "edge", "vertex", "outside"];
@@ -86,5 +88,20 @@ impl Class {
         let (side, place) =
             (self.number() / PLACES.len() % SIDES.len(), self.number() % PLACES.len());
         format!("{}/{}/{}", self.part(), SIDES[side], PLACES[place])
+    }
+}
+
+impl From<Class> for u8 {
+    fn from(class: Class) -> u8 {
+        class.0
+    }
+}
+
+impl TryFrom<u8> for Class {
+    type Error = String;
+
+    fn try_from(number: u8) -> Result<Class, String> {
+        let known = usize::from(number) < Class::COUNT;
+        if known { Ok(Class(number)) } else { Err(format!("no class of number {number}")) }
     }
 }

@@ -28,6 +28,7 @@ pub use rational::{Definition, define};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
+use serde::{Deserialize, Serialize};
 
 /// A layer of the oracle, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,7 +55,7 @@ pub enum Layer {
 const LAYERS: usize = Layer::BigInteger as usize + 1;
 
 /// How often each layer decided; a case counts for the last layer that it needed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Layers([u64; LAYERS]);
 
 impl Layers {

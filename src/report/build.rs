@@ -4,8 +4,8 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, ClassCount, Examples, GroupCount, Place, Plan, Row, Source, SourceSummary, Tally,
-    clopper_pearson, exact_severity,
+    Audit, Cell, ClassCount, CorpusSet, Examples, GroupCount, Place, Plan, Row, Source,
+    SourceSummary, Tally, clopper_pearson, exact_severity,
 };
 use crate::case::Case;
 use crate::contract::Across;
@@ -38,15 +38,18 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
         schema: SCHEMA.to_owned(),
         result: ResultPart {
             plan: plan_part(plan),
+            partial: None,
             sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
             results: results.collect(),
             totals: distribution::totals(plan, audit),
         },
+        shard: None,
+        conformance: None,
         provenance: provenance(plan, audit, context),
     }
 }
 
-fn plan_part(plan: &Plan) -> PlanPart {
+pub(super) fn plan_part(plan: &Plan) -> PlanPart {
     let row = |row: &Row| RowPart {
         kernel: row.entry.info.name.to_owned(),
         selector: row.entry.selector(),
@@ -75,11 +78,23 @@ pub(super) fn planned_source(source: &Source) -> PlannedSource {
     PlannedSource {
         family: source.name(),
         set: match source {
-            Source::Corpus(set) => set.file.clone(),
+            Source::Corpus(set) => format!("{}@{}", set.file, corpus_digest(set)),
             _ => set_of_id(&source.id::<f64>(0, None)),
         },
         count: source.count::<f32>().max(source.count::<f64>()),
     }
+}
+
+/// Of the stored cases and their names: another file of the same name is another plan.
+fn corpus_digest(set: &CorpusSet) -> String {
+    let mut digest = Sha256::new();
+    let mut add = |name: &str, bits: [u64; 17]| {
+        digest.update(name.as_bytes());
+        bits.iter().for_each(|bits| digest.update(bits.to_le_bytes()));
+    };
+    set.f32.iter().for_each(|(name, case)| add(name, case.bits()));
+    set.f64.iter().for_each(|(name, case)| add(name, case.bits()));
+    hex(&digest.finalize()[..8])
 }
 
 /// `family@version/parameters/seed` of an id: without the scalar and the index.
@@ -104,6 +119,7 @@ fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
         scalar: summary.scalar.to_owned(),
         family: source.name(),
         sample: source.is_sample(),
+        promises: source.promises(),
         indices: summary.indices,
         cases: summary.cases,
         promise_broken: summary.promise_broken,
@@ -112,7 +128,7 @@ fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
 }
 
 /// A rate, with its interval if it is of a random sample.
-pub(super) fn rate(count: u64, of: u64, sample: bool) -> Rate {
+pub(crate) fn rate(count: u64, of: u64, sample: bool) -> Rate {
     let interval = (sample && of > 0).then(|| clopper_pearson(count, of));
     Rate {
         count,
@@ -183,6 +199,7 @@ fn finding_part<F: Scalar>(
         class: class.name(),
         rate: rate(count.of(finding), count.trials(finding), source.is_sample()),
         causes,
+        digest: examples.digest.to_string(),
         worst: example::<F>(source, row, worst, true),
         first: examples
             .first
@@ -226,6 +243,8 @@ fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> Ac
         missed_folds: rate(groups.missed_folds, groups.folds, sample),
         first_cracks: ids(&groups.first_cracks),
         first_doubles: ids(&groups.first_doubles),
+        crack_digest: groups.crack_digest.to_string(),
+        double_digest: groups.double_digest.to_string(),
     }
 }
 
@@ -234,6 +253,8 @@ fn polygon_part(tally: &Tally, sample: bool) -> PolygonPart {
     PolygonPart {
         false_misses: rate(polygons.false_miss, polygons.must_hit, sample),
         false_hits: rate(polygons.false_hit, polygons.must_miss, sample),
+        false_miss_digest: polygons.false_miss_digest.to_string(),
+        false_hit_digest: polygons.false_hit_digest.to_string(),
     }
 }
 

@@ -6,15 +6,31 @@
 #![forbid(unsafe_code)]
 
 mod build;
+mod compare;
+mod conformance;
+mod disagreement;
 mod distribution;
 pub mod epsilon;
 mod json;
+mod jsonl;
+mod junit;
+mod markdown;
 mod record;
+mod sarif;
+mod shard;
 mod text;
+mod verdict;
 mod why;
 
+pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
+pub use compare::{Change, Comparison, Difference, difference};
+pub use conformance::*;
+use disagreement::kinds_of;
+pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
+pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use record::*;
+pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
 pub(crate) use text::interval_of;
 
 use std::io::{self, Write};
@@ -37,8 +53,14 @@ pub struct Format {
 }
 
 /// One row per format.
-pub const FORMATS: &[Format] =
-    &[Format { name: "text", write: text::write }, Format { name: "json", write: json::write }];
+pub const FORMATS: &[Format] = &[
+    Format { name: "text", write: text::write },
+    Format { name: "json", write: json::write },
+    Format { name: "jsonl", write: jsonl::write },
+    Format { name: "junit", write: junit::write },
+    Format { name: "sarif", write: sarif::write },
+    Format { name: "markdown", write: markdown::write },
+];
 
 /// Digits in groups of three.
 pub(crate) fn group_digits(number: u64) -> String {

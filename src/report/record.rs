@@ -3,6 +3,8 @@
 //! `result` holds integers, and floats recomputed from integers: it is the same bytes whatever the
 //! number of threads. `provenance` says where and how it was made and is never compared.
 
+use super::conformance::Conformance;
+use super::shard::{PartialPart, ShardPart};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -11,22 +13,33 @@ pub const SCHEMA: &str = "hairline-record/1";
 
 /// Everything that a run found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// [`SCHEMA`].
     pub schema: String,
     /// What was found.
     pub result: ResultPart,
+    /// What `merge` needs; only of a part of a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<ShardPart>,
+    /// How that compares with what was expected; only of `check`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conformance: Option<Conformance>,
     /// Where and how it was made.
     pub provenance: Provenance,
 }
 
 /// What was found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ResultPart {
     /// What was asked.
     pub plan: PlanPart,
+    /// Which parts of it were run, if not all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partial: Option<PartialPart>,
     /// The sources of cases, by scalar.
     pub sources: Vec<SourcePart>,
     /// One entry for each scalar, source and kernel row.
@@ -37,6 +50,7 @@ pub struct ResultPart {
 
 /// Distributions of one kernel row in one scalar, over all sources.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowTotal {
     /// `f32` or `f64`.
@@ -53,6 +67,7 @@ pub struct RowTotal {
 
 /// What was asked.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanPart {
     /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
@@ -67,6 +82,7 @@ pub struct PlanPart {
 
 /// A kernel with its epsilons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowPart {
     /// The kernel's name.
@@ -83,6 +99,7 @@ pub struct RowPart {
 
 /// A source of cases as planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlannedSource {
     /// The name in tables.
@@ -95,6 +112,7 @@ pub struct PlannedSource {
 
 /// What a source gave in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SourcePart {
     /// `f32` or `f64`.
@@ -103,6 +121,8 @@ pub struct SourcePart {
     pub family: String,
     /// Whether its rates are of a random sample.
     pub sample: bool,
+    /// Whether its parameters leave its family's promise standing.
+    pub promises: bool,
     /// Indices made.
     pub indices: u64,
     /// Cases in them.
@@ -115,6 +135,7 @@ pub struct SourcePart {
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct KernelResult {
     /// `f32` or `f64`.
@@ -145,6 +166,7 @@ pub struct KernelResult {
 
 /// Counts and rates of findings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
     /// Cases.
@@ -169,6 +191,7 @@ pub struct Counts {
 
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rate {
     /// How many.
@@ -183,6 +206,7 @@ pub struct Rate {
 
 /// One finding in one class.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
     /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
@@ -193,6 +217,8 @@ pub struct FindingPart {
     pub rate: Rate,
     /// Why; none where nothing was attributed.
     pub causes: Option<CausesPart>,
+    /// Of the set of all its cases, whatever their order.
+    pub digest: String,
     /// The one with the largest severity.
     pub worst: Example,
     /// The first by index.
@@ -201,6 +227,7 @@ pub struct FindingPart {
 
 /// Why findings happened, of the first by index.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CausesPart {
     /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
@@ -212,6 +239,7 @@ pub struct CausesPart {
 
 /// How far cases with a finding are from where the verdict would be right.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityDistribution {
     /// In longest edges of the triangle.
@@ -222,6 +250,7 @@ pub struct SeverityDistribution {
 
 /// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Distribution {
     /// How many.
@@ -241,6 +270,7 @@ pub struct Distribution {
 
 /// A case that shows a finding.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Example {
     /// The id or the name.
@@ -255,6 +285,7 @@ pub struct Example {
 
 /// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityPart {
     /// In the plane, from where the line meets it to the triangle's boundary.
@@ -269,6 +300,7 @@ pub struct SeverityPart {
 
 /// What the triangles of groups did together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AcrossPart {
     /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
@@ -285,20 +317,30 @@ pub struct AcrossPart {
     pub first_cracks: Vec<String>,
     /// Ids of the first doubles.
     pub first_doubles: Vec<String>,
+    /// Of the set of all cracks.
+    pub crack_digest: String,
+    /// Of the set of all doubles.
+    pub double_digest: String,
 }
 
 /// A polygon kernel's answers about whole polygons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonPart {
     /// Of the polygons that must be hit.
     pub false_misses: Rate,
     /// Of the polygons that must be missed.
     pub false_hits: Rate,
+    /// Of the set of all false misses.
+    pub false_miss_digest: String,
+    /// Of the set of all false hits.
+    pub false_hit_digest: String,
 }
 
 /// Where and how a record was made.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// `hairline 0.1.0`.
@@ -315,4 +357,7 @@ pub struct Provenance {
     pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
     /// By scalar and row label: nanoseconds a ray in the kernel.
     pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Of the parts that were merged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<Provenance>,
 }

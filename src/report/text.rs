@@ -9,6 +9,13 @@ use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
 pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    if let Some(conformance) = &record.conformance {
+        super::verdict::write(record, conformance, style, out)?;
+        if !style.details {
+            return Ok(());
+        }
+        writeln!(out)?;
+    }
     let result = &record.result;
     let families = result.plan.sources.len();
     writeln!(
@@ -39,15 +46,31 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
 }
 
 /// All families of one kernel row in one scalar.
-struct RowView<'a> {
-    part: &'a RowPart,
-    total: Option<&'a RowTotal>,
+pub(super) struct RowView<'a> {
+    pub(super) part: &'a RowPart,
+    pub(super) total: Option<&'a RowTotal>,
     results: Vec<&'a KernelResult>,
 }
 
-impl RowView<'_> {
+impl<'a> RowView<'a> {
+    /// Every row of a record in a scalar.
+    pub(super) fn all(record: &'a Record, scalar: &str) -> Vec<RowView<'a>> {
+        let of_row = |part: &RowPart, r: &KernelResult| {
+            r.scalar == scalar && r.kernel == part.kernel && r.set == part.set
+        };
+        let total_of = |part: &RowPart, t: &RowTotal| {
+            t.scalar == scalar && t.kernel == part.kernel && t.set == part.set
+        };
+        let view = |part: &'a RowPart| RowView {
+            part,
+            total: record.result.totals.iter().find(|total| total_of(part, total)),
+            results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
+        };
+        record.result.plan.rows.iter().map(view).collect()
+    }
+
     /// Sum over the families of a rate's count and denominator, and the interval if all are samples.
-    fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
+    pub(super) fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
         let rates: Vec<&Rate> = self.results.iter().filter_map(|result| rate(result)).collect();
         let (count, of) = rates.iter().fold((0, 0), |sum, r| (sum.0 + r.count, sum.1 + r.of));
         let sample = rates.iter().any(|rate| rate.interval.is_some());
@@ -115,27 +138,7 @@ fn write_scalar(
     style: Style,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let rows: Vec<RowView> = record
-        .result
-        .plan
-        .rows
-        .iter()
-        .map(|part| RowView {
-            part,
-            total: record
-                .result
-                .totals
-                .iter()
-                .find(|t| t.scalar == scalar && t.kernel == part.kernel && t.set == part.set),
-            results: record
-                .result
-                .results
-                .iter()
-                .filter(|r| r.scalar == scalar && r.kernel == part.kernel && r.set == part.set)
-                .collect(),
-        })
-        .filter(|row| !row.results.is_empty())
-        .collect();
+    let rows = RowView::all(record, scalar);
     let cases: u64 =
         record.result.sources.iter().filter(|s| s.scalar == scalar).map(|s| s.cases).sum();
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };

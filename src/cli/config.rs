@@ -1,0 +1,29 @@
+//! `hairline config` and `hairline schema`: what the files that check reads and writes look like.
+
+use super::exit::{Failure, Status};
+use super::settings;
+use crate::report::Record;
+use clap::Args;
+use std::io::Write;
+
+/// What to print.
+#[derive(Args)]
+pub struct ConfigArguments {
+    /// Print a commented hairline.toml with every setting at its default
+    #[arg(long, required = true)]
+    print_default: bool,
+}
+
+/// Runs `config`.
+pub fn run(_: &ConfigArguments) -> Result<Status, Failure> {
+    std::io::stdout().write_all(settings::default_file().as_bytes())?;
+    Ok(Status::Success)
+}
+
+/// Runs `schema`.
+pub fn schema() -> Result<Status, Failure> {
+    let schema = schemars::schema_for!(Record);
+    let text = serde_json::to_string_pretty(&schema).map_err(std::io::Error::from)?;
+    writeln!(std::io::stdout(), "{text}")?;
+    Ok(Status::Success)
+}

@@ -1,0 +1,47 @@
+//! `hairline diff`: two records side by side.
+
+use super::exit::{Failure, Status};
+use super::input::read_record;
+use super::output::write_result;
+use crate::report::difference;
+use clap::{Args, ValueEnum};
+use std::io;
+
+/// What to compare, and how to report.
+#[derive(Args)]
+pub struct DiffArguments {
+    /// The earlier record, as `--format json` wrote it
+    old: String,
+
+    /// The later record
+    new: String,
+
+    /// How to write it
+    #[arg(long, value_enum, default_value_t)]
+    format: DiffFormat,
+
+    /// Where to write; - is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: String,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum DiffFormat {
+    #[default]
+    Text,
+    Json,
+}
+
+/// Runs the command.
+pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
+    let (old, new) = (read_record(&arguments.old)?, read_record(&arguments.new)?);
+    let comparison = difference(&old.result, &new.result);
+    write_result(&arguments.output, |out| match arguments.format {
+        DiffFormat::Text => comparison.write(out),
+        DiffFormat::Json => {
+            serde_json::to_writer_pretty(&mut *out, &comparison).map_err(io::Error::from)?;
+            writeln!(out)
+        }
+    })?;
+    Ok(Status::Success)
+}

@@ -1,0 +1,74 @@
+//! `hairline merge`: the records of parts of a run become the record of the whole.
+
+use super::exit::{Failure, Status};
+use super::input::{corpus_set, read_mesh, read_record};
+use super::progress::Progress;
+use super::reporting::{ReportArguments, self_check};
+use crate::audit::{Source, StoredSource};
+use crate::corpus::InputError;
+use crate::family::MeshFamily;
+use crate::report::{mergeable, merged};
+use clap::Args;
+use std::sync::Arc;
+
+/// What to merge, and how to report.
+#[derive(Args)]
+pub struct MergeArguments {
+    /// Records that `--shard` with `--format json` wrote
+    #[arg(required = true, value_name = "RECORD")]
+    records: Vec<String>,
+
+    /// Go without missing shards; the result says which are in it
+    #[arg(long)]
+    allow_partial: bool,
+
+    #[command(flatten)]
+    report: ReportArguments,
+}
+
+/// Runs the command.
+pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
+    let outputs = arguments.report.outputs()?;
+    let files = &arguments.records;
+    let records = files.iter().map(|file| read_record(file)).collect::<Result<Vec<_>, _>>()?;
+    let parts = mergeable(records, arguments.allow_partial).map_err(|error| {
+        let file = error.record.map_or("merge", |i| &files[i]);
+        InputError::of(file, error.message)
+    })?;
+    let quiet = arguments.report.quiet;
+    let progress = Progress::new(0, "indices", true);
+    let record = merged(parts, &progress, |source| open(source, quiet))
+        .map_err(|Unmergeable(failure)| failure)?;
+    outputs.write(&record)?;
+    self_check(&record)?;
+    Ok(Status::Success)
+}
+
+/// A failure, or a message about the parts.
+struct Unmergeable(Failure);
+
+impl From<String> for Unmergeable {
+    fn from(message: String) -> Unmergeable {
+        Unmergeable(InputError::of("merge", message).into())
+    }
+}
+
+impl From<Failure> for Unmergeable {
+    fn from(failure: Failure) -> Unmergeable {
+        Unmergeable(failure)
+    }
+}
+
+fn open(source: &StoredSource, quiet: bool) -> Result<Source, Unmergeable> {
+    match source {
+        StoredSource::Mesh { path, parameters, seed, count } => {
+            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+            let parameters = parameters.parse()?;
+            Ok(Source::Mesh { family, parameters, seed: *seed, count: *count })
+        }
+        StoredSource::Corpus { file } => Ok(Source::Corpus(corpus_set(file)?)),
+        StoredSource::Family { family, .. } => {
+            Err(format!("family '{family}' needs no file").into())
+        }
+    }
+}

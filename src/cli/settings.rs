@@ -1,0 +1,287 @@
+//! `hairline.toml`: the settings of `check`, under the environment and the command line.
+
+use super::exit::{Failure, Status};
+use crate::kernel::nearest_name;
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// Where settings are looked for if nothing else is said.
+pub const FILE: &str = "hairline.toml";
+
+/// What a setting's value looks like.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// A list of names, or one.
+    Names,
+    /// A list of files, or one; from the folder of `hairline.toml`.
+    Files,
+    /// One file; likewise.
+    File,
+    /// A string or a number.
+    Text,
+    /// true or false.
+    Flag,
+}
+
+/// A setting: a flag of `check` that may also stand in the file or the environment.
+struct Setting {
+    key: &'static str,
+    kind: Kind,
+    /// The default as it would be written; commented out if there is none.
+    default: &'static str,
+    about: &'static str,
+}
+
+const fn setting(
+    key: &'static str,
+    kind: Kind,
+    default: &'static str,
+    about: &'static str,
+) -> Setting {
+    Setting { key, kind, default, about }
+}
+
+const SETTINGS: &[Setting] = &[
+    setting("kernel", Kind::Names, "# kernel = [\"moller-trumbore\"]", "Kernels; all if left out"),
+    setting(
+        "epsilon",
+        Kind::Text,
+        "# epsilon = \"parallel=1e-6,edge=0\"",
+        "Epsilons by gate; as the sources have them if left out",
+    ),
+    setting(
+        "epsilon-preset",
+        Kind::Text,
+        "# epsilon-preset = \"bvh\"",
+        "Or those of a published library (`hairline list presets`)",
+    ),
+    setting(
+        "contract",
+        Kind::Text,
+        "contract = \"own\"",
+        "One contract for all kernels (`hairline list contracts`), or each its own",
+    ),
+    setting("scalar", Kind::Names, "scalar = [\"f32\", \"f64\"]", "f32, f64 or both"),
+    setting("family", Kind::Names, "# family = [\"tiny\"]", "Families; all if left out"),
+    setting("count", Kind::Text, "count = 20_000", "Cases for each family"),
+    setting("seed", Kind::Text, "seed = 1", "Which random cases"),
+    setting("exhaustive", Kind::Flag, "exhaustive = false", "Every case of the lattice family"),
+    setting("scale", Kind::Text, "scale = \"1\"", "Multiply all positions by a power of two"),
+    setting("scale-direction", Kind::Flag, "scale-direction = false", "Multiply the direction too"),
+    setting("offset", Kind::Text, "# offset = \"1e6:0:0\"", "Add a vector to all positions"),
+    setting(
+        "direction",
+        Kind::Text,
+        "# direction = \"unit\"",
+        "Replace directions by unit vectors",
+    ),
+    setting("mesh", Kind::Files, "# mesh = [\"model.obj\"]", "Rays at meshes"),
+    setting("corpus", Kind::Files, "# corpus = [\"cases.jsonl\"]", "Stored cases"),
+    setting("examples", Kind::Text, "examples = 3", "Examples of each class of finding to keep"),
+    setting(
+        "expectations",
+        Kind::File,
+        "expectations = \"hairline.expectations.toml\"",
+        "The known disagreements; `hairline check --bless` writes them",
+    ),
+];
+
+/// The file of default settings, commented.
+pub fn default_file() -> String {
+    let mut text = "# hairline.toml: what `hairline check` runs. A flag of the command line wins over a variable\n\
+                    # (HAIRLINE_COUNT for count), which wins over this file. Paths are from this file's folder.\n"
+        .to_owned();
+    for setting in SETTINGS {
+        text.push_str(&format!("\n# {}.\n{}\n", setting.about, setting.default));
+    }
+    text
+}
+
+/// A setting that is given outside the command line, as words of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// The flag, without dashes.
+    pub key: &'static str,
+    /// `--key=value`, once or more often.
+    pub words: Vec<String>,
+    /// `hairline.toml:3` or `HAIRLINE_COUNT`.
+    pub place: String,
+}
+
+/// The variable of a setting.
+fn variable(key: &str) -> String {
+    format!("HAIRLINE_{}", key.to_uppercase().replace('-', "_"))
+}
+
+/// The settings of the environment, read by a function; empty ones do not count.
+pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Vec<Given>, Failure> {
+    let mut all = Vec::new();
+    for setting in SETTINGS {
+        let place = variable(setting.key);
+        let Some(text) = get(&place).filter(|text| !text.is_empty()) else { continue };
+        let words = match (setting.kind, text.as_str()) {
+            (Kind::Flag, "1" | "true") => vec![format!("--{}", setting.key)],
+            (Kind::Flag, "0" | "false") => Vec::new(),
+            (Kind::Flag, _) => {
+                return Err(Failure::usage(format!(
+                    "{place}: expected true or false, not '{text}'"
+                )));
+            }
+            _ => vec![format!("--{}={text}", setting.key)],
+        };
+        all.push(Given { key: setting.key, words, place });
+    }
+    Ok(all)
+}
+
+/// The settings of a file's text.
+pub fn from_file(text: &str, file: &str) -> Result<Vec<Given>, Failure> {
+    let line = |at: usize| text.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
+    let error = |at: usize, message: String| {
+        let message = message.replace('\n', "; ");
+        Failure::Message(Status::Usage, format!("{file}:{}: {message}", line(at)))
+    };
+    let table = DeTable::parse(text)
+        .map_err(|e| error(e.span().map_or(0, |span| span.start), e.message().to_owned()))?;
+    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+    let mut all = Vec::new();
+    for (key, value) in table.get_ref() {
+        let (name, at) = (key.get_ref().as_ref(), key.span().start);
+        let Some(setting) = SETTINGS.iter().find(|setting| setting.key == name) else {
+            return Err(error(at, unknown_key(name)));
+        };
+        let words = words(setting, value.get_ref(), folder).map_err(|m| error(at, m))?;
+        all.push(Given { key: setting.key, words, place: format!("{file}:{}", line(at)) });
+    }
+    Ok(all)
+}
+
+fn unknown_key(name: &str) -> String {
+    let keys = || SETTINGS.iter().map(|setting| setting.key);
+    match nearest_name(name, keys()) {
+        Some(near) => format!("unknown setting '{name}'; did you mean '{near}'?"),
+        None => {
+            format!("unknown setting '{name}'; there are {}", keys().collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String>, String> {
+    let key = setting.key;
+    if let Kind::Flag = setting.kind {
+        return match value {
+            DeValue::Boolean(true) => Ok(vec![format!("--{key}")]),
+            DeValue::Boolean(false) => Ok(Vec::new()),
+            _ => Err(format!("{key}: expected true or false")),
+        };
+    }
+    let is_list = matches!(setting.kind, Kind::Names | Kind::Files);
+    let texts = match value {
+        DeValue::Array(items) if is_list => {
+            items.iter().map(|item| scalar_text(item.get_ref())).collect::<Option<Vec<_>>>()
+        }
+        one => scalar_text(one).map(|text| vec![text]),
+    };
+    let expected = if is_list { "a string or a list of strings" } else { "a string or a number" };
+    let texts = texts.ok_or_else(|| format!("{key}: expected {expected}"))?;
+    if texts.is_empty() {
+        return Err(format!("{key}: the list is empty; leave it out for the default"));
+    }
+    Ok(match setting.kind {
+        Kind::Names => vec![format!("--{key}={}", texts.join(","))],
+        Kind::Files | Kind::File => {
+            texts.iter().map(|text| format!("--{key}={}", folder.join(text).display())).collect()
+        }
+        _ => vec![format!("--{key}={}", texts[0])],
+    })
+}
+
+fn scalar_text(value: &DeValue) -> Option<String> {
+    match value {
+        DeValue::String(text) => Some(text.to_string()),
+        DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str().to_owned()),
+        DeValue::Float(number) => Some(number.as_str().to_owned()),
+        _ => None,
+    }
+}
+
+/// The settings that count: of each key the first in the layers, highest first, unless the command
+/// line has it. The two ways to say epsilons are one.
+pub fn layered(layers: [Vec<Given>; 2], on_command_line: impl Fn(&str) -> bool) -> Vec<Given> {
+    let subject = |key: &'static str| if key == "epsilon-preset" { "epsilon" } else { key };
+    let given_above = |key: &str| match key {
+        "epsilon" => on_command_line("epsilon") || on_command_line("epsilon-preset"),
+        key => on_command_line(key),
+    };
+    let mut taken: Vec<Given> = Vec::new();
+    for layer in layers {
+        let below = |given: &Given| {
+            let key = subject(given.key);
+            !given_above(key) && !taken.iter().any(|other| subject(other.key) == key)
+        };
+        let more: Vec<Given> = layer.into_iter().filter(below).collect();
+        taken.extend(more);
+    }
+    taken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_higher_layer_wins_and_epsilons_are_one_subject() {
+        let file = from_file(
+            "count = 1_000\nseed = 2\nepsilon = \"edge=0\"\nscalar = \"f32\"\n",
+            "c/h.toml",
+        )
+        .unwrap();
+        let environment = |name: &str| match name {
+            "HAIRLINE_SEED" => Some("3".to_owned()),
+            "HAIRLINE_EPSILON_PRESET" => Some("bvh".to_owned()),
+            "HAIRLINE_FAMILY" => Some(String::new()),
+            _ => None,
+        };
+        let environment = from_environment(environment).unwrap();
+        let taken = layered([environment, file], |key| key == "count");
+        let words: Vec<&str> = taken.iter().flat_map(|g| &g.words).map(String::as_str).collect();
+        assert_eq!(words, ["--epsilon-preset=bvh", "--seed=3", "--scalar=f32"]);
+        assert_eq!(taken[2].place, "c/h.toml:4");
+    }
+
+    #[test]
+    fn paths_are_from_the_files_folder() {
+        let given = from_file("mesh = [\"a.obj\", \"/b.obj\"]\n", "c/h.toml").unwrap();
+        assert_eq!(given[0].words, ["--mesh=c/a.obj", "--mesh=/b.obj"]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        for (text, expected) in [
+            ("\nkernal = \"x\"", "h.toml:2: unknown setting 'kernal'; did you mean 'kernel'?"),
+            ("zzzzzzzzzzz = 1", "h.toml:1: unknown setting 'zzzzzzzzzzz'; there are kernel, "),
+            ("count = [1]", "h.toml:1: count: expected a string or a number"),
+            ("kernel = [true]", "h.toml:1: kernel: expected a string or a list of strings"),
+            ("family = []", "h.toml:1: family: the list is empty"),
+            ("exhaustive = 1", "h.toml:1: exhaustive: expected true or false"),
+            ("seed = 1\nseed = 2", "h.toml:2: duplicate key"),
+            ("seed = ", "h.toml:1: "),
+        ] {
+            let failure = from_file(text, "h.toml").unwrap_err();
+            let message = failure.message().unwrap();
+            assert!(message.starts_with(expected), "{message}");
+            assert_eq!(failure.status(), Status::Usage);
+        }
+    }
+
+    #[test]
+    fn the_default_file_is_read_and_gives_every_setting() {
+        let active = default_file().replace("\n# epsilon-preset", "\n#epsilon-preset");
+        let active: String = active
+            .lines()
+            .map(|line| line.strip_prefix("# ").filter(|l| l.contains(" = ")).unwrap_or(line))
+            .fold(String::new(), |text, line| text + line + "\n");
+        let given = from_file(&active, "h.toml").unwrap();
+        assert_eq!(given.len(), SETTINGS.len() - 1);
+    }
+}

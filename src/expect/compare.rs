@@ -1,0 +1,293 @@
+//! A run beside its expectations.
+
+use super::{Amount, Entry, Expectations};
+use crate::audit::{Interval, clopper_pearson_at};
+use crate::judge::Finding;
+use crate::report::{
+    Conformance, Deviation, Disagreement, KernelResult, Key, Method, Rate, ResultPart, Verdict,
+    disagreements, group_digits, rate_of,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The chance that any of all comparisons by interval calls a difference that is none.
+const ERROR: f64 = 0.05;
+
+/// Compares; `file` is the expectations' name.
+///
+/// Under the plan of the expectations everything is deterministic: counts and digests must be the
+/// same. Under another, rates of random samples differ if their Clopper-Pearson intervals are
+/// disjoint, at 0.05 divided by the number of comparisons. A class without an expectation then counts
+/// as none of as many; but for a kernel row without any expectation, and for panics, one is too many.
+pub fn compare(
+    result: &ResultPart,
+    expectations: &Expectations,
+    file: Option<&str>,
+) -> Conformance {
+    let found = disagreements(result);
+    let same_plan = result.plan.hash == expectations.plan;
+    let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
+    let unlisted = found.iter().filter(|found| !expectations.entries.contains_key(&found.key));
+    let comparisons = expectations.entries.len() + unlisted.count();
+    let judge = Judge { method, tail: ERROR / comparisons.max(1) as f64 / 2.0 };
+    let mut conformance = Conformance {
+        verdict: Verdict::Conforms,
+        method,
+        expectations: file.map(str::to_owned),
+        unexpected: Vec::new(),
+        stale: Vec::new(),
+        known: Vec::new(),
+        too_rare_to_tell: 0,
+        outside_the_plan: 0,
+    };
+    for found in &found {
+        if !expectations.entries.contains_key(&found.key) {
+            if judge.is_unexpected(found, expectations) {
+                conformance.unexpected.push(deviation(&found.key, None, found.rate, Some(found)));
+            } else {
+                conformance.too_rare_to_tell += 1;
+            }
+        }
+    }
+    let found: BTreeMap<&Key, &Disagreement> =
+        found.iter().map(|found| (&found.key, found)).collect();
+    let planned = Planned::of(result);
+    for (key, entry) in &expectations.entries {
+        let Some(result) = planned.result(key) else {
+            if planned.leaves_out(key) {
+                conformance.outside_the_plan += 1;
+            } else {
+                let nothing = rate_of_nothing();
+                conformance.stale.push(deviation(key, Some(entry), &nothing, None));
+            }
+            continue;
+        };
+        let found = found.get(key).copied();
+        let rate = rate_of(result, &key.class, &key.finding);
+        let list = match judge.outcome(entry, &rate, found.map(|found| found.digest)) {
+            Outcome::Same => &mut conformance.known,
+            Outcome::Worse => &mut conformance.unexpected,
+            Outcome::Better => &mut conformance.stale,
+        };
+        list.push(deviation(key, Some(entry), &rate, found));
+    }
+    // What is known needs no example: with them a record would be half as large again.
+    for known in &mut conformance.known {
+        (known.case, known.bits, known.command) = (None, None, None);
+    }
+    conformance.verdict = match (conformance.unexpected.len(), conformance.stale.len()) {
+        (0, 0) => Verdict::Conforms,
+        (0, _) => Verdict::Stale,
+        _ => Verdict::Disagreements,
+    };
+    conformance
+}
+
+/// What the plan holds.
+struct Planned<'a> {
+    results: BTreeMap<[&'a str; 4], &'a KernelResult>,
+    kernels: BTreeSet<&'a str>,
+    scalars: BTreeSet<&'a str>,
+    families: BTreeSet<&'a str>,
+}
+
+impl<'a> Planned<'a> {
+    fn of(result: &'a ResultPart) -> Planned<'a> {
+        let key =
+            |part: &'a KernelResult| [part.kernel.as_str(), &part.set, &part.scalar, &part.family];
+        Planned {
+            results: result.results.iter().map(|part| (key(part), part)).collect(),
+            kernels: result.plan.rows.iter().map(|row| row.kernel.as_str()).collect(),
+            scalars: result.plan.scalars.iter().map(String::as_str).collect(),
+            families: result.plan.sources.iter().map(|source| source.family.as_str()).collect(),
+        }
+    }
+
+    fn result(&self, key: &Key) -> Option<&'a KernelResult> {
+        self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
+    }
+
+    /// Whether the plan leaves out the kernel, the scalar or the family: then the expectation is about
+    /// something else. A kernel that runs with other epsilons only is another matter.
+    fn leaves_out(&self, key: &Key) -> bool {
+        !self.kernels.contains(key.kernel.as_str())
+            || !self.scalars.contains(key.scalar.as_str())
+            || !self.families.contains(key.family.as_str())
+    }
+}
+
+enum Outcome {
+    Same,
+    Worse,
+    Better,
+}
+
+struct Judge {
+    method: Method,
+    tail: f64,
+}
+
+impl Judge {
+    /// Whether a disagreement without an expectation is one too many.
+    fn is_unexpected(&self, found: &Disagreement, expectations: &Expectations) -> bool {
+        let Rate { count, of, interval, .. } = *found.rate;
+        let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
+        let row_of_found = row(&found.key);
+        self.method == Method::CaseByCase
+            || interval.is_none()
+            || found.key.finding == Finding::Panic.name()
+            || !expectations.entries.keys().any(|key| row(key) == row_of_found)
+            || self.interval(0, of).high < self.interval(count, of).low
+    }
+
+    fn interval(&self, count: u64, of: u64) -> Interval {
+        clopper_pearson_at(count, of, self.tail)
+    }
+
+    fn outcome(&self, entry: &Entry, found: &Rate, digest: Option<&str>) -> Outcome {
+        match &entry.amount {
+            Amount::Rate(bound) => self.within(*bound, found),
+            Amount::Count { count, of, digest: expected } => {
+                let same_trials = of.is_none_or(|of| of == found.of);
+                let exact =
+                    self.method == Method::CaseByCase || (found.interval.is_none() && same_trials);
+                if !exact {
+                    return self.rates(*count, of.unwrap_or(found.of), found);
+                }
+                let same_cases = expected.is_none() || expected.as_deref() == digest;
+                if found.count < *count {
+                    Outcome::Better
+                } else if found.count == *count && same_trials && same_cases {
+                    Outcome::Same
+                } else {
+                    Outcome::Worse
+                }
+            }
+        }
+    }
+
+    fn rates(&self, count: u64, of: u64, found: &Rate) -> Outcome {
+        let (expected, found) = (self.interval(count, of), self.interval(found.count, found.of));
+        if expected.high < found.low {
+            Outcome::Worse
+        } else if found.high < expected.low {
+            Outcome::Better
+        } else {
+            Outcome::Same
+        }
+    }
+
+    /// At most a share: of a sample as far as its interval tells. None at all, of enough, is better.
+    fn within(&self, bound: f64, found: &Rate) -> Outcome {
+        let share = found.rate.unwrap_or(0.0);
+        let interval = match found.interval {
+            Some(_) => self.interval(found.count, found.of),
+            None => Interval { low: share, high: share },
+        };
+        if bound < interval.low {
+            Outcome::Worse
+        } else if found.count == 0 && interval.high < bound {
+            Outcome::Better
+        } else {
+            Outcome::Same
+        }
+    }
+}
+
+fn rate_of_nothing() -> Rate {
+    Rate { count: 0, of: 0, rate: None, interval: None }
+}
+
+fn deviation(
+    key: &Key,
+    entry: Option<&Entry>,
+    rate: &Rate,
+    found: Option<&Disagreement>,
+) -> Deviation {
+    let example = found.and_then(|found| found.example.clone());
+    let bits = example.as_ref().map(|example| example.bits.clone());
+    Deviation {
+        kernel: key.kernel.clone(),
+        set: key.set.clone(),
+        scalar: key.scalar.clone(),
+        family: key.family.clone(),
+        class: key.class.clone(),
+        finding: key.finding.clone(),
+        expected: entry.map_or("none".to_owned(), |entry| describe(&entry.amount, rate)),
+        found: rate.clone(),
+        line: entry.map(|entry| entry.line),
+        case: example.as_ref().map(|example| example.case.clone()),
+        bits: bits.filter(|bits| !bits.is_empty()),
+        command: example.map(|example| example.command),
+        why: entry.and_then(|entry| entry.why.clone()),
+        url: entry.and_then(|entry| entry.url.clone()),
+    }
+}
+
+fn describe(amount: &Amount, found: &Rate) -> String {
+    match amount {
+        Amount::Rate(bound) => format!("a share of at most {bound}, and not none"),
+        Amount::Count { count, of, .. } => {
+            let of = of.unwrap_or(found.of);
+            let other = if *count == found.count && of == found.of { " (other cases)" } else { "" };
+            format!("{} of {}{other}", group_digits(*count), group_digits(of))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::rate_between;
+
+    fn entry(amount: Amount) -> Entry {
+        Entry { line: 1, amount, why: None, url: None }
+    }
+
+    fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {
+        let judge = Judge { method, tail: 1e-5 };
+        let rate = rate_between(found.0, found.1, found.2);
+        match judge.outcome(&entry(amount), &rate, Some(digest)) {
+            Outcome::Better => -1,
+            Outcome::Same => 0,
+            Outcome::Worse => 1,
+        }
+    }
+
+    fn count(count: u64, of: u64, digest: &str) -> Amount {
+        Amount::Count { count, of: Some(of), digest: Some(digest.to_owned()) }
+    }
+
+    #[test]
+    fn under_the_same_plan_one_case_more_less_or_other_is_noticed() {
+        let exactly = |found, digest| {
+            outcome(Method::CaseByCase, count(10, 90, "a"), (found, 90, true), digest)
+        };
+        assert_eq!(exactly(10, "a"), 0);
+        assert_eq!((exactly(11, "b"), exactly(9, "b"), exactly(10, "b")), (1, -1, 1));
+        let by_hand = Amount::Count { count: 10, of: None, digest: None };
+        assert_eq!(outcome(Method::CaseByCase, by_hand, (10, 90, true), "b"), 0);
+    }
+
+    #[test]
+    fn under_another_plan_samples_go_by_intervals_and_whole_sets_do_not() {
+        let rates = |found, sample| {
+            outcome(Method::Intervals, count(1000, 10_000, "a"), (found, 10_000, sample), "a")
+        };
+        // The standard deviation is 30: both intervals at 1e-5 reach about 4.3 of it.
+        assert_eq!((rates(1100, true), rates(900, true)), (0, 0));
+        assert_eq!((rates(1400, true), rates(700, true)), (1, -1));
+        assert_eq!((rates(1001, false), rates(1000, false), rates(999, false)), (1, 0, -1));
+    }
+
+    #[test]
+    fn a_rate_is_a_bound_that_a_sample_must_clearly_exceed() {
+        let within = |found, sample| {
+            outcome(Method::CaseByCase, Amount::Rate(0.1), (found, 10_000, sample), "a")
+        };
+        assert_eq!((within(1000, true), within(1050, true), within(500, true)), (0, 0, 0));
+        assert_eq!((within(1300, true), within(0, true)), (1, -1));
+        assert_eq!((within(1001, false), within(1000, false)), (1, 0));
+        let few = outcome(Method::CaseByCase, Amount::Rate(0.1), (0, 10, true), "a");
+        assert_eq!(few, 0, "none of ten does not tell");
+    }
+}

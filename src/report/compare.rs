@@ -1,0 +1,213 @@
+//! Two records side by side: what got better, what got worse.
+
+use super::{
+    Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, disagreements, group_digits,
+    rate_of,
+};
+use crate::audit::clopper_pearson_at;
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+
+/// The chance that any of all comparisons calls a difference that is none.
+const ERROR: f64 = 0.05;
+
+/// What became of a class of disagreement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Change {
+    /// It is more frequent.
+    Worse,
+    /// It is less frequent.
+    Better,
+    /// As many cases, but other ones.
+    Other,
+    /// The rates differ by no more than their intervals allow.
+    Insignificant,
+}
+
+/// A class of disagreement in two records.
+#[derive(Clone, Debug, Serialize)]
+pub struct Difference {
+    /// What it is: kernel, epsilons, scalar, family, finding and class in one line.
+    pub what: String,
+    /// What became of it.
+    pub change: Change,
+    /// How often it was.
+    pub old: Rate,
+    /// How often it is.
+    pub new: Rate,
+    /// Shows the worst case of the record that has more of it.
+    pub command: Option<String>,
+}
+
+/// What two records have in common, and where they differ.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// Whether the cases are the same, so that any difference counts.
+    pub same_cases: bool,
+    /// How many classes of disagreement were compared.
+    pub compared: usize,
+    /// Those that differ, the worse first.
+    pub differences: Vec<Difference>,
+    /// Classes of disagreement of kernels, epsilons, scalars or families that only the old record has.
+    pub only_old: usize,
+    /// And only the new one.
+    pub only_new: usize,
+}
+
+/// Compares. Where both records are of the same cases (the same sources of the same sizes) any change of
+/// a count or of the set of failing cases is one. Else rates differ if their Clopper-Pearson intervals, at
+/// 0.05 divided by the number of comparisons, are disjoint.
+pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
+    let (old, new) = (Side::of(old), Side::of(new));
+    let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
+    let (common, lone): (Vec<&Key>, Vec<&Key>) =
+        keys.into_iter().partition(|key| old.result(key).is_some() && new.result(key).is_some());
+    let judge = Judge {
+        same_cases: old.sources == new.sources && old.partial == new.partial,
+        tail: ERROR / common.len().max(1) as f64 / 2.0,
+    };
+    let mut differences: Vec<Difference> =
+        common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
+    differences.sort_by_key(|difference| difference.change as u8);
+    Comparison {
+        same_cases: judge.same_cases,
+        compared: common.len(),
+        differences,
+        only_old: lone.iter().filter(|key| old.found.contains_key(**key)).count(),
+        only_new: lone.iter().filter(|key| new.found.contains_key(**key)).count(),
+    }
+}
+
+/// One of the records.
+struct Side<'a> {
+    found: BTreeMap<Key, Disagreement<'a>>,
+    results: BTreeMap<[&'a str; 4], &'a KernelResult>,
+    sources: Vec<(&'a str, u64)>,
+    partial: Option<&'a PartialPart>,
+}
+
+impl<'a> Side<'a> {
+    fn of(result: &'a ResultPart) -> Side<'a> {
+        let place =
+            |part: &'a KernelResult| [part.kernel.as_str(), &part.set, &part.scalar, &part.family];
+        Side {
+            found: disagreements(result)
+                .into_iter()
+                .map(|found| (found.key.clone(), found))
+                .collect(),
+            results: result.results.iter().map(|part| (place(part), part)).collect(),
+            sources: result.plan.sources.iter().map(|s| (s.set.as_str(), s.count)).collect(),
+            partial: result.partial.as_ref(),
+        }
+    }
+
+    fn result(&self, key: &Key) -> Option<&'a KernelResult> {
+        self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
+    }
+
+    fn rate(&self, key: &Key) -> Option<Rate> {
+        self.result(key).map(|part| rate_of(part, &key.class, &key.finding))
+    }
+}
+
+struct Judge {
+    same_cases: bool,
+    tail: f64,
+}
+
+impl Judge {
+    fn difference(&self, key: &Key, old: &Side, new: &Side) -> Option<Difference> {
+        let (old_rate, new_rate) = (old.rate(key)?, new.rate(key)?);
+        let digest = |side: &Side| side.found.get(key).map(|found| found.digest.to_owned());
+        let same_set = digest(old) == digest(new);
+        if old_rate.count == new_rate.count && old_rate.of == new_rate.of && same_set {
+            return None;
+        }
+        let change = self.change(&old_rate, &new_rate);
+        let side = if change == Change::Better { old } else { new };
+        let example = side.found.get(key).and_then(|found| found.example.as_ref());
+        Some(Difference {
+            what: key.to_string(),
+            change,
+            command: example.map(|example| example.command.clone()),
+            old: old_rate,
+            new: new_rate,
+        })
+    }
+
+    fn change(&self, old: &Rate, new: &Rate) -> Change {
+        let whole_sets = old.interval.is_none() && new.interval.is_none() && old.of == new.of;
+        if self.same_cases || whole_sets {
+            return match new.count.cmp(&old.count) {
+                std::cmp::Ordering::Greater => Change::Worse,
+                std::cmp::Ordering::Less => Change::Better,
+                std::cmp::Ordering::Equal => Change::Other,
+            };
+        }
+        let interval = |rate: &Rate| clopper_pearson_at(rate.count, rate.of, self.tail);
+        let (old, new) = (interval(old), interval(new));
+        if old.high < new.low {
+            Change::Worse
+        } else if new.high < old.low {
+            Change::Better
+        } else {
+            Change::Insignificant
+        }
+    }
+}
+
+impl Comparison {
+    /// Writes it for people.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let how = if self.same_cases {
+            "the same cases: every difference counts"
+        } else {
+            "other cases: rates differ if their Clopper-Pearson intervals at 0.05 / comparisons are disjoint"
+        };
+        writeln!(
+            out,
+            "{} classes of disagreement compared, on {how}",
+            group_digits(self.compared as u64)
+        )?;
+        for (title, change) in [
+            ("Worse", Change::Worse),
+            ("Better", Change::Better),
+            ("Other cases, as many", Change::Other),
+        ] {
+            let list: Vec<_> = self.differences.iter().filter(|d| d.change == change).collect();
+            if !list.is_empty() {
+                writeln!(out, "\n{title}")?;
+            }
+            for difference in list {
+                let share = |rate: &Rate| {
+                    format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
+                };
+                let (old, new) = (share(&difference.old), share(&difference.new));
+                writeln!(out, "{}: {old} before, {new} now", difference.what)?;
+                if let Some(command) = &difference.command {
+                    writeln!(out, "    {command}")?;
+                }
+            }
+        }
+        let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
+        let [worse, better, other, same] =
+            [Change::Worse, Change::Better, Change::Other, Change::Insignificant]
+                .map(|change| group_digits(count(change)));
+        writeln!(
+            out,
+            "{worse} worse, {better} better, {other} on other cases, {same} too little to tell"
+        )?;
+        for (count, whose) in [(self.only_old, "old"), (self.only_new, "new")] {
+            if 0 < count {
+                writeln!(
+                    out,
+                    "{} are of kernels, epsilons, scalars or families that only the {whose} record has",
+                    group_digits(count as u64)
+                )?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,131 @@
+//! The part of a record that says how a run compares with what was expected of it.
+
+use super::record::Rate;
+use super::{Key, group_digits};
+use serde::{Deserialize, Serialize};
+
+/// How a run compares with its expectations.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Conformance {
+    /// What came of it.
+    pub verdict: Verdict,
+    /// How counts were compared.
+    pub method: Method,
+    /// The file of expectations; none if there is none, and nothing is expected.
+    pub expectations: Option<String>,
+    /// Disagreements that were not expected, or are worse than expected.
+    pub unexpected: Vec<Deviation>,
+    /// Expectations that no longer come true: what was wrong is less so, or gone.
+    pub stale: Vec<Deviation>,
+    /// Expectations that came true.
+    pub known: Vec<Deviation>,
+    /// Classes of disagreement without an expectation that are too rare to tell from none.
+    pub too_rare_to_tell: u64,
+    /// Expectations of kernels, scalars or families that the plan leaves out.
+    pub outside_the_plan: u64,
+}
+
+/// What came of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// All is as expected.
+    Conforms,
+    /// There are unexpected disagreements.
+    Disagreements,
+    /// There are none, but expectations that no longer come true.
+    Stale,
+}
+
+/// How counts are compared with expectations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// The plan is that of the expectations: the same cases must fail, by count and digest.
+    CaseByCase,
+    /// The plan is another: rates of samples are compared by their intervals.
+    Intervals,
+}
+
+/// A class of disagreement beside what was expected of it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Deviation {
+    /// The kernel's name.
+    pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The source's name in tables.
+    pub family: String,
+    /// The class of the truth.
+    pub class: String,
+    /// The kind of finding.
+    pub finding: String,
+    /// What was expected, in words.
+    pub expected: String,
+    /// How often it happened.
+    pub found: Rate,
+    /// The line of the expectation.
+    pub line: Option<usize>,
+    /// The worst case, or the first.
+    pub case: Option<String>,
+    /// Its bit patterns in hexadecimal.
+    pub bits: Option<String>,
+    /// Shows it again.
+    pub command: Option<String>,
+    /// Why it is expected, as the expectation says.
+    pub why: Option<String>,
+    /// Where more is to be read.
+    pub url: Option<String>,
+}
+
+impl Deviation {
+    /// What it is about.
+    pub fn key(&self) -> Key {
+        Key {
+            kernel: self.kernel.clone(),
+            set: self.set.clone(),
+            scalar: self.scalar.clone(),
+            family: self.family.clone(),
+            class: self.class.clone(),
+            finding: self.finding.clone(),
+        }
+    }
+
+    /// `key: 3 of 1,000, expected none`.
+    pub fn describe(&self) -> String {
+        let (count, of) = (group_digits(self.found.count), group_digits(self.found.of));
+        format!("{}: {count} of {of}, expected {}", self.key(), self.expected)
+    }
+}
+
+impl Conformance {
+    /// One line.
+    pub fn summary(&self) -> String {
+        let count = |list: &[Deviation], one: &str, many: &str| {
+            format!(
+                "{} {}",
+                group_digits(list.len() as u64),
+                if list.len() == 1 { one } else { many }
+            )
+        };
+        let verdict = match self.verdict {
+            Verdict::Conforms => "conforms",
+            Verdict::Disagreements => "does not conform",
+            Verdict::Stale => "better than expected: the expectations are stale",
+        };
+        format!(
+            "{verdict}: {}, {}, {}",
+            count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
+            count(&self.stale, "stale expectation", "stale expectations"),
+            count(&self.known, "known disagreement", "known disagreements")
+        )
+    }
+}

@@ -1,0 +1,169 @@
+//! A record's findings as one list: what expectations name and formats count by.
+
+use super::rate_between;
+use super::record::*;
+use crate::judge::Finding;
+use std::collections::BTreeMap;
+
+/// Names a class of disagreement of a kernel row on a family in a scalar.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Key {
+    /// The kernel's name.
+    pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The source's name in tables.
+    pub family: String,
+    /// The class of the truth; `group` for cracks and doubles, `polygon` for whole polygons.
+    pub class: String,
+    /// `false-miss`, …, `crack`, `double`, `polygon-false-miss`, `polygon-false-hit`.
+    pub finding: String,
+}
+
+/// Every kind of finding that a record can hold, with what it means.
+pub const FINDING_KINDS: &[(&str, &str)] = &[
+    ("false-miss", "The contract asks for a hit and the kernel reports a miss"),
+    ("false-hit", "The contract asks for a miss and the kernel reports a hit"),
+    ("bad-value", "A hit that is not false, with a value that is not finite or a wrong facing"),
+    ("panic", "The kernel panicked"),
+    ("crack", "No triangle of a group reports a ray through its inside"),
+    ("double", "Two triangles of a group report one crossing"),
+    ("polygon-false-miss", "The contract asks for a hit of the whole polygon, and it is missed"),
+    ("polygon-false-hit", "The contract asks for a miss of the whole polygon, and it is hit"),
+];
+
+impl Key {
+    /// The key of a finding of a result.
+    pub fn of(result: &KernelResult, class: &str, finding: &str) -> Key {
+        Key {
+            kernel: result.kernel.clone(),
+            set: result.set.clone(),
+            scalar: result.scalar.clone(),
+            family: result.family.clone(),
+            class: class.to_owned(),
+            finding: finding.to_owned(),
+        }
+    }
+
+    /// `kernel (set)`.
+    pub fn row(&self) -> String {
+        format!("{} ({})", self.kernel, self.set)
+    }
+}
+
+impl std::fmt::Display for Key {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Key { scalar, family, class, finding, .. } = self;
+        write!(f, "{} {scalar} {family}: {finding} of {class}", self.row())
+    }
+}
+
+/// One class of disagreement that occurred.
+#[derive(Clone, Debug)]
+pub struct Disagreement<'a> {
+    /// What it is.
+    pub key: Key,
+    /// How often.
+    pub rate: &'a Rate,
+    /// Of the set of its cases.
+    pub digest: &'a str,
+    /// The worst case, or the first where there is no worst.
+    pub example: Option<Example>,
+}
+
+/// Every disagreement of a record that a contract does not allow, in the order of the record.
+pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
+    let rows: BTreeMap<(&str, &str), &RowPart> =
+        result.plan.rows.iter().map(|row| ((row.kernel.as_str(), row.set.as_str()), row)).collect();
+    let mut all = Vec::new();
+    for part in &result.results {
+        all.extend(part.findings.iter().map(|finding| Disagreement {
+            key: Key::of(part, &finding.class, &finding.finding),
+            rate: &finding.rate,
+            digest: &finding.digest,
+            example: Some(finding.worst.clone()),
+        }));
+        let row = rows.get(&(part.kernel.as_str(), part.set.as_str()));
+        for (finding, rate, digest, first) in across(part) {
+            let example = first.first().map(|id| group_example(row.copied(), &part.kernel, id));
+            let key = Key::of(part, "group", finding);
+            all.push(Disagreement { key, rate, digest, example });
+        }
+        for (finding, rate, digest) in polygons(part) {
+            let key = Key::of(part, "polygon", finding);
+            all.push(Disagreement { key, rate, digest, example: None });
+        }
+    }
+    all.retain(|disagreement| disagreement.rate.count > 0);
+    all
+}
+
+type Across<'a> = (&'static str, &'a Rate, &'a str, &'a [String]);
+
+/// What the contract promises across triangles, with what came of it.
+fn across(part: &KernelResult) -> Vec<Across<'_>> {
+    let Some(across) = &part.across else { return Vec::new() };
+    let cracks: Across =
+        ("crack", &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
+    let doubles: Across =
+        ("double", &across.doubles, &across.double_digest, across.first_doubles.as_slice());
+    match across.promised.as_str() {
+        "nothing" => Vec::new(),
+        "at-least-one" => vec![cracks],
+        _ => vec![cracks, doubles],
+    }
+}
+
+fn polygons(part: &KernelResult) -> Vec<(&'static str, &Rate, &str)> {
+    let Some(polygons) = &part.polygons else { return Vec::new() };
+    vec![
+        ("polygon-false-miss", &polygons.false_misses, &polygons.false_miss_digest),
+        ("polygon-false-hit", &polygons.false_hits, &polygons.false_hit_digest),
+    ]
+}
+
+/// How often a finding of a class occurred in a result, or could have: nought if it did not.
+pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
+    let named = across(part).into_iter().map(|(name, rate, ..)| (name, rate));
+    let named = named.chain(polygons(part).into_iter().map(|(name, rate, _)| (name, rate)));
+    if let Some((_, rate)) = named.into_iter().find(|(name, _)| *name == finding) {
+        return rate.clone();
+    }
+    let none = || rate_between(0, 0, false);
+    let Some(counts) = part.classes.get(class) else { return none() };
+    match finding {
+        "false-miss" => counts.false_misses.clone(),
+        "false-hit" => counts.false_hits.clone(),
+        "bad-value" => counts.bad_values.clone(),
+        "panic" => rate_between(counts.panics, counts.cases, false),
+        _ => none(),
+    }
+}
+
+/// The kinds of finding that a result could show.
+pub(super) fn kinds_of(part: &KernelResult) -> Vec<&'static str> {
+    let mut kinds: Vec<&str> = Finding::ALL.iter().map(|finding| finding.name()).collect();
+    kinds.extend(across(part).into_iter().map(|(name, ..)| name));
+    kinds.extend(polygons(part).into_iter().map(|(name, ..)| name));
+    kinds
+}
+
+/// A group by its id: its bits are those of several triangles, and are left to the command.
+fn group_example(row: Option<&RowPart>, kernel: &str, id: &str) -> Example {
+    let epsilons: Vec<String> = row
+        .map(|row| row.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect())
+        .unwrap_or_default();
+    let flag = if epsilons.is_empty() {
+        String::new()
+    } else {
+        format!(" --epsilon '{}'", epsilons.join(","))
+    };
+    Example {
+        case: id.to_owned(),
+        bits: String::new(),
+        severity: None,
+        command: format!("hairline explain '{id}' --kernel {kernel}{flag}"),
+    }
+}

@@ -1,0 +1,162 @@
+//! Parts of a run: what a record of one holds, and how they become the record of the whole.
+
+use super::build::plan_part;
+use super::{Context, Provenance, Record, build};
+use crate::audit::{self, Audit, Observer, Plan, Shard, Source, StoredPlan, StoredSource};
+use crate::corpus::manifest::hex;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// Which parts of a plan a result is of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PartialPart {
+    /// How many parts there are.
+    pub of: u64,
+    /// Which are in it, counted from 0.
+    pub present: Vec<u64>,
+}
+
+/// What the record of a part holds beside its result, for `merge` of the same version alone.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ShardPart {
+    /// The plan and the sums, as JSON of no stable form.
+    pub sums: String,
+    /// SHA-256 of them, the first 16 hexadecimal digits.
+    pub digest: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Sums {
+    plan: StoredPlan,
+    audit: Audit,
+}
+
+/// The part of a record that merging needs; `audit` is as it is before it is finished.
+pub fn shard_part(plan: &Plan, audit: &Audit) -> ShardPart {
+    let sums = Sums { plan: StoredPlan::of(plan), audit: audit.clone() };
+    let sums = serde_json::to_string(&sums).unwrap_or_default();
+    ShardPart { digest: digest(&sums), sums }
+}
+
+fn digest(sums: &str) -> String {
+    hex(&Sha256::digest(sums.as_bytes())[..8])
+}
+
+impl From<Shard> for PartialPart {
+    fn from(shard: Shard) -> PartialPart {
+        PartialPart { of: shard.of(), present: vec![shard.index()] }
+    }
+}
+
+/// Why records cannot be merged: which of them, counted from 0, and what is wrong.
+#[derive(Debug)]
+pub struct ShardError {
+    /// The record to blame; none if it is no single one.
+    pub record: Option<usize>,
+    /// In one line.
+    pub message: String,
+}
+
+fn error(record: usize, message: impl Into<String>) -> ShardError {
+    ShardError { record: Some(record), message: message.into() }
+}
+
+/// Records that are parts of one plan, each once.
+pub struct Mergeable {
+    plan: StoredPlan,
+    hash: String,
+    parts: Vec<Audit>,
+    partial: PartialPart,
+    provenance: Vec<Provenance>,
+}
+
+/// Checks that records are parts of one plan, without overlap and, unless that is allowed, gaps.
+pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable, ShardError> {
+    let mut all: Option<Mergeable> = None;
+    for (i, record) in records.into_iter().enumerate() {
+        let (Some(partial), Some(shard)) = (record.result.partial, record.shard) else {
+            return Err(error(i, "not a part of a run: it was made without --shard"));
+        };
+        if digest(&shard.sums) != shard.digest {
+            return Err(error(i, "damaged: its sums do not have their digest"));
+        }
+        let sums: Sums = serde_json::from_str(&shard.sums)
+            .map_err(|e| error(i, format!("made by another version: {e}")))?;
+        let hash = record.result.plan.hash;
+        let Some(all) = &mut all else {
+            let (parts, provenance) = (vec![sums.audit], vec![record.provenance]);
+            all = Some(Mergeable { plan: sums.plan, hash, parts, partial, provenance });
+            continue;
+        };
+        if hash != all.hash || sums.plan != all.plan {
+            let message = format!("of another plan: {hash}, expected {} as the first", all.hash);
+            return Err(error(i, message));
+        }
+        if partial.of != all.partial.of {
+            let message =
+                format!("cut in {}, expected {} as the first", partial.of, all.partial.of);
+            return Err(error(i, message));
+        }
+        if let Some(twice) = partial.present.iter().find(|k| all.partial.present.contains(k)) {
+            return Err(error(i, format!("shard {twice}/{} is given twice", partial.of)));
+        }
+        all.parts.push(sums.audit);
+        all.partial.present.extend(partial.present);
+        all.provenance.push(record.provenance);
+    }
+    let Some(mut all) = all else {
+        return Err(ShardError { record: None, message: "no records".to_owned() });
+    };
+    all.partial.present.sort_unstable();
+    let missing: Vec<String> = all.missing().map(|k| k.to_string()).collect();
+    if !allow_partial && !missing.is_empty() {
+        let (of, missing) = (all.partial.of, missing.join(", "));
+        let message =
+            format!("shards {missing} of {of} are missing (--allow-partial goes without)");
+        return Err(ShardError { record: None, message });
+    }
+    Ok(all)
+}
+
+impl Mergeable {
+    fn missing(&self) -> impl Iterator<Item = u64> {
+        (0..self.partial.of).filter(|k| self.partial.present.binary_search(k).is_err())
+    }
+}
+
+/// Adds parts up; `open` reads the meshes and corpora of the plan again. The result of all parts is, byte
+/// for byte, that of a run without parts.
+pub fn merged<E: From<String>>(
+    parts: Mergeable,
+    observer: &dyn Observer,
+    open: impl FnMut(&StoredSource) -> Result<Source, E>,
+) -> Result<Record, E> {
+    let complete = parts.missing().next().is_none();
+    let plan = parts.plan.plan(open)?;
+    let hash = plan_part(&plan).hash;
+    if hash != parts.hash {
+        let message = format!(
+            "the plan is {hash} here, expected {}: a mesh or a corpus has changed, or the parts are of \
+             another version",
+            parts.hash
+        );
+        return Err(message.into());
+    }
+    let mut audit = Audit::of_nothing(&plan);
+    for part in parts.parts {
+        audit.merge(part)?;
+    }
+    let shard = (!complete).then(|| shard_part(&plan, &audit));
+    audit::finish(&plan, observer, &mut audit);
+    let seconds = parts.provenance.iter().map(|part| part.seconds).sum();
+    let threads = parts.provenance.iter().map(|part| part.threads).max().unwrap_or(0);
+    let mut record = build(&plan, &audit, &Context { seconds, threads });
+    record.result.partial = (!complete).then_some(parts.partial);
+    record.shard = shard;
+    record.provenance.parts = parts.provenance;
+    Ok(record)
+}

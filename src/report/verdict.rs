@@ -1,0 +1,76 @@
+//! The conformance part of a record as text for people.
+
+use super::{Conformance, Deviation, Method, Record, Style, group_digits};
+use std::io::{self, Write};
+
+/// Deviations of a kind that the text lists, unless all are asked for.
+const MOST_LISTED: usize = 50;
+
+/// Writes what `check` has to say; the tables are for `--details`.
+pub(super) fn write(
+    record: &Record,
+    conformance: &Conformance,
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let how = match (conformance.method, &conformance.expectations) {
+        (_, None) => "nothing is expected: there is no file of expectations".to_owned(),
+        (Method::CaseByCase, Some(file)) => format!("compared case by case with {file}"),
+        (Method::Intervals, Some(file)) => format!(
+            "compared by intervals with {file}, whose plan is another (it has {} entries)",
+            group_digits((conformance.known.len() + conformance.stale.len()) as u64)
+        ),
+    };
+    writeln!(out, "{}, plan {}: {how}", record.provenance.tool, record.result.plan.hash)?;
+    if 0 < conformance.too_rare_to_tell {
+        writeln!(
+            out,
+            "{} classes of disagreement have no entry and are too rare to tell from none",
+            group_digits(conformance.too_rare_to_tell)
+        )?;
+    }
+    if 0 < conformance.outside_the_plan {
+        writeln!(
+            out,
+            "{} expectations are of kernels, scalars or families that this plan leaves out",
+            group_digits(conformance.outside_the_plan)
+        )?;
+    }
+    for (title, list) in [
+        ("Unexpected disagreements", &conformance.unexpected),
+        (
+            "Stale expectations (what was wrong is less so, or gone; --bless writes what was found)",
+            &conformance.stale,
+        ),
+    ] {
+        if list.is_empty() {
+            continue;
+        }
+        writeln!(out, "\n{bold}{title}{plain}")?;
+        let most = if style.details { list.len() } else { MOST_LISTED };
+        for found in list.iter().take(most) {
+            write_deviation(conformance, found, out)?;
+        }
+        if most < list.len() {
+            let more = group_digits((list.len() - most) as u64);
+            writeln!(out, "and {more} more (--details lists all)")?;
+        }
+    }
+    writeln!(out, "{bold}{}{plain}", conformance.summary())
+}
+
+fn write_deviation(
+    conformance: &Conformance,
+    found: &Deviation,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    if let (Some(file), Some(line)) = (&conformance.expectations, found.line) {
+        write!(out, "{file}:{line}: ")?;
+    }
+    writeln!(out, "{}", found.describe())?;
+    for line in [&found.why, &found.command, &found.bits].into_iter().flatten() {
+        writeln!(out, "    {line}")?;
+    }
+    Ok(())
+}
