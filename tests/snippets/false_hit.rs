@@ -1,4 +1,4 @@
-/// half-space (edge=0), f64: false-hit of interior/front/within, without rounding too.
+/// half-space (edge=0), f64: false-hit of interior/front/within, without rounding too (convention).
 /// Contract: ray, both sides, closed, coplanar free, degenerate free, invalid free.
 #[test]
 fn half_space_f64_false_hit() {

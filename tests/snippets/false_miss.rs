@@ -1,4 +1,4 @@
-/// moller-trumbore (parallel=1e-6,edge=0), f32: false-miss of interior/front/within, refused by 'parallel', without rounding too.
+/// moller-trumbore (parallel=1e-6,edge=0), f32: false-miss of interior/front/within, refused by 'parallel', without rounding too (epsilon).
 /// Contract: line, both sides, closed, coplanar miss, degenerate miss, invalid free.
 #[test]
 fn moller_trumbore_f32_false_miss() {
