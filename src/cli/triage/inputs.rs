@@ -6,9 +6,13 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::fuzz::{CAMPAIGN, FINDS, read_begun, read_finds};
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::fuzzing::AnyInput;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// Targets whose bytes are a kernel, its epsilons and a case.
+const WITH_INPUTS: [&str; 4] = ["kernels", "pinned", "response", "oracle"];
 
 /// Targets whose inputs hold no case.
 const WITHOUT_CASES: [&str; 3] = ["mesh", "orientation", "config"];
@@ -54,8 +58,19 @@ fn read_file(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Fai
         eprintln!("{name}: an input of the target {target} holds no case; left out");
         return Ok(());
     }
+    if !is_corpus && WITH_INPUTS.contains(&&*target) {
+        let (row, case) = match AnyInput::from_bytes(&bytes) {
+            AnyInput::F32(input) => (input.row(), AnyCase::F32(input.case)),
+            AnyInput::F64(input) => (input.row(), AnyCase::F64(input.case)),
+        };
+        finds.extend(of_rows(&[row], case, &name));
+        return Ok(());
+    }
     if !is_corpus && !bytes.trim_ascii_start().starts_with(b"{") {
-        let message = "is neither a corpus (JSON lines) nor a campaign's directory";
+        let message = format!(
+            "is neither a corpus (JSON lines), nor a campaign's directory, nor in a folder called as a fuzz target: {}",
+            WITH_INPUTS.join(", ")
+        );
         return Err(Failure::Message(Status::BadInput, format!("{name}: {message}")));
     }
     for stored in lines::read(&bytes[..], &name) {
