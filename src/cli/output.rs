@@ -1,6 +1,7 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
+use crate::kernel::nearest_name;
 use clap::ValueEnum;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -41,7 +42,11 @@ pub fn paired_outputs<'a, T>(
         let found = table.iter().find(|format| name_of(format) == name);
         found.ok_or_else(|| {
             let names: Vec<&str> = table.iter().map(name_of).collect();
-            Failure::usage(format!("unknown format '{name}': there are {}", names.join(", ")))
+            let advice = match nearest_name(name, names.iter().copied()) {
+                Some(near) => format!("; did you mean '{near}'?"),
+                None => format!(": there are {}", names.join(", ")),
+            };
+            Failure::usage(format!("unknown format '{name}'{advice}"))
         })
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
