@@ -66,7 +66,9 @@ impl<'a> RowView<'a> {
             total: record.result.totals.iter().find(|total| total_of(part, total)),
             results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
         };
-        record.result.plan.rows.iter().map(view).collect()
+        // A kernel of one scalar has nothing to say in the other.
+        let rows = record.result.plan.rows.iter().map(view);
+        rows.filter(|row| !row.results.is_empty()).collect()
     }
 
     /// Sum over the families of a rate's count and denominator, and the interval if all are samples.
