@@ -94,6 +94,7 @@ where
         line: 0,
         why: None,
         url: None,
+        found: None,
     };
     let kernel = t.map_or("miss".to_owned(), |t| format!("hit, t = {t:e}"));
     format!(
