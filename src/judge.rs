@@ -4,6 +4,8 @@
 
 mod class;
 mod distance;
+#[cfg(test)]
+mod tests;
 
 pub use class::Class;
 pub use distance::{
@@ -309,134 +311,5 @@ pub fn polygon_truth(truths: &[Truth]) -> Truth {
             Truth::Transversal(Crossing { feature: Feature::Interior, ..**first })
         }
         Some(first) => Truth::Transversal(**first),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::oracle::truth;
-
-    fn down_at(x: f64, y: f64, z: f64) -> Truth {
-        let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
-        truth(&Case::<f64>::new([x, y, z], [0.0, 0.0, -1.0], triangle))
-    }
-
-    #[test]
-    fn contracts_differ_on_edges_sides_and_extents() {
-        use Obligation::{Free, MustHit, MustMiss};
-        let closed = Contract::CLOSED_RAY;
-        let ask = |truth: &Truth, contract: Contract| obligation(truth, &contract, false);
-        let edge = down_at(1.0, 0.0, 1.0);
-        assert_eq!(ask(&edge, closed), MustHit);
-        assert_eq!(ask(&edge, Contract { boundary: Boundary::Open, ..closed }), MustMiss);
-        assert_eq!(ask(&edge, Contract { boundary: Boundary::Free, ..closed }), Free);
-        let behind = down_at(1.0, 1.0, -1.0);
-        assert_eq!(ask(&behind, closed), MustMiss);
-        assert_eq!(ask(&behind, Contract { extent: Extent::Line, ..closed }), MustHit);
-        let start = down_at(1.0, 1.0, 0.0);
-        assert_eq!(ask(&start, closed), MustHit);
-        assert_eq!(obligation(&start, &Contract { no_self_hit: true, ..closed }, true), MustMiss);
-        assert_eq!(ask(&down_at(3.0, 3.0, 1.0), closed), MustMiss);
-        let back = Case::<f64>::new(
-            [1.0, 1.0, -1.0],
-            [0.0, 0.0, 1.0],
-            [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
-        );
-        assert_eq!(ask(&truth(&back), Contract { sides: Sides::Front, ..closed }), MustMiss);
-        assert_eq!(ask(&Truth::Invalid, closed), MustMiss);
-        assert_eq!(ask(&Truth::Invalid, Contract { invalid: Demand::Free, ..closed }), Free);
-    }
-
-    #[test]
-    fn unit_directions_are_measured_exactly() {
-        let unit = Direction::Unit { ulps: 1 };
-        assert!(promises_direction(unit, [0.0f32, -1.0, 0.0]));
-        assert!(promises_direction(unit, [1.0f32 + f32::EPSILON, 0.0, 0.0]));
-        assert!(!promises_direction(unit, [1.0f32 + 2.0 * f32::EPSILON, 0.0, 0.0]));
-        assert!(!promises_direction(unit, [f32::NAN, 0.0, 0.0]));
-        assert!(promises_direction(Direction::Any, [7.0f64, 0.0, 0.0]));
-    }
-
-    #[test]
-    fn class_names_are_unique_and_numbered() {
-        let names: std::collections::HashSet<String> = Class::all().map(Class::name).collect();
-        assert_eq!(names.len(), Class::COUNT);
-        assert_eq!(Class::of(&down_at(1.0, 0.0, 1.0)).name(), "edge/front/within");
-        assert_eq!(Class::of(&down_at(1.0, 1.0, -1.0)).name(), "interior/front/before");
-        assert_eq!(Class::of(&Truth::Invalid).name(), "invalid");
-    }
-
-    #[test]
-    fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
-        let gives = Gives { t: true, uv: true, facing: true };
-        let truth = down_at(1.0, 1.0, 1.0);
-        let good = Verdict {
-            hit: true,
-            refused_by: None,
-            facing: Some(Facing::Front),
-            t: 1.0,
-            u: 0.25,
-            v: 0.25,
-            failure: None,
-        };
-        let judged = |obligation, verdict: Verdict<f64>| judge(obligation, &truth, gives, &verdict);
-        assert_eq!(judged(Obligation::MustHit, good), None);
-        let failed = |failure| judged(Obligation::Free, Verdict::failed(failure));
-        assert_eq!(failed(Failure::Signal(11)), Some(Finding::Crash));
-        assert_eq!(failed(Failure::Exit(0)), Some(Finding::Crash));
-        assert_eq!(failed(Failure::Timeout), Some(Finding::Timeout));
-        assert_eq!(judged(Obligation::MustHit, Verdict::miss(None)), Some(Finding::FalseMiss));
-        assert_eq!(
-            judged(Obligation::MustMiss, Verdict { t: f64::NAN, ..good }),
-            Some(Finding::FalseHit)
-        );
-        assert_eq!(
-            judged(Obligation::Free, Verdict { u: f64::NAN, ..good }),
-            Some(Finding::BadValue)
-        );
-        assert_eq!(
-            judged(Obligation::MustHit, Verdict { facing: Some(Facing::Back), ..good }),
-            Some(Finding::BadValue)
-        );
-        assert_eq!(
-            judged(Obligation::MustHit, Verdict { facing: None, ..good }),
-            Some(Finding::BadValue)
-        );
-    }
-
-    #[test]
-    fn a_point_on_a_polygons_diagonal_is_inside_and_one_on_its_rim_is_not() {
-        let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
-        let fan = [[0, 1, 2], [0, 2, 3]];
-        let polygon = |x: f64, y: f64| -> Vec<Truth> {
-            let case = |k: [usize; 3]| {
-                Case::<f64>::new([x, y, 1.0], [0.0, 0.0, -1.0], k.map(|i| corners[i]))
-            };
-            fan.map(|k| truth(&case(k))).to_vec()
-        };
-        let feature =
-            |x, y| polygon_truth(&polygon(x, y)).crossing().map(|crossing| crossing.feature);
-        assert_eq!(feature(2.0, 2.0), Some(Feature::Interior));
-        assert!(feature(2.0, 0.0).is_some_and(Feature::is_edge));
-        assert_eq!(feature(5.0, 2.0), Some(Feature::Outside));
-        let asked = |x, y| group_truth(&polygon(x, y), &Contract::CLOSED_RAY, Grouping::Polygon);
-        assert_eq!(asked(2.0, 2.0), GroupTruth::Crossing);
-        assert_eq!(asked(2.0, 0.0), GroupTruth::Free, "the rim is nobody's");
-    }
-
-    #[test]
-    fn a_fold_asks_for_the_parity_of_the_exact_line() {
-        let pair = |x: f64, y: f64| -> Vec<Truth> {
-            let [a, b, c, d] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 2.0, 4.0]];
-            let case = |t| truth(&Case::<f64>::new([x, y, 8.0], [0.0, 0.0, -1.0], t));
-            vec![case([a, b, c]), case([b, a, d])]
-        };
-        let asked = |x, y| group_truth(&pair(x, y), &Contract::CLOSED_RAY, Grouping::SharedEdge);
-        assert_eq!(asked(1.0, 0.0), GroupTruth::Fold { odd: false }, "on the shared edge");
-        assert_eq!(asked(1.0, 0.5), GroupTruth::Fold { odd: false }, "inside both");
-        assert_eq!(asked(0.5, 3.0), GroupTruth::Fold { odd: true }, "inside the first alone");
-        assert_eq!(asked(1.0, 1.5), GroupTruth::Free, "on a rim of the second");
-        assert_eq!(asked(-1.0, 1.0), GroupTruth::Free, "outside");
     }
 }
