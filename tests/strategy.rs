@@ -7,7 +7,7 @@ use hairline::kernel::{Scalar, Verdict, find};
 use hairline::oracle::define;
 use hairline::search::Size;
 use hairline::strategy::{self, Promise, STRATEGIES, conforms, conforms_together, named};
-use hairline::truth::{Feature, Truth};
+use hairline::truth::{Feature, Place, Truth};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
