@@ -24,4 +24,4 @@ pub use map::{Map, map};
 pub use relative::{scale_free_form, unit_of_length};
 pub use run::{Request, Response, SourceResponse, floor, run, tunable_gates};
 pub use scaling::{AtScale, at_scales, common, scaled, slope};
-pub use study::{GateStudy, Price, Study, StudyPlan, own_false_hits, study};
+pub use study::{GateStudy, LEAST_SUM, Price, Study, StudyPlan, own_false_hits, study};

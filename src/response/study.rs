@@ -71,6 +71,9 @@ pub struct Price<F> {
     pub tallies: Vec<Tally>,
 }
 
+/// What the epsilon with the least sum of both shares is called.
+pub const LEAST_SUM: &str = "least sum of both";
+
 /// Powers of ten to weigh, beside the limits, presets and given epsilons.
 const DECADES_WEIGHED: usize = 12;
 
@@ -113,7 +116,8 @@ pub fn study<F: Scalar>(
         weighed.retain(|epsilon| trade.floor <= *epsilon);
         if let (None, Some(knee)) = (trade.settled(), trade.knee(axis.edges())) {
             weighed.push(knee);
-            marks.push(("least sum of both".to_owned(), knee));
+            marks.push((LEAST_SUM.to_owned(), knee));
+            marks.sort_by_key(|(_, epsilon)| epsilon.place());
         }
         weighed.sort_by_key(|epsilon| epsilon.place());
         weighed.dedup_by(|a, b| a == b);

@@ -6,6 +6,7 @@
 use super::record::{EpsilonRecord, GatePart};
 use crate::audit::clopper_pearson;
 use crate::report::Style;
+use crate::response::LEAST_SUM;
 use std::io::{self, Write};
 
 const WIDTH: f64 = 940.0;
@@ -88,7 +89,9 @@ impl<'a> Panel<'a> {
         };
         let low = side.iter().find(|(_, counts)| moved(counts, &first)).map(|(e, _)| e.abs());
         let high = side.iter().rev().find(|(_, counts)| moved(counts, &last)).map(|(e, _)| e.abs());
-        let marks = self.part.marks.iter().filter_map(|mark| mark.epsilon.parse::<f64>().ok());
+        // The least sum lies where shares change, or where it makes no difference.
+        let marks = self.part.marks.iter().filter(|mark| mark.name != LEAST_SUM);
+        let marks = marks.filter_map(|mark| mark.epsilon.parse::<f64>().ok());
         let marks = marks.filter(|e| e * sign > 0.0).map(f64::abs);
         let all: Vec<f64> = low.into_iter().chain(high).chain(marks).collect();
         let low = all.iter().copied().reduce(f64::min)?.log10().floor() as i32 - 1;
