@@ -315,6 +315,15 @@ mod tests {
     }
 
     #[test]
+    fn floats_come_apart_at_both_ends_of_the_range() {
+        assert_eq!(decompose(-6.0), (-3, 1));
+        assert_eq!(decompose(f64::from_bits(1)), (1, -1074));
+        assert_eq!(decompose(f64::from(f32::from_bits(3))), (3, -149));
+        assert_eq!(decompose(f64::MAX), ((1 << 53) - 1, 971));
+        assert_eq!(decompose(-0.0), (0, 0));
+    }
+
+    #[test]
     fn places_count_ulps_through_zero() {
         assert_eq!((-0.0f32).place(), 0);
         assert_eq!(f32::from_bits(1).offset_ulps(-2), -f32::from_bits(1));

@@ -156,14 +156,12 @@ impl<'a, F: Float> Measure<'a, F> {
     }
 }
 
-/// t and the weights of b and c of a case that is transversal.
-fn values<R: Real>(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>) -> [R; 3] {
-    let Ray { origin: o, direction: d, .. } = ray;
-    let Triangle { a, b, c } = triangle;
+/// t and the weights of b and c where the line meets the plane.
+pub(crate) fn values<V: Vector>(ray: &Ray<V>, Triangle { a, b, c }: &Triangle<V>) -> [V::Real; 3] {
     let n = b.minus(a).cross(&c.minus(a));
-    let capital_d = n.dot(d);
-    let [ra, rb, rc] = [a, b, c].map(|vertex| vertex.minus(o));
-    let weight = |p: &Triple<R>, q: &Triple<R>| -(d.dot(&p.cross(q)) / &capital_d);
+    let capital_d = ray.direction.dot(&n);
+    let [ra, rb, rc] = [a, b, c].map(|vertex| vertex.minus(&ray.origin));
+    let weight = |p: &V, q: &V| -ray.direction.dot(&p.cross(q)) / &capital_d;
     [n.dot(&ra) / &capital_d, weight(&ra, &rc), weight(&rb, &ra)]
 }
 

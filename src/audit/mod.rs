@@ -22,6 +22,7 @@ mod source;
 mod stored;
 mod tally;
 
+pub(crate) use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
 pub use answers::{Answers, Given};
 pub use attribution::{Attribution, attribute};

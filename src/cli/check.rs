@@ -4,10 +4,8 @@ use super::exit::{Failure, Status};
 use super::github;
 use super::input::{read_record, read_text};
 use super::output::write_file;
-use super::reporting::{ReportArguments, execute, parse_shard, self_check};
-use super::select::KernelArguments;
+use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
-use super::sources::{SourceArguments, set_threads};
 use crate::audit::Plan;
 use crate::corpus::InputError;
 use crate::expect::{self, Expectations};
@@ -40,30 +38,11 @@ pub struct CheckArguments {
     record: Option<String>,
 
     #[command(flatten)]
-    kernels: KernelArguments,
-
-    #[command(flatten)]
-    sources: SourceArguments,
-
-    /// How many examples of each class of finding to keep
-    #[arg(long, default_value_t = 3, value_name = "N")]
-    examples: usize,
+    run: RunArguments,
 
     /// How many findings of each class to attribute to a cause (see `audit`); 0 for none
     #[arg(long, default_value_t = 0, value_name = "N")]
     attribute: usize,
-
-    /// Run part K of N only, counted from 0; `hairline merge` makes one record of all,
-    /// which --record judges
-    #[arg(long, value_name = "K/N")]
-    shard: Option<String>,
-
-    /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
-
-    #[command(flatten)]
-    report: ReportArguments,
 }
 
 /// The arguments alone, to be read again under the settings.
@@ -77,14 +56,12 @@ struct Alone {
 /// Runs the command on the words after `check`.
 pub fn run(words: &[OsString]) -> Result<Status, Failure> {
     let (arguments, given) = with_settings(words)?;
-    let outputs = arguments.report.outputs()?;
+    let outputs = arguments.run.report.outputs()?;
     let mut record = match &arguments.record {
         Some(file) => read_record(file)?,
         None => {
             let plan = arguments.plan().map_err(|failure| blame(failure, &given))?;
-            let threads = set_threads(arguments.threads)?;
-            let shard = parse_shard(arguments.shard.as_deref())?;
-            execute(&plan, shard, threads, arguments.report.quiet)?
+            arguments.run.execute(&plan)?
         }
     };
     self_check(&record)?;
@@ -99,7 +76,7 @@ pub fn run(words: &[OsString]) -> Result<Status, Failure> {
     if arguments.bless {
         expected = blessed(&record, &expected, &conformance, file)?;
         conformance = expect::compare(&record.result, &expected, Some(file));
-        if !arguments.report.quiet {
+        if !arguments.run.report.quiet {
             eprintln!("{file}: {} known disagreements", expected.entries.len());
         }
     }
@@ -227,12 +204,6 @@ fn blessed(
 
 impl CheckArguments {
     fn plan(&self) -> Result<Plan, Failure> {
-        Ok(Plan {
-            rows: self.kernels.rows()?,
-            sources: self.sources.sources(self.report.quiet, |_| true)?,
-            scalars: self.sources.scalars()?,
-            examples: self.examples,
-            attribute: self.attribute,
-        })
+        self.run.plan(self.attribute)
     }
 }

@@ -1,9 +1,11 @@
-//! How a record is made from a plan, and written: what `audit`, `check` and `merge` share.
+//! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
 use super::output::{ColorChoice, paired_outputs, write_result};
+use super::plugins;
 use super::progress::Progress;
-use super::sources::total_indices;
+use super::select::KernelArguments;
+use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::audit::{self, Plan, Shard};
 use crate::report::{Context, FORMATS, Format, PartialPart, Record, Style, build, shard_part};
 use clap::Args;
@@ -58,40 +60,76 @@ impl Outputs<'_> {
     }
 }
 
-/// The part of a run that `--shard` names; all of it if none.
-pub fn parse_shard(text: Option<&str>) -> Result<Option<Shard>, Failure> {
-    let shard = text.map(str::parse).transpose();
-    shard.map_err(|error| Failure::usage(format!("--shard: {error}")))
+/// The flags that say what to run and how to report: of `audit` and `check`.
+#[derive(Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    kernels: KernelArguments,
+
+    #[command(flatten)]
+    sources: SourceArguments,
+
+    /// How many examples of each class of finding to keep
+    #[arg(long, default_value_t = 3, value_name = "N")]
+    examples: usize,
+
+    /// Run part K of N only, counted from 0; `hairline merge` makes one record of all
+    #[arg(long, value_name = "K/N")]
+    shard: Option<String>,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    #[command(flatten)]
+    pub report: ReportArguments,
 }
 
-/// Runs a plan, or a part of it, and makes its record.
-pub fn execute(
-    plan: &Plan,
-    shard: Option<Shard>,
-    threads: usize,
-    quiet: bool,
-) -> Result<Record, Failure> {
-    let total = total_indices(&plan.sources, plan.scalars)?;
-    if !quiet {
-        let (rows, sources) = (plan.rows.len(), plan.sources.len());
-        let names = ["f32", "f64"];
-        let scalars: Vec<&str> =
-            names.into_iter().zip(plan.scalars).filter(|pair| pair.1).map(|pair| pair.0).collect();
-        eprintln!(
-            "{rows} kernel rows on {sources} sources of cases in {}: {total} indices{}, {threads} threads",
-            scalars.join(" and "),
-            shard.map_or(String::new(), |shard| format!(", of them shard {shard}"))
-        );
+impl RunArguments {
+    /// What the flags ask for, with so many findings of each class attributed.
+    pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
+        let rows = self.kernels.rows()?;
+        let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
+        let sources = self.sources.sources(self.report.quiet, |_| true)?;
+        Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
     }
-    let progress = Progress::new(total, "indices", quiet);
-    let mut sums = audit::sum(plan, shard.unwrap_or(Shard::WHOLE), &progress);
-    let part = shard.map(|_| shard_part(plan, &sums));
-    audit::finish(plan, &progress, &mut sums);
-    progress.finish();
-    let seconds = progress.seconds();
-    let mut record = build(plan, &sums, &Context { seconds, threads });
-    (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
-    Ok(record)
+
+    /// Runs a plan, or the part of it that `--shard` names, and makes its record.
+    pub fn execute(&self, plan: &Plan) -> Result<Record, Failure> {
+        let shard: Option<Shard> = self
+            .shard
+            .as_deref()
+            .map(str::parse)
+            .transpose()
+            .map_err(|error| Failure::usage(format!("--shard: {error}")))?;
+        let threads = set_threads(self.threads)?;
+        let total = total_indices(&plan.sources, plan.scalars)?;
+        if !self.report.quiet {
+            let (rows, sources) = (plan.rows.len(), plan.sources.len());
+            let names = ["f32", "f64"];
+            let scalars: Vec<&str> = names
+                .into_iter()
+                .zip(plan.scalars)
+                .filter(|pair| pair.1)
+                .map(|pair| pair.0)
+                .collect();
+            eprintln!(
+                "{rows} kernel rows on {sources} sources of cases in {}: {total} indices{}, {threads} threads",
+                scalars.join(" and "),
+                shard.map_or(String::new(), |shard| format!(", of them shard {shard}"))
+            );
+        }
+        let progress = Progress::new(total, "indices", self.report.quiet);
+        let mut sums = audit::sum(plan, shard.unwrap_or(Shard::WHOLE), &progress);
+        let part = shard.map(|_| shard_part(plan, &sums));
+        audit::finish(plan, &progress, &mut sums);
+        progress.finish();
+        plugins::check()?;
+        let seconds = progress.seconds();
+        let mut record = build(plan, &sums, &Context { seconds, threads });
+        (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
+        Ok(record)
+    }
 }
 
 /// A family that breaks its own promise is a fault of this tool.

@@ -92,10 +92,8 @@ struct Planned<'a> {
 
 impl<'a> Planned<'a> {
     fn of(result: &'a ResultPart) -> Planned<'a> {
-        let key =
-            |part: &'a KernelResult| [part.kernel.as_str(), &part.set, &part.scalar, &part.family];
         Planned {
-            results: result.results.iter().map(|part| (key(part), part)).collect(),
+            results: result.by_place(),
             kernels: result.plan.rows.iter().map(|row| row.kernel.as_str()).collect(),
             scalars: result.plan.scalars.iter().map(String::as_str).collect(),
             families: result.plan.sources.iter().map(|source| source.family.as_str()).collect(),

@@ -6,6 +6,7 @@
 
 use super::contact;
 use super::determinant::Determinant;
+use crate::arith::decompose;
 use crate::case::Case;
 use crate::truth::Truth;
 use num_bigint::BigInt;
@@ -182,21 +183,6 @@ impl Scaled {
         let contact = contact::decide(&interval, &self.direction, [&a, &b, &c], &n);
         if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
     }
-}
-
-/// A finite float as an odd integer (or zero) times a power of two.
-fn decompose(value: f64) -> (i64, i64) {
-    let bits = value.to_bits();
-    let field = (bits >> 52 & 0x7ff) as i64;
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (digits, exponent) =
-        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
-    if digits == 0 {
-        return (0, 0);
-    }
-    let zeros = digits.trailing_zeros();
-    let odd = digits >> zeros;
-    (if value < 0.0 { -odd } else { odd }, exponent + i64::from(zeros))
 }
 
 /// Points as integers on a common grid, and the grid's exponent.

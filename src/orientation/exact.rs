@@ -1,7 +1,7 @@
 //! The exact determinant: once by its definition in rationals, once quickly in scaled integers.
 
 use super::Points;
-use crate::arith::Float;
+use crate::arith::{Float, decompose};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::float::FloatCore;
@@ -104,8 +104,10 @@ impl ScaledPoints {
         if !points.is_finite() {
             return None;
         }
-        let parts: Vec<Vec<(i64, i64)>> =
-            points.iter().map(|point| point.iter().map(|&x| decompose(x)).collect()).collect();
+        let parts: Vec<Vec<(i64, i64)>> = points
+            .iter()
+            .map(|point| point.iter().map(|&x| decompose(x.to_f64())).collect())
+            .collect();
         let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
         let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
         let integer = |&(digits, exponent): &(i64, i64)| {
@@ -172,28 +174,9 @@ impl ScaledPoints {
     }
 }
 
-/// A finite float as an odd integer (or 0) times a power of two.
-fn decompose<F: Float>(value: F) -> (i64, i64) {
-    let (digits, exponent, sign) = FloatCore::integer_decode(value.to_f64());
-    if digits == 0 {
-        return (0, 0);
-    }
-    let zeros = digits.trailing_zeros();
-    (i64::from(sign) * (digits >> zeros) as i64, i64::from(exponent) + i64::from(zeros))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn floats_come_apart_at_both_ends_of_the_range() {
-        assert_eq!(decompose(-6.0f32), (-3, 1));
-        assert_eq!(decompose(f64::from_bits(1)), (1, -1074));
-        assert_eq!(decompose(f32::from_bits(3)), (3, -149));
-        assert_eq!(decompose(f64::MAX), ((1 << 53) - 1, 971));
-        assert_eq!(decompose(-0.0f64), (0, 0));
-    }
 
     #[test]
     fn determinants_print_as_fractions() {

@@ -90,14 +90,12 @@ struct Side<'a> {
 
 impl<'a> Side<'a> {
     fn of(result: &'a ResultPart) -> Side<'a> {
-        let place =
-            |part: &'a KernelResult| [part.kernel.as_str(), &part.set, &part.scalar, &part.family];
         Side {
             found: disagreements(result)
                 .into_iter()
                 .map(|found| (found.key.clone(), found))
                 .collect(),
-            results: result.results.iter().map(|part| (place(part), part)).collect(),
+            results: result.by_place(),
             sources: result.plan.sources.iter().map(|s| (s.set.as_str(), s.count)).collect(),
             partial: result.partial.as_ref(),
         }

@@ -48,6 +48,16 @@ pub struct ResultPart {
     pub totals: Vec<RowTotal>,
 }
 
+impl ResultPart {
+    /// The results by kernel, epsilon set, scalar and family.
+    pub(crate) fn by_place(&self) -> BTreeMap<[&str; 4], &KernelResult> {
+        let results = self.results.iter();
+        results
+            .map(|part| ([part.kernel.as_str(), &part.set, &part.scalar, &part.family], part))
+            .collect()
+    }
+}
+
 /// Distributions of one kernel row in one scalar, over all sources.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]

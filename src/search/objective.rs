@@ -24,7 +24,7 @@
 
 use super::domain::Domain;
 use crate::arith::{Exact, Float, Real, Vector};
-use crate::audit::Row;
+use crate::audit::{Row, values};
 use crate::case::{Case, Ray, Triangle};
 use crate::judge::{Distances, Finding, asked, exact_to_change, is_in_extent, judge};
 use crate::kernel::gate::refused_by;
@@ -211,7 +211,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     fn quick_value(&self, case: &Case<F>) -> Option<f64> {
         let verdict = self.true_hit(case)?;
         let wide = case.widen();
-        let [t, u, v] = line_and_plane(&wide.ray, &wide.triangle);
+        let [t, u, v] = values(&wide.ray, &wide.triangle);
         let error = |computed: F, exact: f64| (computed.to_f64() - exact).abs();
         let error = match self.target.objective {
             // Of an exact t of zero there is no ulp.
@@ -225,7 +225,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     fn exact_value(&self, case: &Case<F>) -> Option<Exact> {
         let verdict = self.true_hit(case)?;
         let (ray, triangle) = case.exact();
-        let [t, u, v] = line_and_plane(&ray, &triangle);
+        let [t, u, v] = values(&ray, &triangle);
         let error = |computed: F, exact: &Exact| (of(computed) - exact).abs();
         let error = match self.target.objective {
             Objective::T if t.is_zero() => return None,
@@ -242,7 +242,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     pub fn relative_error_of_t(&self, case: &Case<F>) -> Option<f64> {
         let verdict = self.true_hit(case)?;
         let (ray, triangle) = case.exact();
-        let [t, ..] = line_and_plane(&ray, &triangle);
+        let [t, ..] = values(&ray, &triangle);
         Some(((of(verdict.t) - &t).abs() / t.abs()).approximate())
     }
 
@@ -347,13 +347,4 @@ pub(crate) fn scale<V: Vector>(
 fn power<R: Real>(base: &R, exponent: i8) -> R {
     let product = (0..exponent.unsigned_abs()).fold(R::one(), |product, _| product * base);
     if exponent < 0 { R::one() / product } else { product }
-}
-
-/// t and the weights of b and c where the line meets the plane.
-fn line_and_plane<V: Vector>(ray: &Ray<V>, Triangle { a, b, c }: &Triangle<V>) -> [V::Real; 3] {
-    let n = b.minus(a).cross(&c.minus(a));
-    let capital_d = ray.direction.dot(&n);
-    let [ra, rb, rc] = [a, b, c].map(|vertex| vertex.minus(&ray.origin));
-    let weight = |p: &V, q: &V| -ray.direction.dot(&p.cross(q)) / &capital_d;
-    [n.dot(&ra) / &capital_d, weight(&ra, &rc), weight(&rb, &ra)]
 }

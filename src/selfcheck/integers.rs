@@ -35,8 +35,8 @@ pub(super) struct Integers<I> {
     t_max: End<I>,
 }
 
-/// Coordinates below 2^24 and interval ends of as few bits: no product of [`Integers`] reaches 2^105,
-/// contacts (degree 4, and 8 bits of sums) included.
+/// Bits of coordinates, and of interval ends before and behind the point: determinants of degree 3 stay
+/// below 2^78, and times an end of 48 bits below 2^126, so that 128 bits hold every product.
 const NARROW: i64 = 24;
 /// Coordinates below 2^39: determinants and their sums stay below 2^(3·39 + 8).
 const WIDE: i64 = 39;

@@ -241,7 +241,8 @@ impl<'a, F: Scalar> Pricing<'a, F> {
         let lost = if self.duty.guards_start() && respawned {
             (0, 0)
         } else {
-            (misses.0.saturating_sub(self.refused_by_others[source]), misses.1)
+            // The study held these counts against each other.
+            (misses.0 - self.refused_by_others[source], misses.1)
         };
         [lost, own_false_hits(&self.duty, tally), misses, hits]
     }
