@@ -52,6 +52,8 @@ pub mod strategy;
 
 pub mod orientation;
 
+pub mod map;
+
 pub mod report;
 
 mod conformance;

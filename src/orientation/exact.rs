@@ -4,7 +4,6 @@ use super::Points;
 use crate::arith::{Float, decompose};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::float::FloatCore;
 use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
 use std::fmt;

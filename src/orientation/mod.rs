@@ -119,6 +119,13 @@ impl<F: Float> Points<F> {
         self
     }
 
+    /// With one point changed; of points of the plane the third coordinate is not looked at.
+    pub fn with_moved(mut self, point: usize, change: impl FnOnce([F; 3]) -> [F; 3]) -> Points<F> {
+        assert!(point <= self.dimension.number(), "there is no such point");
+        self.coordinates[point] = change(self.coordinates[point]);
+        self
+    }
+
     /// Each coordinate times 2^`exponent`, rounded where it does not fit.
     pub fn scaled(mut self, exponent: i32) -> Points<F> {
         for x in self.coordinates.as_flattened_mut() {

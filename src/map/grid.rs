@@ -1,0 +1,134 @@
+//! Which floats the pixels of a map stand for: two coordinates of one point, each in equal steps.
+
+use super::MapError;
+use crate::arith::{Float, scale_by_power_of_two};
+
+/// How far the neighbouring pixels of an axis are apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// So many floats: with 1, each pixel is a float and the next pixel the next float.
+    Ulps(u32),
+    /// 2 to this power, the sum with the centre rounded to the nearest float. For a coordinate that is
+    /// zero, about which the floats are denser than anything that is computed from them.
+    PowerOfTwo(i32),
+}
+
+impl Step {
+    /// In words: `1 ulp`, `16 ulps`, `2^-24`.
+    pub fn describe(self) -> String {
+        match self {
+            Step::Ulps(1) => "1 ulp".to_owned(),
+            Step::Ulps(k) => format!("{k} ulps"),
+            Step::PowerOfTwo(k) => format!("2^{k}"),
+        }
+    }
+}
+
+/// One axis of a map: a coordinate and its values, from low to high.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis<F> {
+    /// Which coordinate of the point: 0, 1 or 2.
+    pub coordinate: usize,
+    /// The value of the case itself, at pixel `count / 2`.
+    pub centre: F,
+    /// From pixel to pixel.
+    pub step: Step,
+    /// The number of pixels.
+    pub count: usize,
+}
+
+impl<F: Float> Axis<F> {
+    /// How many steps a pixel is from the centre.
+    pub fn offset(&self, pixel: usize) -> i64 {
+        pixel as i64 - (self.count / 2) as i64
+    }
+
+    /// The float of a pixel: past the largest it is infinite, and about a NaN it is that NaN.
+    pub fn value(&self, pixel: usize) -> F {
+        let offset = self.offset(pixel);
+        if offset == 0 {
+            // Also of a negative zero.
+            return self.centre;
+        }
+        match self.step {
+            Step::Ulps(ulps) => self.centre.offset_ulps(offset * i64::from(ulps)),
+            Step::PowerOfTwo(power) => {
+                let distance = F::from_f64(scale_by_power_of_two(offset as f64, power));
+                self.centre + distance
+            }
+        }
+    }
+}
+
+/// The pixels of a map: one point of the input takes all pairs of values of two of its coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid<F> {
+    /// Which point is varied: its place among origin, direction, a, b, c, or among a, b, c, d.
+    pub point: usize,
+    /// To the right, and upwards.
+    pub axes: [Axis<F>; 2],
+}
+
+/// The most pixels of a map on a side.
+pub const MOST_PIXELS: usize = 2048;
+
+impl<F: Float> Grid<F> {
+    /// About a point, in a chosen plane of two of its coordinates; `step` on both axes, or by
+    /// [`natural_step`] if none. `extent` is a coordinate as large as those that the point is compared with.
+    pub fn about(
+        point: usize,
+        values: &[F],
+        coordinates: [usize; 2],
+        step: Option<Step>,
+        [width, height]: [usize; 2],
+        extent: F,
+    ) -> Result<Grid<F>, MapError> {
+        if coordinates[0] == coordinates[1] || coordinates.iter().any(|&i| i >= values.len()) {
+            return Err(MapError(format!(
+                "axes are two different ones of a point's {} coordinates",
+                values.len()
+            )));
+        }
+        if ![width, height].iter().all(|side| (1..=MOST_PIXELS).contains(side)) {
+            return Err(MapError(format!(
+                "a map of {width}x{height} pixels is not possible: each side has 1 to {MOST_PIXELS}"
+            )));
+        }
+        if step == Some(Step::Ulps(0)) {
+            return Err(MapError("a step is at least 1 ulp".to_owned()));
+        }
+        let axis = |coordinate: usize, count| {
+            let centre = values[coordinate];
+            let step = step.unwrap_or_else(|| natural_step(centre, values, extent));
+            Axis { coordinate, centre, step, count }
+        };
+        Ok(Grid { point, axes: [axis(coordinates[0], width), axis(coordinates[1], height)] })
+    }
+
+    /// Pixels to the right, and upwards.
+    pub fn size(&self) -> [usize; 2] {
+        self.axes.map(|axis| axis.count)
+    }
+
+    /// The point's coordinates at a pixel, counted from the left and from the bottom.
+    pub fn moved<const N: usize>(&self, mut point: [F; N], [x, y]: [usize; 2]) -> [F; N] {
+        for (axis, pixel) in self.axes.iter().zip([x, y]) {
+            point[axis.coordinate] = axis.value(pixel);
+        }
+        point
+    }
+}
+
+/// The step of an axis when none is asked for: 1 ulp, and for a coordinate that is zero the ulp of the
+/// point's largest coordinate (of `extent`, for a point that is zero).
+fn natural_step<F: Float>(centre: F, values: &[F], extent: F) -> Step {
+    let larger = |m: F, x: &F| if m < x.abs() { x.abs() } else { m };
+    let largest = values.iter().fold(F::zero(), larger);
+    let largest = if largest.is_zero() { extent.abs() } else { largest };
+    if !centre.is_zero() || largest.is_zero() || !largest.is_finite() {
+        return Step::Ulps(1);
+    }
+    // An ulp is a power of two.
+    let (_, exponent) = crate::arith::decompose(largest.ulp().to_f64());
+    Step::PowerOfTwo(exponent as i32)
+}

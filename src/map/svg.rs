@@ -1,0 +1,297 @@
+//! A map as SVG: the computed panel beside the exact one, with ticks, a legend and counts.
+//!
+//! The drawing has no ids and no styles, so that many of them go into one page, and its text has the
+//! page's colour. [`svg_document`] is the same as a file of its own, in light and dark.
+
+use super::{AxisText, Ink, Map, Step};
+use std::fmt::Write;
+
+/// The side of a panel's slot.
+const PANEL: f64 = 268.0;
+const LEFT: f64 = 68.0;
+const GAP: f64 = 40.0;
+const RIGHT: f64 = 16.0;
+const WIDTH: f64 = LEFT + PANEL + GAP + PANEL + RIGHT;
+/// Of a line of text.
+const LINE: f64 = 18.0;
+/// Of a letter, on average: wide enough for most.
+const LETTER: f64 = 7.0;
+
+/// The drawing, to be put into a page.
+pub fn svg(map: &Map) -> String {
+    Drawing::new(map).finish("", "")
+}
+
+/// The drawing as a file of its own, dark where the reader's screen is.
+pub fn svg_document(map: &Map) -> String {
+    Drawing::new(map).finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND)
+}
+
+/// Of files of their own.
+pub(super) const DOCUMENT_STYLE: &str = "<style>svg{color:#1b1b1b;--paper:#fff}@media(prefers-color-scheme:dark){svg{color:#e6e6e6;--paper:#14171a}}</style>\n";
+pub(super) const DOCUMENT_BACKGROUND: &str =
+    "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" style=\"fill:var(--paper,#fff)\"/>\n";
+
+struct Drawing<'a> {
+    map: &'a Map,
+    body: String,
+    /// Where the next thing goes.
+    y: f64,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(map: &'a Map) -> Drawing<'a> {
+        let mut drawing = Drawing { map, body: String::new(), y: 0.0 };
+        drawing.heading();
+        drawing.panels();
+        drawing.legend();
+        drawing
+    }
+
+    fn finish(self, style: &str, background: &str) -> String {
+        let (title, description) = (escaped(&title(self.map)), escaped(&description(self.map)));
+        let (height, body) = (self.y + 6.0, self.body);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"currentColor\" role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n{style}{background}{body}</svg>\n"
+        )
+    }
+
+    fn heading(&mut self) {
+        let title = title(self.map);
+        self.text(&title, " font-weight=\"bold\"");
+        let measure = format!("what is right: {}", self.map.measure);
+        self.text(&measure, " font-size=\"12\"");
+    }
+
+    /// Text over the whole width, in as many lines as it takes.
+    fn text(&mut self, text: &str, attributes: &str) {
+        for line in wrapped(text, ((WIDTH - RIGHT - 12.0) / LETTER) as usize) {
+            self.y += LINE;
+            let _ = writeln!(
+                self.body,
+                "<text x=\"12\" y=\"{}\"{attributes}>{}</text>",
+                self.y,
+                escaped(&line)
+            );
+        }
+    }
+
+    fn panels(&mut self) {
+        let [width, height] = self.map.size();
+        let cell = PANEL / width.max(height) as f64;
+        let (wide, high) = (cell * width as f64, cell * height as f64);
+        let top = self.y + 34.0;
+        let computed = |pixel| self.map.computed(pixel);
+        let exact = |pixel| self.map.exact(pixel);
+        let sides: [(&str, &dyn Fn(usize) -> Ink); 2] =
+            [("computed", &computed), ("exact", &exact)];
+        let mut body = String::new();
+        for ((name, ink), left) in sides.into_iter().zip([LEFT, LEFT + PANEL + GAP]) {
+            let _ = writeln!(
+                body,
+                "<text x=\"{left}\" y=\"{}\" font-weight=\"bold\">{name}</text>",
+                top - 10.0
+            );
+            let _ = writeln!(
+                body,
+                "<g transform=\"translate({left} {top}) scale({cell})\" shape-rendering=\"crispEdges\">"
+            );
+            body.push_str(&cells([width, height], ink));
+            body.push_str("</g>\n");
+            let _ = writeln!(
+                body,
+                "<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"#808080\"/>"
+            );
+            for (tick, at) in ticks(&self.map.axes[0]) {
+                let x = left + at * wide;
+                let _ = writeln!(
+                    body,
+                    "<path d=\"M{x:.1} {:.1}v5\" stroke=\"#808080\"/><text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"12\">{tick}</text>",
+                    top + high,
+                    top + high + 18.0
+                );
+            }
+        }
+        for (tick, at) in ticks(&self.map.axes[1]) {
+            let y = top + (1.0 - at) * high;
+            let _ = writeln!(
+                body,
+                "<path d=\"M{LEFT} {y:.1}h-5\" stroke=\"#808080\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\" font-size=\"12\">{tick}</text>",
+                LEFT - 8.0,
+                y + 4.0
+            );
+        }
+        self.body.push_str(&body);
+        self.y = top + high + 24.0;
+        for (axis, way) in self.map.axes.iter().zip(["to the right", "upwards"]) {
+            let line = format!("{way}: {}", axis_words(axis));
+            self.text(&line, " font-size=\"12\"");
+        }
+    }
+
+    fn legend(&mut self) {
+        self.y += 8.0;
+        let sides = [self.map.computed_legend(), self.map.exact_legend()];
+        let rows = sides.iter().map(Vec::len).max().unwrap_or(0);
+        for (side, left) in sides.iter().zip([12.0, LEFT + PANEL + GAP]) {
+            for (i, (ink, words, count)) in side.iter().enumerate() {
+                let y = self.y + LINE * (i as f64 + 1.0);
+                let _ = writeln!(
+                    self.body,
+                    "<rect x=\"{left}\" y=\"{}\" width=\"13\" height=\"13\" fill=\"{}\" stroke=\"#808080\"/><text x=\"{}\" y=\"{y}\">{words}: {}</text>",
+                    y - 11.0,
+                    ink.hex(),
+                    left + 20.0,
+                    grouped(*count)
+                );
+            }
+        }
+        self.y += LINE * rows as f64;
+    }
+}
+
+fn title(map: &Map) -> String {
+    format!("{} in {}, one pixel one input", map.subject, map.scalar)
+}
+
+/// What a reader hears who does not see the picture.
+fn description(map: &Map) -> String {
+    let [width, height] = map.size();
+    let list = |legend: Vec<(Ink, &str, usize)>| {
+        let parts: Vec<String> =
+            legend.iter().map(|(_, words, n)| format!("{words} {}", grouped(*n))).collect();
+        parts.join(", ")
+    };
+    format!(
+        "A map of {width} by {height} pixels, {} wrong. Left, computed: {}. Right, exact: {}. To the right: {}. Upwards: {}.",
+        grouped(map.wrong()),
+        list(map.computed_legend()),
+        list(map.exact_legend()),
+        axis_words(&map.axes[0]),
+        axis_words(&map.axes[1])
+    )
+}
+
+fn axis_words(axis: &AxisText) -> String {
+    format!(
+        "{} in steps of {} about {} (bits {})",
+        axis.name,
+        axis.step.describe(),
+        axis.centre,
+        axis.bits
+    )
+}
+
+/// Labels with their places from 0 to 1: the first pixel, the centre, the last.
+fn ticks(axis: &AxisText) -> Vec<(String, f64)> {
+    let unit = match axis.step {
+        Step::Ulps(k) => i64::from(k),
+        Step::PowerOfTwo(_) => 1,
+    };
+    let centre = axis.count / 2;
+    let mut pixels = vec![0, centre, axis.count - 1];
+    pixels.dedup();
+    let tick = |pixel: usize| {
+        let offset = (pixel as i64 - centre as i64) * unit;
+        let sign = match offset {
+            0 => "",
+            1.. => "+",
+            _ => "−",
+        };
+        let at = (pixel as f64 + 0.5) / axis.count as f64;
+        (format!("{sign}{}", grouped(offset.unsigned_abs() as usize)), at)
+    };
+    pixels.into_iter().map(tick).collect()
+}
+
+/// The cells of a panel, one unit each: the commonest ink below, the others as one path each, of runs
+/// over rows, equal runs of neighbouring rows together.
+fn cells([width, height]: [usize; 2], ink: impl Fn(usize) -> Ink) -> String {
+    let inks: Vec<Ink> = (0..width * height).map(ink).collect();
+    let count = |wanted: Ink| inks.iter().filter(|ink| **ink == wanted).count();
+    let ground = Ink::ALL.into_iter().max_by_key(|ink| count(*ink)).expect("there are inks");
+    let mut paths = vec![String::new(); Ink::ALL.len()];
+    // The runs that may go on below: ink, first and last column, first row.
+    let mut open: Vec<(Ink, usize, usize, usize)> = Vec::new();
+    for y in 0..=height {
+        let row = inks.get(y * width..(y + 1) * width).unwrap_or(&[]);
+        let runs = runs(row);
+        let (kept, ended): (Vec<_>, Vec<_>) =
+            open.into_iter().partition(|(ink, from, to, _)| runs.contains(&(*ink, *from, *to)));
+        for (ink, from, to, top) in ended {
+            let (w, h) = (to - from, y - top);
+            let _ = write!(paths[ink as usize], "M{from} {top}h{w}v{h}h-{w}z");
+        }
+        open = runs
+            .into_iter()
+            .map(|(ink, from, to)| {
+                let above = kept.iter().find(|run| (run.0, run.1, run.2) == (ink, from, to));
+                above.copied().unwrap_or((ink, from, to, y))
+            })
+            .collect();
+    }
+    let mut out =
+        format!("<path fill=\"{}\" d=\"M0 0h{width}v{height}h-{width}z\"/>\n", ground.hex());
+    for ink in Ink::ALL {
+        let path = &paths[ink as usize];
+        if ink != ground && !path.is_empty() {
+            let _ = writeln!(out, "<path fill=\"{}\" d=\"{path}\"/>", ink.hex());
+        }
+    }
+    out
+}
+
+/// Equal neighbours of a row: ink, first column, the column after the last.
+fn runs(row: &[Ink]) -> Vec<(Ink, usize, usize)> {
+    let mut from = 0;
+    row.chunk_by(|a, b| a == b)
+        .map(|run| {
+            let start = from;
+            from += run.len();
+            (run[0], start, from)
+        })
+        .collect()
+}
+
+/// Text in lines of at most so many letters, broken at spaces and commas; a longer word stays whole.
+pub(super) fn wrapped(text: &str, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_inclusive([' ', ',']) {
+        let line = lines.last_mut().expect("there is one");
+        if !line.is_empty() && line.chars().count() + word.trim_end().chars().count() > most {
+            lines.push(word.to_owned());
+        } else {
+            line.push_str(word);
+        }
+    }
+    lines.iter().map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// With a comma after each third digit.
+pub(super) fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// Text for XML: what it cannot hold becomes a replacement character.
+pub(super) fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
