@@ -62,6 +62,11 @@ impl Exact {
         }
     }
 
+    /// The exact value of a rational.
+    pub fn from_rational(value: &BigRational) -> Exact {
+        Rational(Fraction::from_rational(value))
+    }
+
     /// As a reduced rational; none of NaN, the infinities and irrational numbers.
     pub fn to_rational(&self) -> Option<BigRational> {
         match self {

@@ -23,6 +23,12 @@ impl Fraction {
         Fraction { numerator: BigInt::from(digits), denominator: BigInt::one(), exponent }
     }
 
+    /// The same value.
+    pub fn from_rational(value: &BigRational) -> Fraction {
+        let (numerator, denominator) = (value.numer().clone(), value.denom().clone());
+        Fraction { numerator, denominator, exponent: 0 }
+    }
+
     /// As a reduced rational.
     pub fn to_rational(&self) -> BigRational {
         let power = BigInt::one() << self.exponent.unsigned_abs();

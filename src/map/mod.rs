@@ -24,14 +24,18 @@
 
 #![forbid(unsafe_code)]
 
+mod drawing;
+mod frame;
 mod grid;
 mod kernel;
 mod orientation;
+mod panel;
 #[cfg(feature = "cli")]
 mod png;
 mod spot;
 mod svg;
 
+pub use self::drawing::{drawing, drawing_document};
 pub use self::grid::{Axis, Grid, MOST_PIXELS, Step};
 pub use self::kernel::{Part, grid_of_case, of_kernel};
 pub use self::orientation::{grid_of_points, of_predicate};

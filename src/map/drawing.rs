@@ -1,0 +1,540 @@
+//! A case as a drawing: the triangle in its own plane, the ray, where its line really meets the plane
+//! and where a kernel says so, with a zoomed inset where these are near the boundary.
+//!
+//! Everything is exact until it is a place in the drawing, counted from where it is looked at: digits
+//! are lost neither far from zero nor close to an edge.
+
+use super::MapError;
+use super::frame::{Flat, Frame, Stretch, View};
+use super::panel::Panel;
+use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, escaped, wrapped};
+use crate::arith::{Exact, ExactVector, Float, Real, Vector};
+use crate::audit::{Row, exact_severity};
+use crate::case::{Case, Ray, Triangle};
+use crate::judge::{asked, judge};
+use crate::kernel::{Gives, Scalar, Verdict};
+use crate::oracle::{self, Definition};
+use crate::truth::Truth;
+use std::fmt::Write;
+
+const WIDTH: f64 = 640.0;
+const SIDE: f64 = 298.0;
+const MARGIN: f64 = 14.0;
+const LINE: f64 = 18.0;
+
+/// Nearer to the boundary than this, in longest edges, an inset is drawn.
+const NEAR: f64 = 0.04;
+
+/// The drawing of a row on a case, to be put into a page: it has no ids and no styles, and text of the
+/// page's colour.
+pub fn drawing<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
+    Ok(Witness::new(case, row)?.finish("", ""))
+}
+
+/// The drawing as a file of its own, dark where the reader's screen is.
+pub fn drawing_document<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, MapError> {
+    Ok(Witness::new(case, row)?.finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND))
+}
+
+/// What is drawn, and what has been so far.
+struct Witness {
+    title: String,
+    lines: Vec<String>,
+    body: String,
+    y: f64,
+}
+
+/// A case in exact numbers, with all that is drawn of it.
+struct Scene {
+    frame: Frame,
+    ray: Ray<ExactVector>,
+    triangle: Triangle<ExactVector>,
+    /// Where the line meets the plane.
+    exact: Option<ExactVector>,
+    /// Where the kernel's values say so.
+    computed: Option<ExactVector>,
+    /// The first and last t that a line has in common with a triangle that holds part of it.
+    contact: Option<[Exact; 2]>,
+}
+
+/// A scene in floats, in units, counted from a point.
+struct Layer {
+    vertices: [[f64; 2]; 3],
+    edges: [Option<Stretch>; 3],
+    line: Option<Stretch>,
+    interval: Option<Stretch>,
+    contact: Option<Stretch>,
+    origin: [f64; 2],
+    exact: Option<[f64; 2]>,
+    computed: Option<[f64; 2]>,
+}
+
+impl Witness {
+    fn new<F: Scalar>(case: &Case<F>, row: &Row) -> Result<Witness, MapError> {
+        let name = row.entry.info.name;
+        let subject = F::subject(row.entry)
+            .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
+        let mut verdict = [Verdict::miss(None)];
+        subject.run(std::slice::from_ref(case), &row.epsilons::<F>(), &mut verdict);
+        let [verdict] = verdict;
+        let definition = oracle::define(case);
+        let asked = asked(case, &definition.truth, &row.contract, false);
+        let finding = judge(asked, &definition.truth, row.entry.info.gives, &verdict);
+        let judged = finding.map_or("as its contract asks", |finding| finding.name());
+        let mut witness = Witness {
+            title: format!("{} in {}: {judged}", row.label(), F::NAME),
+            lines: vec![exactly(&definition), computed(row, &verdict)],
+            body: String::new(),
+            y: 0.0,
+        };
+        if case.vectors().iter().flatten().all(Real::is_finite) {
+            witness.distances(case, row);
+            let [_, direction, ..] = case.vectors();
+            if direction.iter().any(|x| !x.is_zero()) {
+                witness.scene(&Scene::new(case, row.entry.info.gives, &verdict, &definition));
+            } else {
+                witness.lines.push("A direction of zero: there is no line to draw.".to_owned());
+            }
+        } else {
+            let nothing = "A coordinate is not finite: there is nothing to draw.";
+            witness.lines.push(nothing.to_owned());
+        }
+        Ok(witness)
+    }
+
+    /// How far the case is from its boundary, in words.
+    fn distances<F: Float>(&mut self, case: &Case<F>, row: &Row) {
+        let Some(severity) = exact_severity(case, row.contract.extent) else { return };
+        let ulps = |distance: f64| format!("{:.3e} ulps", distance * severity.edge_in_ulps);
+        let (space, in_ulps) = (severity.in_space, ulps(severity.in_space));
+        let mut text = format!(
+            "The line passes the triangle's boundary at {space:.3e} of its longest edge, {in_ulps} of the largest coordinate"
+        );
+        if let Some(in_plane) = severity.in_plane {
+            let _ = write!(text, "; in the plane it is {in_plane:.3e}");
+        }
+        if let Some(along) = severity.along {
+            let _ = write!(text, "; along the ray {along:.3e} from an end of it");
+        }
+        self.lines.push(text + ".");
+    }
+
+    fn scene(&mut self, scene: &Scene) {
+        self.lines.push(scene.seen().to_owned());
+        self.lines.extend(scene.apart());
+        let top = self.y + 52.0;
+        let layer = scene.from(&scene.triangle.a);
+        let main = overview(&layer, MARGIN, top);
+        self.panel(&main, &layer, "the triangle");
+        let near = scene.from(&scene.focus());
+        if let Some(half) = inset_half(&near) {
+            let left = WIDTH - MARGIN - SIDE;
+            let inset = Panel { left, top, side: SIDE, centre: [0.0; 2], half };
+            self.panel(
+                &inset,
+                &near,
+                &format!("the point, {} times larger", brief(main.half / half)),
+            );
+            self.bar(&inset);
+        }
+        self.y = top + SIDE + 4.0;
+        self.keys(scene);
+    }
+
+    fn panel(&mut self, panel: &Panel, layer: &Layer, name: &str) {
+        let Panel { left, top, side, .. } = *panel;
+        let out = &mut self.body;
+        let _ = writeln!(
+            out,
+            "<text x=\"{left}\" y=\"{}\" font-weight=\"bold\">{name}</text>",
+            top - 8.0
+        );
+        let edges: Option<Vec<Stretch>> = layer.edges.iter().copied().collect();
+        let fill = edges.filter(|_| layer.has_area()).map(|edges| panel.left_of(&edges));
+        if let Some(path) = fill.filter(|path| !path.is_empty()) {
+            let _ = writeln!(out, "<path d=\"{path}\" fill=\"#6fb4e6\" fill-opacity=\"0.4\"/>");
+        }
+        let mut stroke = |stretch: &Option<Stretch>, attributes: &str| {
+            if let Some([[x1, y1], [x2, y2]]) = stretch.and_then(|stretch| panel.ends(&stretch)) {
+                let _ = writeln!(
+                    out,
+                    "<path d=\"M{x1:.2} {y1:.2}L{x2:.2} {y2:.2}\" fill=\"none\" {attributes}/>"
+                );
+            }
+        };
+        for edge in &layer.edges {
+            stroke(edge, "stroke=\"currentColor\" stroke-width=\"2\"");
+        }
+        stroke(&layer.line, "stroke=\"currentColor\" stroke-dasharray=\"3 4\"");
+        stroke(&layer.interval, "stroke=\"currentColor\"");
+        stroke(&layer.contact, "stroke=\"#0072b2\" stroke-width=\"5\" stroke-opacity=\"0.7\"");
+        let _ = writeln!(
+            out,
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#808080\"/>"
+        );
+        self.names(panel, layer);
+        let marks = [
+            (Some(layer.origin), Mark::Origin),
+            (layer.exact, Mark::Exact),
+            (layer.computed, Mark::Computed),
+        ];
+        for (point, mark) in marks {
+            let Some(point) = point else { continue };
+            if let Some(place) = panel.place(point) {
+                self.body.push_str(&mark.at(place));
+            } else if let (Some(([x, y], [dx, dy])), true) =
+                (panel.pointer(point), mark != Mark::Origin)
+            {
+                // An arrow whose tip is on the rim.
+                let (bx, by) = (x - 12.0 * dx, y - 12.0 * dy);
+                let _ = writeln!(
+                    self.body,
+                    "<path d=\"M{x:.2} {y:.2}L{:.2} {:.2}L{:.2} {:.2}z\" fill=\"{}\"/>",
+                    bx - 5.0 * dy,
+                    by + 5.0 * dx,
+                    bx + 5.0 * dy,
+                    by - 5.0 * dx,
+                    mark.color()
+                );
+            }
+        }
+    }
+
+    /// The names of the vertices, beside them and off the triangle.
+    fn names(&mut self, panel: &Panel, layer: &Layer) {
+        let mut named: Vec<([f64; 2], String)> = Vec::new();
+        for (vertex, name) in layer.vertices.into_iter().zip(["a", "b", "c"]) {
+            let Some(place) = panel.place(vertex) else { continue };
+            match named.iter_mut().find(|(at, _)| *at == place) {
+                Some((_, names)) => {
+                    names.push_str(" = ");
+                    names.push_str(name);
+                }
+                None => named.push((place, name.to_owned())),
+            }
+        }
+        let middle: [f64; 2] = [0, 1].map(|i| layer.vertices.iter().map(|v| v[i] / 3.0).sum());
+        let from = panel.place(middle);
+        for ([x, y], names) in named {
+            let [dx, dy] = match from {
+                Some([mx, my]) if (x - mx).hypot(y - my) > 1.0 => {
+                    let length = (x - mx).hypot(y - my);
+                    [(x - mx) / length, (y - my) / length]
+                }
+                _ => [-0.7, -0.7],
+            };
+            // Within the window.
+            let x = (x + 13.0 * dx).clamp(panel.left + 10.0, panel.left + panel.side - 10.0);
+            let y = (y + 13.0 * dy).clamp(panel.top + 12.0, panel.top + panel.side - 8.0);
+            let _ = writeln!(
+                self.body,
+                "<text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\" font-style=\"italic\">{names}</text>",
+                y + 4.0
+            );
+        }
+    }
+
+    /// The scale of an inset: a bar of a power of ten of longest edges.
+    fn bar(&mut self, panel: &Panel) {
+        let power = panel.half.log10().floor();
+        let length = 10f64.powf(power) / panel.half * panel.side / 2.0;
+        let (x, y) = (panel.left + 10.0, panel.top + panel.side - 12.0);
+        if !(1.0..=panel.side).contains(&length) {
+            return;
+        }
+        let _ = writeln!(
+            self.body,
+            "<path d=\"M{x:.2} {:.2}v6h{length:.2}v-6\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"1.5\"/><text x=\"{x:.2}\" y=\"{:.2}\" font-size=\"12\">1e{power} of the longest edge</text>",
+            y - 3.0,
+            y - 8.0
+        );
+    }
+
+    /// What the marks mean.
+    fn keys(&mut self, scene: &Scene) {
+        let mut keys = vec![(Mark::Origin, "the ray's origin")];
+        if scene.exact.is_some() {
+            keys.push((Mark::Exact, "where its line meets the plane, exactly"));
+        }
+        if scene.computed.is_some() {
+            keys.push((Mark::Computed, "where the kernel says so"));
+        }
+        let mut x = MARGIN + 8.0;
+        self.y += LINE;
+        for (mark, words) in keys {
+            let (place, text) = ([x, self.y - 4.5], x + 12.0);
+            self.body.push_str(&mark.at(place));
+            let _ = writeln!(
+                self.body,
+                "<text x=\"{text:.2}\" y=\"{}\" font-size=\"12\">{words}</text>",
+                self.y
+            );
+            x += 40.0 + 6.6 * words.len() as f64;
+        }
+        let contact = if scene.contact.is_some() { ", thick: in the triangle" } else { "" };
+        self.lines.push(format!(
+            "Lines: the ray on its interval, dashed: the rest of its line{contact}. Arrows at the rim point to marks outside of it."
+        ));
+    }
+
+    fn finish(mut self, style: &str, background: &str) -> String {
+        let most = ((WIDTH - 2.0 * MARGIN) / 6.4) as usize;
+        let mut text = format!(
+            "<text x=\"{MARGIN}\" y=\"{}\" font-weight=\"bold\">{}</text>\n",
+            LINE,
+            escaped(&self.title)
+        );
+        let mut y = self.y.max(LINE) + 4.0;
+        for line in self.lines.iter().flat_map(|line| wrapped(line, most)) {
+            y += LINE;
+            let _ = writeln!(
+                text,
+                "<text x=\"{MARGIN}\" y=\"{y}\" font-size=\"12\">{}</text>",
+                escaped(&line)
+            );
+        }
+        let (height, title) = (y + 10.0, escaped(&self.title));
+        let (description, body) = (escaped(&self.lines.join(" ")), std::mem::take(&mut self.body));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"13\" fill=\"currentColor\" role=\"img\">\n<title>{title}</title>\n<desc>{description}</desc>\n{style}{background}{body}{text}</svg>\n"
+        )
+    }
+}
+
+/// The mark of a point.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mark {
+    Origin,
+    Exact,
+    Computed,
+}
+
+impl Mark {
+    fn color(self) -> &'static str {
+        match self {
+            Mark::Origin => "currentColor",
+            Mark::Exact => "#0072b2",
+            Mark::Computed => "#c83e00",
+        }
+    }
+
+    fn at(self, [x, y]: [f64; 2]) -> String {
+        let color = self.color();
+        match self {
+            Mark::Origin => format!(
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>\n"
+            ),
+            Mark::Exact => {
+                format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4.5\" fill=\"{color}\"/>\n")
+            }
+            Mark::Computed => format!(
+                "<path d=\"M{:.2} {:.2}l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2.5\"/>\n",
+                x - 5.5,
+                y - 5.5
+            ),
+        }
+    }
+}
+
+impl Scene {
+    fn new<F: Float>(
+        case: &Case<F>,
+        gives: Gives,
+        verdict: &Verdict<F>,
+        definition: &Definition,
+    ) -> Scene {
+        let (ray, triangle) = case.exact();
+        let frame = Frame::of(&ray, &triangle);
+        let on_line = |t: &Exact| ray.origin.plus(&ray.direction.times(t));
+        let exact = definition.exact.t.as_ref().map(|t| on_line(&Exact::from_rational(t)));
+        let contact = definition.exact.contact_t.as_ref();
+        let contact = contact.map(|ends| ends.each_ref().map(Exact::from_rational));
+        let number = |x: F| x.is_finite().then(|| Exact::from_f64(x.to_f64()));
+        let by_t = if gives.t && verdict.hit { number(verdict.t) } else { None };
+        let by_weights = if gives.uv && verdict.hit && !gives.t {
+            number(verdict.u).zip(number(verdict.v))
+        } else {
+            None
+        };
+        let Triangle { a, b, c } = &triangle;
+        let weighed =
+            |(u, v): (Exact, Exact)| a.plus(&b.minus(a).times(&u)).plus(&c.minus(a).times(&v));
+        let computed = by_t.map(|t| on_line(&t)).or_else(|| by_weights.map(weighed));
+        Scene { frame, ray, triangle, exact, computed, contact }
+    }
+
+    /// The point that an inset looks at: where the line meets the plane or first touches the triangle,
+    /// else its point nearest to a vertex, as it is seen.
+    fn focus(&self) -> ExactVector {
+        let Ray { origin, direction, .. } = &self.ray;
+        if let Some(exact) = &self.exact {
+            return exact.clone();
+        }
+        if let Some([first, _]) = &self.contact {
+            return origin.plus(&direction.times(first));
+        }
+        let way = self.frame.flat(direction);
+        let length = self.frame.dot(&way, &way);
+        if length.is_zero() {
+            return origin.clone();
+        }
+        let Triangle { a, b, c } = &self.triangle;
+        let nearest = [a, b, c].map(|vertex| {
+            let to_vertex = self.frame.flat(&vertex.minus(origin));
+            let t = self.frame.dot(&to_vertex, &way) / &length;
+            let gap = to_vertex.plus(&way.times(&-t.clone()));
+            (self.frame.dot(&gap, &gap), t)
+        });
+        let [first, others @ ..] = nearest;
+        let nearer = |best: (Exact, Exact), other: (Exact, Exact)| {
+            if other.0.is_less(&best.0) { other } else { best }
+        };
+        let (_, t) = others.into_iter().fold(first, nearer);
+        origin.plus(&direction.times(&t))
+    }
+
+    /// The scene counted from a point.
+    fn from(&self, point: &ExactVector) -> Layer {
+        let frame = &self.frame;
+        let flat = |p: &ExactVector| frame.flat(&p.minus(point));
+        let place = |p: &ExactVector| frame.coordinates(&flat(p));
+        let Triangle { a, b, c } = &self.triangle;
+        let edge = |from: &ExactVector, to: &ExactVector| {
+            let way = frame.flat(&to.minus(from));
+            frame.stretch(&flat(from), &way, [Some(Exact::zero()), Some(Exact::one())])
+        };
+        let Ray { origin, direction, t_min, t_max } = &self.ray;
+        let (base, way): (Flat, Flat) = (flat(origin), frame.flat(direction));
+        let along = |ends| frame.stretch(&base, &way, ends);
+        // NaN ends are no interval, nor are ends that are the wrong infinity.
+        let is_interval = t_min.is_at_most(t_max)
+            && t_min.is_less(&Exact::infinity())
+            && (-Exact::infinity()).is_less(t_max);
+        let end = |t: &Exact| t.is_finite().then(|| t.clone());
+        Layer {
+            vertices: [a, b, c].map(place),
+            edges: [edge(a, b), edge(b, c), edge(c, a)],
+            line: along([None, None]),
+            interval: is_interval.then(|| along([end(t_min), end(t_max)])).flatten(),
+            contact: self.contact.clone().and_then(|ends| along(ends.map(Some))),
+            origin: place(origin),
+            exact: self.exact.as_ref().map(place),
+            computed: self.computed.as_ref().map(place),
+        }
+    }
+
+    /// From where it is looked at, in words.
+    fn seen(&self) -> &'static str {
+        match self.frame.view {
+            View::Normal => "Seen along the triangle's normal, from its front.",
+            View::Ray => "The triangle has no area; seen along the ray.",
+            View::Across => "The triangle has no area, and the ray runs along it; seen from aside.",
+        }
+    }
+
+    /// How far the computed point is from the exact one, in words.
+    fn apart(&self) -> Option<String> {
+        let gap = self.computed.as_ref()?.minus(self.exact.as_ref()?);
+        let Triangle { a, b, c } = &self.triangle;
+        let square = crate::judge::square::<ExactVector>;
+        let larger = |m: Exact, x: Exact| if m.is_less(&x) { x } else { m };
+        let longest = [square(&b.minus(a)), square(&c.minus(b)), square(&a.minus(c))]
+            .into_iter()
+            .reduce(larger)?;
+        let apart = (square(&gap) / longest).approximate_root();
+        Some(format!("The kernel's point is {apart:.3e} longest edges from the exact one."))
+    }
+}
+
+impl Layer {
+    /// Whether a, b, c run counter-clockwise around something, as they do where they have an area.
+    fn has_area(&self) -> bool {
+        let ways: Option<Vec<[f64; 2]>> =
+            self.edges.iter().map(|edge| edge.map(|edge| edge.way)).collect();
+        let Some(ways) = ways else { return false };
+        // Of a sliver the ways may be equal as floats: then nothing is filled.
+        (0..3).any(|i| {
+            let ([ax, ay], [bx, by]) = (ways[i], ways[(i + 1) % 3]);
+            ax * by - ay * bx > 0.0
+        })
+    }
+}
+
+/// A window onto the whole triangle, and onto marks that are not far from it.
+fn overview(layer: &Layer, left: f64, top: f64) -> Panel {
+    let mut points: Vec<[f64; 2]> = layer.vertices.to_vec();
+    let is_near = |p: &[f64; 2]| p.iter().all(|x| x.abs() < 2.5);
+    points.extend([layer.exact, layer.computed].into_iter().flatten().filter(is_near));
+    let ends = |i: usize| {
+        let values = || points.iter().map(|p| p[i]).filter(|x| x.is_finite());
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let [(x0, x1), (y0, y1)] = [ends(0), ends(1)];
+    let extent = (x1 - x0).max(y1 - y0);
+    let half = if extent > 0.0 { extent * 0.64 } else { 1.5 };
+    Panel { left, top, side: SIDE, centre: [x0.midpoint(x1), y0.midpoint(y1)], half }
+}
+
+/// Half of what an inset shows, so that what is nearest to its middle is well seen; none where the
+/// overview shows it.
+fn inset_half(layer: &Layer) -> Option<f64> {
+    let is_near = |distance: &f64| (f64::MIN_POSITIVE..NEAR).contains(distance);
+    let edges = layer.edges.iter().flatten().map(Stretch::distance).filter(is_near);
+    let boundary = edges.reduce(f64::min);
+    let computed = layer.computed.map(|[x, y]| x.hypot(y)).filter(is_near);
+    boundary.or(computed).map(|distance| distance * 2.5)
+}
+
+/// The exact truth in words.
+fn exactly(definition: &Definition) -> String {
+    let mut text = format!("Exactly: {}", definition.truth);
+    if let (Truth::Transversal(_), Some(t)) = (definition.truth, &definition.exact.t) {
+        let t = Exact::from_rational(t).approximate();
+        if t.is_finite() {
+            let _ = write!(text, ", t = {t:e}");
+        }
+    }
+    text + "."
+}
+
+/// The verdict in words.
+fn computed<F: Float>(row: &Row, verdict: &Verdict<F>) -> String {
+    if let Some(failure) = verdict.failure {
+        return format!("Computed: no verdict, the kernel {failure}.");
+    }
+    if !verdict.hit {
+        let gate = verdict.refused_by.and_then(|gate| row.entry.info.gates.get(usize::from(gate)));
+        return match gate {
+            Some(gate) => format!("Computed: a miss, refused by gate {}.", gate.name),
+            None => "Computed: a miss.".to_owned(),
+        };
+    }
+    let gives = row.entry.info.gives;
+    let mut text = "Computed: a hit".to_owned();
+    if gives.t {
+        let _ = write!(text, ", t = {}", number(verdict.t));
+    }
+    if gives.uv {
+        let _ = write!(text, ", u = {}, v = {}", number(verdict.u), number(verdict.v));
+    }
+    if let (true, Some(facing)) = (gives.facing, verdict.facing) {
+        let _ = write!(text, ", {}", facing.name());
+    }
+    text + "."
+}
+
+/// A computed value.
+fn number<F: Float>(x: F) -> String {
+    if x.is_nan() {
+        "not a number".to_owned()
+    } else if !x.is_finite() {
+        "infinite".to_owned()
+    } else {
+        format!("{:e}", x.to_f64())
+    }
+}
+
+/// A factor in three digits.
+fn brief(factor: f64) -> String {
+    if factor < 1000.0 { format!("{factor:.1}") } else { format!("{factor:.2e}") }
+}
