@@ -20,7 +20,7 @@ pub struct AuditArguments {
 pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let outputs = arguments.run.report.outputs()?;
     let plan = arguments.run.plan(arguments.attribute)?;
-    let record = arguments.run.execute(&plan)?;
+    let record = arguments.run.execute(&plan, outputs.illustrate())?;
     outputs.write(&record)?;
     self_check(&record)?;
     Ok(Status::Success)

@@ -61,7 +61,7 @@ pub fn run(words: &[OsString]) -> Result<Status, Failure> {
         Some(file) => read_record(file)?,
         None => {
             let plan = arguments.plan().map_err(|failure| blame(failure, &given))?;
-            arguments.run.execute(&plan)?
+            arguments.run.execute(&plan, outputs.illustrate())?
         }
     };
     self_check(&record)?;

@@ -11,7 +11,7 @@ use crate::family::Family;
 use crate::kernel::{Gate, Scalar, nearest_name};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
-use crate::response::{StudyPlan, floor, study, tunable_gates};
+use crate::response::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use clap::Args;
 
 /// Which kernel, gate and cases, and how to report.
@@ -69,11 +69,6 @@ pub struct EpsilonArguments {
     #[arg(long, short)]
     quiet: bool,
 }
-
-/// Families whose sizes span the scalar's range: whatever epsilon is right for one is wrong for
-/// another, and that is what the scales tell apart.
-const SPANNING: [&str; 6] =
-    ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
 
 /// At each scale, at most this many indices of a source.
 const SCALE_COUNT: u64 = 4000;

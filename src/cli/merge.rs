@@ -37,7 +37,7 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     })?;
     let quiet = arguments.report.quiet;
     let progress = Progress::new(0, "indices", true);
-    let record = merged(parts, &progress, |source| open(source, quiet))
+    let record = merged(parts, outputs.illustrate(), &progress, |source| open(source, quiet))
         .map_err(|Unmergeable(failure)| failure)?;
     outputs.write(&record)?;
     self_check(&record)?;

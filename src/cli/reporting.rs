@@ -6,14 +6,17 @@ use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
+use crate::Unobserved;
 use crate::audit::{self, Plan, Shard};
-use crate::report::{Context, FORMATS, Format, PartialPart, Record, Style, build, shard_part};
-use clap::Args;
+use crate::report::{
+    Context, FORMATS, Format, HTML, PartialPart, Record, Style, build, illustrations, shard_part,
+};
+use clap::{Args, ValueEnum};
 
 /// The flags that say how to report.
 #[derive(Args)]
 pub struct ReportArguments {
-    /// text, json, jsonl, junit, sarif or markdown, or several separated by commas
+    /// text, json, jsonl, junit, sarif, markdown or html, or several separated by commas
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
     format: Vec<String>,
 
@@ -25,6 +28,11 @@ pub struct ReportArguments {
     #[arg(long)]
     details: bool,
 
+    /// When to compute what the HTML report's pictures are drawn from, on a few cases of each source; auto:
+    /// for --format html
+    #[arg(long, value_enum, default_value_t)]
+    illustrate: IllustrateChoice,
+
     /// When to colour the text
     #[arg(long, value_enum, default_value_t)]
     color: ColorChoice,
@@ -34,9 +42,22 @@ pub struct ReportArguments {
     pub quiet: bool,
 }
 
+/// When to illustrate a record.
+#[derive(Clone, Copy, Debug, Default, PartialEq, ValueEnum)]
+enum IllustrateChoice {
+    /// Where a format shows it.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
 /// Where a record goes.
 pub struct Outputs<'a> {
     pairs: Vec<(&'static Format, &'a str)>,
+    illustrate: bool,
     details: bool,
     color: ColorChoice,
 }
@@ -45,11 +66,20 @@ impl ReportArguments {
     /// Checks the flags, before anything runs.
     pub fn outputs(&self) -> Result<Outputs<'_>, Failure> {
         let pairs = paired_outputs(FORMATS, |format| format.name, &self.format, &self.output)?;
-        Ok(Outputs { pairs, details: self.details, color: self.color })
+        let illustrate = match self.illustrate {
+            IllustrateChoice::Auto => pairs.iter().any(|(format, _)| format.name == HTML),
+            choice => choice == IllustrateChoice::Always,
+        };
+        Ok(Outputs { pairs, illustrate, details: self.details, color: self.color })
     }
 }
 
 impl Outputs<'_> {
+    /// Whether the record is to hold what pictures are drawn from.
+    pub fn illustrate(&self) -> bool {
+        self.illustrate
+    }
+
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
         for (format, path) in &self.pairs {
@@ -94,8 +124,8 @@ impl RunArguments {
         Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
     }
 
-    /// Runs a plan, or the part of it that `--shard` names, and makes its record.
-    pub fn execute(&self, plan: &Plan) -> Result<Record, Failure> {
+    /// Runs a plan, or the part of it that `--shard` names, and makes its record, illustrated if asked.
+    pub fn execute(&self, plan: &Plan, illustrate: bool) -> Result<Record, Failure> {
         let shard: Option<Shard> = self
             .shard
             .as_deref()
@@ -123,11 +153,19 @@ impl RunArguments {
         let mut sums = audit::sum(plan, shard.unwrap_or(Shard::WHOLE), &progress);
         let part = shard.map(|_| shard_part(plan, &sums));
         audit::finish(plan, &progress, &mut sums);
+        // Of the whole plan: a part of a run leaves it to `merge`.
+        let illustrate = illustrate && shard.is_none();
         progress.finish();
         plugins::check()?;
         let seconds = progress.seconds();
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
+        if illustrate {
+            let progress = Progress::without_end(self.report.quiet);
+            progress.tell("epsilons and maps for the pictures".to_owned());
+            record.illustrations = Some(illustrations(plan, &Unobserved));
+            progress.finish();
+        }
         Ok(record)
     }
 }

@@ -45,6 +45,7 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
         },
         shard: None,
         conformance: None,
+        illustrations: None,
         provenance: provenance(plan, audit, context),
     }
 }

@@ -11,6 +11,9 @@ mod conformance;
 mod disagreement;
 mod distribution;
 pub mod epsilon;
+#[cfg(feature = "cli")]
+mod html;
+mod illustration;
 mod json;
 mod jsonl;
 mod junit;
@@ -26,6 +29,7 @@ pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
 pub use compare::{Change, Comparison, Difference, difference};
 pub use conformance::*;
+pub use illustration::{Illustrations, ResponsePart, illustrations};
 use disagreement::kinds_of;
 pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
@@ -52,6 +56,9 @@ pub struct Format {
     pub write: fn(&Record, Style, &mut dyn Write) -> io::Result<()>,
 }
 
+/// The format that shows pictures.
+pub const HTML: &str = "html";
+
 /// One row per format.
 pub const FORMATS: &[Format] = &[
     Format { name: "text", write: text::write },
@@ -60,6 +67,8 @@ pub const FORMATS: &[Format] = &[
     Format { name: "junit", write: junit::write },
     Format { name: "sarif", write: sarif::write },
     Format { name: "markdown", write: markdown::write },
+    #[cfg(feature = "cli")]
+    Format { name: HTML, write: html::write },
 ];
 
 /// Digits in groups of three.

@@ -4,6 +4,7 @@
 //! number of threads. `provenance` says where and how it was made and is never compared.
 
 use super::conformance::Conformance;
+use super::illustration::Illustrations;
 use super::shard::{PartialPart, ShardPart};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -26,6 +27,9 @@ pub struct Record {
     /// How that compares with what was expected; only of `check`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conformance: Option<Conformance>,
+    /// What pictures are drawn from; only where they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub illustrations: Option<Illustrations>,
     /// Where and how it was made.
     pub provenance: Provenance,
 }

@@ -331,7 +331,7 @@ fn severity(finding: &FindingPart) -> f64 {
     severity_of(finding).0
 }
 
-fn describe_severity(finding: &FindingPart) -> String {
+pub(super) fn describe_severity(finding: &FindingPart) -> String {
     if matches!(finding.finding.as_str(), "panic" | "crash" | "timeout") {
         return "on the case below".to_owned();
     }

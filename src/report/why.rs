@@ -12,6 +12,23 @@ use std::collections::BTreeMap;
 /// Each class of each family is a sample of its own; their shares and the ends of their intervals are
 /// weighted by how many findings they have, which is wider than an interval of the sum would be.
 pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) -> Option<String> {
+    let shares = cause_shares(results, kind, class)?;
+    let text = |(attribution, share, interval): &CauseShare| {
+        let interval = interval.map(|[low, high]| format!(" [{}, {}]", percent(low), percent(high)));
+        format!("{} {}{}", attribution.name(), percent(*share), interval.unwrap_or_default())
+    };
+    Some(shares.iter().map(text).collect::<Vec<_>>().join(", "))
+}
+
+/// A cause with its share, and the interval of that if not all findings were examined.
+pub(super) type CauseShare = (Attribution, f64, Option<[f64; 2]>);
+
+/// The causes that occur, as [`causes_text`] tells them.
+pub(super) fn cause_shares(
+    results: &[&KernelResult],
+    kind: &str,
+    class: &str,
+) -> Option<Vec<CauseShare>> {
     let findings = results.iter().flat_map(|result| &result.findings);
     let chosen = findings
         .filter(|part| part.finding == kind && (class.is_empty() || part.class == class))
@@ -26,7 +43,7 @@ pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) ->
         let mut sums = [0.0; 3];
         let mut sampled = false;
         for (count, causes) in &chosen {
-            let rate = &causes.by[attribution.name()];
+            let Some(rate) = causes.by.get(attribution.name()) else { continue };
             let share = rate.rate.unwrap_or(0.0);
             let [low, high] = rate.interval.unwrap_or([share; 2]);
             sampled |= rate.interval.is_some();
@@ -35,17 +52,9 @@ pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) ->
             }
         }
         let [share, low, high] = sums;
-        (share > 0.0).then(|| {
-            let interval = if sampled {
-                format!(" [{}, {}]", percent(low), percent(high))
-            } else {
-                String::new()
-            };
-            format!("{} {}{interval}", attribution.name(), percent(share))
-        })
+        (share > 0.0).then_some((attribution, share, sampled.then_some([low, high])))
     };
-    let shares: Vec<String> = Attribution::ALL.into_iter().filter_map(share).collect();
-    Some(shares.join(", "))
+    Some(Attribution::ALL.into_iter().filter_map(share).collect())
 }
 
 /// The quantiles of a severity: `half within 1e-7 longest edges, 90% 3e-6, 99% 2e-5 (2, 40, 300 ulps)`.
@@ -71,7 +80,7 @@ pub(super) fn accuracy_text(accuracy: &BTreeMap<String, Distribution>) -> Option
 }
 
 /// A number that is not negative, in few characters; none is infinite.
-fn short(value: Option<f64>) -> String {
+pub(super) fn short(value: Option<f64>) -> String {
     match value {
         None => "inf".to_owned(),
         Some(x) if x == 0.0 || (0.1..1000.0).contains(&x) => {

@@ -14,6 +14,7 @@ mod map;
 mod relative;
 mod run;
 mod scaling;
+mod sketch;
 mod study;
 
 pub use advice::{Side, Trade, candidates, decades, total};
@@ -24,4 +25,5 @@ pub use map::{Map, map};
 pub use relative::{scale_free_form, unit_of_length};
 pub use run::{Request, Response, SourceResponse, floor, run, tunable_gates};
 pub use scaling::{AtScale, at_scales, common, scaled, slope};
+pub use sketch::{SPANNING, Sketch, few, sketch};
 pub use study::{GateStudy, LEAST_SUM, Price, Study, StudyPlan, own_false_hits, study};

@@ -49,7 +49,7 @@ pub fn record(
 }
 
 /// The shortest decimal of an epsilon.
-fn text<F: Float>(epsilon: F) -> String {
+pub fn shortest<F: Float>(epsilon: F) -> String {
     if epsilon.is_zero() { "0".to_owned() } else { format!("{epsilon:e}") }
 }
 
@@ -84,7 +84,7 @@ fn gate_part<F: Scalar>(
         marks: gate_study
             .marks
             .iter()
-            .map(|(name, epsilon)| MarkPart { name: name.clone(), epsilon: text(*epsilon) })
+            .map(|(name, epsilon)| MarkPart { name: name.clone(), epsilon: shortest(*epsilon) })
             .collect(),
         curves: std::iter::once(all).chain(each).collect(),
         trade: trade_part(plan.row, sources, gate_study),
@@ -110,7 +110,7 @@ fn curve_part<F: Scalar>(
         let counts = Question::ALL.map(|question| response.curve(question).wrong(epsilon).exact());
         // A decisive margin of one question may fall inside a cell of another.
         let [a, b, c, d, e, f] = counts;
-        Some((text(epsilon), [a?, b?, c?, d?, e?, f?]))
+        Some((shortest(epsilon), [a?, b?, c?, d?, e?, f?]))
     };
     CurvePart {
         family,
@@ -125,16 +125,16 @@ fn trade_part<F: Scalar>(row: &Row, sources: &[Source], study: &GateStudy<F>) ->
     let limit = |side: &Side<F>| LimitPart {
         of: side.curve.total,
         unavoidable: side.unavoidable,
-        limit: text(side.limit),
+        limit: shortest(side.limit),
         command: side.decided_by.map(|(source, place)| command::<F>(&sources[source], row, place)),
     };
     let trade = &study.trade;
     let refused = study.total.refused_by_others.iter().enumerate().filter(|(_, count)| **count > 0);
     TradePart {
-        floor: text(trade.floor),
+        floor: shortest(trade.floor),
         misses: limit(&trade.misses),
         hits: limit(&trade.hits),
-        settled: trade.settled().map(|(from, to)| [text(from), text(to)]),
+        settled: trade.settled().map(|(from, to)| [shortest(from), shortest(to)]),
         refused_by_others: refused
             .map(|(gate, count)| (gates[gate].name.to_owned(), *count))
             .collect(),
@@ -211,7 +211,7 @@ impl<'a, F: Scalar> Pricing<'a, F> {
         };
         let named = self.marks.iter().filter(|(_, epsilon)| *epsilon == price.epsilon);
         PricePart {
-            epsilon: text(price.epsilon),
+            epsilon: shortest(price.epsilon),
             names: named.map(|(name, _)| name.clone()).collect(),
             on_front: false,
             lost: sum(0),
@@ -285,14 +285,14 @@ fn scaling_part<F: Scalar>(gate: &Gate, study: &GateStudy<F>) -> Option<ScalingP
     let (first, last) = (absolute.first()?, absolute.last()?);
     let row = |row: &AtScale<F>| ScaleRow {
         scale: format!("2^{}", row.exponent),
-        misses_up_to: row.misses_up_to.map(text),
-        hits_from: row.hits_from.map(text),
+        misses_up_to: row.misses_up_to.map(shortest),
+        hits_from: row.hits_from.map(shortest),
         missed_anyway: row.missed_anyway.0,
         must_hit: row.missed_anyway.1,
     };
     let rows = |scales: &[AtScale<F>]| ScaleRows {
         rows: scales.iter().map(row).collect(),
-        common: common(scales).map(|(from, to)| [from.map(text), to.map(text)]),
+        common: common(scales).map(|(from, to)| [from.map(shortest), to.map(shortest)]),
     };
     let slope_of = |limit: fn(&AtScale<F>) -> Option<F>| {
         slope((first.exponent, limit(first)?), (last.exponent, limit(last)?))
@@ -314,7 +314,7 @@ fn map_part<F: Scalar>(row: &Row, map: &Map<F>) -> MapPart {
         kernel: info.name.to_owned(),
         scalar: F::NAME.to_owned(),
         gates: map.gates.map(|gate| info.gates[gate].name.to_owned()),
-        epsilons: map.epsilons.each_ref().map(|list| list.iter().map(|e| text(*e)).collect()),
+        epsilons: map.epsilons.each_ref().map(|list| list.iter().map(|e| shortest(*e)).collect()),
         must_hit: map.must_hit,
         must_miss: map.must_miss,
         false_misses: map.false_misses.clone(),
