@@ -4,10 +4,11 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_set, read_mesh, read_record};
 use super::progress::Progress;
 use super::reporting::{ReportArguments, self_check};
-use crate::audit::{Source, StoredSource};
+use crate::Unobserved;
+use crate::audit::{Plan, Source, StoredSource};
 use crate::corpus::InputError;
 use crate::family::MeshFamily;
-use crate::report::{mergeable, merged};
+use crate::report::{illustrations, mergeable, merged};
 use clap::Args;
 use std::sync::Arc;
 
@@ -37,7 +38,8 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     })?;
     let quiet = arguments.report.quiet;
     let progress = Progress::new(0, "indices", true);
-    let record = merged(parts, outputs.illustrate(), &progress, |source| open(source, quiet))
+    let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrations(plan, &Unobserved));
+    let record = merged(parts, illustrate, &progress, |source| open(source, quiet))
         .map_err(|Unmergeable(failure)| failure)?;
     outputs.write(&record)?;
     self_check(&record)?;

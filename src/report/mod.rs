@@ -13,6 +13,8 @@ mod distribution;
 pub mod epsilon;
 #[cfg(feature = "cli")]
 mod html;
+#[cfg(feature = "cli")]
+mod illustrate;
 mod illustration;
 mod json;
 mod jsonl;
@@ -29,9 +31,11 @@ pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
 pub use compare::{Change, Comparison, Difference, difference};
 pub use conformance::*;
-pub use illustration::{Illustrations, ResponsePart, illustrations};
 use disagreement::kinds_of;
 pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
+#[cfg(feature = "cli")]
+pub use illustrate::illustrations;
+pub use illustration::{Illustrations, MapPart, ResponsePart};
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use record::*;
 pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};

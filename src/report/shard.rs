@@ -1,7 +1,7 @@
 //! Parts of a run: what a record of one holds, and how they become the record of the whole.
 
 use super::build::plan_part;
-use super::{Context, Provenance, Record, build, illustrations};
+use super::{Context, Illustrations, Provenance, Record, build};
 use crate::audit::{self, Audit, Observer, Plan, Shard, Source, StoredPlan, StoredSource};
 use crate::corpus::manifest::hex;
 use serde::{Deserialize, Serialize};
@@ -128,11 +128,11 @@ impl Mergeable {
     }
 }
 
-/// Adds parts up, with illustrations if asked; `open` reads the meshes and corpora of the plan again. The result of all parts is, byte
-/// for byte, that of a run without parts.
+/// Adds parts up; `open` reads the meshes and corpora of the plan again, `illustrate` adds what pictures
+/// are drawn from. The result of all parts is, byte for byte, that of a run without parts.
 pub fn merged<E: From<String>>(
     parts: Mergeable,
-    illustrate: bool,
+    illustrate: impl FnOnce(&Plan) -> Option<Illustrations>,
     observer: &dyn Observer,
     open: impl FnMut(&StoredSource) -> Result<Source, E>,
 ) -> Result<Record, E> {
@@ -158,7 +158,7 @@ pub fn merged<E: From<String>>(
     let mut record = build(&plan, &audit, &Context { seconds, threads });
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
-    record.illustrations = illustrate.then(|| illustrations(&plan, observer));
+    record.illustrations = illustrate(&plan);
     record.provenance.parts = parts.provenance;
     Ok(record)
 }

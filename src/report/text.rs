@@ -327,7 +327,7 @@ fn severity_of(finding: &FindingPart) -> (f64, bool) {
     }
 }
 
-fn severity(finding: &FindingPart) -> f64 {
+pub(super) fn severity(finding: &FindingPart) -> f64 {
     severity_of(finding).0
 }
 

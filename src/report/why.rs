@@ -14,7 +14,8 @@ use std::collections::BTreeMap;
 pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) -> Option<String> {
     let shares = cause_shares(results, kind, class)?;
     let text = |(attribution, share, interval): &CauseShare| {
-        let interval = interval.map(|[low, high]| format!(" [{}, {}]", percent(low), percent(high)));
+        let interval =
+            interval.map(|[low, high]| format!(" [{}, {}]", percent(low), percent(high)));
         format!("{} {}{}", attribution.name(), percent(*share), interval.unwrap_or_default())
     };
     Some(shares.iter().map(text).collect::<Vec<_>>().join(", "))

@@ -6,6 +6,7 @@ mod plot;
 mod record;
 mod text;
 
+#[cfg(feature = "cli")]
 pub(super) use build::shortest;
 pub use build::{parts, record};
 pub use record::*;

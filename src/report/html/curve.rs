@@ -25,9 +25,10 @@ const LINES: [(&str, &str); 3] = [
 /// The plots of a row.
 pub(super) fn figures(record: &Record, row: &Row, room: &mut Room) -> Markup {
     let Some(illustrations) = &record.illustrations else { return html! {} };
-    let parts = illustrations.responses.iter().filter(|part| {
-        part.kernel == row.part.kernel && part.set == row.part.set
-    });
+    let parts = illustrations
+        .responses
+        .iter()
+        .filter(|part| part.kernel == row.part.kernel && part.set == row.part.set);
     let parts: Vec<&ResponsePart> = parts.collect();
     if parts.is_empty() {
         return html! {};
@@ -40,7 +41,7 @@ pub(super) fn figures(record: &Record, row: &Row, room: &mut Room) -> Markup {
             "How often the kernel is wrong as one epsilon varies and the others stay, on at most "
             (group_digits(illustrations.indices)) " indices of each of "
             (group_digits(illustrations.families.len() as u64))
-            " sources. Below its vertical line a gate has this row's epsilon. Shaded: the 95 % interval."
+            " sources. The upright line is this row's epsilon; shaded is the 95 % interval."
         }
         ul.lines aria-hidden="true" {
             @for (class, name) in LINES {
@@ -67,6 +68,10 @@ fn figure(part: &ResponsePart) -> Markup {
 
 /// The plot in words.
 fn words(part: &ResponsePart) -> Markup {
+    let epsilon = |text: &str| match text.parse::<f64>() {
+        Ok(value) if 8 < text.len() => format!("≈ {value:.2e}"),
+        _ => format!("= {text}"),
+    };
     let share = |question: usize, count: u64| {
         let mut counts = [0; 3];
         counts[question] = count;
@@ -78,12 +83,12 @@ fn words(part: &ResponsePart) -> Markup {
         None => "none possible".to_owned(),
     };
     html! {
-        "At e = " (part.epsilon) ": false misses " (told(0, part.own[0]))
+        "At e " (epsilon(&part.epsilon)) ": false misses " (told(0, part.own[0]))
         ", false hits let through " (told(1, part.own[1])) ". "
         @if let Some((fewest, _)) = share(0, part.misses.0) {
-            "Fewest misses (" (percent(fewest)) ") up to e = " (part.misses.1)
+            "Fewest misses (" (percent(fewest)) ") up to e " (epsilon(&part.misses.1))
             @if let Some((fewest, _)) = share(1, part.hits.0) {
-                ", fewest hits (" (percent(fewest)) ") from e = " (part.hits.1)
+                ", fewest hits (" (percent(fewest)) ") from e " (epsilon(&part.hits.1))
             }
             "."
         }
@@ -122,12 +127,14 @@ impl<'a> Plot<'a> {
                 change > 2e-3 * self.part.asked[k] as f64
             })
         };
+        // What changes between zero and the smallest number needs no decades of its own.
+        let smallest = if self.part.scalar == "f32" { 2e-45 } else { 5e-324 };
         let changes = self.points.windows(2).filter(moved).map(|pair| pair[1].0);
+        let changes = changes.filter(|e| smallest < e.abs());
         let own = self.part.epsilon.parse::<f64>().ok();
         let sizes = changes.chain(own).filter(|e| e * sign > 0.0).map(|e| e.abs().log10());
-        let (low, high) = sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let (low, high) = sizes
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         (low <= high).then(|| (low.floor() as i32 - 1, high.ceil() as i32 + 1))
     }
 
@@ -186,7 +193,7 @@ impl<'a> Plot<'a> {
         for (span, sign) in self.decades.iter().zip([-1.0, 1.0]) {
             let Some((low, high)) = *span else { continue };
             let wide = if sign < 0.0 { start - LEFT } else { WIDTH - RIGHT - end };
-            let stride = (40.0 * f64::from(high - low) / wide.max(1.0)).ceil().max(1.0) as usize;
+            let stride = (52.0 * f64::from(high - low) / wide.max(1.0)).ceil().max(1.0) as usize;
             for exponent in (low..=high).step_by(stride) {
                 let x = self.x(sign * 10f64.powi(exponent));
                 if 24.0 < (x - (start + end) / 2.0).abs() && x < WIDTH - 14.0 {

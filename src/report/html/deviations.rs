@@ -1,7 +1,7 @@
 //! What a check found that was not expected, and what was expected and not found.
 
 use super::room::Room;
-use super::words::{code, counts, link, number_of};
+use super::words::{code, counts, link, number_of, shortened};
 use crate::report::{Conformance, Deviation, Method, Record, group_digits};
 use maud::{Markup, PreEscaped, html};
 
@@ -33,9 +33,9 @@ fn how(conformance: &Conformance) -> Markup {
     html! {
         @match (&conformance.expectations, conformance.method) {
             (None, _) => "There is no file of expectations: nothing is expected to happen.",
-            (Some(file), Method::CaseByCase) => { "Compared case by case with " code { (file) } "." }
+            (Some(file), Method::CaseByCase) => { "Compared case by case with " code { (shortened(file, 200)) } "." }
             (Some(file), Method::Intervals) => {
-                "Compared by intervals with " code { (file) } ", whose plan is another."
+                "Compared by intervals with " code { (shortened(file, 200)) } ", whose plan is another."
             }
         }
         " " (known) "."
@@ -67,7 +67,7 @@ fn list<'a>(
             h3 { (title) " (" (group_digits(count)) ")" }
             ul class={ "cards " (class) } { (PreEscaped(items)) }
             @if 0 < left_out {
-                p.note { (group_digits(left_out)) " more are left out here; the JSON record has all." }
+                p.note { (number_of(left_out, "more is", "more are")) " left out here; the JSON record has all." }
             }
         }
     }
@@ -83,7 +83,7 @@ fn card(conformance: &Conformance, found: &Deviation) -> Markup {
             }
             p {
                 "found " (counts(&found.found)) ", expected " (found.expected)
-                @if let Some((file, line)) = place { " (" (file) ":" (line) ")" }
+                @if let Some((file, line)) = place { " (" (shortened(file, 200)) ":" (line) ")" }
             }
             @if let Some(why) = &found.why { p.why { (why) } }
             @if let Some(url) = &found.url { p.why { (link(url)) } }

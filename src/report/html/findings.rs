@@ -49,7 +49,7 @@ pub(super) fn depth(view: &View, room: usize) -> Depth {
     Depth { most: None }
 }
 
-pub(super) fn list(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
+pub(super) fn list(row: &Row, depth: Depth, room: &mut Room) -> Markup {
     let results: Vec<&KernelResult> = row
         .scalars
         .iter()
@@ -57,14 +57,13 @@ pub(super) fn list(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Mar
         .filter(|result| !result.findings.is_empty() || grouped(result).next().is_some())
         .collect();
     let classes: usize = results.iter().map(|result| result.findings.len()).sum();
-    let promise = Promise { row, view };
     let count = results.len() as u64;
     // One source may hold more classes than fit.
     let mut left_out = 0;
     let mut text = String::new();
     for (i, result) in results.iter().enumerate() {
         let mut part = room.part(room.left() / (results.len() - i));
-        let (piece, missing) = source(&promise, result, depth, &mut part);
+        let (piece, missing) = source(row.part, result, depth, &mut part);
         text.push_str(&piece);
         left_out += missing;
         room.take_back(part);
@@ -83,19 +82,8 @@ pub(super) fn list(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Mar
     }
 }
 
-struct Promise<'a> {
-    row: &'a Row<'a>,
-    #[allow(dead_code, reason = "kept for the command")]
-    view: &'a View<'a>,
-}
-
 /// One source in one scalar, and how many of its classes do not fit.
-fn source(
-    promise: &Promise,
-    result: &KernelResult,
-    depth: Depth,
-    room: &mut Room,
-) -> (String, u64) {
+fn source(row: &RowPart, result: &KernelResult, depth: Depth, room: &mut Room) -> (String, u64) {
     let mut by_kind: Vec<(&str, u64)> = Vec::new();
     for part in &result.findings {
         match by_kind.iter_mut().find(|(kind, _)| *kind == part.finding) {
@@ -119,7 +107,7 @@ fn source(
         inner.fill(result.findings.iter(), |part| class(result, part, depth).into_string());
     let left_out = inner.left_out;
     for (kind, rate, ids) in groups {
-        inner.add(&mut body, &group(promise, result, kind, rate, ids).into_string());
+        inner.add(&mut body, &group(row, result, kind, rate, ids).into_string());
     }
     let text = format!("<details class=\"source\"><summary>{head}</summary>{body}</details>");
     room.add(&mut String::new(), &text);
@@ -163,16 +151,9 @@ fn grouped(result: &KernelResult) -> impl Iterator<Item = (&'static str, &Rate, 
     across.filter(|(_, rate, _)| 0 < rate.count)
 }
 
-fn group(
-    promise: &Promise,
-    result: &KernelResult,
-    kind: &str,
-    rate: &Rate,
-    ids: &[String],
-) -> Markup {
-    let part = promise.row.part;
+fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[String]) -> Markup {
     let epsilons: Vec<String> =
-        part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
+        row.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
     let flag = if epsilons.is_empty() {
         String::new()
     } else {
@@ -184,7 +165,7 @@ fn group(
             h5 { (kind) }
             p { (share(rate)) ", " (counts(rate)) " crossings; across triangles the contract promises " (promised) }
             @for id in ids {
-                p.example { (code(&format!("hairline explain '{id}' {}{flag}", part.selector))) }
+                p.example { (code(&format!("hairline explain '{id}' {}{flag}", row.selector))) }
             }
         }
     }

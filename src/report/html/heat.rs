@@ -2,13 +2,16 @@
 
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
-use super::words::{counts, interval, percent};
-use crate::report::group_digits;
+use super::words::{counts, interval, number_of, percent};
 use crate::report::record::Rate;
 use maud::{Markup, PreEscaped, html};
+use std::collections::HashMap;
 
 /// Bytes for the table.
 const MOST: usize = 2_500_000;
+
+/// Bytes for the heads of columns: some 300 families.
+const MOST_COLUMNS: usize = 16_000;
 
 /// Where shades begin, as shares; below the first there is one for what is not nought.
 const SHADES: [f64; 4] = [0.001, 0.01, 0.1, 0.5];
@@ -19,15 +22,16 @@ const SHADE_NAMES: [&str; 6] =
 pub(super) fn section(view: &View, room: &mut Room) -> Markup {
     let mut part = room.part(MOST);
     let head = columns(view, &mut part);
+    let families = &view.families[..view.families.len() - part.left_out as usize];
+    let missing = std::mem::take(&mut part.left_out);
     let lines: Vec<(&Row, &InScalar, Kind)> = view
         .rows
         .iter()
         .flat_map(|row| row.scalars.iter().map(move |scalar| (row, scalar)))
         .flat_map(|(row, scalar)| Kind::ALL.map(|kind| (row, scalar, kind)))
         .collect();
-    let body = part.fill(lines.iter(), |(row, scalar, kind)| {
-        line(view, row, scalar, *kind).into_string()
-    });
+    let body = part
+        .fill(lines.iter(), |(row, scalar, kind)| line(families, row, scalar, *kind).into_string());
     let left_out = part.left_out;
     room.take_back(part);
     html! {
@@ -43,7 +47,7 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
                 label { "Scalar "
                     select #filter-scalar {
                         option value="" { "all" }
-                        @for scalar in &view.record.result.plan.scalars { option value=(scalar) { (scalar) } }
+                        @for scalar in view.record.result.plan.scalars.iter().take(8).filter(|name| name.len() < 80) { option value=(scalar) { (scalar) } }
                     }
                 }
                 label { "Finding "
@@ -55,43 +59,39 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
                 button #filter-reset type="reset" { "Reset" }
                 output #filter-count for="filter-kernel filter-scalar filter-finding" aria-live="polite" {}
             }
-            div.scroll.tall role="region" aria-labelledby="heat-title" tabindex="0" {
-                table.heat #heat-table {
+            div.scroll.tall role="group" aria-label="The table" tabindex="0" {
+                table.heat.few[families.len() < 16] #heat-table {
                     caption.hidden { "Shares of wrong answers by kernel row, scalar and finding, and by source of cases." }
                     thead { tr {
                         th scope="col" { "kernel (epsilons)" }
                         th scope="col" data-sort="" { "all" }
-                        (PreEscaped(head.0))
+                        (PreEscaped(head))
                     } }
                     tbody { (PreEscaped(body)) }
                 }
             }
             @if 0 < left_out {
-                p.note { (group_digits(left_out)) " rows are left out here; the JSON record has all." }
+                p.note { (number_of(left_out, "row is", "rows are")) " left out here; the JSON record has all." }
             }
-            @if head.1 < view.families.len() {
-                p.note { (group_digits((view.families.len() - head.1) as u64)) " sources of cases are left out here; the JSON record has all." }
+            @if 0 < missing {
+                p.note { (number_of(missing, "source of cases is", "sources of cases are")) " left out here; the JSON record has all." }
             }
         }
     }
 }
 
-/// The heads of the families' columns, and how many fit.
-fn columns(view: &View, room: &mut Room) -> (String, usize) {
-    let families = &view.families[..shown(view)];
-    let text = room.fill(families.iter(), |family| {
+/// The heads of the families' columns; those that do not fit are counted.
+fn columns(view: &View, room: &mut Room) -> String {
+    let mut columns = room.part(MOST_COLUMNS);
+    let text = columns.fill(view.families.iter(), |family| {
         html! { th scope="col" data-sort="" { (family) } }.into_string()
     });
-    (text, families.len())
+    room.left_out = columns.left_out;
+    text
 }
 
-/// How many columns a table can have.
-fn shown(view: &View) -> usize {
-    view.families.len().min(300)
-}
-
-fn line(view: &View, row: &Row, scalar: &InScalar, kind: Kind) -> Markup {
-    let by_family: std::collections::HashMap<&str, &Rate> = scalar
+fn line(families: &[&str], row: &Row, scalar: &InScalar, kind: Kind) -> Markup {
+    let by_family: HashMap<&str, &Rate> = scalar
         .results
         .iter()
         .map(|result| (result.family.as_str(), kind.rate(&result.total)))
@@ -104,7 +104,7 @@ fn line(view: &View, row: &Row, scalar: &InScalar, kind: Kind) -> Markup {
                 span.what { (scalar.scalar) " " span class={ "key " (kind.finding()) } { (kind.words()) } }
             }
             (cell(kind, Some(&scalar.all(kind))))
-            @for family in &view.families[..shown(view)] {
+            @for family in families {
                 (cell(kind, by_family.get(family).copied()))
             }
         }

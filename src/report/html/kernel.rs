@@ -2,6 +2,7 @@
 
 use super::curve;
 use super::findings::{self, Depth};
+use super::pictures;
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
 use super::words::{code, counts, number_of, percent, share};
@@ -10,6 +11,7 @@ use crate::report::group_digits;
 use crate::report::record::*;
 use crate::report::why::{CauseShare, cause_shares, short};
 use maud::{Markup, PreEscaped, html};
+use std::collections::HashMap;
 
 pub(super) fn section(view: &View, room: &mut Room) -> Markup {
     // A row has its share of what is left, and what earlier rows left of theirs.
@@ -44,13 +46,19 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
 /// A row. What it takes of `room` is what its lists may take; the caller counts the whole.
 fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
     let promise = facts(row);
-    let tables = html! { (rates(view, row)) (causes(row)) (severities(row)) (accuracies(row)) };
+    let tables = html! {
+        (causes(row))
+        div.tables { (rates(view, row)) (severities(row)) (accuracies(row)) }
+    };
     // Counted here, so that the lists below do not take their room.
     let essential = promise.into_string() + &tables.into_string();
     let mut lists = Room::new(room.left().saturating_sub(essential.len() + 2000));
     let curves = curve::figures(view.record, row, &mut lists);
-    let families = by_family(view, row, &mut lists);
-    let findings = findings::list(view, row, depth, &mut lists);
+    let pictures = pictures::section(view.record, row, &mut lists);
+    let mut quarter = lists.part(lists.left() / 4);
+    let families = by_family(view, row, &mut quarter);
+    lists.take_back(quarter);
+    let findings = findings::list(row, depth, &mut lists);
     html! {
         details.kernel id=(row.anchor) {
             summary {
@@ -68,6 +76,7 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
             }
             div.body {
                 (PreEscaped(essential))
+                (pictures)
                 (curves)
                 (families)
                 (findings)
@@ -86,9 +95,11 @@ fn facts(row: &Row) -> Markup {
     } else {
         format!(" --epsilon '{}'", epsilons.join(","))
     };
-    let unknown = row.part.epsilons.iter().filter(|(name, _)| {
-        gates.iter().all(|gate| gate.name != name.as_str())
-    });
+    let unknown = row
+        .part
+        .epsilons
+        .iter()
+        .filter(|(name, _)| gates.iter().all(|gate| gate.name != name.as_str()));
     html! {
         dl.facts {
             dt { "Contract" } dd { (row.part.contract) }
@@ -96,10 +107,10 @@ fn facts(row: &Row) -> Markup {
             dt { "Run again" } dd { (code(&format!("hairline audit {}{epsilons}", row.part.selector))) }
         }
         @if !row.part.epsilons.is_empty() || !gates.is_empty() {
-            div.scroll tabindex="0" role="region" aria-label="Gates" {
+            div.scroll tabindex="0" role="group" aria-label="Gates" {
                 table {
                     caption { "Gates, in the order of the test" }
-                    thead { tr { th scope="col" { "gate" } th scope="col" { "refuses where" } th scope="col" { "epsilon e" } th scope="col" { "dimension" } } }
+                    thead { tr { th scope="col" { "gate" } th.text scope="col" { "refuses where" } th scope="col" { "epsilon e" } th scope="col" { "dimension" } } }
                     tbody {
                         @for gate in gates {
                             tr {
@@ -126,6 +137,7 @@ fn facts(row: &Row) -> Markup {
 /// The sums over all sources, scalar by scalar.
 fn rates(view: &View, row: &Row) -> Markup {
     type Get = fn(&KernelResult) -> Option<&Rate>;
+    type Count = fn(&Counts) -> u64;
     let columns: [(&str, Get); 10] = [
         ("false misses", |r| Some(&r.total.false_misses)),
         ("false hits", |r| Some(&r.total.false_hits)),
@@ -139,12 +151,12 @@ fn rates(view: &View, row: &Row) -> Markup {
         ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
     ];
     let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.sum(get).of);
-    let failures: [(&str, fn(&Counts) -> u64); 3] = [
+    let failures: [(&str, Count); 3] = [
         ("panics", |counts| counts.panics),
         ("crashes", |counts| counts.crashes),
         ("timeouts", |counts| counts.timeouts),
     ];
-    let sum = |scalar: &InScalar, count: fn(&Counts) -> u64| -> u64 {
+    let sum = |scalar: &InScalar, count: Count| -> u64 {
         scalar.results.iter().map(|result| count(&result.total)).sum()
     };
     let failures = failures.into_iter();
@@ -156,11 +168,11 @@ fn rates(view: &View, row: &Row) -> Markup {
         times.get(&label).map(|time| format!("{time:.1}"))
     };
     html! {
-        div.scroll tabindex="0" role="region" aria-label="Rates" {
+        div.scroll tabindex="0" role="group" aria-label="Rates" {
             table {
                 caption { "All families together" }
                 thead { tr {
-                    th scope="col" { "" }
+                    th scope="col" { "rate" }
                     @for scalar in &row.scalars { th scope="col" { (scalar.scalar) } }
                 } }
                 tbody {
@@ -220,14 +232,16 @@ fn cause_words(shares: &[CauseShare]) -> Markup {
 
 /// A bar of 100 units, with a gap between its parts.
 fn bar(shares: &[CauseShare]) -> Markup {
-    let mut from = 0.0;
+    let starts = shares.iter().scan(0.0, |sum, (_, share, _)| {
+        let start = *sum;
+        *sum += share * 100.0;
+        Some(start)
+    });
     html! {
         svg.bar viewBox="0 0 100 4" preserveAspectRatio="none" aria-hidden="true" {
-            @for (cause, share, _) in shares {
-                @let start = from;
-                @let wide = share * 100.0;
-                rect class=(cause.name()) x=(format!("{start:.2}")) y="0" width=(format!("{:.2}", (wide - 0.3).max(0.15))) height="4" {}
-                @let _ = from += wide;
+            @for ((cause, share, _), start) in shares.iter().zip(starts) {
+                @let wide = (share * 100.0 - 0.3).max(0.15);
+                rect class=(cause.name()) x=(format!("{start:.2}")) y="0" width=(format!("{wide:.2}")) height="4" {}
             }
         }
     }
@@ -241,10 +255,10 @@ fn severities(row: &Row) -> Markup {
     let parts: Vec<_> = parts.flatten().collect();
     html! {
         @if !parts.is_empty() {
-            div.scroll tabindex="0" role="region" aria-label="Severity" {
+            div.scroll tabindex="0" role="group" aria-label="Severity" {
                 table {
                     caption { "Severity: how far inside or outside, in longest edges (in ulps of the largest coordinate)" }
-                    thead { tr { th scope="col" { "" } th scope="col" { "half within" } th scope="col" { "90 %" } th scope="col" { "99 %" } th scope="col" { "all" } } }
+                    thead { tr { th scope="col" { "findings" } th scope="col" { "half within" } th scope="col" { "90 %" } th scope="col" { "99 %" } th scope="col" { "all" } } }
                     tbody {
                         @for (scalar, kind, part) in parts {
                             tr {
@@ -274,10 +288,10 @@ fn accuracies(row: &Row) -> Markup {
     let parts: Vec<_> = parts.flatten().collect();
     html! {
         @if !parts.is_empty() {
-            div.scroll tabindex="0" role="region" aria-label="Accuracy" {
+            div.scroll tabindex="0" role="group" aria-label="Accuracy" {
                 table {
                     caption { "Errors of the values of right hits, in ulps" }
-                    thead { tr { th scope="col" { "" } th scope="col" { "hits" } th scope="col" { "half within" } th scope="col" { "90 %" } th scope="col" { "99 %" } th scope="col" { "all" } } }
+                    thead { tr { th scope="col" { "value" } th scope="col" { "hits" } th scope="col" { "half within" } th scope="col" { "90 %" } th scope="col" { "99 %" } th scope="col" { "all" } } }
                     tbody {
                         @for (scalar, name, part) in parts {
                             tr {
@@ -295,13 +309,20 @@ fn accuracies(row: &Row) -> Markup {
 
 /// Every source with its counts and intervals.
 fn by_family(view: &View, row: &Row, room: &mut Room) -> Markup {
+    let results: Vec<HashMap<&str, &KernelResult>> = row
+        .scalars
+        .iter()
+        .map(|scalar| {
+            scalar.results.iter().map(|result| (result.family.as_str(), *result)).collect()
+        })
+        .collect();
     let lines = room.fill(view.families.iter(), |family| {
         html! {
             tr {
                 th scope="row" { (family) }
-                @for scalar in &row.scalars {
+                @for results in &results {
                     @for kind in Kind::ALL {
-                        @match scalar.on(family).map(|result| kind.rate(&result.total)).filter(|rate| 0 < rate.of) {
+                        @match results.get(family).map(|result| kind.rate(&result.total)).filter(|rate| 0 < rate.of) {
                             Some(rate) => td { (share(rate)) small { (counts(rate)) } },
                             None => td { "–" },
                         }
@@ -314,7 +335,7 @@ fn by_family(view: &View, row: &Row, room: &mut Room) -> Markup {
     html! {
         details.more {
             summary { "Family by family" }
-            div.scroll tabindex="0" role="region" aria-label="Family by family" {
+            div.scroll tabindex="0" role="group" aria-label="Family by family" {
                 table {
                     thead { tr {
                         th scope="col" { "family" }
@@ -325,7 +346,7 @@ fn by_family(view: &View, row: &Row, room: &mut Room) -> Markup {
                     tbody { (PreEscaped(lines)) }
                 }
             }
-            @if 0 < room.left_out { p.note { (group_digits(room.left_out)) " families are left out here; the JSON record has all." } }
+            @if 0 < room.left_out { p.note { (number_of(room.left_out, "family is", "families are")) " left out here; the JSON record has all." } }
         }
     }
 }

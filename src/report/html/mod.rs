@@ -9,6 +9,7 @@ mod deviations;
 mod findings;
 mod heat;
 mod kernel;
+mod pictures;
 mod room;
 mod view;
 mod words;
@@ -21,7 +22,7 @@ use room::Room;
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use view::View;
-use words::number_of;
+use words::{number_of, shortened};
 
 /// A report has fewer bytes.
 const LIMIT: usize = 9_800_000;
@@ -43,7 +44,7 @@ fn within(record: &Record, limit: usize) -> String {
     let deviations = deviations::section(record, &mut room);
     let heat = heat::section(&view, &mut room);
     let kernels = kernel::section(&view, &mut room);
-    let title = words::shortened(&verdict(&view), 300);
+    let title = shortened(&verdict(&view), 300);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -94,8 +95,9 @@ fn verdict(view: &View) -> String {
     let rows_text = number_of(rows, "kernel row", "kernel rows");
     match (rows, wrong) {
         (0, _) => "No kernel ran".to_owned(),
-        (_, 0) => format!("No findings: {rows_text} right on every case"),
-        (1, _) => "The kernel row disagrees with exact arithmetic".to_owned(),
+        (1, 0) => "No findings: the kernel row is right on every case".to_owned(),
+        (_, 0) => format!("No findings: {rows_text} are right on every case"),
+        (1, _) => "The kernel row disagrees with exact arithmetic somewhere".to_owned(),
         (n, w) if n == w => format!("All {rows_text} disagree with exact arithmetic somewhere"),
         (_, w) => {
             let verb = if w == 1 { "disagrees" } else { "disagree" };
@@ -124,7 +126,7 @@ fn head(view: &View, title: &str) -> Markup {
     let findings: u64 = view.rows.iter().map(|row| row.findings()).sum();
     let clean = view.rows.iter().filter(|row| row.findings() == 0);
     let clean: Vec<String> = clean
-        .map(|row| words::shortened(&format!("{} ({})", row.part.kernel, row.part.set), 80))
+        .map(|row| shortened(&format!("{} ({})", row.part.kernel, row.part.set), 80))
         .take(20)
         .collect();
     let cases: u64 = result.sources.iter().map(|source| source.cases).sum();
@@ -135,7 +137,7 @@ fn head(view: &View, title: &str) -> Markup {
             p.lede {
                 (number_of(view.rows.len() as u64, "kernel row", "kernel rows")) " on "
                 (number_of(view.families.len() as u64, "source of cases", "sources of cases")) " in "
-                (result.plan.scalars.join(" and ")) ": " (number_of(cases, "case", "cases"))
+                (shortened(&result.plan.scalars.join(" and "), 80)) ": " (number_of(cases, "case", "cases"))
                 ", each decided by exact predicates and judged by what the kernel's own contract promises; "
                 (number_of(findings, "finding", "findings")) "."
                 @if !clean.is_empty() { " Without any: " (clean.join(", ")) "." }
@@ -191,9 +193,9 @@ fn foot(record: &Record) -> Markup {
         footer #about {
             h2 { "About this run" }
             dl.about {
-                dt { "Tool" } dd { (provenance.tool) }
-                dt { "Plan" } dd { code { (plan.hash) } }
-                dt { "Target" } dd { (provenance.target) }
+                dt { "Tool" } dd { (shortened(&provenance.tool, 200)) }
+                dt { "Plan" } dd { code { (shortened(&plan.hash, 200)) } }
+                dt { "Target" } dd { (shortened(&provenance.target, 200)) }
                 dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
                 @if !provenance.parts.is_empty() {
                     dt { "Merged from" } dd { (number_of(provenance.parts.len() as u64, "shard", "shards")) }

@@ -129,9 +129,4 @@ impl InScalar<'_> {
     pub fn all(&self, kind: Kind) -> Rate {
         self.sum(|result| Some(kind.rate(&result.total)))
     }
-
-    /// The result on a source.
-    pub fn on(&self, family: &str) -> Option<&KernelResult> {
-        self.results.iter().copied().find(|result| result.family == family)
-    }
 }

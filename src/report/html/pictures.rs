@@ -1,0 +1,198 @@
+//! What goes wrong, seen: maps float by float, and the worst witnesses drawn.
+
+use super::room::Room;
+use super::view::{InScalar, Kind, Row};
+use super::words::code;
+use crate::arith::Float;
+use crate::audit;
+use crate::case::Case;
+use crate::contract::NAMED;
+use crate::kernel::Scalar;
+use crate::map::{self, Ink};
+use crate::report::record::*;
+use crate::report::text::severity;
+use crate::report::{MapPart, Record, group_digits};
+use crate::response::SPANNING;
+use maud::{Markup, PreEscaped, html};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The pictures of a row.
+pub(super) fn section(record: &Record, row: &Row, room: &mut Room) -> Markup {
+    let maps = record.illustrations.iter().flat_map(|all| &all.maps);
+    let maps = maps.filter(|map| map.kernel == row.part.kernel && map.set == row.part.set);
+    let maps: Vec<&MapPart> = maps.collect();
+    let drawings = if record.illustrations.is_some() { drawings(row) } else { Vec::new() };
+    let left_out = room.left_out;
+    let drawn = room.fill(drawings.iter(), |drawing| drawing.clone().into_string());
+    let mapped = room.fill(maps.iter(), |map| figure(map).into_string());
+    html! {
+        @if !maps.is_empty() {
+            h4 { "Float by float" }
+            p {
+                "One pixel is one ray, its origin moved by floats in two coordinates, about a ray that meets the "
+                "triangle exactly on an edge, exactly at a vertex, and on an edge at a small angle to the plane. "
+                "Left what the kernel says, right what is exactly true. Dark is wrong."
+            }
+            (legend())
+            div.maps { (PreEscaped(mapped)) }
+        }
+        @if !drawings.is_empty() {
+            h4 { "The worst, drawn" }
+            p { "Of the moderate families the false miss and the false hit that are farthest from where they would be right." }
+            div.drawings { (PreEscaped(drawn)) }
+        }
+        @if left_out < room.left_out {
+            p.note { (group_digits(room.left_out - left_out)) " pictures are left out here." }
+        }
+    }
+}
+
+fn legend() -> Markup {
+    let names = [
+        (Ink::Yes, "hit"),
+        (Ink::No, "miss"),
+        (Ink::Boundary, "exactly on the boundary"),
+        (Ink::Free, "nothing is asked"),
+        (Ink::FalseYes, "false hit"),
+        (Ink::FalseNo, "false miss"),
+        (Ink::Bad, "bad value"),
+        (Ink::Failed, "no verdict"),
+    ];
+    html! {
+        ul.inks {
+            @for (ink, name) in names {
+                li {
+                    svg viewBox="0 0 12 12" aria-hidden="true" { rect width="12" height="12" fill=(ink.hex()) {} }
+                    " " (name)
+                }
+            }
+        }
+    }
+}
+
+fn figure(map: &MapPart) -> Markup {
+    let pixels = map.size[0].saturating_mul(map.size[1]);
+    let list = |counts: &[(String, u64)]| {
+        let parts: Vec<String> =
+            counts.iter().map(|(words, n)| format!("{} {words}", group_digits(*n))).collect();
+        parts.join(", ")
+    };
+    let (computed, exact) = (list(&map.computed), list(&map.exact));
+    // What is right needs no words beside the picture.
+    let right = |words: &str| ["hit", "miss"].contains(&words);
+    let wrong: Vec<_> = map.computed.iter().filter(|(words, _)| !right(words)).cloned().collect();
+    let alt = format!(
+        "Two panels of {} by {} pixels. Left, computed: {computed}. Right, exact: {exact}.",
+        map.size[0], map.size[1]
+    );
+    let is_base64 = |c: char| c.is_ascii_alphanumeric() || "+/=".contains(c);
+    html! {
+        @if map.png.chars().all(is_base64) {
+            figure {
+                img src={ "data:image/png;base64," (map.png) } alt=(alt) width="408" height="192" loading="lazy";
+                figcaption {
+                    b { (map.scalar) " " (map.spot) } " "
+                    (group_digits(map.wrong)) " of " (group_digits(pixels)) " wrong"
+                    @if !wrong.is_empty() { ": " (list(&wrong)) }
+                    ". To the right " (map.axes[0]) ", upwards " (map.axes[1]) "."
+                }
+            }
+        }
+    }
+}
+
+/// In each scalar the worst of each kind that can be drawn, if the kernel is known here.
+fn drawings(row: &Row) -> Vec<Markup> {
+    let Some(run) = runnable(row.part) else { return Vec::new() };
+    let mut all = Vec::new();
+    for scalar in &row.scalars {
+        for kind in Kind::ALL {
+            let Some((family, part)) = worst(scalar, kind) else { continue };
+            let svg = match scalar.scalar {
+                "f32" => drawn::<f32>(&run, &part.worst.bits),
+                _ => drawn::<f64>(&run, &part.worst.bits),
+            };
+            all.extend(svg.map(|svg| {
+                html! {
+                    figure {
+                        figcaption {
+                            b { (scalar.scalar) " " (part.finding) " of " (part.class) } " in " (family) ". "
+                            (code(&part.worst.command))
+                        }
+                        div.drawing role="group" aria-label={ "Drawing of the worst " (part.finding) } tabindex="0" { (PreEscaped(svg)) }
+                    }
+                }
+            }));
+        }
+    }
+    all
+}
+
+/// The worst finding of a kind that has a place to show: of a ray that crosses the plane, in a family of
+/// moderate sizes if there is one.
+fn worst<'a>(scalar: &InScalar<'a>, kind: Kind) -> Option<(&'a str, &'a FindingPart)> {
+    let crossing = |class: &str| class.contains('/');
+    let all = scalar
+        .results
+        .iter()
+        .flat_map(|result| result.findings.iter().map(move |part| (result.family.as_str(), part)));
+    let all = all.filter(|(_, part)| part.finding == kind.finding() && crossing(&part.class));
+    let moderate = |family: &str| !SPANNING.contains(&family);
+    all.filter(|(_, part)| severity(part).is_finite()).max_by(|(f, a), (g, b)| {
+        moderate(f).cmp(&moderate(g)).then(severity(a).total_cmp(&severity(b)))
+    })
+}
+
+fn drawn<F: Scalar>(row: &audit::Row, bits: &str) -> Option<String> {
+    let case = case_of::<F>(bits)?;
+    catch_unwind(AssertUnwindSafe(|| map::drawing(&case, row).ok())).ok().flatten()
+}
+
+/// The row of a kernel that this program has, under the contract that the record names.
+fn runnable(part: &RowPart) -> Option<audit::Row> {
+    let epsilons: Vec<String> =
+        part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
+    let epsilons = (!epsilons.is_empty()).then(|| epsilons.join(","));
+    std::iter::once("own").chain(NAMED.iter().map(|named| named.name)).find_map(|contract| {
+        let mut row = audit::Row::named(&part.kernel, epsilons.as_deref(), contract).ok()?;
+        row.set = part.set.clone();
+        (row.contract.describe() == part.contract).then_some(row)
+    })
+}
+
+/// A case from its bits, as `Case::hex` writes them.
+fn case_of<F: Float>(bits: &str) -> Option<Case<F>> {
+    let mut words = bits.split(' ');
+    let mut numbers = |name: &str| -> Option<Vec<F>> {
+        let list = words.next()?.strip_prefix(name)?.strip_prefix('=')?;
+        let number = |text: &str| {
+            let bits = u64::from_str_radix(text, 16).ok()?;
+            let number = F::from_bits(bits);
+            (number.hex() == text).then_some(number)
+        };
+        list.split(',').map(number).collect()
+    };
+    let mut vector = |name: &str| <[F; 3]>::try_from(numbers(name)?).ok();
+    let (origin, direction) = (vector("o")?, vector("d")?);
+    let triangle = [vector("a")?, vector("b")?, vector("c")?];
+    let [t_min, t_max] = <[F; 2]>::try_from(numbers("t")?).ok()?;
+    Some(Case::new(origin, direction, triangle).on(t_min, t_max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_comes_back_from_its_bits_and_nothing_else_does() {
+        let case =
+            Case::<f32>::new([0.1, -0.0, f32::NAN], [1.0; 3], [[0.0; 3], [2.0; 3], [1e30; 3]]);
+        let case = case.on(-1.0, f32::INFINITY);
+        let again = case_of::<f32>(&case.hex()).unwrap();
+        assert_eq!(again.hex(), case.hex());
+        assert!(case_of::<f64>(&case.hex()).is_none(), "of the other scalar");
+        for bad in ["", "o=", "o=zz,00000000,00000000 d=", &case.hex()[..60]] {
+            assert!(case_of::<f32>(bad).is_none(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# The HTML report in headless Chromium. Needs Node.js 20, Debian's chromium (or CHROMIUM=path), poppler-utils
+# for the printed page as a picture, and the program (HAIRLINE=path, target/release/hairline if not said).
+# Screenshots go to tests/browser/out.
+set -euo pipefail
+cd "$(dirname "$0")"
+hairline=$(realpath "${HAIRLINE:-../../target/release/hairline}")
+rm -rf out && mkdir out
+"$hairline" audit --quiet --kernel moller-trumbore,plane-unit-normal,woop-watertight \
+    --family interior,outside,edge-near,edge-exact,parallel-off,tiny,fan,respawn,invalid,direction-length \
+    -n 600 --examples 2 --format html,json -o out/audit.html -o out/audit.json
+# Where nothing is expected, everything is a deviation.
+(cd out && "$hairline" check --quiet --kernel moller-trumbore --family edge-near -n 300 \
+    --format html -o check.html) || test $? = 1
+test -d node_modules || npm ci
+node --test --test-reporter=spec report.test.mjs
+if command -v pdftoppm > /dev/null; then
+    pdftoppm -r 70 -png out/audit.pdf out/printed
+fi
