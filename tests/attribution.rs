@@ -1,6 +1,6 @@
 //! Why kernels are wrong: tracked runs are the float runs, and known causes come out.
 
-use hairline::arith::Float;
+use hairline::arith::{Arithmetic, Float};
 use hairline::audit::{Attribution, attribute};
 use hairline::case::{Case, Draw, Parameters};
 use hairline::contract::{Contract, NAMED};
@@ -25,7 +25,10 @@ fn bits<F: Float>(verdict: &Verdict<F>) -> (bool, Option<u8>, String, [Option<u6
 
 fn a_tracked_run_is_the_run<F: Scalar>() {
     let check = |case: &Case<F>, draw: &mut Draw| {
-        for entry in KERNELS {
+        // The built-in arithmetic, and one of the others.
+        let other = draw.pick(&Arithmetic::ALL[1..]);
+        let variant = |entry| kernel::in_arithmetic(entry, other).expect("for every arithmetic");
+        for entry in KERNELS.iter().flat_map(|entry| [entry, variant(entry)]) {
             let kernel = F::subject(entry).unwrap();
             let epsilons: Vec<F> = (0..entry.info.gates.len())
                 .map(|_| F::from_f64(draw.pick(&[0.0, 0.0, 1e-6, -1e-6, 1e-20])))

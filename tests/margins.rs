@@ -1,9 +1,9 @@
 //! Margins say what a kernel does: one measurement gives the verdict at every epsilon.
 
-use hairline::arith::{Float, scale_by_power_of_two};
+use hairline::arith::{Arithmetic, Float, scale_by_power_of_two};
 use hairline::case::{Case, Draw, Parameters};
 use hairline::family::FAMILIES;
-use hairline::kernel::{KERNELS, Scalar, Subject, Verdict, refused_by};
+use hairline::kernel::{Entry, KERNELS, Scalar, Subject, Verdict, in_arithmetic, refused_by};
 
 /// Indices of each family, wild cases, and epsilon sets for each case and kernel.
 const INDICES: u64 = 100;
@@ -16,10 +16,20 @@ fn run<F: Scalar>(kernel: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Ve
     verdict[0]
 }
 
-/// Cases of all families at many scales, and cases of arbitrary bits and of small integers.
-fn for_all_cases<F: Scalar>(mut check: impl FnMut(&mut Draw, &Case<F>)) {
+/// Every kernel in every arithmetic, and what part of the cases it gets: the built-in arithmetic all.
+fn every_kernel() -> Vec<(&'static Entry, u64)> {
+    let variant = |entry: &'static Entry, arithmetic| {
+        let part = if arithmetic == Arithmetic::IEEE { 1 } else { 10 };
+        (in_arithmetic(entry, arithmetic).expect("written for every arithmetic"), part)
+    };
+    KERNELS.iter().flat_map(|entry| Arithmetic::ALL.map(|a| variant(entry, a))).collect()
+}
+
+/// Cases of all families at many scales, and cases of arbitrary bits and of small integers; of each
+/// one in `part`.
+fn for_all_cases<F: Scalar>(part: u64, mut check: impl FnMut(&mut Draw, &Case<F>)) {
     for family in FAMILIES {
-        for index in 0..INDICES {
+        for index in 0..INDICES / part {
             let mut draw = Draw::new("margins", 1, index);
             let scale = draw.pick(&[0, 0, -60, 60, -250, 250]);
             let parameters =
@@ -29,7 +39,7 @@ fn for_all_cases<F: Scalar>(mut check: impl FnMut(&mut Draw, &Case<F>)) {
             }
         }
     }
-    for index in 0..WILD {
+    for index in 0..WILD / part {
         let mut draw = Draw::new("wild", 1, index);
         let case = wild_case(&mut draw);
         check(&mut draw, &case);
@@ -56,12 +66,13 @@ fn wild_case<F: Float>(draw: &mut Draw) -> Case<F> {
 /// A finite epsilon: at a margin, a neighbour of it, an end of the range, a zero or any other.
 fn epsilon<F: Float>(draw: &mut Draw, margin: F) -> F {
     let most = F::infinity().offset_ulps(-1);
-    let chosen = match draw.below(8) {
+    let chosen = match draw.below(9) {
         0..=2 => margin.offset_ulps(draw.integer(-1, 1)),
         3 => draw.pick(&[F::zero(), -F::zero()]),
         4 => draw.pick(&[most, -most]),
         5 => F::zero().offset_ulps(draw.pick(&[-1, 1])),
-        6 => F::from_f64(scale_by_power_of_two(1.0 + draw.unit(), draw.integer(-60, 60) as i32)),
+        6 => F::from_place(draw.integer(-1, 1) << draw.integer(0, i64::from(F::DIGITS) - 1)),
+        7 => F::from_f64(scale_by_power_of_two(1.0 + draw.unit(), draw.integer(-60, 60) as i32)),
         _ => F::from_bits(draw.bits()),
     };
     match chosen {
@@ -73,9 +84,9 @@ fn epsilon<F: Float>(draw: &mut Draw, margin: F) -> F {
 }
 
 fn margins_decide_as_the_run_does<F: Scalar>() {
-    for entry in KERNELS {
+    for (entry, part) in every_kernel() {
         let (kernel, name) = (F::subject(entry).unwrap(), entry.info.name);
-        for_all_cases::<F>(|draw, case| {
+        for_all_cases::<F>(part, |draw, case| {
             let margins = kernel.gated().unwrap().measure(case).margins;
             for _ in 0..EPSILON_SETS {
                 let epsilons: Vec<F> =
@@ -92,9 +103,9 @@ fn margins_decide_as_the_run_does<F: Scalar>() {
 
 fn a_margin_is_the_last_epsilon_that_accepts<F: Scalar>() {
     let most = F::infinity().offset_ulps(-1);
-    for entry in KERNELS {
+    for (entry, part) in every_kernel() {
         let (kernel, name) = (F::subject(entry).unwrap(), entry.info.name);
-        for_all_cases::<F>(|_, case| {
+        for_all_cases::<F>(part, |_, case| {
             let margins = kernel.gated().unwrap().measure(case).margins;
             assert!(margins.iter().all(|margin| !margin.is_nan()), "{name}: {case:?} {margins:?}");
             if margins.iter().any(|margin| *margin < -most) {
@@ -114,10 +125,10 @@ fn a_margin_is_the_last_epsilon_that_accepts<F: Scalar>() {
 }
 
 fn a_measured_hit_reports_the_values_of_the_run<F: Scalar>() {
-    for entry in KERNELS {
+    for (entry, part) in every_kernel() {
         let kernel = F::subject(entry).unwrap();
         let epsilons = vec![F::zero(); entry.info.gates.len()];
-        for_all_cases::<F>(|_, case| {
+        for_all_cases::<F>(part, |_, case| {
             let verdict = run(kernel, case, &epsilons);
             if !verdict.hit {
                 return;
@@ -139,7 +150,7 @@ fn a_measured_hit_reports_the_values_of_the_run<F: Scalar>() {
 
 fn kernels_treat_a_nan_as_declared<F: Scalar>() {
     let nan = [F::from_f64(f64::NAN); 3];
-    for entry in KERNELS {
+    for (entry, _) in every_kernel() {
         let zeros = vec![F::zero(); entry.info.gates.len()];
         let case = Case::new(nan, nan, [nan; 3]);
         for case in [case, case.on(nan[0], nan[0])] {

@@ -37,6 +37,10 @@ pub trait Float: Real + Copy + PartialOrd + Display + LowerExp + Default {
     /// The bit pattern in hexadecimal, all digits.
     fn hex(self) -> String;
 
+    /// `self*factor + term`, rounded once (IEEE 754's fusedMultiplyAdd), on every machine: where the
+    /// processor has no such instruction a library computes the same.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
+
     /// The float `ulps` places above (below if negative); stops at the infinities; a NaN stays.
     fn offset_ulps(self, ulps: i64) -> Self {
         if self.is_nan() {
@@ -253,6 +257,10 @@ macro_rules! float {
                     return magnitude - magnitude.next_down();
                 }
                 magnitude.next_up() - magnitude
+            }
+            #[inline]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                $scalar::mul_add(self, factor, term)
             }
             fn hex(self) -> String {
                 format!("{:0width$x}", $scalar::to_bits(self), width = size_of::<$scalar>() * 2)

@@ -1,5 +1,5 @@
 //! Floor 0: one trait of numbers, one of vectors; glam `f32`, glam `f64`, exact, and floats that
-//! know whether they are exact.
+//! know whether they are exact; and floats that compute as other machines do.
 //!
 //! A kernel is written once against [`Real`] and [`Vector`] and runs unchanged in every
 //! arithmetic. Comparisons go through the trait too: in [`Tracked`] numbers they tell the run what
@@ -7,14 +7,18 @@
 
 #![forbid(unsafe_code)]
 
+mod arithmetic;
 mod bounded;
+mod emulated;
 mod exact;
 mod float;
 mod fraction;
 mod tracked;
 mod triple;
 
+pub use arithmetic::Arithmetic;
 pub use bounded::{Bounded, bounded};
+pub use emulated::Emulated;
 pub use exact::Exact;
 pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two};
 pub use fraction::Fraction;
@@ -95,6 +99,12 @@ pub trait Vector: Clone + Debug + Send + Sync + 'static {
     fn plus(&self, other: &Self) -> Self;
     /// `self * factor`.
     fn times(&self, factor: &Self::Real) -> Self;
+    /// `self + factor·vector`, as a point of a ray. `self` is moved: where it is a product itself, an
+    /// arithmetic with fused products may take it before it is rounded.
+    #[inline(always)]
+    fn plus_scaled(self, vector: &Self, factor: &Self::Real) -> Self {
+        self.plus(&vector.times(factor))
+    }
     /// The dot product, summed from the left.
     fn dot(&self, other: &Self) -> Self::Real;
     /// The cross product.

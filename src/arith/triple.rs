@@ -27,6 +27,13 @@ impl<R: Real> Vector for Triple<R> {
     fn times(&self, factor: &R) -> Self {
         Triple(std::array::from_fn(|i| self.0[i].clone() * factor))
     }
+    fn plus_scaled(self, vector: &Self, factor: &R) -> Self {
+        let mut axes = 0..3;
+        Triple(self.0.map(|x| {
+            let i = axes.next().expect("three axes");
+            x + vector.0[i].clone() * factor
+        }))
+    }
     fn dot(&self, other: &Self) -> R {
         let [x, y, z] = std::array::from_fn(|i| self.0[i].clone() * &other.0[i]);
         x + y + z

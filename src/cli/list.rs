@@ -3,6 +3,7 @@
 use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::plugins::PluginArguments;
+use crate::arith::Arithmetic;
 use crate::audit::EpsilonText;
 use crate::contract::NAMED;
 use crate::family::FAMILIES;
@@ -30,6 +31,8 @@ enum What {
     Contracts,
     /// Epsilons of published libraries
     Presets,
+    /// Arithmetics that kernels can be run in
+    Arithmetics,
 }
 
 /// Runs the command.
@@ -54,6 +57,9 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             })
         }
         What::Presets => presets(out),
+        What::Arithmetics => Arithmetic::ALL
+            .iter()
+            .try_for_each(|a| writeln!(out, "{:<18} {}", a.name(), a.describe())),
     })?;
     Ok(Status::Success)
 }

@@ -2,6 +2,7 @@
 
 use super::exit::Failure;
 use super::plugins::PluginArguments;
+use crate::arith::Arithmetic;
 use crate::audit::{EpsilonChoice, Row};
 use crate::contract::{Band, NAMED, NamedContract};
 use crate::kernel::{self, Entry, nearest_name};
@@ -18,6 +19,12 @@ pub struct KernelArguments {
 
     #[command(flatten)]
     plugins: PluginArguments,
+
+    /// The arithmetic of the kernels' operations, or several side by side: ieee, fma, ftz, fma-ftz
+    /// (see `hairline list arithmetics`); a kernel's name with +fma does the same for it alone
+    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    #[serde(default)]
+    arithmetic: Vec<String>,
 
     /// Epsilons by gate, as parallel=1e-6,edge=0; other gates as the source has them
     #[arg(
@@ -52,7 +59,8 @@ impl KernelArguments {
             .transpose()
             .map_err(|error| Failure::usage(format!("--band: {error}")))?;
         let contract = self.contract.as_deref().map(named_contract).transpose()?.flatten();
-        let mut rows = self.choice()?.rows(&self.entries()?, contract)?;
+        let entries = self.in_arithmetics(self.entries()?)?;
+        let mut rows = self.choice()?.rows(&entries, contract)?;
         for row in &mut rows {
             row.contract.band = band;
         }
@@ -89,6 +97,49 @@ impl KernelArguments {
             }
         }
         Ok(chosen)
+    }
+
+    /// Each kernel in each arithmetic. One that is not written for every arithmetic, and one whose name
+    /// says its arithmetic, runs once, as it is.
+    fn in_arithmetics(&self, entries: Vec<&'static Entry>) -> Result<Vec<&'static Entry>, Failure> {
+        if self.arithmetic.is_empty() {
+            return Ok(entries);
+        }
+        let parse = |text: &String| {
+            text.parse().map_err(|error| Failure::usage(format!("--arithmetic: {error}")))
+        };
+        let arithmetics = self.arithmetic.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
+        if let Some(i) =
+            (1..arithmetics.len()).find(|&i| arithmetics[..i].contains(&arithmetics[i]))
+        {
+            let message = format!("--arithmetic: '{}' is given twice", arithmetics[i]);
+            return Err(Failure::usage(message));
+        }
+        let is_other = |arithmetic: &Arithmetic| *arithmetic != Arithmetic::IEEE;
+        let has_others =
+            |entry: &'static Entry| kernel::in_arithmetic(entry, Arithmetic::FMA).is_some();
+        if arithmetics.iter().any(is_other) && !entries.iter().any(|entry| has_others(entry)) {
+            let names: Vec<&str> = entries.iter().map(|entry| entry.info.name).collect();
+            return Err(Failure::usage(format!(
+                "--arithmetic: {} has one arithmetic only: its name says which, or it is not written for every one",
+                names.join(", ")
+            )));
+        }
+        let mut all: Vec<&'static Entry> = Vec::new();
+        for entry in entries {
+            let variants = match has_others(entry) {
+                true => {
+                    arithmetics.iter().filter_map(|a| kernel::in_arithmetic(entry, *a)).collect()
+                }
+                false => vec![entry],
+            };
+            for variant in variants {
+                if !all.iter().any(|other| other.info.name == variant.info.name) {
+                    all.push(variant);
+                }
+            }
+        }
+        Ok(all)
     }
 
     fn choice(&self) -> Result<EpsilonChoice, Failure> {

@@ -44,6 +44,12 @@ const fn setting(
 const SETTINGS: &[Setting] = &[
     setting("kernel", Kind::Names, "# kernel = [\"moller-trumbore\"]", "Kernels; all if left out"),
     setting(
+        "arithmetic",
+        Kind::Names,
+        "arithmetic = [\"ieee\"]",
+        "The arithmetic of the kernels' operations (`hairline list arithmetics`)",
+    ),
+    setting(
         "epsilon",
         Kind::Text,
         "# epsilon = \"parallel=1e-6,edge=0\"",

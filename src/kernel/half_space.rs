@@ -46,7 +46,7 @@ impl Kernel for HalfSpace {
     ) -> Option<Hit<V::Real>> {
         let n = b.minus(a).cross(&c.minus(a));
         let t = -(o.minus(a).dot(&n) / d.dot(&n));
-        let x = o.plus(&d.times(&t));
+        let x = o.clone().plus_scaled(d, &t);
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let value = to.minus(from).cross(&x.minus(from)).dot(&n);
             if !sink.one(EDGE, Refuse::UnlessAtLeast, &value) {

@@ -72,7 +72,7 @@ impl Kernel for HavelHerout {
         if !sink.fixed(T, same_bits(&from_near, &(far - &dett))) {
             return None;
         }
-        let detp = ray.origin.times(&det).plus(&ray.direction.times(&dett));
+        let detp = ray.origin.times(&det).plus_scaled(&ray.direction, &dett);
         let detp_w = det.clone() + dett.clone() * &zero;
         let detu = dpps(&detp, n1, detp_w.clone() * d1);
         if !sink.fixed(U, same_bits(&detu, &(det.clone() - &detu))) {

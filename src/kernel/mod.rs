@@ -3,6 +3,9 @@
 //!
 //! Architecture invariant: nothing here knows the oracle.
 //!
+//! Every kernel that is written for every arithmetic also runs as other machines would compute it, under
+//! its name, a `+` and the arithmetic's: `moller-trumbore+fma`.
+//!
 //! To add a kernel: write its file, and give it a row in `registry.rs`. A program of your own adds
 //! its kernels with [`Entry`] and `hairline::cli::main_with`.
 
@@ -13,6 +16,7 @@ mod own;
 mod preset;
 mod registry;
 mod subject;
+mod variant;
 
 mod baldwin_weber;
 mod cramer;
@@ -28,7 +32,7 @@ mod woop_watertight;
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
-pub use registry::{Entry, KERNELS, Scalar, all, find, nearest_name, register};
+pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, nearest_name, register};
 pub use subject::{
     ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,
 };

@@ -69,7 +69,7 @@ fn inside_out<V: Vector, S: Sink<V::Real>>(
     if !sink.one(T, Refuse::Below, &t) {
         return None;
     }
-    let p = ray.origin.plus(&ray.direction.times(&t));
+    let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
     for (i, from) in vertices.iter().enumerate() {
         let to = if i + 1 < vertices.len() { &vertices[i + 1] } else { &vertices[0] };
         let c = to.minus(from).cross(&p.minus(from));
@@ -169,7 +169,7 @@ impl Kernel for PlaneInsideOutStrict {
         if !sink.one(T, Refuse::Below, &t) {
             return None;
         }
-        let p = ray.origin.plus(&ray.direction.times(&t));
+        let p = ray.origin.clone().plus_scaled(&ray.direction, &t);
         for (from, to) in [(v0, v1), (v1, v2), (v2, v0)] {
             let c = to.minus(from).cross(&p.minus(from));
             if !sink.one(EDGE, Refuse::UnlessAbove, &n.dot(&c)) {

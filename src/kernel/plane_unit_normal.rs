@@ -58,7 +58,7 @@ impl Kernel for PlaneUnitNormal {
         if !sink.one(T, Refuse::Below, &t) {
             return None;
         }
-        let q = p.plus(&d.times(&t));
+        let q = p.clone().plus_scaled(d, &t);
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let value = to.minus(from).cross(&q.minus(from)).dot(&n);
             if !sink.one(EDGE, Refuse::Below, &value) {

@@ -2,7 +2,7 @@
 
 use super::own::{Own, Test};
 use super::{Generic, Kernel, KernelInfo, Subject};
-use crate::arith::Float;
+use crate::arith::{Arithmetic, Float};
 use std::sync::{PoisonError, RwLock};
 
 /// A row: a kernel in one or both scalars.
@@ -97,6 +97,52 @@ pub fn all() -> Vec<&'static Entry> {
     KERNELS.iter().chain(added.iter().copied()).collect()
 }
 
+/// The kernels in other arithmetics that were asked for.
+static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
+
+/// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none of a kernel
+/// that is not written for every arithmetic, and of one that is in another already.
+pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'static Entry> {
+    let base = entry.info;
+    if arithmetic == Arithmetic::IEEE {
+        return Some(entry);
+    }
+    if name_and_arithmetic(base.name).is_some() {
+        return None;
+    }
+    let name = format!("{}+{arithmetic}", base.name);
+    let mut variants = VARIANTS.write().unwrap_or_else(PoisonError::into_inner);
+    if let Some(variant) = variants.iter().find(|variant| variant.info.name == name) {
+        return Some(*variant);
+    }
+    let subjects = (entry.f32?, entry.f64?);
+    let source = format!("{}; {}", base.source, arithmetic.describe());
+    let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
+        name: String::leak(name),
+        source: String::leak(source),
+        contract: base.contract,
+        gates: base.gates,
+        epsilon_sets: base.epsilon_sets,
+        gives: base.gives,
+        polygons: base.polygons,
+        hits_nan: base.hits_nan,
+    }));
+    let variant: &'static Entry = Box::leak(Box::new(Entry {
+        info,
+        flag: None,
+        f32: Some(subjects.0.in_arithmetic(arithmetic, info)?),
+        f64: Some(subjects.1.in_arithmetic(arithmetic, info)?),
+    }));
+    variants.push(variant);
+    Some(variant)
+}
+
+/// A kernel's name and the arithmetic's, if it ends in one.
+fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
+    let (kernel, arithmetic) = name.rsplit_once('+')?;
+    Some((kernel, arithmetic.parse().ok().filter(|found| *found != Arithmetic::IEEE)?))
+}
+
 /// Adds a kernel for the rest of the process; every command then knows its name. An error if the
 /// name is empty, taken, or no word.
 pub fn register(entry: Entry) -> Result<&'static Entry, String> {
@@ -108,6 +154,11 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
             name.escape_default()
         ));
     }
+    if let Some((_, arithmetic)) = name_and_arithmetic(name) {
+        return Err(format!(
+            "'{name}' is no name for a kernel: +{arithmetic} names a kernel in another arithmetic"
+        ));
+    }
     if find(name).is_some() {
         return Err(format!("there are two kernels of the name '{name}'"));
     }
@@ -116,8 +167,11 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
     Ok(entry)
 }
 
-/// The kernel of a name.
+/// The kernel of a name, `moller-trumbore+fma` included.
 pub fn find(name: &str) -> Option<&'static Entry> {
+    if let Some((kernel, arithmetic)) = name_and_arithmetic(name) {
+        return in_arithmetic(find(kernel)?, arithmetic);
+    }
     let is_named = |entry: &&'static Entry| entry.info.name == name;
     let added =
         || ADDED.read().unwrap_or_else(PoisonError::into_inner).iter().copied().find(is_named);

@@ -1,7 +1,10 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
+use super::variant::Variant;
 use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
-use crate::arith::{Bounded, Exact, Exceptions, Float, Real, Tracked, Vector, bounded, tracked};
+use crate::arith::{
+    Arithmetic, Bounded, Exact, Exceptions, Float, Real, Tracked, Vector, bounded, tracked,
+};
 use crate::case::{Case, Ray, Triangle};
 use crate::truth::Facing;
 use std::fmt;
@@ -158,6 +161,27 @@ pub struct TrackedRun<F> {
     pub values: Exceptions,
 }
 
+impl<F: Float> TrackedRun<F> {
+    /// The run of a kernel in some arithmetic.
+    pub(super) fn of<K: Kernel>(
+        case: &Case<F>,
+        epsilons: &[F],
+        arithmetic: Arithmetic,
+    ) -> TrackedRun<F> {
+        let number = |x: F| Tracked::new(x, arithmetic);
+        let (ray, triangle) = case.lift(number);
+        let epsilons: Vec<Tracked<F>> = epsilons.iter().map(|e| number(*e)).collect();
+        let mut sink = Deciding::new(&epsilons);
+        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
+        let values = hit.as_ref().map_or(Exceptions::default(), |Hit { t, uv, .. }| {
+            let uv = uv.iter().flat_map(|(u, v)| [u, v]);
+            t.iter().chain(uv).fold(Exceptions::default(), |sum, x| sum | x.raised())
+        });
+        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), sink.refused_by);
+        TrackedRun { verdict, decision, values }
+    }
+}
+
 /// A kernel in one scalar: all that an audit needs.
 pub trait Subject<F: Float>: Sync {
     /// The verdict on each case; `epsilons` has one entry a gate, `verdicts` one a case.
@@ -175,6 +199,16 @@ pub trait Subject<F: Float>: Sync {
 
     /// Its gates, if it shows them. A kernel that does not is audited at the epsilons that it takes.
     fn gated(&self) -> Option<&dyn Gated<F>> {
+        None
+    }
+
+    /// The same kernel in another arithmetic, called by another name; none of a kernel that is not
+    /// written for every arithmetic. It lives as long as the process.
+    fn in_arithmetic(
+        &self,
+        _arithmetic: Arithmetic,
+        _info: &'static KernelInfo,
+    ) -> Option<&'static dyn Subject<F>> {
         None
     }
 
@@ -249,6 +283,14 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
     fn gated(&self) -> Option<&dyn Gated<F>> {
         Some(self)
     }
+
+    fn in_arithmetic(
+        &self,
+        arithmetic: Arithmetic,
+        info: &'static KernelInfo,
+    ) -> Option<&'static dyn Subject<F>> {
+        Some(Box::leak(Box::new(Variant::<K>::new(arithmetic, info))))
+    }
 }
 
 impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
@@ -278,16 +320,7 @@ impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
     }
 
     fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
-        let (ray, triangle) = case.lift(Tracked::new);
-        let epsilons: Vec<Tracked<F>> = epsilons.iter().map(|e| Tracked::new(*e)).collect();
-        let mut sink = Deciding::new(&epsilons);
-        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
-        let values = hit.as_ref().map_or(Exceptions::default(), |Hit { t, uv, .. }| {
-            let uv = uv.iter().flat_map(|(u, v)| [u, v]);
-            t.iter().chain(uv).fold(Exceptions::default(), |sum, x| sum | x.raised())
-        });
-        let verdict = Verdict::of(hit.map(|hit| hit.map(Tracked::value)), sink.refused_by);
-        Some(TrackedRun { verdict, decision, values })
+        Some(TrackedRun::of::<K>(case, epsilons, Arithmetic::IEEE))
     }
 }
 

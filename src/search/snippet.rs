@@ -22,7 +22,8 @@ pub fn rust_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature)
         format!("\n    let case = case.on({}, {});", rust_number(t_min), rust_number(t_max))
     };
     let (kernel, finding) = (signature.kernel, signature.finding.name());
-    let name = format!("{kernel}_{scalar}_{finding}").replace('-', "_");
+    let name =
+        format!("{kernel}_{scalar}_{finding}").replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     format!(
         "/// {signature}.
 /// Contract: {contract}.

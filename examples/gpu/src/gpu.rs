@@ -1,0 +1,147 @@
+//! The device: one compute pipeline, and buffers that grow with the batches.
+
+use crate::protocol::{Batch, CASE_BYTES, VERDICT_BYTES};
+use wgpu::{Buffer, BufferUsages};
+
+/// As in the shader.
+const WORKGROUP: u32 = 64;
+
+/// A device with the kernel on it.
+pub struct Gpu {
+    info: wgpu::AdapterInfo,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    pipeline: wgpu::ComputePipeline,
+    buffers: Option<Buffers>,
+}
+
+/// Room for some cases.
+struct Buffers {
+    room: u32,
+    batch: Buffer,
+    cases: Buffer,
+    verdicts: Buffer,
+    /// Where the host reads the verdicts.
+    read: Buffer,
+}
+
+impl Gpu {
+    /// On the first adapter that wgpu finds; an error in one line if there is none.
+    /// `WGPU_BACKEND` and `WGPU_ADAPTER_NAME` choose another.
+    pub fn new() -> Result<Gpu, String> {
+        let instance =
+            wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let no_adapter = |error: String| {
+            format!(
+                "no GPU adapter was found ({error}): install a Vulkan, Metal or Direct3D 12 driver; \
+                 on Debian mesa-vulkan-drivers has one in software"
+            )
+            .replace('\n', "; ")
+        };
+        let adapter = match std::env::var("WGPU_ADAPTER_NAME") {
+            Ok(name) => named(&instance, &name)?,
+            Err(_) => pollster::block_on(instance.request_adapter(&Default::default()))
+                .map_err(|error| no_adapter(error.to_string()))?,
+        };
+        let request = wgpu::DeviceDescriptor {
+            label: Some("hairline"),
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&request))
+            .map_err(|error| format!("{}: {error}", adapter.get_info().name))?;
+        let module = device.create_shader_module(wgpu::include_wgsl!("moller_trumbore.wgsl"));
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("Möller-Trumbore"),
+            layout: None,
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Ok(Gpu { info: adapter.get_info(), device, queue, pipeline, buffers: None })
+    }
+
+    /// The adapter and its driver.
+    pub fn device(&self) -> String {
+        let wgpu::AdapterInfo { name, driver, driver_info, backend, .. } = &self.info;
+        format!("{name}, {driver} {driver_info} ({backend})").replace('\n', " ")
+    }
+
+    /// The verdicts on a batch, as bytes.
+    pub fn run(&mut self, batch: &Batch) -> Result<Vec<u8>, String> {
+        if batch.count == 0 {
+            return Ok(Vec::new());
+        }
+        if self.buffers.as_ref().is_none_or(|buffers| buffers.room < batch.count) {
+            self.buffers = Some(self.room_for(batch.count));
+        }
+        let buffers = self.buffers.as_ref().expect("made above");
+        let mut head = batch.count.to_le_bytes().to_vec();
+        head.extend(batch.parallel.to_le_bytes());
+        self.queue.write_buffer(&buffers.batch, 0, &head);
+        self.queue.write_buffer(&buffers.cases, 0, &batch.cases);
+
+        let bound = [&buffers.batch, &buffers.cases, &buffers.verdicts];
+        let entries: Vec<wgpu::BindGroupEntry> = (0..)
+            .zip(bound)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        });
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(batch.count.div_ceil(WORKGROUP), 1, 1);
+        }
+        let size = u64::from(batch.count) * VERDICT_BYTES as u64;
+        encoder.copy_buffer_to_buffer(&buffers.verdicts, 0, &buffers.read, 0, size);
+        self.queue.submit([encoder.finish()]);
+
+        let slice = buffers.read.slice(..size);
+        slice.map_async(wgpu::MapMode::Read, |_| {});
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
+        let bytes = slice.get_mapped_range().map_err(|error| error.to_string())?.to_vec();
+        buffers.read.unmap();
+        Ok(bytes)
+    }
+
+    fn room_for(&self, count: u32) -> Buffers {
+        let buffer = |label, size: u64, usage| {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let (cases, verdicts) =
+            (u64::from(count) * CASE_BYTES as u64, u64::from(count) * VERDICT_BYTES as u64);
+        let (input, output) = (BufferUsages::COPY_DST, BufferUsages::COPY_SRC);
+        Buffers {
+            room: count,
+            batch: buffer("batch", 8, BufferUsages::STORAGE | input),
+            cases: buffer("cases", cases, BufferUsages::STORAGE | input),
+            verdicts: buffer("verdicts", verdicts, BufferUsages::STORAGE | output),
+            read: buffer("read", verdicts, BufferUsages::MAP_READ | input),
+        }
+    }
+}
+
+/// The adapter whose name contains some text.
+fn named(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Adapter, String> {
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+    let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let wanted = name.to_lowercase();
+    let place = names.iter().position(|found| found.to_lowercase().contains(&wanted));
+    let none = || format!("no GPU adapter is called '{name}'; there are: {}", names.join(", "));
+    place.and_then(|place| adapters.into_iter().nth(place)).ok_or_else(none)
+}

@@ -1,0 +1,140 @@
+//! What machines compute when they do not compute by IEEE 754 operation by operation: products fused
+//! into sums, and subnormal numbers flushed to zero. Both in software, so that the answer is the same
+//! on every machine and in every mode.
+
+use super::Float;
+use std::fmt;
+use std::str::FromStr;
+
+/// How a machine rounds: IEEE 754's operations one by one, or with one or both of two liberties that
+/// compilers and graphics processors take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Arithmetic {
+    /// A product that goes straight into a sum or a difference is not rounded: one fused multiply-add
+    /// (IEEE 754, 5.4.1) instead of two operations. Of two such products the left one is fused.
+    pub fused: bool,
+    /// Subnormal numbers are zeros of their sign, as operands and as results (on x86 DAZ and FTZ
+    /// together). A result is flushed if it is subnormal after it was rounded to the format.
+    pub flushed: bool,
+}
+
+impl Arithmetic {
+    /// IEEE 754, operation by operation.
+    pub const IEEE: Arithmetic = Arithmetic { fused: false, flushed: false };
+    /// Products are fused into sums.
+    pub const FMA: Arithmetic = Arithmetic { fused: true, flushed: false };
+    /// Subnormal numbers are flushed to zero.
+    pub const FTZ: Arithmetic = Arithmetic { fused: false, flushed: true };
+    /// Both.
+    pub const FMA_FTZ: Arithmetic = Arithmetic { fused: true, flushed: true };
+
+    /// All of them, in the order of reports.
+    pub const ALL: [Arithmetic; 4] =
+        [Arithmetic::IEEE, Arithmetic::FMA, Arithmetic::FTZ, Arithmetic::FMA_FTZ];
+
+    /// The name on a command line and, after a `+`, in a kernel's name.
+    pub const fn name(self) -> &'static str {
+        match (self.fused, self.flushed) {
+            (false, false) => "ieee",
+            (true, false) => "fma",
+            (false, true) => "ftz",
+            (true, true) => "fma-ftz",
+        }
+    }
+
+    /// What it does, in a line.
+    pub const fn describe(self) -> &'static str {
+        match (self.fused, self.flushed) {
+            (false, false) => "IEEE 754, operation by operation (the default)",
+            (true, false) => "products that go straight into a sum are fused, the left one of two",
+            (false, true) => "subnormal numbers are zero, as operands and as results",
+            (true, true) => "fused products, and subnormal numbers are zero",
+        }
+    }
+
+    /// The liberties of both.
+    pub(super) fn and(self, other: Arithmetic) -> Arithmetic {
+        Arithmetic { fused: self.fused | other.fused, flushed: self.flushed | other.flushed }
+    }
+
+    /// A number as this arithmetic's operations see and leave it.
+    #[inline]
+    pub fn flush<F: Float>(self, value: F) -> F {
+        let is_flushed = self.flushed && value.abs() < smallest_normal::<F>();
+        match (is_flushed, value.is_sign_negative()) {
+            (false, _) => value,
+            (true, false) => F::zero(),
+            (true, true) => -F::zero(),
+        }
+    }
+
+    /// The largest epsilon that compares with other numbers as `margin` does: where subnormal
+    /// numbers are zero, that of zero is the largest of them.
+    pub fn largest_epsilon<F: Float>(self, margin: F) -> F {
+        if self.flushed && margin.is_zero() { just_below(smallest_normal::<F>()) } else { margin }
+    }
+
+    /// The next number below that this arithmetic tells apart.
+    pub(super) fn just_below<F: Float>(self, value: F) -> F {
+        let smallest = smallest_normal::<F>();
+        match self.flushed {
+            true if value.is_zero() => -smallest,
+            true if value == smallest => F::zero(),
+            _ => just_below(value),
+        }
+    }
+}
+
+fn just_below<F: Float>(value: F) -> F {
+    value.just_below()
+}
+
+/// The smallest positive number that is not subnormal.
+fn smallest_normal<F: Float>() -> F {
+    F::from_place(1 << (F::DIGITS - 1))
+}
+
+/// One rounded operation on floats.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Operation<F> {
+    /// `a + b`.
+    Sum(F, F),
+    /// `a * b`.
+    Product(F, F),
+    /// `a*b + c`, rounded once.
+    Fused(F, F, F),
+    /// `a / b`.
+    Quotient(F, F),
+    /// The square root.
+    Root(F),
+}
+
+impl<F: Float> Operation<F> {
+    /// The result.
+    #[inline]
+    pub fn run(self, arithmetic: Arithmetic) -> F {
+        arithmetic.flush(match self {
+            Operation::Sum(a, b) => a + b,
+            Operation::Product(a, b) => a * b,
+            Operation::Fused(a, b, c) => a.mul_add(b, c),
+            Operation::Quotient(a, b) => a / b,
+            Operation::Root(a) => a.sqrt(),
+        })
+    }
+}
+
+impl fmt::Display for Arithmetic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Arithmetic {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Arithmetic, String> {
+        Arithmetic::ALL.into_iter().find(|arithmetic| arithmetic.name() == text).ok_or_else(|| {
+            format!("unknown arithmetic '{text}': there are ieee, fma, ftz and fma-ftz")
+        })
+    }
+}

@@ -1,0 +1,116 @@
+//! A kernel in another arithmetic than IEEE 754's: the same source on another machine.
+
+use super::{
+    Deciding, ExactRun, Gated, Generic, Hit, Kernel, KernelInfo, Measured, Measuring, Subject,
+    TrackedRun, Verdict,
+};
+use crate::arith::{Arithmetic, Emulated, Exact, Float, Triple};
+use crate::case::{Case, Ray, Triangle};
+use std::marker::PhantomData;
+
+/// A [`Kernel`] in some [`Arithmetic`], as a [`Subject`] of either scalar. Without rounding it is the
+/// same kernel: its exact runs are those of [`Generic`].
+pub(super) struct Variant<K> {
+    arithmetic: Arithmetic,
+    info: &'static KernelInfo,
+    kernel: PhantomData<fn() -> K>,
+}
+
+impl<K: Kernel> Variant<K> {
+    pub fn new(arithmetic: Arithmetic, info: &'static KernelInfo) -> Variant<K> {
+        Variant { arithmetic, info, kernel: PhantomData }
+    }
+
+    fn lift<F: Float>(&self, case: &Case<F>) -> (Ray<Numbers<F>>, Triangle<Numbers<F>>) {
+        case.lift(|x| Emulated::new(x, self.arithmetic))
+    }
+
+    fn numbers<F: Float>(&self, values: &[F]) -> Vec<Emulated<F>> {
+        values.iter().map(|x| Emulated::new(*x, self.arithmetic)).collect()
+    }
+
+    fn measure_into<F: Float>(
+        &self,
+        case: &Case<F>,
+        margins: &mut [F],
+    ) -> Option<Hit<Emulated<F>>> {
+        let (ray, triangle) = self.lift(case);
+        let mut emulated = self.numbers(margins);
+        let values = K::test(&K::prepare(&triangle), &ray, &mut Measuring::new(&mut emulated));
+        for (margin, emulated) in margins.iter_mut().zip(&emulated) {
+            *margin = self.arithmetic.largest_epsilon(emulated.value());
+        }
+        values
+    }
+}
+
+type Numbers<F> = Triple<Emulated<F>>;
+
+fn verdict<F: Float>(hit: Option<Hit<Emulated<F>>>, refused_by: Option<usize>) -> Verdict<F> {
+    Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by)
+}
+
+impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
+    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        let epsilons = self.numbers(epsilons);
+        for (case, place) in cases.iter().zip(verdicts) {
+            let (ray, triangle) = self.lift(case);
+            let mut sink = Deciding::new(&epsilons);
+            let hit = K::test(&K::prepare(&triangle), &ray, &mut sink);
+            *place = verdict(hit, sink.refused_by);
+        }
+    }
+
+    fn run_polygon(
+        &self,
+        vertices: &[F::Vector],
+        ray: &Ray<F::Vector>,
+        epsilons: &[F],
+    ) -> Verdict<F> {
+        // A case has room for a ray and three vertices.
+        let lift = |vertex: &F::Vector| {
+            let triangle = Triangle::new(*vertex, *vertex, *vertex);
+            self.lift(&Case { ray: *ray, triangle })
+        };
+        let Some((ray, _)) = vertices.first().map(lift) else { return Verdict::miss(None) };
+        let vertices: Vec<Numbers<F>> = vertices.iter().map(|vertex| lift(vertex).1.a).collect();
+        let epsilons = self.numbers(epsilons);
+        let mut sink = Deciding::new(&epsilons);
+        let hit = K::test_polygon(&vertices, &ray, &mut sink);
+        verdict(hit, sink.refused_by)
+    }
+
+    fn gated(&self) -> Option<&dyn Gated<F>> {
+        Some(self)
+    }
+}
+
+impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
+    fn info(&self) -> &'static KernelInfo {
+        self.info
+    }
+
+    fn margins(&self, cases: &[Case<F>], margins: &mut [F]) {
+        for (case, margins) in cases.iter().zip(margins.chunks_exact_mut(self.info.gates.len())) {
+            self.measure_into(case, margins);
+        }
+    }
+
+    fn measure(&self, case: &Case<F>) -> Measured<F> {
+        let mut margins = vec![F::zero(); self.info.gates.len()];
+        let values = self.measure_into(case, &mut margins);
+        Measured { margins, values: values.map(|hit| hit.map(|x| x.value())) }
+    }
+
+    fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
+        Generic::<K>::SUBJECT.measure_exact(case)
+    }
+
+    fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Option<ExactRun> {
+        Generic::<K>::SUBJECT.run_exact(case, epsilons)
+    }
+
+    fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
+        Some(TrackedRun::of::<K>(case, epsilons, self.arithmetic))
+    }
+}
