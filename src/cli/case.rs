@@ -18,11 +18,11 @@ pub struct CaseArguments {
 
     /// The mesh that the case's id speaks of
     #[arg(long, value_name = "FILE")]
-    mesh: Option<String>,
+    pub(super) mesh: Option<String>,
 
     /// Where the stored case is: a JSON lines file, or a folder of them
     #[arg(long, value_name = "FILE|DIR")]
-    corpus: Option<String>,
+    pub(super) corpus: Option<String>,
 }
 
 /// Cases in one of the scalars: one, or the triangles of a group.

@@ -17,6 +17,7 @@ mod github;
 mod input;
 mod judge;
 mod list;
+mod map;
 mod merge;
 mod orient;
 mod output;
@@ -76,6 +77,8 @@ enum Command {
     Triage(triage::TriageArguments),
     /// Make a case with a finding as simple as it can be, as JSON, Rust and C to paste into a test
     Shrink(shrink::ShrinkArguments),
+    /// Draw where a kernel is wrong, one pixel one float, beside what is exactly true
+    Map(Box<map::MapArguments>),
     /// List kernels, families, contracts or epsilon presets
     List(list::ListArguments),
     /// Hold the oracle to its definition and to integer arithmetic
@@ -146,6 +149,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Fuzz(arguments) => fuzz::run(&arguments),
         Command::Triage(arguments) => triage::run(&arguments),
         Command::Shrink(arguments) => shrink::run(&arguments),
+        Command::Map(arguments) => map::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),
         Command::Orient(arguments) => orient::run(&arguments),

@@ -8,8 +8,8 @@ use super::progress::Progress;
 use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::orientation::{
-    self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, PointsId, Record, Row, SCHEMA, Scalar,
-    build, default_rows, find_family, find_known, show,
+    self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
+    Scalar, build, default_rows, find_family, find_known, show,
 };
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -166,6 +166,11 @@ fn one_case(text: &str, rows: &[Row]) -> Result<(CasePart, Option<&'static Known
 }
 
 fn case_of_id<F: Scalar>(id: &PointsId, rows: &[Row]) -> Result<CasePart, Failure> {
+    shown(id.to_string(), &points_of_id::<F>(id)?, rows)
+}
+
+/// The points of an id, whose family must be of the version that this program makes.
+pub(super) fn points_of_id<F: Scalar>(id: &PointsId) -> Result<Points<F>, Failure> {
     let names = FAMILIES.iter().map(|family| family.name);
     let family = find_family(&id.family)
         .ok_or_else(|| unknown("family", &id.family, names, "hairline orient"))?;
@@ -173,15 +178,10 @@ fn case_of_id<F: Scalar>(id: &PointsId, rows: &[Row]) -> Result<CasePart, Failur
         let (name, version) = (family.name, family.version);
         return Err(Failure::usage(format!("'{id}': family '{name}' is at version {version}")));
     }
-    let points = family.make::<F>(id.dimension, id.seed, id.index);
-    shown(id.to_string(), &points, rows)
+    Ok(family.make::<F>(id.dimension, id.seed, id.index))
 }
 
-fn shown<F: Scalar>(
-    id: String,
-    points: &orientation::Points<F>,
-    rows: &[Row],
-) -> Result<CasePart, Failure> {
+fn shown<F: Scalar>(id: String, points: &Points<F>, rows: &[Row]) -> Result<CasePart, Failure> {
     let message = format!("self-check: the points of '{id}' are not finite");
     show(id, points, rows).ok_or(Failure::Message(Status::SelfCheck, message))
 }
@@ -236,6 +236,6 @@ impl OrientArguments {
     }
 }
 
-fn is_epsilon<F: Float>(text: &str) -> bool {
+pub(super) fn is_epsilon<F: Float>(text: &str) -> bool {
     F::parse(text).is_some_and(|e| e.is_finite() && e >= F::zero())
 }

@@ -67,6 +67,21 @@ impl KernelArguments {
         Ok(rows)
     }
 
+    /// The names and the epsilon, for an orientation predicate, of which there is nothing else to
+    /// choose.
+    pub fn of_predicate(&self) -> Result<(&[String], Option<&str>), Failure> {
+        let of_kernels = [
+            ("--epsilon-preset", self.epsilon_preset.is_some()),
+            ("--contract", self.contract.is_some()),
+            ("--band", self.band.is_some()),
+            ("a kernel of your own", self.plugins.names_kernels()),
+        ];
+        match of_kernels.iter().find(|(_, given)| *given) {
+            Some((what, _)) => Err(Failure::usage(format!("{what} is not for points"))),
+            None => Ok((&self.kernel, self.epsilon.as_deref())),
+        }
+    }
+
     /// Whether any kernel is named.
     pub fn names_kernels(&self) -> bool {
         !self.kernel.is_empty() || self.plugins.names_kernels()

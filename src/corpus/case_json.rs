@@ -97,7 +97,7 @@ fn parse_vector<F: Float>(
 }
 
 /// A JSON number or a string, from its text.
-fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
+pub(super) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
     let text = value.get();
     let number = match text.as_bytes().first() {
         Some(b'"') => json::string(value).and_then(|text| number::parse(&text)),

@@ -10,6 +10,7 @@ pub mod manifest;
 pub mod mesh;
 pub mod number;
 mod obj;
+pub mod points_json;
 mod provenance;
 pub mod shapes;
 mod stored_truth;

@@ -5,14 +5,16 @@
 //! are lost neither far from zero nor close to an edge.
 
 use super::MapError;
-use super::frame::{Flat, Frame, Stretch, View};
+use super::frame::Stretch;
 use super::panel::Panel;
+use super::scene::{Layer, Scene};
 use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, escaped, wrapped};
-use crate::arith::{Exact, ExactVector, Float, Real, Vector};
+use crate::arith::{Exact, Float, Real};
 use crate::audit::{Row, exact_severity};
-use crate::case::{Case, Ray, Triangle};
+use crate::case::Case;
+use crate::corpus::number;
 use crate::judge::{asked, judge};
-use crate::kernel::{Gives, Scalar, Verdict};
+use crate::kernel::{Scalar, Verdict};
 use crate::oracle::{self, Definition};
 use crate::truth::Truth;
 use std::fmt::Write;
@@ -21,9 +23,6 @@ const WIDTH: f64 = 640.0;
 const SIDE: f64 = 298.0;
 const MARGIN: f64 = 14.0;
 const LINE: f64 = 18.0;
-
-/// Nearer to the boundary than this, in longest edges, an inset is drawn.
-const NEAR: f64 = 0.04;
 
 /// The drawing of a row on a case, to be put into a page: it has no ids and no styles, and text of the
 /// page's colour.
@@ -42,31 +41,6 @@ struct Witness {
     lines: Vec<String>,
     body: String,
     y: f64,
-}
-
-/// A case in exact numbers, with all that is drawn of it.
-struct Scene {
-    frame: Frame,
-    ray: Ray<ExactVector>,
-    triangle: Triangle<ExactVector>,
-    /// Where the line meets the plane.
-    exact: Option<ExactVector>,
-    /// Where the kernel's values say so.
-    computed: Option<ExactVector>,
-    /// The first and last t that a line has in common with a triangle that holds part of it.
-    contact: Option<[Exact; 2]>,
-}
-
-/// A scene in floats, in units, counted from a point.
-struct Layer {
-    vertices: [[f64; 2]; 3],
-    edges: [Option<Stretch>; 3],
-    line: Option<Stretch>,
-    interval: Option<Stretch>,
-    contact: Option<Stretch>,
-    origin: [f64; 2],
-    exact: Option<[f64; 2]>,
-    computed: Option<[f64; 2]>,
 }
 
 impl Witness {
@@ -105,29 +79,34 @@ impl Witness {
     /// How far the case is from its boundary, in words.
     fn distances<F: Float>(&mut self, case: &Case<F>, row: &Row) {
         let Some(severity) = exact_severity(case, row.contract.extent) else { return };
-        let ulps = |distance: f64| format!("{:.3e} ulps", distance * severity.edge_in_ulps);
-        let (space, in_ulps) = (severity.in_space, ulps(severity.in_space));
+        let space = severity.in_space;
         let mut text = format!(
-            "The line passes the triangle's boundary at {space:.3e} of its longest edge, {in_ulps} of the largest coordinate"
+            "The line passes the triangle's boundary at {} of its longest edge, {} ulps of the largest coordinate",
+            distance(space),
+            distance(space * severity.edge_in_ulps)
         );
         if let Some(in_plane) = severity.in_plane {
-            let _ = write!(text, "; in the plane it is {in_plane:.3e}");
+            let _ = write!(text, "; in the plane it is {}", distance(in_plane));
         }
         if let Some(along) = severity.along {
-            let _ = write!(text, "; along the ray {along:.3e} from an end of it");
+            let _ = write!(text, "; along the ray {} from an end of it", distance(along));
         }
         self.lines.push(text + ".");
     }
 
     fn scene(&mut self, scene: &Scene) {
         self.lines.push(scene.seen().to_owned());
-        self.lines.extend(scene.apart());
+        if let Some(apart) = scene.apart() {
+            let apart = distance(apart);
+            self.lines
+                .push(format!("The kernel's point is {apart} longest edges from the exact one."));
+        }
         let top = self.y + 52.0;
         let layer = scene.from(&scene.triangle.a);
         let main = overview(&layer, MARGIN, top);
         self.panel(&main, &layer, "the triangle");
         let near = scene.from(&scene.focus());
-        if let Some(half) = inset_half(&near) {
+        if let Some(half) = near.inset_half() {
             let left = WIDTH - MARGIN - SIDE;
             let inset = Panel { left, top, side: SIDE, centre: [0.0; 2], half };
             self.panel(
@@ -150,7 +129,7 @@ impl Witness {
             top - 8.0
         );
         let edges: Option<Vec<Stretch>> = layer.edges.iter().copied().collect();
-        let fill = edges.filter(|_| layer.has_area()).map(|edges| panel.left_of(&edges));
+        let fill = edges.filter(|_| layer.has_area).map(|edges| panel.left_of(&edges));
         if let Some(path) = fill.filter(|path| !path.is_empty()) {
             let _ = writeln!(out, "<path d=\"{path}\" fill=\"#6fb4e6\" fill-opacity=\"0.4\"/>");
         }
@@ -175,8 +154,8 @@ impl Witness {
         self.names(panel, layer);
         let marks = [
             (Some(layer.origin), Mark::Origin),
-            (layer.exact, Mark::Exact),
             (layer.computed, Mark::Computed),
+            (layer.exact, Mark::Exact),
         ];
         for (point, mark) in marks {
             let Some(point) = point else { continue };
@@ -322,10 +301,12 @@ impl Mark {
         let color = self.color();
         match self {
             Mark::Origin => format!(
-                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>\n"
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"7\" fill=\"none\" stroke=\"{color}\" stroke-width=\"1.5\"/>\n"
             ),
             Mark::Exact => {
-                format!("<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"4.5\" fill=\"{color}\"/>\n")
+                format!(
+                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.5\" fill=\"{color}\" stroke=\"#fff\"/>\n"
+                )
             }
             Mark::Computed => format!(
                 "<path d=\"M{:.2} {:.2}l11 11m0 -11l-11 11\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2.5\"/>\n",
@@ -333,130 +314,6 @@ impl Mark {
                 y - 5.5
             ),
         }
-    }
-}
-
-impl Scene {
-    fn new<F: Float>(
-        case: &Case<F>,
-        gives: Gives,
-        verdict: &Verdict<F>,
-        definition: &Definition,
-    ) -> Scene {
-        let (ray, triangle) = case.exact();
-        let frame = Frame::of(&ray, &triangle);
-        let on_line = |t: &Exact| ray.origin.plus(&ray.direction.times(t));
-        let exact = definition.exact.t.as_ref().map(|t| on_line(&Exact::from_rational(t)));
-        let contact = definition.exact.contact_t.as_ref();
-        let contact = contact.map(|ends| ends.each_ref().map(Exact::from_rational));
-        let number = |x: F| x.is_finite().then(|| Exact::from_f64(x.to_f64()));
-        let by_t = if gives.t && verdict.hit { number(verdict.t) } else { None };
-        let by_weights = if gives.uv && verdict.hit && !gives.t {
-            number(verdict.u).zip(number(verdict.v))
-        } else {
-            None
-        };
-        let Triangle { a, b, c } = &triangle;
-        let weighed =
-            |(u, v): (Exact, Exact)| a.plus(&b.minus(a).times(&u)).plus(&c.minus(a).times(&v));
-        let computed = by_t.map(|t| on_line(&t)).or_else(|| by_weights.map(weighed));
-        Scene { frame, ray, triangle, exact, computed, contact }
-    }
-
-    /// The point that an inset looks at: where the line meets the plane or first touches the triangle,
-    /// else its point nearest to a vertex, as it is seen.
-    fn focus(&self) -> ExactVector {
-        let Ray { origin, direction, .. } = &self.ray;
-        if let Some(exact) = &self.exact {
-            return exact.clone();
-        }
-        if let Some([first, _]) = &self.contact {
-            return origin.plus(&direction.times(first));
-        }
-        let way = self.frame.flat(direction);
-        let length = self.frame.dot(&way, &way);
-        if length.is_zero() {
-            return origin.clone();
-        }
-        let Triangle { a, b, c } = &self.triangle;
-        let nearest = [a, b, c].map(|vertex| {
-            let to_vertex = self.frame.flat(&vertex.minus(origin));
-            let t = self.frame.dot(&to_vertex, &way) / &length;
-            let gap = to_vertex.plus(&way.times(&-t.clone()));
-            (self.frame.dot(&gap, &gap), t)
-        });
-        let [first, others @ ..] = nearest;
-        let nearer = |best: (Exact, Exact), other: (Exact, Exact)| {
-            if other.0.is_less(&best.0) { other } else { best }
-        };
-        let (_, t) = others.into_iter().fold(first, nearer);
-        origin.plus(&direction.times(&t))
-    }
-
-    /// The scene counted from a point.
-    fn from(&self, point: &ExactVector) -> Layer {
-        let frame = &self.frame;
-        let flat = |p: &ExactVector| frame.flat(&p.minus(point));
-        let place = |p: &ExactVector| frame.coordinates(&flat(p));
-        let Triangle { a, b, c } = &self.triangle;
-        let edge = |from: &ExactVector, to: &ExactVector| {
-            let way = frame.flat(&to.minus(from));
-            frame.stretch(&flat(from), &way, [Some(Exact::zero()), Some(Exact::one())])
-        };
-        let Ray { origin, direction, t_min, t_max } = &self.ray;
-        let (base, way): (Flat, Flat) = (flat(origin), frame.flat(direction));
-        let along = |ends| frame.stretch(&base, &way, ends);
-        // NaN ends are no interval, nor are ends that are the wrong infinity.
-        let is_interval = t_min.is_at_most(t_max)
-            && t_min.is_less(&Exact::infinity())
-            && (-Exact::infinity()).is_less(t_max);
-        let end = |t: &Exact| t.is_finite().then(|| t.clone());
-        Layer {
-            vertices: [a, b, c].map(place),
-            edges: [edge(a, b), edge(b, c), edge(c, a)],
-            line: along([None, None]),
-            interval: is_interval.then(|| along([end(t_min), end(t_max)])).flatten(),
-            contact: self.contact.clone().and_then(|ends| along(ends.map(Some))),
-            origin: place(origin),
-            exact: self.exact.as_ref().map(place),
-            computed: self.computed.as_ref().map(place),
-        }
-    }
-
-    /// From where it is looked at, in words.
-    fn seen(&self) -> &'static str {
-        match self.frame.view {
-            View::Normal => "Seen along the triangle's normal, from its front.",
-            View::Ray => "The triangle has no area; seen along the ray.",
-            View::Across => "The triangle has no area, and the ray runs along it; seen from aside.",
-        }
-    }
-
-    /// How far the computed point is from the exact one, in words.
-    fn apart(&self) -> Option<String> {
-        let gap = self.computed.as_ref()?.minus(self.exact.as_ref()?);
-        let Triangle { a, b, c } = &self.triangle;
-        let square = crate::judge::square::<ExactVector>;
-        let larger = |m: Exact, x: Exact| if m.is_less(&x) { x } else { m };
-        let longest = [square(&b.minus(a)), square(&c.minus(b)), square(&a.minus(c))]
-            .into_iter()
-            .reduce(larger)?;
-        let apart = (square(&gap) / longest).approximate_root();
-        Some(format!("The kernel's point is {apart:.3e} longest edges from the exact one."))
-    }
-}
-
-impl Layer {
-    /// Whether a, b, c run counter-clockwise around something, as they do where they have an area.
-    fn has_area(&self) -> bool {
-        let ways: Option<Vec<[f64; 2]>> =
-            self.edges.iter().map(|edge| edge.map(|edge| edge.way)).collect();
-        let Some(ways) = ways else { return false };
-        // Of a sliver the ways may be equal as floats: then nothing is filled.
-        (0..3).any(|i| {
-            let ([ax, ay], [bx, by]) = (ways[i], ways[(i + 1) % 3]);
-            ax * by - ay * bx > 0.0
-        })
     }
 }
 
@@ -475,23 +332,13 @@ fn overview(layer: &Layer, left: f64, top: f64) -> Panel {
     Panel { left, top, side: SIDE, centre: [x0.midpoint(x1), y0.midpoint(y1)], half }
 }
 
-/// Half of what an inset shows, so that what is nearest to its middle is well seen; none where the
-/// overview shows it.
-fn inset_half(layer: &Layer) -> Option<f64> {
-    let is_near = |distance: &f64| (f64::MIN_POSITIVE..NEAR).contains(distance);
-    let edges = layer.edges.iter().flatten().map(Stretch::distance).filter(is_near);
-    let boundary = edges.reduce(f64::min);
-    let computed = layer.computed.map(|[x, y]| x.hypot(y)).filter(is_near);
-    boundary.or(computed).map(|distance| distance * 2.5)
-}
-
 /// The exact truth in words.
 fn exactly(definition: &Definition) -> String {
     let mut text = format!("Exactly: {}", definition.truth);
     if let (Truth::Transversal(_), Some(t)) = (definition.truth, &definition.exact.t) {
         let t = Exact::from_rational(t).approximate();
         if t.is_finite() {
-            let _ = write!(text, ", t = {t:e}");
+            let _ = write!(text, ", t = {}", value(t));
         }
     }
     text + "."
@@ -512,10 +359,10 @@ fn computed<F: Float>(row: &Row, verdict: &Verdict<F>) -> String {
     let gives = row.entry.info.gives;
     let mut text = "Computed: a hit".to_owned();
     if gives.t {
-        let _ = write!(text, ", t = {}", number(verdict.t));
+        let _ = write!(text, ", t = {}", value(verdict.t));
     }
     if gives.uv {
-        let _ = write!(text, ", u = {}, v = {}", number(verdict.u), number(verdict.v));
+        let _ = write!(text, ", u = {}, v = {}", value(verdict.u), value(verdict.v));
     }
     if let (true, Some(facing)) = (gives.facing, verdict.facing) {
         let _ = write!(text, ", {}", facing.name());
@@ -523,14 +370,25 @@ fn computed<F: Float>(row: &Row, verdict: &Verdict<F>) -> String {
     text + "."
 }
 
+/// A distance in four digits.
+fn distance(x: f64) -> String {
+    if x == 0.0 {
+        "0".to_owned()
+    } else if x.is_finite() {
+        format!("{x:.3e}")
+    } else {
+        "more than 1e308".to_owned()
+    }
+}
+
 /// A computed value.
-fn number<F: Float>(x: F) -> String {
+fn value<F: Float>(x: F) -> String {
     if x.is_nan() {
         "not a number".to_owned()
     } else if !x.is_finite() {
         "infinite".to_owned()
     } else {
-        format!("{:e}", x.to_f64())
+        number::write(x)
     }
 }
 

@@ -126,6 +126,11 @@ impl Frame {
         })
     }
 
+    /// The length of a vector in space, in units.
+    pub fn length(&self, vector: &ExactVector) -> f64 {
+        (square(vector) / &self.unit).approximate_root()
+    }
+
     /// The root of a square in units, with the sign of another number.
     fn signed_length(&self, sign: &Exact, square: &Exact) -> f64 {
         let length = (square.clone() / &self.unit).approximate_root();

@@ -76,7 +76,7 @@ pub fn of_kernel<F: Scalar>(case: &Case<F>, row: &Row, grid: &Grid<F>) -> Result
     let epsilons = row.epsilons::<F>();
     let [width, height] = grid.size();
     let line = |y: usize| {
-        let cases: Vec<Case<F>> = (0..width).map(|x| moved(case, grid, [x, y])).collect();
+        let cases: Vec<Case<F>> = (0..width).map(|x| case_at(case, grid, [x, y])).collect();
         pixels(&cases, row, subject, &epsilons)
     };
     // From the top.
@@ -92,7 +92,7 @@ pub fn of_kernel<F: Scalar>(case: &Case<F>, row: &Row, grid: &Grid<F>) -> Result
 }
 
 /// The case of a pixel, counted from the left and from the bottom.
-fn moved<F: Float>(case: &Case<F>, grid: &Grid<F>, pixel: [usize; 2]) -> Case<F> {
+pub fn case_at<F: Float>(case: &Case<F>, grid: &Grid<F>, pixel: [usize; 2]) -> Case<F> {
     let mut vectors = case.vectors();
     vectors[grid.point] = grid.moved(vectors[grid.point], pixel);
     let [origin, direction, vertices @ ..] = vectors;

@@ -32,16 +32,17 @@ mod orientation;
 mod panel;
 #[cfg(feature = "cli")]
 mod png;
+mod scene;
 mod spot;
 mod svg;
 
 pub use self::drawing::{drawing, drawing_document};
 pub use self::grid::{Axis, Grid, MOST_PIXELS, Step};
-pub use self::kernel::{Part, grid_of_case, of_kernel};
-pub use self::orientation::{grid_of_points, of_predicate};
+pub use self::kernel::{Part, case_at, grid_of_case, of_kernel};
+pub use self::orientation::{POINT_NAMES, grid_of_points, of_predicate, points_at};
 #[cfg(feature = "cli")]
 pub use self::png::png;
-pub use self::spot::{Spot, standard};
+pub use self::spot::{Spot, standard, standard_points};
 pub use self::svg::{svg, svg_document};
 
 use crate::arith::Float;
@@ -229,55 +230,51 @@ impl Map {
         }
     }
 
-    /// The inks of the computed side with what they mean and how many pixels have them, those that
-    /// occur.
+    /// The inks of the computed side that occur, what they mean and how many pixels have them.
     pub fn computed_legend(&self) -> Vec<(Ink, &'static str, usize)> {
-        let words = match self.pixels {
-            Pixels::Rays(_) => [
-                "hit",
-                "miss",
-                "",
-                "",
-                "false hit",
-                "false miss",
-                "hit with a bad value",
-                "failed: no verdict",
-            ],
-            Pixels::Signs(_) => {
-                ["+", "-", "0", "", "wrong sign", "false 0", "not 0, and 0 is true", "no sign: NaN"]
-            }
+        let words = |ink| match (&self.pixels, ink) {
+            (Pixels::Rays(_), Ink::Yes) => "hit",
+            (Pixels::Rays(_), Ink::FalseYes) => "false hit",
+            (Pixels::Rays(_), Ink::FalseNo) => "false miss",
+            (Pixels::Rays(_), Ink::Bad) => "hit with a bad value",
+            (Pixels::Rays(_), Ink::Failed) => "failed: no verdict",
+            (Pixels::Rays(_), _) => "miss",
+            (Pixels::Signs(_), Ink::Yes) => "positive",
+            (Pixels::Signs(_), Ink::No) => "negative",
+            (Pixels::Signs(_), Ink::FalseYes) => "wrong sign",
+            (Pixels::Signs(_), Ink::FalseNo) => "false zero",
+            (Pixels::Signs(_), Ink::Bad) => "missed zero",
+            (Pixels::Signs(_), Ink::Failed) => "no sign: NaN",
+            (Pixels::Signs(_), _) => "zero",
         };
         self.legend(words, |pixel| self.computed(pixel))
     }
 
     /// The same of the exact side.
     pub fn exact_legend(&self) -> Vec<(Ink, &'static str, usize)> {
-        let words = match self.pixels {
-            Pixels::Rays(_) => [
-                "a hit is asked",
-                "a miss is asked",
-                "exactly on an edge or a vertex",
-                "nothing is asked",
-                "",
-                "",
-                "",
-                "",
-            ],
-            Pixels::Signs(_) => ["+", "-", "0", "not finite", "", "", "", ""],
+        let words = |ink| match (&self.pixels, ink) {
+            (Pixels::Rays(_), Ink::Yes) => "a hit is asked",
+            (Pixels::Rays(_), Ink::No) => "a miss is asked",
+            (Pixels::Rays(_), Ink::Boundary) => "exactly on an edge or a vertex",
+            (Pixels::Rays(_), _) => "nothing is asked",
+            (Pixels::Signs(_), Ink::Yes) => "positive",
+            (Pixels::Signs(_), Ink::No) => "negative",
+            (Pixels::Signs(_), Ink::Boundary) => "zero",
+            (Pixels::Signs(_), _) => "not finite",
         };
         self.legend(words, |pixel| self.exact(pixel))
     }
 
     fn legend(
         &self,
-        words: [&'static str; Ink::ALL.len()],
+        words: impl Fn(Ink) -> &'static str,
         ink: impl Fn(usize) -> Ink,
     ) -> Vec<(Ink, &'static str, usize)> {
         let mut counts = [0; Ink::ALL.len()];
         let [width, height] = self.size();
         (0..width * height).for_each(|pixel| counts[ink(pixel) as usize] += 1);
-        let rows = Ink::ALL.into_iter().zip(words).zip(counts);
-        rows.filter(|(_, count)| *count > 0).map(|((ink, word), n)| (ink, word, n)).collect()
+        let counted = Ink::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0);
+        counted.map(|(ink, count)| (ink, words(ink), count)).collect()
     }
 }
 

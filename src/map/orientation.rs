@@ -6,7 +6,7 @@ use crate::orientation::{Points, Row, Scalar, ScaledPoints, judge};
 use rayon::prelude::*;
 
 /// The names of points.
-const NAMES: [&str; 4] = ["a", "b", "c", "d"];
+pub const POINT_NAMES: [&str; 4] = ["a", "b", "c", "d"];
 
 /// The grid of points of which one is varied, in two coordinates or the first two.
 pub fn grid_of_points<F: Float>(
@@ -43,7 +43,7 @@ pub fn of_predicate<F: Scalar>(
     let [width, height] = grid.size();
     let pixel = |index: usize| {
         let (x, y) = (index % width, height - 1 - index / width);
-        let points = points.with_moved(grid.point, |point| grid.moved(point, [x, y]));
+        let points = points_at(points, grid, [x, y]);
         let exact = ScaledPoints::new(&points).map(|points| points.determinant().sign());
         let (_, answer) = row.answer(&points)?;
         Some(SignPixel { answer, exact, finding: exact.and_then(|exact| judge(answer, exact)) })
@@ -53,7 +53,12 @@ pub fn of_predicate<F: Scalar>(
         subject: row.label(),
         scalar: F::NAME,
         measure: "the sign of the exact determinant".to_owned(),
-        axes: grid.axes.map(|axis| AxisText::of(&axis, NAMES[grid.point])),
+        axes: grid.axes.map(|axis| AxisText::of(&axis, POINT_NAMES[grid.point])),
         pixels: Pixels::Signs(pixels.expect("the row runs on these points")),
     })
+}
+
+/// The points of a pixel, counted from the left and from the bottom.
+pub fn points_at<F: Float>(points: &Points<F>, grid: &Grid<F>, pixel: [usize; 2]) -> Points<F> {
+    points.with_moved(grid.point, |point| grid.moved(point, pixel))
 }

@@ -1,0 +1,318 @@
+//! `hairline map`: where a kernel or a predicate is wrong, one pixel one input; and a case drawn.
+
+mod input;
+mod summary;
+
+use super::exit::{Failure, Status};
+use super::orient::is_epsilon;
+use super::output::{paired_outputs, write_result};
+use super::select::{KernelArguments, unknown};
+use super::sources::set_threads;
+use crate::audit::Row;
+use crate::case::Case;
+use crate::kernel::Scalar;
+use crate::map::{self, Grid, Map, MapError, POINT_NAMES, Part, Step};
+use crate::orientation::{self, Dimension, PREDICATES, Points};
+use clap::Args;
+use input::Input;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Which input, whose verdicts, which pixels, and where to.
+#[derive(Args)]
+pub struct MapArguments {
+    /// A case id, the name of a stored case, or a case as JSON; or points: an id as
+    /// orient2d:near@1/f64/1/17, the name of a known case of `orient`, or JSON with "points"
+    #[arg(value_name = "CASE")]
+    case: Option<String>,
+
+    /// The mesh that the case's id speaks of
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<String>,
+
+    /// Where the stored case is: a JSON lines file, or a folder of them
+    #[arg(long, value_name = "FILE|DIR")]
+    corpus: Option<String>,
+
+    /// Instead of a case: edge, vertex, grazing; or points: collinear, coplanar [default: edge]
+    #[arg(long, value_name = "SPOT", conflicts_with = "case")]
+    at: Option<String>,
+
+    /// The scalar of --at: f32 or f64 [default: f32, and of points f64]
+    #[arg(long, value_name = "SCALAR", conflicts_with = "case")]
+    scalar: Option<String>,
+
+    #[command(flatten)]
+    kernels: KernelArguments,
+
+    /// What is varied: origin, direction, a, b or c; of points a, b, c or d [default: origin; of points
+    /// the last, with --at the one near the others' line or plane]
+    #[arg(long, value_name = "POINT")]
+    vary: Option<String>,
+
+    /// In which two coordinates, to the right and upwards [default: the two that lie most in the
+    /// triangle's plane; of points x,y]
+    #[arg(long, value_name = "AXIS,AXIS")]
+    axes: Option<String>,
+
+    /// From pixel to pixel: floats, as 1, or a length, as 2^-24 [default: 1 float, and in a coordinate
+    /// that is 0 the ulp of the largest]
+    #[arg(long, value_name = "ULPS|2^K", allow_hyphen_values = true)]
+    step: Option<String>,
+
+    /// Pixels, the case in the middle: to the right, and upwards if not as many
+    #[arg(long, value_name = "W[xH]", default_value = "128", allow_hyphen_values = true)]
+    size: String,
+
+    /// The side of a pixel in a PNG, in dots [default: so that the picture is about 1000 wide]
+    #[arg(long, value_name = "N")]
+    dots: Option<usize>,
+
+    /// Draw the case instead: the triangle, the ray, where they meet and where the kernel says so (SVG)
+    #[arg(long, conflicts_with_all = ["vary", "axes", "step", "size", "dots"])]
+    drawing: bool,
+
+    /// How to write it: text, svg, png; or several separated by commas [default: as the names of the
+    /// outputs end; text if there are none]
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
+    format: Vec<String>,
+
+    /// Where to write, once for each format; - is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<String>,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    /// No summary beside the picture
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// The formats, by name.
+const FORMATS: &[&str] = &["text", "svg", "png"];
+
+/// The most pixels of an SVG, which has a shape for each run of them.
+const MOST_SVG_PIXELS: usize = 1 << 18;
+
+/// A picture and what is said about it.
+struct Picture {
+    summary: String,
+    svg: String,
+    map: Option<Map>,
+}
+
+/// Runs the command.
+pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
+    let formats = arguments.formats()?;
+    let outputs = paired_outputs(FORMATS, |name| name, &formats, &arguments.output)?;
+    let wants = |name: &str| outputs.iter().any(|(format, _)| **format == name);
+    if arguments.drawing && wants("png") {
+        return Err(Failure::usage("a drawing is written as svg or text, not as png"));
+    }
+    set_threads(arguments.threads)?;
+    let [width, height] = arguments.size()?;
+    if !arguments.drawing && wants("svg") && width * height > MOST_SVG_PIXELS {
+        return Err(Failure::usage(format!(
+            "--size: {width}x{height} pixels are too many for an SVG, which takes {MOST_SVG_PIXELS} (512x512); write a PNG"
+        )));
+    }
+    let picture = match arguments.input()? {
+        Input::F32(case) => arguments.of_case(&case)?,
+        Input::F64(case) => arguments.of_case(&case)?,
+        Input::PointsF32(points, point) => arguments.of_points(&points, point)?,
+        Input::PointsF64(points, point) => arguments.of_points(&points, point)?,
+    };
+    for (format, path) in &outputs {
+        let bytes = match (**format, &picture.map) {
+            ("png", Some(map)) => map::png(map, arguments.dots(map))?,
+            ("svg", _) => picture.svg.clone().into_bytes(),
+            _ => picture.summary.clone().into_bytes(),
+        };
+        write_result(path, |out| out.write_all(&bytes))?;
+    }
+    if !arguments.quiet && !wants("text") {
+        // A summary that nobody reads is no error.
+        let _ = io::stderr().write_all(picture.summary.as_bytes());
+    }
+    Ok(Status::Success)
+}
+
+impl From<MapError> for Failure {
+    fn from(error: MapError) -> Failure {
+        Failure::usage(error.0)
+    }
+}
+
+impl MapArguments {
+    /// The formats that are named, or that the outputs' names end in.
+    fn formats(&self) -> Result<Vec<String>, Failure> {
+        if !self.format.is_empty() {
+            return Ok(self.format.clone());
+        }
+        if self.output.is_empty() {
+            return Ok(vec!["text".to_owned()]);
+        }
+        let of = |output: &String| {
+            let end = Path::new(output).extension().and_then(|end| end.to_str());
+            match end {
+                Some("svg" | "png") => Ok(end.unwrap_or_default().to_owned()),
+                Some("txt") => Ok("text".to_owned()),
+                _ => Err(Failure::usage(format!(
+                    "-o {output}: its name does not end in .svg, .png or .txt; say --format"
+                ))),
+            }
+        };
+        self.output.iter().map(of).collect()
+    }
+
+    fn of_case<F: Scalar>(&self, case: &Case<F>) -> Result<Picture, Failure>
+    where
+        crate::corpus::lines::AnyCase: From<Case<F>>,
+    {
+        let row = self.row()?;
+        if self.drawing {
+            let svg = map::drawing_document(case, &row)?;
+            return Ok(Picture { summary: summary::of_drawing(case, &row), svg, map: None });
+        }
+        let names = Part::ALL.map(Part::name);
+        let part = Part::ALL[self.varied(&names, 0)?];
+        let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
+        let grid = map::grid_of_case(case, part, axes, step, size)?;
+        let map = map::of_kernel(case, &row, &grid)?;
+        let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), &row);
+        Ok(self.picture(map, &grid, &again))
+    }
+
+    fn of_points<F: orientation::Scalar>(
+        &self,
+        points: &Points<F>,
+        point: usize,
+    ) -> Result<Picture, Failure> {
+        if self.drawing {
+            return Err(Failure::usage("--drawing is of a ray and a triangle, not of points"));
+        }
+        let row = self.predicate(points.dimension())?;
+        let names = &POINT_NAMES[..=points.dimension().number()];
+        let point = self.varied(names, point)?;
+        let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
+        let grid = map::grid_of_points(points, point, axes, step, size)?;
+        let map = map::of_predicate(points, &row, &grid)?;
+        let again = |pixel| summary::points(&map::points_at(points, &grid, pixel), &row);
+        Ok(self.picture(map, &grid, &again))
+    }
+
+    fn picture<F: crate::arith::Float>(
+        &self,
+        map: Map,
+        grid: &Grid<F>,
+        again: &dyn Fn([usize; 2]) -> String,
+    ) -> Picture {
+        let summary = summary::of_map(&map, grid, again);
+        let [width, height] = map.size();
+        let svg =
+            if width * height > MOST_SVG_PIXELS { String::new() } else { map::svg_document(&map) };
+        Picture { summary, svg, map: Some(map) }
+    }
+
+    /// The one kernel with its epsilons.
+    fn row(&self) -> Result<Row, Failure> {
+        if !self.kernels.names_kernels() {
+            let message =
+                "a map is of one kernel: choose it by --kernel (see `hairline list kernels`)";
+            return Err(Failure::usage(message));
+        }
+        let mut rows = self.kernels.rows()?;
+        if rows.len() != 1 {
+            let labels: Vec<String> = rows.iter().map(Row::label).collect();
+            let epsilons: Vec<String> = rows.iter().filter_map(Row::epsilon_argument).collect();
+            return Err(Failure::usage(format!(
+                "a map is of one kernel with one set of epsilons, and there are {}; add --epsilon {}",
+                labels.join(", "),
+                epsilons.join(" or --epsilon ")
+            )));
+        }
+        Ok(rows.swap_remove(0))
+    }
+
+    /// The one predicate with its epsilon.
+    fn predicate(&self, dimension: Dimension) -> Result<orientation::Row, Failure> {
+        let (names, epsilon) = self.kernels.of_predicate()?;
+        let name = match names {
+            [] => dimension.name(),
+            [name] => name.as_str(),
+            _ => return Err(Failure::usage("a map is of one predicate: name one by --kernel")),
+        };
+        let known = PREDICATES.iter().map(|predicate| predicate.name);
+        let predicate = PREDICATES
+            .iter()
+            .find(|predicate| predicate.name == name)
+            .ok_or_else(|| unknown("predicate", name, known, "hairline orient"))?;
+        if let Some(text) = epsilon {
+            if !predicate.takes_epsilon {
+                return Err(Failure::usage(format!("predicate '{name}' takes no epsilon")));
+            }
+            if !is_epsilon::<f32>(text) {
+                return Err(Failure::usage(format!(
+                    "--epsilon: '{text}' is not a finite number from 0, as a predicate takes it"
+                )));
+            }
+        }
+        let epsilon = predicate.takes_epsilon.then(|| epsilon.unwrap_or("0").to_owned());
+        Ok(orientation::Row { predicate, epsilon })
+    }
+
+    /// Which point is varied.
+    fn varied(&self, names: &[&'static str], default: usize) -> Result<usize, Failure> {
+        let Some(name) = &self.vary else { return Ok(default) };
+        names.iter().position(|other| other == name).ok_or_else(|| {
+            Failure::usage(format!("--vary: '{name}' is none of {}", names.join(", ")))
+        })
+    }
+
+    fn axes(&self) -> Result<Option<[usize; 2]>, Failure> {
+        let Some(text) = &self.axes else { return Ok(None) };
+        let coordinate = |name: &str| ["x", "y", "z"].iter().position(|axis| *axis == name.trim());
+        text.split_once(',')
+            .and_then(|(a, b)| Some([coordinate(a)?, coordinate(b)?]))
+            .map(Some)
+            .ok_or_else(|| {
+                Failure::usage(format!("--axes: '{text}' are not two of x, y, z, as x,y"))
+            })
+    }
+
+    fn step(&self) -> Result<Option<Step>, Failure> {
+        let Some(text) = &self.step else { return Ok(None) };
+        let power =
+            |k: &str| k.parse().ok().filter(|k| (-1100..=1100).contains(k)).map(Step::PowerOfTwo);
+        let step = match text.strip_prefix("2^") {
+            Some(k) => power(k),
+            None => text.parse().ok().filter(|ulps| *ulps >= 1).map(Step::Ulps),
+        };
+        step.map(Some).ok_or_else(|| {
+            Failure::usage(format!(
+                "--step: '{text}' is neither a number of floats from 1, as 16, nor 2^k with |k| <= 1100"
+            ))
+        })
+    }
+
+    fn size(&self) -> Result<[usize; 2], Failure> {
+        let side =
+            |text: &str| text.parse().ok().filter(|side| (1..=map::MOST_PIXELS).contains(side));
+        let (width, height) = self.size.split_once('x').unwrap_or((&self.size, &self.size));
+        side(width).zip(side(height)).map(|(width, height)| [width, height]).ok_or_else(|| {
+            Failure::usage(format!(
+                "--size: '{}' is not W or WxH with sides from 1 to {} pixels",
+                self.size,
+                map::MOST_PIXELS
+            ))
+        })
+    }
+
+    /// The side of a pixel in a PNG.
+    fn dots(&self, map: &Map) -> usize {
+        let [width, height] = map.size();
+        self.dots.unwrap_or((512 / width.max(height)).max(1))
+    }
+}

@@ -1,0 +1,108 @@
+//! What a map is of: a case, points, or standard ones.
+
+use super::MapArguments;
+use crate::case::Case;
+use crate::cli::case::{CaseArguments, Cases};
+use crate::cli::exit::Failure;
+use crate::cli::orient::points_of_id;
+use crate::cli::select::unknown;
+use crate::corpus::InputError;
+use crate::corpus::points_json::{self, AnyPoints};
+use crate::kernel::Scalar;
+use crate::map::{self, Spot};
+use crate::orientation::{Dimension, Points, PointsId, find_known};
+
+/// What is mapped.
+pub enum Input {
+    F32(Case<f32>),
+    F64(Case<f64>),
+    /// Points, and which of them is varied if nothing else is said.
+    PointsF32(Points<f32>, usize),
+    PointsF64(Points<f64>, usize),
+}
+
+impl MapArguments {
+    /// The case or the points.
+    pub(super) fn input(&self) -> Result<Input, Failure> {
+        let Some(text) = &self.case else { return self.standard() };
+        let text = text.trim();
+        if text.starts_with('{') && points_json::is_points(text) {
+            let points = points_json::parse(text)
+                .map_err(|message| InputError::at("argument", 1, message))?;
+            return Ok(match points {
+                AnyPoints::F32(points) => Input::PointsF32(points, points.dimension().number()),
+                AnyPoints::F64(points) => Input::PointsF64(points, points.dimension().number()),
+            });
+        }
+        if let (Some(known), None) = (find_known(text), &self.corpus) {
+            let points = known.points();
+            return Ok(Input::PointsF64(points, points.dimension().number()));
+        }
+        if Dimension::ALL
+            .iter()
+            .any(|dimension| text.starts_with(&format!("{}:", dimension.name())))
+        {
+            let id: PointsId = text.parse().map_err(|error: String| Failure::usage(error))?;
+            let last = id.dimension.number();
+            return match id.scalar.as_str() {
+                "f32" => Ok(Input::PointsF32(points_of_id(&id)?, last)),
+                "f64" => Ok(Input::PointsF64(points_of_id(&id)?, last)),
+                other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
+            };
+        }
+        let case = CaseArguments {
+            case: text.to_owned(),
+            mesh: self.mesh.clone(),
+            corpus: self.corpus.clone(),
+        };
+        match case.cases()? {
+            Cases::F32(cases, _) => Ok(Input::F32(*one(&cases, text)?)),
+            Cases::F64(cases, _) => Ok(Input::F64(*one(&cases, text)?)),
+        }
+    }
+
+    /// The input of `--at`.
+    fn standard(&self) -> Result<Input, Failure> {
+        let name = self.at.as_deref().unwrap_or(Spot::Edge.name());
+        let scalar = |default| match self.scalar.as_deref().unwrap_or(default) {
+            "f32" => Ok(true),
+            "f64" => Ok(false),
+            other => {
+                Err(Failure::usage(format!("unknown scalar '{other}': there are f32 and f64")))
+            }
+        };
+        if let Some(spot) = Spot::ALL.into_iter().find(|spot| spot.name() == name) {
+            return Ok(match scalar("f32")? {
+                true => Input::F32(spot.case()),
+                false => Input::F64(spot.case()),
+            });
+        }
+        let dimension = match name {
+            "collinear" => Dimension::Two,
+            "coplanar" => Dimension::Three,
+            _ => {
+                let names = Spot::ALL.map(Spot::name).into_iter().chain(["collinear", "coplanar"]);
+                return Err(unknown("spot", name, names, "hairline map --help"));
+            }
+        };
+        Ok(if scalar("f64")? {
+            let (points, point) = map::standard_points(dimension);
+            Input::PointsF32(points, point)
+        } else {
+            let (points, point) = map::standard_points(dimension);
+            Input::PointsF64(points, point)
+        })
+    }
+}
+
+/// The one triangle of a case.
+fn one<'a, F: Scalar>(cases: &'a [Case<F>], name: &str) -> Result<&'a Case<F>, Failure> {
+    match cases {
+        [case] => Ok(case),
+        _ => Err(Failure::usage(format!(
+            "'{name}' has {} triangles: say which, as {name}.0 to {name}.{}",
+            cases.len(),
+            cases.len() - 1
+        ))),
+    }
+}
