@@ -86,7 +86,10 @@ fn an_inset_keeps_its_digits_however_near_the_edge_is() {
         let zoom = svg.split("the point, ").nth(1).unwrap().split_once(" times").unwrap().0;
         // The overview's half is 0.64 longest edges; those are 8.
         let expected = 0.64 * 8.0 / (2.5 * gap);
-        assert!((zoom.parse::<f64>().unwrap() / expected - 1.0).abs() < 6e-3, "{zoom} {expected:e}");
+        assert!(
+            (zoom.parse::<f64>().unwrap() / expected - 1.0).abs() < 6e-3,
+            "{zoom} {expected:e}"
+        );
     }
 }
 
@@ -110,7 +113,10 @@ fn a_wrong_t_is_drawn_where_it_points() {
     let exact = exact_marks(&svg)[0];
     assert!(((cross[0] - exact[0]).hypot(cross[1] - exact[1]) - 0.5 * unit).abs() < 0.03);
     // 0.5·√2 of the longest edge, √80.
-    assert!(svg.contains("The kernel's point is 7.906e-2 longest edges from the exact one."), "{svg}");
+    assert!(
+        svg.contains("The kernel's point is 7.906e-2 longest edges from the exact one."),
+        "{svg}"
+    );
 }
 
 /// Every number of the drawing is one, and within it.
@@ -167,7 +173,13 @@ fn what_has_no_place_is_said_and_not_drawn() {
     let still = of([0.0; 3], [0.0; 3], triangle);
     assert!(still.contains("there is no line to draw"));
     let point = of([3.0, 0.0, 1.0], [0.0, 0.0, -1.0], [[1.0; 3]; 3]);
-    assert!(point.contains("The triangle has no area; seen along the ray.") && point.contains("a = b = c"));
+    assert!(
+        point.contains("The triangle has no area; seen along the ray.")
+            && point.contains("a = b = c")
+    );
+    // The line is seen as a point, and only the segment as a line.
+    let aslant = of([3.0, 0.0, 1.0], [1.0, 2.0, -1.0], [[0.0; 3], [1.0; 3], [2.0; 3]]);
+    assert!(aslant.contains("seen along the ray") && strokes(&aslant, "dasharray").is_empty());
     let along = of([-1.0; 3], [1.0; 3], [[0.0; 3], [1.0; 3], [2.0; 3]]);
     assert!(along.contains("seen from aside") && along.contains("thick: in the triangle"));
     let huge = of([1e308, 1e308, 1e308], [-1e-308, 0.0, -1e308], triangle);

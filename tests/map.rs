@@ -346,12 +346,9 @@ fn an_svg_paints_every_pixel_and_may_stand_beside_others_in_a_page() {
     let svg = map::svg(&map);
     let panels: Vec<&str> = svg.split("shape-rendering=\"crispEdges\">").skip(1).collect();
     let [computed, exact] = panels[..] else { panic!("two panels") };
-    let panel = |text: &'static str| text;
-    let _ = panel;
-    for (panel, ink) in [
-        (computed, &(|i| map.computed(i)) as &dyn Fn(usize) -> Ink),
-        (exact, &|i| map.exact(i)),
-    ] {
+    for (panel, ink) in
+        [(computed, &(|i| map.computed(i)) as &dyn Fn(usize) -> Ink), (exact, &|i| map.exact(i))]
+    {
         let cells = painted(panel.split_once("</g>").unwrap().0, map.size());
         for (i, cell) in cells.iter().enumerate() {
             assert_eq!(*cell, ink(i).hex(), "{i}");

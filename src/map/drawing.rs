@@ -196,6 +196,7 @@ impl Witness {
         let from = panel.place(middle);
         for ([x, y], names) in named {
             let [dx, dy] = match from {
+                _ if !layer.has_area => [0.0, -1.0],
                 Some([mx, my]) if (x - mx).hypot(y - my) > 1.0 => {
                     let length = (x - mx).hypot(y - my);
                     [(x - mx) / length, (y - my) / length]
@@ -257,7 +258,7 @@ impl Witness {
     }
 
     fn finish(mut self, style: &str, background: &str) -> String {
-        let most = ((WIDTH - 2.0 * MARGIN) / 6.4) as usize;
+        let most = ((WIDTH - 2.0 * MARGIN) / 6.9) as usize;
         let mut text = format!(
             "<text x=\"{MARGIN}\" y=\"{}\" font-weight=\"bold\">{}</text>\n",
             LINE,

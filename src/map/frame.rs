@@ -59,7 +59,7 @@ impl Frame {
         let (view, axes) = if !is_zero(&normal) {
             (View::Normal, [edge.clone(), normal.cross(&edge)])
         } else if !is_zero(&across) {
-            (View::Ray, [across.cross(&edge).cross(&across), across])
+            (View::Ray, [d.cross(&across), across])
         } else if !is_zero(&edge) {
             let up = edge.cross(&offset).cross(&edge);
             let up = if is_zero(&up) { perpendicular(&edge) } else { up };
