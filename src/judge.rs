@@ -253,7 +253,7 @@ pub enum GroupTruth {
         odd: bool,
     },
     /// Nothing: a triangle is not transversal, the hit is at an end of the extent or on the rim of
-    /// the union, the union is missed, or the contract does not count the side.
+    /// the union, the union is missed or covers itself there, or the contract does not count the side.
     Free,
 }
 
@@ -276,12 +276,14 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
     if !is_off_the_rim(&met, truths.len(), grouping) || !met.iter().all(strictly_in_extent) {
         return GroupTruth::Free;
     }
+    let inside = met.iter().filter(|crossing| crossing.feature == Feature::Interior).count();
     if alike {
-        return GroupTruth::Crossing;
+        let on_edges = met.iter().all(|crossing| crossing.feature.is_edge());
+        let once = if inside > 0 { met.len() == 1 } else { met.len() == 2 || !on_edges };
+        return if once { GroupTruth::Crossing } else { GroupTruth::Free };
     }
     // Over a fold the rims of the two triangles pass through each other's inside: the number of hits
     // is owed only where no triangle is met on an edge of its own.
-    let inside = met.iter().filter(|crossing| crossing.feature == Feature::Interior).count();
     let on_shared_edge = inside == 0 && met.len() == 2 && met[0].place == met[1].place;
     if grouping == Grouping::SharedEdge && (inside == met.len() || on_shared_edge) {
         return GroupTruth::Fold { odd: met.len() % 2 == 1 };

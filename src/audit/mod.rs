@@ -34,6 +34,7 @@ pub use histogram::Histogram;
 pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
 pub(crate) use plan::did_you_mean;
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
+pub(crate) use run::verdicts_of;
 pub use run::{Audit, Cell, Observer, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity};
 pub use shard::Shard;

@@ -253,7 +253,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let mut distances = vec![None; chunk.cases.len()];
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
             let start = self.observer.now();
-            row.run(&chunk.cases, &mut verdicts);
+            verdicts_of(row.subject, &chunk.cases, &row.epsilons, &mut verdicts);
             *time += self.observer.now() - start;
             let contract = &self.contracts[row.contract];
             let asked = &asked[row.contract];
@@ -277,23 +277,28 @@ fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract, sample_every: Option<u6
     Asked { obligations, classes, groups, sample_every }
 }
 
-impl<F: Scalar> RunnerRow<F> {
-    /// Runs the kernel on all cases.
-    fn run(&self, cases: &[Case<F>], verdicts: &mut [Verdict<F>]) {
-        let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-            catch_unwind(AssertUnwindSafe(|| self.subject.run(cases, &self.epsilons, verdicts)))
-        };
-        if run(cases, verdicts).is_ok() {
-            return;
-        }
-        // Once more, one by one, to pin the cases at which it panicked.
-        for i in 0..cases.len() {
-            if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
-                verdicts[i] = Verdict::failed(Failure::Panic);
-            }
+/// Runs a kernel on all cases.
+pub(crate) fn verdicts_of<F: Scalar>(
+    subject: &dyn Subject<F>,
+    cases: &[Case<F>],
+    epsilons: &[F],
+    verdicts: &mut [Verdict<F>],
+) {
+    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
+        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
+    };
+    if run(cases, verdicts).is_ok() {
+        return;
+    }
+    // Once more, one by one, to pin the cases at which it panicked.
+    for i in 0..cases.len() {
+        if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
+            verdicts[i] = Verdict::failed(Failure::Panic);
         }
     }
+}
 
+impl<F: Scalar> RunnerRow<F> {
     fn judge(
         &self,
         chunk: &Chunk<F>,

@@ -142,7 +142,8 @@ pub struct GroupCount {
 }
 
 impl GroupCount {
-    fn add(&mut self, index: u64, truth: GroupTruth, hits: usize, limit: usize) {
+    /// Counts a group.
+    pub(crate) fn add(&mut self, index: u64, truth: GroupTruth, hits: usize, limit: usize) {
         let note = |list: &mut Vec<u64>| {
             if list.len() < limit {
                 list.push(index)
@@ -170,7 +171,8 @@ impl GroupCount {
         }
     }
 
-    fn merge(&mut self, other: GroupCount, limit: usize) {
+    /// Adds another count.
+    pub(crate) fn merge(&mut self, other: GroupCount, limit: usize) {
         self.crossings += other.crossings;
         self.cracks += other.cracks;
         self.doubles += other.doubles;

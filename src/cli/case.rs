@@ -5,8 +5,10 @@ use super::input::{corpus_files, name_of, read_corpus, read_mesh};
 use super::select::unknown;
 use crate::case::{Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::corpus::mesh::Mesh;
 use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
 use crate::kernel::Scalar;
+use crate::watertight::{Part, Targets, Topology};
 use clap::Args;
 
 /// Which case.
@@ -91,6 +93,9 @@ fn from_id<F: Scalar>(
                 format!("{path}: its digest is {}, the case's mesh has {digest}", mesh.digest);
             return Err(Failure::Message(Status::BadInput, message));
         }
+        if let Some(part) = Part::of_family(&id.family) {
+            return Ok((around_target(id, &mesh, part)?, part.grouping()));
+        }
         let family = MeshFamily::new(mesh, path);
         return Ok((vec![family.make(&id.parameters, id.seed, id.index)], Grouping::Single));
     }
@@ -107,15 +112,34 @@ fn from_id<F: Scalar>(
     } else {
         family.make(&id.parameters, id.seed, id.index)
     };
-    let mut cases = made.cases().to_vec();
-    if let Some(triangle) = id.triangle {
-        let count = cases.len();
-        let case = cases.get(triangle).copied().ok_or_else(|| {
-            Failure::usage(format!("'{id}' has {count} triangles, counted from 0"))
-        })?;
-        cases = vec![case];
+    Ok((chosen_triangle(id, made.cases().to_vec())?, family.grouping))
+}
+
+/// The triangle of a group that an id names, or all.
+fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Case<F>>, Failure> {
+    let Some(triangle) = id.triangle else { return Ok(cases) };
+    let count = cases.len();
+    let case = cases.get(triangle).copied();
+    let case = case
+        .ok_or_else(|| Failure::usage(format!("'{id}' has {count} triangles, counted from 0")))?;
+    Ok(vec![case])
+}
+
+/// The cases of a ray at an edge or vertex of a mesh.
+fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Vec<Case<F>>, Failure> {
+    if !Targets::makes(id) {
+        let message = format!("'{id}': this program makes another version of its family");
+        return Err(Failure::Message(Status::BadInput, message));
     }
-    Ok((cases, family.grouping))
+    let topology = Topology::of::<F>(mesh);
+    let targets = Targets::new::<F>(mesh, &topology, id.seed, id.parameters.unit_direction);
+    if targets.count(part) == 0 {
+        let message = format!("'{id}': the mesh has no edge or vertex that is asked about");
+        return Err(Failure::Message(Status::BadInput, message));
+    }
+    let mut cases = Vec::new();
+    targets.make(part, id.index, &mut cases);
+    chosen_triangle(id, cases)
 }
 
 /// The family of an id, which must be of the version that this program makes.

@@ -19,6 +19,7 @@ mod judge;
 mod list;
 mod map;
 mod merge;
+mod mesh;
 mod orient;
 mod output;
 mod plugins;
@@ -53,6 +54,8 @@ struct Arguments {
 enum Command {
     /// Run kernels on families of cases, a mesh or a corpus, and say where they are wrong
     Audit(Box<audit::AuditArguments>),
+    /// Send rays at every edge and vertex of a mesh, and say where they slip through
+    Mesh(Box<mesh::MeshArguments>),
     /// Run the project's plan and compare with its known disagreements: the gate for CI
     Check(Box<check::CheckArguments>),
     /// Make one record of those of all shards
@@ -136,6 +139,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     };
     let outcome = match arguments.command {
         Command::Audit(arguments) => audit::run(&arguments),
+        Command::Mesh(arguments) => mesh::run(&arguments),
         // Read again, under the environment and hairline.toml.
         Command::Check(_) => check::run(&std::env::args_os().skip(2).collect::<Vec<_>>()),
         Command::Merge(arguments) => merge::run(&arguments),

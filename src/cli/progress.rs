@@ -45,6 +45,11 @@ impl Progress {
         self.bar.set_position(position);
     }
 
+    /// Adds to the total.
+    pub fn add_total(&self, more: u64) {
+        self.bar.inc_length(more);
+    }
+
     /// Removes the bar.
     pub fn finish(&self) {
         self.bar.finish_and_clear();

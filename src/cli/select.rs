@@ -92,6 +92,11 @@ impl KernelArguments {
         self.epsilon.is_some() || self.epsilon_preset.is_some()
     }
 
+    /// Whether a band is given.
+    pub fn has_band(&self) -> bool {
+        self.band.is_some()
+    }
+
     /// ` --contract NAME`, if one is given: the end of a command that shows a case again.
     pub fn contract_argument(&self) -> String {
         self.contract.as_ref().map_or(String::new(), |name| format!(" --contract {name}"))

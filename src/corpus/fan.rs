@@ -7,7 +7,7 @@ use crate::arith::Exact;
 use std::cmp::Ordering;
 
 /// Whether the corners of a triangle lie on one line, or on one point. Coordinates are finite.
-pub(super) fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
+pub(crate) fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
     decide(normal_is_zero::<Rounded>(&corners), || normal_is_zero::<Exact>(&corners))
 }
 
@@ -22,6 +22,35 @@ pub(super) fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
 /// polygon wholly without area does not fold.
 pub(super) fn folds(corners: &[[f64; 3]]) -> bool {
     decide(fan_folds::<Rounded>(corners), || fan_folds::<Exact>(corners))
+}
+
+/// Whether a closed fan goes once around its centre, as seen along a direction from which all its
+/// triangles face alike. `ring` holds the points around the centre in their order; all finite.
+pub(crate) fn winds_once(direction: [f64; 3], centre: [f64; 3], ring: &[[f64; 3]]) -> bool {
+    decide(turns::<Rounded>(&direction, &centre, ring), || {
+        turns::<Exact>(&direction, &centre, ring)
+    })
+}
+
+/// Each step turns the same way, by less than half a turn, so that on which half the points lie,
+/// counted from the first, tells how often they go around.
+fn turns<N: Number>(direction: &[f64; 3], centre: &[f64; 3], ring: &[[f64; 3]]) -> Option<bool> {
+    let zero = [0.0; 3];
+    let direction: [N; 3] = arm(&zero, direction);
+    let arms: Vec<[N; 3]> = ring.iter().map(|point| arm(centre, point)).collect();
+    let side = |from: &[N; 3], to: &[N; 3]| dot(&cross(from, to), &direction).sign();
+    let turn = side(&arms[0], &arms[1])?;
+    let (mut rounds, mut beyond_half) = (1, false);
+    for arm in &arms[1..] {
+        let side = side(&arms[0], arm)?;
+        // On the line of the first point: opposite to it after the first half, at it after the second.
+        let first_half = if side == Ordering::Equal { beyond_half } else { side == turn };
+        if first_half && beyond_half {
+            rounds += 1;
+        }
+        beyond_half = !first_half;
+    }
+    Some(rounds == 1)
 }
 
 /// The rounded answer, or else the exact one, which is never missing for finite coordinates.
@@ -254,6 +283,33 @@ mod tests {
         assert!(fold_of(&flat(&through)));
         let line = [[0.0, 0.0], [1.0, 1.0], [-3.0, -3.0], [2.0, 2.0]];
         assert!(!fold_of(&flat(&line)), "without area");
+    }
+
+    #[test]
+    fn a_fan_that_goes_around_its_centre_twice_is_told_from_one_that_goes_once() {
+        let ring = |points: &[[i32; 2]]| -> Vec<[f64; 3]> {
+            let at =
+                |(i, [x, y]): (usize, &[i32; 2])| [f64::from(*x), f64::from(*y), i as f64 / 8.0];
+            points.iter().enumerate().map(at).collect()
+        };
+        let centre = [0.0, 0.0, -1.0 / 3.0];
+        let once = [[1, 0], [1, 1], [0, 1], [-1, 0], [-1, -1], [0, -1]];
+        let twice = [[2, 1], [-2, 3], [-1, -1], [2, -1], [1, 2], [-2, 0], [0, -1]];
+        let mut back_at_the_start = once.to_vec();
+        back_at_the_start.extend(once);
+        for direction in [[0.0, 0.0, 1.0], [0.0, 0.0, -2.0], [0.0, 0.1, -1.0]] {
+            for (points, expected) in
+                [(&once[..], true), (&twice[..], false), (&back_at_the_start[..], false)]
+            {
+                let mut ring = ring(points);
+                for _ in 0..ring.len() {
+                    ring.rotate_left(1);
+                    assert_eq!(winds_once(direction, centre, &ring), expected, "{ring:?}");
+                    let exact = turns::<Exact>(&direction, &centre, &ring);
+                    assert_eq!(exact, Some(expected));
+                }
+            }
+        }
     }
 
     #[test]

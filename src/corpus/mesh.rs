@@ -58,13 +58,16 @@ impl Mesh {
     /// The corners of a triangle in the scalar asked for, from the positions of that scalar.
     /// Panics if there is no such triangle.
     pub fn vertices<F: Float>(&self, triangle: usize) -> [[F; 3]; 3] {
-        self.triangles[triangle].map(|vertex| {
-            if F::DIGITS == f32::MANTISSA_DIGITS {
-                self.positions_f32[vertex as usize].map(|x| F::from_f64(f64::from(x)))
-            } else {
-                self.positions_f64[vertex as usize].map(F::from_f64)
-            }
-        })
+        self.triangles[triangle].map(|vertex| self.position(vertex))
+    }
+
+    /// A vertex's position in the scalar asked for. Panics if there is no such vertex.
+    pub fn position<F: Float>(&self, vertex: u32) -> [F; 3] {
+        if F::DIGITS == f32::MANTISSA_DIGITS {
+            self.positions_f32[vertex as usize].map(|x| F::from_f64(f64::from(x)))
+        } else {
+            self.positions_f64[vertex as usize].map(F::from_f64)
+        }
     }
 }
 
@@ -223,7 +226,7 @@ pub fn write_obj(mesh: &Shape, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-fn number_text(value: f64) -> String {
+pub(crate) fn number_text(value: f64) -> String {
     let plain = value == 0.0 || (1e-5..1e16).contains(&value.abs());
     if plain { format!("{value}") } else { format!("{value:e}") }
 }

@@ -16,6 +16,7 @@ pub mod shapes;
 mod stored_truth;
 pub mod truth_json;
 
+pub(crate) use fan::{is_without_area, winds_once};
 pub use provenance::Provenance;
 
 use std::fmt;

@@ -120,3 +120,20 @@ fn a_fold_asks_for_the_parity_of_the_exact_line() {
     assert_eq!(asked(1.0, 1.5), GroupTruth::Free, "on a rim of the second");
     assert_eq!(asked(-1.0, 1.0), GroupTruth::Free, "outside");
 }
+
+#[test]
+fn a_group_that_covers_itself_at_the_ray_is_free() {
+    let truths = |rings: &[[f64; 2]]| -> Vec<Truth> {
+        let triangle = |i: usize| {
+            let at = |[x, y]: [f64; 2]| [x, y, 0.0];
+            [[0.0; 3], at(rings[i]), at(rings[(i + 1) % rings.len()])]
+        };
+        let case = |i| Case::<f64>::new([0.5, 0.25, 1.0], [0.0, 0.0, -1.0], triangle(i));
+        (0..rings.len()).map(|i| truth(&case(i))).collect()
+    };
+    let once = [[4.0, 0.0], [0.0, 4.0], [-4.0, 0.0], [0.0, -4.0]];
+    let twice: Vec<[f64; 2]> = once.iter().chain(&once).copied().collect();
+    let ask = |truths: &[Truth]| group_truth(truths, &Contract::CLOSED_RAY, Grouping::Fan);
+    assert_eq!(ask(&truths(&once)), GroupTruth::Crossing);
+    assert_eq!(ask(&truths(&twice)), GroupTruth::Free);
+}

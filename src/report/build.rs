@@ -50,8 +50,9 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
     }
 }
 
-pub(super) fn plan_part(plan: &Plan) -> PlanPart {
-    let row = |row: &Row| RowPart {
+/// A row as a plan names it.
+pub(super) fn row_part(row: &Row) -> RowPart {
+    RowPart {
         kernel: row.entry.info.name.to_owned(),
         selector: row.entry.selector(),
         set: row.set.clone(),
@@ -60,12 +61,15 @@ pub(super) fn plan_part(plan: &Plan) -> PlanPart {
             .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
             .collect(),
         contract: row.contract.describe(),
-    };
+    }
+}
+
+pub(super) fn plan_part(plan: &Plan) -> PlanPart {
     let names = [f32::NAME, f64::NAME];
     let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
     let mut part = PlanPart {
         hash: String::new(),
-        rows: plan.rows.iter().map(row).collect(),
+        rows: plan.rows.iter().map(row_part).collect(),
         sources: plan.sources.iter().map(planned_source).collect(),
         scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
     };
@@ -228,16 +232,20 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
     }
 }
 
+/// What a row's contract promises across triangles.
+pub(super) fn promised(row: &Row) -> &'static str {
+    match row.contract.across {
+        Across::Nothing => "nothing",
+        Across::AtLeastOne => "at-least-one",
+        Across::ExactlyOne => "exactly-one",
+    }
+}
+
 fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
     let sample = source.is_sample();
     let ids = |indices: &[u64]| indices.iter().map(|i| source.id::<F>(*i, None)).collect();
     AcrossPart {
-        promised: match row.contract.across {
-            Across::Nothing => "nothing",
-            Across::AtLeastOne => "at-least-one",
-            Across::ExactlyOne => "exactly-one",
-        }
-        .to_owned(),
+        promised: promised(row).to_owned(),
         cracks: rate(groups.cracks, groups.crossings, sample),
         doubles: rate(groups.doubles, groups.crossings, sample),
         odd_folds: rate(groups.odd_folds, groups.folds, sample),
@@ -259,14 +267,19 @@ fn polygon_part(tally: &Tally, sample: bool) -> PolygonPart {
     }
 }
 
-fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
-    let mut provenance = Provenance {
+/// Where a record was made, and how long it took.
+pub(super) fn provenance_of(context: &Context) -> Provenance {
+    Provenance {
         tool: format!("hairline {}", env!("CARGO_PKG_VERSION")),
         target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         threads: context.threads,
         seconds: context.seconds,
         ..Provenance::default()
-    };
+    }
+}
+
+fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
+    let mut provenance = provenance_of(context);
     let mut cases: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
     for summary in &audit.sources {
         let sum = cases.entry(summary.scalar).or_default();
@@ -299,7 +312,11 @@ pub(super) fn explain_command<F: Scalar>(
     index: u64,
     triangle: Option<usize>,
 ) -> String {
-    let arguments = source.explain_arguments::<F>(index, triangle);
+    explain_with(row, &source.explain_arguments::<F>(index, triangle))
+}
+
+/// The command that shows what these arguments name, with a row.
+pub(super) fn explain_with(row: &Row, arguments: &str) -> String {
     let command = format!("hairline explain {arguments} {}", row.entry.selector());
     let mut command = command.trim_end().to_owned();
     if let Some(epsilons) = row.epsilon_argument() {

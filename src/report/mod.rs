@@ -20,6 +20,7 @@ mod json;
 mod jsonl;
 mod junit;
 mod markdown;
+pub mod mesh;
 mod record;
 mod sarif;
 mod shard;

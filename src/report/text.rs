@@ -368,7 +368,7 @@ pub(crate) fn interval_of(count: u64, of: u64) -> String {
 }
 
 /// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.
-fn share_column(rate: &Rate, style: Style) -> String {
+pub(super) fn share_column(rate: &Rate, style: Style) -> String {
     let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
     let text = match (rate.rate, rate.interval) {
         (None, _) => "-".to_owned(),
@@ -400,7 +400,7 @@ pub(super) fn percent(share: f64) -> String {
 }
 
 /// A count in at most six columns: 1,234 or 1.2M.
-fn short_count(count: u64) -> String {
+pub(super) fn short_count(count: u64) -> String {
     match count {
         0..100_000 => group_digits(count),
         100_000..1_000_000 => format!("{}k", count / 1000),

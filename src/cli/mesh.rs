@@ -1,0 +1,146 @@
+//! `hairline mesh`: whether rays slip through a mesh, where, and how often.
+
+use super::exit::{Failure, Status};
+use super::input::read_mesh;
+use super::output::{ColorChoice, paired_outputs, write_result};
+use super::plugins;
+use super::progress::Progress;
+use super::select::{KernelArguments, chosen_scalars};
+use super::sources::{scalars_in_use, set_threads};
+use crate::corpus::mesh::Mesh;
+use crate::kernel::Scalar;
+use crate::report::mesh::{MESH_FORMATS, build};
+use crate::report::{Context, Style};
+use crate::watertight::{self, Found, Part, Plan, Targets, Topology};
+use clap::Args;
+
+/// Which mesh and kernels, and how to report it.
+#[derive(Args)]
+pub struct MeshArguments {
+    /// An OBJ file; - is standard input
+    #[arg(value_name = "FILE")]
+    file: String,
+
+    #[command(flatten)]
+    kernels: KernelArguments,
+
+    /// f32, f64 or both
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32")]
+    scalar: Vec<String>,
+
+    /// Rays at each edge and vertex, 1 to 65536; any four are exact and near, grazing and not
+    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
+    directions: String,
+
+    /// `unit`: replace each direction by its rounded unit vector; few rays are then exact
+    #[arg(long, value_name = "unit")]
+    direction: Option<String>,
+
+    /// Which random rays
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// How many examples of each class of finding to keep
+    #[arg(long, default_value_t = 3, value_name = "N")]
+    examples: usize,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    /// text, json, or ply and obj with the offending edges and vertices, or several separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
+    format: Vec<String>,
+
+    /// Where to write, once for each format; - is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<String>,
+
+    /// All examples in the text, of every kernel
+    #[arg(long)]
+    details: bool,
+
+    /// When to colour the text
+    #[arg(long, value_enum, default_value_t)]
+    color: ColorChoice,
+
+    /// No progress, no notes
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// The most rays at an edge: their number fits what counts them, for every kernel.
+const MOST_DIRECTIONS: u64 = 65_536;
+
+/// Runs the command.
+pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
+    let outputs =
+        paired_outputs(MESH_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    if arguments.kernels.has_band() {
+        let message = "--band: across triangles a band means nothing: every ray is near an edge";
+        return Err(Failure::usage(message));
+    }
+    let plan = arguments.plan()?;
+    let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
+    let threads = set_threads(arguments.threads)?;
+    let mesh = read_mesh(&arguments.file, arguments.quiet)?;
+    let progress = Progress::new(0, "rays", arguments.quiet);
+    let mut found = Vec::new();
+    if scalars[0] {
+        found.push(arguments.run_scalar::<f32>(&mesh, &plan, &progress));
+    }
+    if scalars[1] {
+        found.push(arguments.run_scalar::<f64>(&mesh, &plan, &progress));
+    }
+    progress.finish();
+    plugins::check()?;
+    let context = Context { seconds: progress.seconds(), threads };
+    let report = build(&mesh, &arguments.file, &plan, &found, &context);
+    for (format, path) in outputs {
+        let color = arguments.color.enabled(path == "-");
+        let style = Style { color, details: arguments.details };
+        write_result(path, |out| (format.write)(&report, style, out))?;
+    }
+    if found.iter().all(|found| found.cases == 0) {
+        let message = format!(
+            "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
+            arguments.file
+        );
+        return Err(Failure::Message(Status::NothingSelected, message));
+    }
+    Ok(Status::Success)
+}
+
+impl MeshArguments {
+    fn plan(&self) -> Result<Plan, Failure> {
+        let unit_direction = match self.direction.as_deref() {
+            None => false,
+            Some("unit") => true,
+            Some(other) => {
+                let message = format!("--direction: unknown '{other}'; there is 'unit'");
+                return Err(Failure::usage(message));
+            }
+        };
+        let directions = self.directions.parse().ok();
+        let directions = directions.filter(|n| (1..=MOST_DIRECTIONS).contains(n));
+        let directions = directions.ok_or_else(|| {
+            let text = &self.directions;
+            let message = format!("--directions: '{text}' is not a number from 1 to 65536");
+            Failure::usage(message)
+        })?;
+        let (seed, examples) = (self.seed, self.examples);
+        Ok(Plan { rows: self.kernels.rows()?, directions, seed, unit_direction, examples })
+    }
+
+    fn run_scalar<F: Scalar>(&self, mesh: &Mesh, plan: &Plan, progress: &Progress) -> Found {
+        let topology = Topology::of::<F>(mesh);
+        let targets = Targets::new::<F>(mesh, &topology, plan.seed, plan.unit_direction);
+        let rays = Part::ALL.map(|part| targets.count(part) * plan.directions).iter().sum();
+        progress.add_total(rays);
+        if !self.quiet {
+            let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();
+            eprintln!("{rows} kernel rows on {rays} rays in {}", F::NAME);
+        }
+        watertight::run::<F>(mesh, topology, plan, progress)
+    }
+}

@@ -1,0 +1,181 @@
+//! From the sums of a mesh audit to its record.
+
+use super::geometry::Offender;
+use super::record::*;
+use crate::arith::Float;
+use crate::audit::{Row, quoted};
+use crate::corpus::mesh::Mesh;
+use crate::report::build::{explain_with, promised, provenance_of, row_part};
+use crate::report::{Context, Rate, rate_between};
+use crate::watertight::{
+    CLASSES, ClassSums, Found, Noted, Part, Plan, RowFound, Tally, Targets, Topology,
+};
+use std::collections::BTreeMap;
+
+const FACES: [&str; 5] = ["sound", "collapsed", "without_area", "duplicated", "out_of_range"];
+const EDGES: [&str; 5] = ["shared", "open", "inconsistent", "non_manifold", "unsound"];
+const VERTICES: [&str; 4] = ["closed_fan", "open_fan", "several_fans", "irregular"];
+
+/// Makes the report of a mesh audit. The file is named as the user did.
+pub fn build(
+    mesh: &Mesh,
+    file: &str,
+    plan: &Plan,
+    found: &[Found],
+    context: &Context,
+) -> MeshReport {
+    let (mut scalars, mut offenders) = (Vec::new(), Vec::new());
+    let mut provenance = provenance_of(context);
+    for found in found {
+        if found.scalar == f32::NAME {
+            add_scalar::<f32>(mesh, file, plan, found, (&mut scalars, &mut offenders));
+        } else {
+            add_scalar::<f64>(mesh, file, plan, found, (&mut scalars, &mut offenders));
+        }
+        let layers = found.layers.named().map(|(name, count)| (name.to_owned(), count));
+        provenance.oracle_layers.insert(found.scalar.to_owned(), BTreeMap::from(layers));
+        let time = |row: &RowFound| {
+            let label = plan.rows[row.row].label();
+            (label, row.nanoseconds as f64 / found.cases.max(1) as f64)
+        };
+        let times = found.rows.iter().map(time).collect();
+        provenance.kernel_nanoseconds.insert(found.scalar.to_owned(), times);
+    }
+    let result = MeshResult {
+        mesh: MeshPart {
+            file: file.to_owned(),
+            digest: mesh.digest.clone(),
+            triangles: mesh.triangles.len() as u64,
+            vertices: mesh.positions_f64.len() as u64,
+            notes: mesh.notes.iter().map(|note| note.to_string()).collect(),
+        },
+        rows: plan.rows.iter().map(row_part).collect(),
+        directions: plan.directions,
+        seed: plan.seed,
+        unit_directions: plan.unit_direction,
+        scalars,
+    };
+    MeshReport { record: MeshRecord { schema: MESH_SCHEMA, result, provenance }, offenders }
+}
+
+fn add_scalar<F: Float>(
+    mesh: &Mesh,
+    file: &str,
+    plan: &Plan,
+    found: &Found,
+    (scalars, offenders): (&mut Vec<ScalarPart>, &mut Vec<Offender>),
+) {
+    let targets = Targets::new::<F>(mesh, &found.topology, plan.seed, plan.unit_direction);
+    let builder = Builder::<F> { mesh, file, targets: &targets, scalar: std::marker::PhantomData };
+    scalars.push(ScalarPart {
+        scalar: F::NAME,
+        topology: builder.topology(&found.topology),
+        rays: Part::ALL.map(|part| targets.count(part) * plan.directions),
+        cases: found.cases,
+        offenders: found.offences.len() as u64,
+        results: found.rows.iter().map(|row| builder.row(&plan.rows[row.row], row)).collect(),
+    });
+    offenders.extend(found.offences.iter().map(|offence| Offender {
+        scalar: F::NAME,
+        points: builder.points(&targets.points(offence.part, offence.target as usize)),
+        cracks: offence.cracks,
+        doubles: offence.doubles,
+        odd_folds: offence.odd_folds,
+    }));
+}
+
+struct Builder<'a, F> {
+    mesh: &'a Mesh,
+    file: &'a str,
+    targets: &'a Targets<'a>,
+    scalar: std::marker::PhantomData<F>,
+}
+
+impl<F: Float> Builder<'_, F> {
+    fn points(&self, points: &[u32]) -> Vec<[f64; 3]> {
+        points.iter().map(|point| self.targets.position::<F>(*point)).collect()
+    }
+
+    fn topology(&self, topology: &Topology) -> TopologyPart {
+        let noted = |noted: &Noted| NotedPart {
+            count: noted.count,
+            first_line: noted.first.as_ref().map(|(face, _)| self.mesh.lines[*face as usize]),
+            first_points: noted
+                .first
+                .as_ref()
+                .map_or_else(Vec::new, |(_, points)| self.points(points)),
+        };
+        TopologyPart {
+            closed_manifold: topology.is_closed_manifold(),
+            points: topology.used_points,
+            duplicated_places: topology.duplicated_places,
+            faces: FACES.into_iter().zip(topology.faces.iter().map(noted)).collect(),
+            edges: EDGES.into_iter().zip(topology.edges.iter().map(noted)).collect(),
+            vertices: VERTICES.into_iter().zip(topology.vertices.iter().map(noted)).collect(),
+        }
+    }
+
+    fn row(&self, row: &Row, found: &RowFound) -> MeshRowResult {
+        let part = |part: Part| {
+            let number = part as usize;
+            self.part(row, part, &found.tallies[number], found.cracked[number])
+        };
+        MeshRowResult {
+            kernel: row.entry.info.name.to_owned(),
+            set: row.set.clone(),
+            promised: promised(row),
+            edges: part(Part::Edges),
+            vertices: part(Part::Vertices),
+        }
+    }
+
+    fn part(&self, row: &Row, part: Part, tally: &Tally, cracked: u64) -> MeshPartResult {
+        let class = |sums: &ClassSums| MeshClassResult {
+            rates: rates(std::slice::from_ref(sums)),
+            first_cracks: self.examples(row, part, &sums.groups.first_cracks),
+            first_doubles: self.examples(row, part, &sums.groups.first_doubles),
+            first_odd_folds: self.examples(row, part, &sums.first_odd_folds),
+            crack_digest: sums.groups.crack_digest.to_string(),
+            double_digest: sums.groups.double_digest.to_string(),
+        };
+        MeshPartResult {
+            cracked,
+            of: self.targets.count(part),
+            total: rates(&tally.classes),
+            classes: CLASSES.into_iter().zip(tally.classes.iter().map(class)).collect(),
+            failures: tally.failures,
+            first_failures: self.examples(row, part, &tally.first_failures),
+        }
+    }
+
+    fn examples(&self, row: &Row, part: Part, indices: &[u64]) -> Vec<MeshExample> {
+        let example = |index: &u64| {
+            let id = self.targets.id::<F>(part, *index).to_string();
+            let (target, _) = self.targets.place(part, *index);
+            let faces = self.targets.faces(part, target).iter();
+            let arguments = format!("{} --mesh {}", quoted(&id), quoted(self.file));
+            MeshExample {
+                points: self.points(&self.targets.points(part, target)),
+                lines: faces.map(|face| self.mesh.lines[*face as usize]).collect(),
+                command: explain_with(row, &arguments),
+                id,
+            }
+        };
+        indices.iter().map(example).collect()
+    }
+}
+
+/// The rates of some classes together.
+fn rates(classes: &[ClassSums]) -> AcrossRates {
+    let sum = |count: fn(&ClassSums) -> u64| -> u64 { classes.iter().map(count).sum() };
+    let crossings = sum(|sums| sums.groups.crossings);
+    let folds = sum(|sums| sums.groups.folds);
+    let rate = |count: u64, of: u64| -> Rate { rate_between(count, of, true) };
+    AcrossRates {
+        cracks: rate(sum(|sums| sums.groups.cracks), crossings),
+        doubles: rate(sum(|sums| sums.groups.doubles), crossings),
+        even_crossings: rate(sum(|sums| sums.even), crossings),
+        odd_folds: rate(sum(|sums| sums.groups.odd_folds), folds),
+        missed_folds: rate(sum(|sums| sums.groups.missed_folds), folds),
+    }
+}

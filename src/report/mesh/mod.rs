@@ -1,0 +1,35 @@
+//! The record of a mesh audit, and its formats: text, JSON, and the offending edges and vertices as PLY
+//! and OBJ for a viewer.
+
+mod build;
+mod geometry;
+mod record;
+mod text;
+
+pub use build::build;
+pub use geometry::Offender;
+pub use record::*;
+
+use super::Style;
+use std::io::{self, Write};
+
+/// A format of a mesh audit.
+pub struct MeshFormat {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Writes a report.
+    pub write: fn(&MeshReport, Style, &mut dyn Write) -> io::Result<()>,
+}
+
+/// One row per format.
+pub const MESH_FORMATS: &[MeshFormat] = &[
+    MeshFormat { name: "text", write: text::write },
+    MeshFormat { name: "json", write: json },
+    MeshFormat { name: "ply", write: geometry::write_ply },
+    MeshFormat { name: "obj", write: geometry::write_obj },
+];
+
+fn json(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, &report.record)?;
+    writeln!(out)
+}

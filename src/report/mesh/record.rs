@@ -1,0 +1,183 @@
+//! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
+
+use super::geometry::Offender;
+use crate::report::{Provenance, Rate, RowPart};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The schema's name and version.
+pub const MESH_SCHEMA: &str = "hairline-mesh/1";
+
+/// Everything that is written of a mesh audit.
+pub struct MeshReport {
+    /// What was found.
+    pub record: MeshRecord,
+    /// Every edge and vertex that some row's contract does not want so.
+    pub offenders: Vec<Offender>,
+}
+
+/// Everything that a mesh audit found, but for the whole list of edges and vertices.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshRecord {
+    /// [`MESH_SCHEMA`].
+    pub schema: &'static str,
+    /// What was found.
+    pub result: MeshResult,
+    /// Where and how it was made; never compared.
+    pub provenance: Provenance,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshResult {
+    /// The mesh.
+    pub mesh: MeshPart,
+    /// The rows, in the order of the plan.
+    pub rows: Vec<RowPart>,
+    /// Rays at each edge and vertex.
+    pub directions: u64,
+    /// Which random rays.
+    pub seed: u64,
+    /// Whether directions are rounded unit vectors.
+    pub unit_directions: bool,
+    /// What was found in each scalar.
+    pub scalars: Vec<ScalarPart>,
+}
+
+/// The mesh as it was read.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshPart {
+    /// The file as the user named it.
+    pub file: String,
+    /// The mesh's digest.
+    pub digest: String,
+    /// Triangles, polygons cut.
+    pub triangles: u64,
+    /// Vertices of the file.
+    pub vertices: u64,
+    /// What the reader skipped, altered or found suspect.
+    pub notes: Vec<String>,
+}
+
+/// A mesh audit in one scalar.
+#[derive(Clone, Debug, Serialize)]
+pub struct ScalarPart {
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// What the mesh is in this scalar.
+    pub topology: TopologyPart,
+    /// Rays at edges and at vertices: those asked, times the directions.
+    pub rays: [u64; 2],
+    /// Rays with the triangles that they were put to.
+    pub cases: u64,
+    /// Edges and vertices that some row's contract does not want so.
+    pub offenders: u64,
+    /// One a row whose kernel runs in this scalar.
+    pub results: Vec<MeshRowResult>,
+}
+
+/// What a mesh is, exactly. Vertices with equal coordinates are one point.
+#[derive(Clone, Debug, Serialize)]
+pub struct TopologyPart {
+    /// Whether all faces are sound, all edges shared and all vertices inside one closed fan.
+    pub closed_manifold: bool,
+    /// Different points that faces use.
+    pub points: u64,
+    /// In how many places the duplicated faces lie.
+    pub duplicated_places: u64,
+    /// `sound`, `collapsed`, `without_area`, `duplicated`, `out_of_range`.
+    pub faces: BTreeMap<&'static str, NotedPart>,
+    /// `shared`, `open`, `inconsistent`, `non_manifold`, `unsound`.
+    pub edges: BTreeMap<&'static str, NotedPart>,
+    /// `closed_fan`, `open_fan`, `several_fans`, `irregular`.
+    pub vertices: BTreeMap<&'static str, NotedPart>,
+}
+
+/// How many there are of a kind.
+#[derive(Clone, Debug, Serialize)]
+pub struct NotedPart {
+    /// How many.
+    pub count: u64,
+    /// The line of a face of the first.
+    pub first_line: Option<u32>,
+    /// The first's points; infinities, which JSON has not, as null.
+    pub first_points: Vec<[f64; 3]>,
+}
+
+/// What a row did in one scalar.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshRowResult {
+    /// The kernel's name.
+    pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
+    pub promised: &'static str,
+    /// At edges of two triangles.
+    pub edges: MeshPartResult,
+    /// At vertices inside closed fans.
+    pub vertices: MeshPartResult,
+}
+
+/// What a row did at the edges, or at the vertices.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshPartResult {
+    /// How many of them some ray found a crack at.
+    pub cracked: u64,
+    /// How many were asked about.
+    pub of: u64,
+    /// All classes together.
+    pub total: AcrossRates,
+    /// By class: `exact`, `exact-grazing`, `near`, `near-grazing`.
+    pub classes: BTreeMap<&'static str, MeshClassResult>,
+    /// Rays on which the kernel panicked, crashed or gave no answer: not judged.
+    pub failures: u64,
+    /// The first of them.
+    pub first_failures: Vec<MeshExample>,
+}
+
+/// Rates across triangles.
+#[derive(Clone, Debug, Serialize)]
+pub struct AcrossRates {
+    /// Crossings without a hit.
+    pub cracks: Rate,
+    /// Crossings with two hits or more.
+    pub doubles: Rate,
+    /// Crossings with an even number of hits.
+    pub even_crossings: Rate,
+    /// Folds whose number of hits has the wrong parity.
+    pub odd_folds: Rate,
+    /// Folds without a hit where the exact line has two.
+    pub missed_folds: Rate,
+}
+
+/// One class of rays.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshClassResult {
+    /// How often what was found.
+    #[serde(flatten)]
+    pub rates: AcrossRates,
+    /// The first cracks, by index.
+    pub first_cracks: Vec<MeshExample>,
+    /// The first doubles.
+    pub first_doubles: Vec<MeshExample>,
+    /// The first folds of wrong parity.
+    pub first_odd_folds: Vec<MeshExample>,
+    /// Of the set of all cracks.
+    pub crack_digest: String,
+    /// Of the set of all doubles.
+    pub double_digest: String,
+}
+
+/// A ray at the mesh that shows something.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshExample {
+    /// The case's id.
+    pub id: String,
+    /// The edge's two ends, or the vertex.
+    pub points: Vec<[f64; 3]>,
+    /// The lines of the faces around it.
+    pub lines: Vec<u32>,
+    /// The command that shows it again.
+    pub command: String,
+}

@@ -1,0 +1,215 @@
+//! The record of a mesh audit as text for people: the mesh, a table a scalar, the first cracks.
+
+use super::record::*;
+use crate::report::text::{share_column, short_count};
+use crate::report::{Style, group_digits};
+use std::io::{self, Write};
+
+/// Writes the record. The layout is for people and not stable.
+pub(super) fn write(report: &MeshReport, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let record = &report.record;
+    let (result, provenance) = (&record.result, &record.provenance);
+    writeln!(
+        out,
+        "{}, {}: {} triangles, {} vertices, digest {}",
+        provenance.tool,
+        result.mesh.file,
+        group_digits(result.mesh.triangles),
+        group_digits(result.mesh.vertices),
+        result.mesh.digest
+    )?;
+    writeln!(
+        out,
+        "{} rays at each edge and vertex{}, seed {}, {} threads, {:.1} s",
+        result.directions,
+        if result.unit_directions { " with unit directions" } else { "" },
+        result.seed,
+        provenance.threads,
+        provenance.seconds
+    )?;
+    result.scalars.iter().try_for_each(|part| write_scalar(record, part, style, out))
+}
+
+fn write_scalar(
+    record: &MeshRecord,
+    part: &ScalarPart,
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let topology = &part.topology;
+    writeln!(out, "\n{bold}{}{plain}, {} points", part.scalar, group_digits(topology.points))?;
+    write_topology(topology, out)?;
+    let [edges, vertices] = part.rays.map(group_digits);
+    writeln!(out, "  asked      {edges} rays at edges, {vertices} at vertices")?;
+    if part.rays == [0, 0] {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\n{bold}{:<37} {:<12} {:>20} {:>20} {:>20} {:>20} {:>9} {:>9} {:>6}{plain}",
+        "kernel (epsilons)",
+        "promises",
+        "cracks at edges, %",
+        "at vertices, %",
+        "doubles, %",
+        "wrong at folds, %",
+        "edges",
+        "vertices",
+        "ns/ray"
+    )?;
+    let times = record.provenance.kernel_nanoseconds.get(part.scalar);
+    for row in &part.results {
+        let label = label(row);
+        let time = times.and_then(|times| times.get(&label)).copied().unwrap_or(f64::NAN);
+        let both = |rate: fn(&AcrossRates) -> (u64, u64)| {
+            let (count, of) = rate(&row.edges.total);
+            let (more, more_of) = rate(&row.vertices.total);
+            crate::report::rate_between(count + more, of + more_of, true)
+        };
+        writeln!(
+            out,
+            "{label:<37} {:<12} {} {} {} {} {:>9} {:>9} {time:>6.1}",
+            row.promised,
+            share_column(&row.edges.total.cracks, style),
+            share_column(&row.vertices.total.cracks, style),
+            // What nobody promised is no error.
+            share_column(
+                &both(|rates| (rates.doubles.count, rates.doubles.of)),
+                Style { color: style.color && row.promised == "exactly-one", ..style }
+            ),
+            share_column(&both(|rates| (rates.odd_folds.count, rates.odd_folds.of)), style),
+            short_count(row.edges.cracked),
+            short_count(row.vertices.cracked),
+        )?;
+    }
+    write_failures(part, out)?;
+    write_examples(part, style, out)
+}
+
+/// What the mesh is, and where it first is not what rays can be asked about.
+fn write_topology(topology: &TopologyPart, out: &mut dyn Write) -> io::Result<()> {
+    let kinds = [
+        ("faces", &topology.faces, FACE_WORDS),
+        ("edges", &topology.edges, EDGE_WORDS),
+        ("vertices", &topology.vertices, VERTEX_WORDS),
+    ];
+    for (name, kinds, words) in kinds {
+        let count = |key: &&(&str, &str)| kinds.get(key.0).is_some_and(|noted| noted.count > 0);
+        let mut parts: Vec<String> = Vec::new();
+        for (i, (key, word)) in words.iter().filter(count).enumerate() {
+            let noted = &kinds[key];
+            let first = match noted.first_line {
+                // The first of the regular ones tells nothing.
+                Some(line) if i > 0 || *key != words[0].0 => format!(" (first at line {line})"),
+                _ => String::new(),
+            };
+            parts.push(format!("{} {word}{first}", group_digits(noted.count)));
+        }
+        let none = "none".to_owned();
+        writeln!(out, "  {name:<10} {}", if parts.is_empty() { none } else { parts.join(", ") })?;
+    }
+    if topology.duplicated_places > 0 {
+        let places = group_digits(topology.duplicated_places);
+        writeln!(out, "  {:<10} the duplicated faces lie in {places} places", "")?;
+    }
+    if topology.closed_manifold {
+        writeln!(out, "  {:<10} a closed surface, wound consistently", "")?;
+    }
+    Ok(())
+}
+
+const FACE_WORDS: &[(&str, &str)] = &[
+    ("sound", "sound"),
+    ("collapsed", "with two equal vertices"),
+    ("without_area", "without area"),
+    ("duplicated", "duplicated"),
+    ("out_of_range", "out of range"),
+];
+const EDGE_WORDS: &[(&str, &str)] = &[
+    ("shared", "between two faces"),
+    ("open", "open"),
+    ("inconsistent", "of two faces wound inconsistently"),
+    ("non_manifold", "non-manifold"),
+    ("unsound", "at faces that are not sound"),
+];
+const VERTEX_WORDS: &[(&str, &str)] = &[
+    ("closed_fan", "inside a closed fan"),
+    ("open_fan", "on the boundary"),
+    ("several_fans", "of several fans"),
+    ("irregular", "at edges or faces not asked about"),
+];
+
+fn label(row: &MeshRowResult) -> String {
+    format!("{} ({})", row.kernel, row.set)
+}
+
+/// The kernels that gave no verdict on some rays.
+fn write_failures(part: &ScalarPart, out: &mut dyn Write) -> io::Result<()> {
+    for row in &part.results {
+        let count = row.edges.failures + row.vertices.failures;
+        let first = row.edges.first_failures.iter().chain(&row.vertices.first_failures).next();
+        if count > 0 {
+            let count = group_digits(count);
+            writeln!(out, "{}: no verdict on some triangle of {count} rays", label(row))?;
+        }
+        if let Some(first) = first {
+            writeln!(out, "    {}", first.command)?;
+        }
+    }
+    Ok(())
+}
+
+/// Where the first findings are: of each class of rays if there are few rows, or with details.
+fn write_examples(part: &ScalarPart, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let of_each_class = style.details || part.results.len() <= 2;
+    let limit = if style.details { usize::MAX } else { 1 };
+    writeln!(out, "\n{bold}Where{plain}")?;
+    for row in &part.results {
+        let mut examples = examples(row, limit);
+        if examples.is_empty() {
+            writeln!(out, "{}: nowhere", label(row))?;
+            continue;
+        }
+        if !of_each_class {
+            examples.truncate(1);
+        }
+        writeln!(out, "{}", label(row))?;
+        for (what, example) in examples {
+            writeln!(out, "    {what}: {}", place(example))?;
+            writeln!(out, "        {}", example.command)?;
+        }
+    }
+    Ok(())
+}
+
+/// So many findings of each kind and class: cracks, and what else the row's contract speaks of.
+fn examples(row: &MeshRowResult, limit: usize) -> Vec<(String, &MeshExample)> {
+    let mut all = Vec::new();
+    for (name, result) in [("edge", &row.edges), ("vertex", &row.vertices)] {
+        for (class, found) in &result.classes {
+            let mut lists = vec![("crack", &found.first_cracks)];
+            if row.promised == "exactly-one" {
+                lists.push(("double", &found.first_doubles));
+                lists.push(("wrong at a fold", &found.first_odd_folds));
+            }
+            for (what, list) in lists {
+                let named = |example| (format!("{what}, {name}, {class}"), example);
+                all.extend(list.iter().take(limit).map(named));
+            }
+        }
+    }
+    all
+}
+
+/// The points, and the lines of the faces.
+fn place(example: &MeshExample) -> String {
+    let points: Vec<String> =
+        example.points.iter().map(|[x, y, z]| format!("({x}, {y}, {z})")).collect();
+    let mut lines: Vec<String> = example.lines.iter().map(u32::to_string).collect();
+    lines.dedup();
+    let more = if lines.len() > 8 { ", …" } else { "" };
+    lines.truncate(8);
+    format!("{}, faces at lines {}{more}", points.join(" to "), lines.join(", "))
+}
