@@ -4,7 +4,8 @@
 //!
 //! Only edges of two faces wound consistently and vertices inside one closed fan are asked about; what
 //! else a mesh has is recognised exactly and counted ([`Topology`]). Only the triangles around the edge
-//! or vertex are asked, not the whole mesh: a hit elsewhere on it is not looked at.
+//! or vertex are asked, not the whole mesh: a hit elsewhere on it is not looked at. Where triangles are
+//! needles a rounded ray may pass into a neighbour instead, and is then called a crack all the same.
 
 #![forbid(unsafe_code)]
 

@@ -143,7 +143,7 @@ impl Topology {
     fn add_vertices(&mut self, corners: &[[u32; 3]], kinds: &[FaceKind]) {
         let takes_part = |face: usize| kinds[face] != FaceKind::Collapsed;
         let mut starts = vec![0u32; self.points.len() + 1];
-        for (face, corners) in corners.iter().enumerate().filter(|(face, _)| takes_part(*face)) {
+        for (_, corners) in corners.iter().enumerate().filter(|(face, _)| takes_part(*face)) {
             corners.iter().for_each(|point| starts[*point as usize + 1] += 1);
         }
         for i in 1..starts.len() {

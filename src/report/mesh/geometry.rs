@@ -75,7 +75,7 @@ pub(super) fn write_ply(report: &MeshReport, _: Style, out: &mut dyn Write) -> i
     let edges: Vec<&Offender> = edges(&report.offenders).collect();
     let result = &report.record.result;
     writeln!(out, "ply\nformat ascii 1.0")?;
-    writeln!(out, "comment {}: {} of rays", report.record.provenance.tool, result.mesh.digest)?;
+    writeln!(out, "comment {}, mesh {}", report.record.provenance.tool, result.mesh.digest)?;
     writeln!(out, "comment red: cracks, blue: doubles, orange: folds of wrong parity, grey: ends")?;
     let counts = "property uint cracks\nproperty uint doubles\nproperty uint odd_folds";
     let colour = "property uchar red\nproperty uchar green\nproperty uchar blue";
@@ -112,7 +112,8 @@ fn properties(offender: Option<&Offender>, scalar: &str) -> String {
 /// OBJ: a group of lines and points for each kind and scalar, the worst kind of each offender.
 pub(super) fn write_obj(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::Result<()> {
     let mut points = Points::of(&report.offenders);
-    writeln!(out, "# {}: {}", report.record.provenance.tool, report.record.result.mesh.digest)?;
+    let digest = &report.record.result.mesh.digest;
+    writeln!(out, "# {}, mesh {digest}", report.record.provenance.tool)?;
     for (_, point, _) in &points.all {
         let [x, y, z] = point.map(number_text);
         writeln!(out, "v {x} {y} {z}")?;
