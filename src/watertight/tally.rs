@@ -83,7 +83,7 @@ impl Tally {
         let class = 2 * usize::from(!on_target) + usize::from(aim.grazing);
         let sums = &mut self.classes[class];
         sums.groups.add(index, truth, hits, self.limit);
-        sums.even += u64::from(truth == GroupTruth::Crossing && hits % 2 == 0);
+        sums.even += u64::from(truth == GroupTruth::Crossing && hits.is_multiple_of(2));
         let odd_fold = Outcome::of(truth, hits) == Outcome::OddFold;
         if odd_fold && sums.first_odd_folds.len() < self.limit {
             sums.first_odd_folds.push(index);
