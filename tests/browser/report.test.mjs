@@ -141,7 +141,7 @@ describe("on a phone", () => {
         const page = await visit(t, url, { width: 360, height: 780, theme });
         await page.screenshot({ path: out(`${name}-360-${theme}.png`) });
         await openAll(page);
-        await page.screenshot({ path: out(`${name}-360-open-${theme}.png`), fullPage: name === "check" });
+        await page.screenshot({ path: out(`${name}-360-open-${theme}.png`) });
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
         const cut = await page.evaluate(() => {
           const bad = [];

@@ -33,12 +33,14 @@ fn how(conformance: &Conformance) -> Markup {
     html! {
         @match (&conformance.expectations, conformance.method) {
             (None, _) => "There is no file of expectations: nothing is expected to happen.",
-            (Some(file), Method::CaseByCase) => { "Compared case by case with " code { (shortened(file, 200)) } "." }
+            (Some(file), Method::CaseByCase) => {
+                "Compared case by case with " code { (shortened(file, 200)) } ". " (known) "."
+            }
             (Some(file), Method::Intervals) => {
-                "Compared by intervals with " code { (shortened(file, 200)) } ", whose plan is another."
+                "Compared by intervals with " code { (shortened(file, 200)) } ", whose plan is another. "
+                (known) "."
             }
         }
-        " " (known) "."
         @if 0 < conformance.too_rare_to_tell {
             " " (group_digits(conformance.too_rare_to_tell))
             " classes of disagreement have no entry and are too rare to tell from none."

@@ -21,7 +21,11 @@ pub(super) fn share(rate: &Rate) -> String {
     match (rate.rate, rate.interval) {
         (None, _) => "–".to_owned(),
         (Some(share), None) => percent(share),
-        (Some(share), Some(ends)) => format!("{} [{}]", percent(share), interval(ends)),
+        // Word joiners keep the interval on one line.
+        (Some(share), Some(ends)) => {
+            let interval = interval(ends).replace('–', "\u{2060}–\u{2060}");
+            format!("{} [{interval}]", percent(share))
+        }
     }
 }
 
