@@ -305,11 +305,18 @@ pub struct SeverityPart {
     /// In the plane, from where the line meets it to the triangle's boundary.
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
+    #[serde(deserialize_with = "or_infinite")]
     pub in_space: f64,
     /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
+    #[serde(deserialize_with = "or_infinite")]
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
+}
+
+/// A number beyond the range of an f64 is written as null, since JSON has no infinity.
+fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(number)?.unwrap_or(f64::INFINITY))
 }
 
 /// What the triangles of groups did together.
@@ -374,4 +381,23 @@ pub struct Provenance {
     /// Of the parts that were merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Provenance>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_infinite_severity_is_read_back() {
+        let part = SeverityPart {
+            in_plane: None,
+            in_space: f64::INFINITY,
+            edge_in_ulps: f64::INFINITY,
+            along: Some(1.5),
+        };
+        let text = serde_json::to_string(&part).unwrap();
+        let again: SeverityPart = serde_json::from_str(&text).unwrap();
+        assert_eq!((again.in_space, again.edge_in_ulps), (f64::INFINITY, f64::INFINITY), "{text}");
+        assert_eq!(again.along, Some(1.5));
+    }
 }
