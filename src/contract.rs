@@ -14,6 +14,8 @@ pub struct Contract {
     pub sides: Sides,
     /// Whether edges and vertices are hits.
     pub boundary: Boundary,
+    /// Whether t = 0 of a ray, and t_min and t_max of an interval, are hits.
+    pub ends: Boundary,
     /// Lines in the plane of the triangle.
     pub coplanar: Demand,
     /// Triangles without area.
@@ -92,7 +94,7 @@ pub enum Sides {
     Front,
 }
 
-/// What edges and vertices are. The ends of a ray or an interval always belong to it.
+/// What edges and vertices are, or the ends of a ray or an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Boundary {
     /// Hits.
@@ -144,6 +146,7 @@ impl Contract {
         extent: Extent::Ray,
         sides: Sides::Both,
         boundary: Boundary::Closed,
+        ends: Boundary::Closed,
         coplanar: Demand::Miss,
         degenerate: Demand::Miss,
         invalid: Demand::Miss,
@@ -184,13 +187,18 @@ impl Contract {
             Boundary::Open => "open",
             Boundary::Free => "boundary free",
         };
+        let ends = match self.ends {
+            Boundary::Closed => "",
+            Boundary::Open => ", ends open",
+            Boundary::Free => ", ends free",
+        };
         let demand = |demand| match demand {
             Demand::Miss => "miss",
             Demand::Hit => "hit",
             Demand::Free => "free",
         };
         let mut text = format!(
-            "{extent}, {sides}, {boundary}, coplanar {}, degenerate {}, invalid {}",
+            "{extent}, {sides}, {boundary}{ends}, coplanar {}, degenerate {}, invalid {}",
             demand(self.coplanar),
             demand(self.degenerate),
             demand(self.invalid)
@@ -262,6 +270,8 @@ impl Contract {
     /// Changes what one word of a contract's text says.
     fn change(&mut self, word: &str) -> Result<(), String> {
         let (key, value) = word.split_once('=').unwrap_or((word, ""));
+        let boundaries =
+            [("closed", Boundary::Closed), ("open", Boundary::Open), ("free", Boundary::Free)];
         let demands = [("miss", Demand::Miss), ("hit", Demand::Hit), ("free", Demand::Free)];
         match key {
             "extent" => {
@@ -273,14 +283,8 @@ impl Contract {
                 self.sides =
                     choice(word, value, &[("both", Sides::Both), ("front", Sides::Front)])?;
             }
-            "boundary" => {
-                let boundaries = [
-                    ("closed", Boundary::Closed),
-                    ("open", Boundary::Open),
-                    ("free", Boundary::Free),
-                ];
-                self.boundary = choice(word, value, &boundaries)?;
-            }
+            "boundary" => self.boundary = choice(word, value, &boundaries)?,
+            "ends" => self.ends = choice(word, value, &boundaries)?,
             "coplanar" => self.coplanar = choice(word, value, &demands)?,
             "degenerate" => self.degenerate = choice(word, value, &demands)?,
             "invalid" => self.invalid = choice(word, value, &demands)?,
@@ -302,7 +306,7 @@ impl Contract {
             }
             "no-self-hit" if word == key => self.no_self_hit = true,
             _ => {
-                let keys = "extent, sides, boundary, coplanar, degenerate, invalid, direction, across, no-self-hit";
+                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, no-self-hit";
                 return Err(format!("'{word}' is none of {keys}"));
             }
         }
@@ -366,11 +370,11 @@ mod tests {
         }
         let own = read("extent=line, sides=front, boundary=open").unwrap();
         assert_eq!(own, Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open));
-        let all = "closed-interval,boundary=free,coplanar=hit,degenerate=free,invalid=free,\
+        let all = "closed-interval,boundary=free,ends=open,coplanar=hit,degenerate=free,invalid=free,\
             direction=unit:4,across=exactly-one,no-self-hit";
         assert_eq!(
             read(all).unwrap().describe(),
-            "interval, both sides, boundary free, coplanar hit, degenerate free, invalid free, \
+            "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
              exactly-one across triangles, unit directions within 4 ulps, no self-hit"
         );
         for (text, message) in [

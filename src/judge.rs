@@ -141,11 +141,37 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
     if culled || !is_in_extent(crossing, contract.extent) {
         return Obligation::MustMiss;
     }
-    match (crossing.feature, contract.boundary) {
-        (Feature::Outside, _) => Obligation::MustMiss,
-        (Feature::Interior, _) | (_, Boundary::Closed) => Obligation::MustHit,
-        (_, Boundary::Open) => Obligation::MustMiss,
-        (_, Boundary::Free) => Obligation::Free,
+    let across = match crossing.feature {
+        Feature::Outside => return Obligation::MustMiss,
+        Feature::Interior => Obligation::MustHit,
+        _ => at_rim(contract.boundary),
+    };
+    let along = match is_at_end(crossing, contract.extent) {
+        true => at_rim(contract.ends),
+        false => Obligation::MustHit,
+    };
+    match (across, along) {
+        (Obligation::MustMiss, _) | (_, Obligation::MustMiss) => Obligation::MustMiss,
+        (Obligation::Free, _) | (_, Obligation::Free) => Obligation::Free,
+        _ => Obligation::MustHit,
+    }
+}
+
+/// What is asked on a boundary.
+fn at_rim(boundary: Boundary) -> Obligation {
+    match boundary {
+        Boundary::Closed => Obligation::MustHit,
+        Boundary::Open => Obligation::MustMiss,
+        Boundary::Free => Obligation::Free,
+    }
+}
+
+/// Whether a crossing lies exactly on an end of the part of the line that counts.
+fn is_at_end(crossing: &Crossing, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => false,
+        Extent::Ray => crossing.t_sign == Ordering::Equal,
+        Extent::Interval => matches!(crossing.place, Place::AtMin | Place::AtMax),
     }
 }
 

@@ -22,6 +22,18 @@ fn contracts_differ_on_edges_sides_and_extents() {
     assert_eq!(ask(&behind, Contract { extent: Extent::Line, ..closed }), MustHit);
     let start = down_at(1.0, 1.0, 0.0);
     assert_eq!(ask(&start, closed), MustHit);
+    assert_eq!(ask(&start, Contract { ends: Boundary::Open, ..closed }), MustMiss);
+    let free_ends = Contract { ends: Boundary::Free, ..closed };
+    assert_eq!(
+        [&start, &edge, &behind].map(|truth| ask(truth, free_ends)),
+        [Free, MustHit, MustMiss]
+    );
+    let free_line = Contract { extent: Extent::Line, ..free_ends };
+    assert_eq!(ask(&start, free_line), MustHit);
+    let start_outside = down_at(3.0, 3.0, 0.0);
+    assert_eq!(ask(&start_outside, free_ends), MustMiss);
+    let at_both = down_at(1.0, 0.0, 0.0);
+    assert_eq!(ask(&at_both, Contract { boundary: Boundary::Open, ..free_ends }), MustMiss);
     assert_eq!(obligation(&start, &Contract { no_self_hit: true, ..closed }, true), MustMiss);
     assert_eq!(ask(&down_at(3.0, 3.0, 1.0), closed), MustMiss);
     let back = Case::<f64>::new(

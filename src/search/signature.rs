@@ -22,7 +22,8 @@ pub struct Signature {
     pub class: Class,
     /// The gate that refused; none of a hit.
     pub gate: Option<&'static str>,
-    /// The first gate that refuses when the same formula is run without rounding; none if it hits.
+    /// The first gate that refuses when the same formula is run without rounding; none if it hits, and
+    /// of a kernel that does not show its gates.
     pub exactly: Option<&'static str>,
     /// Why it happened; none where the kernel has no exact arithmetic to tell.
     pub attribution: Option<Attribution>,
@@ -77,6 +78,7 @@ impl fmt::Display for Signature {
             write!(f, ", refused by '{gate}'")?;
         }
         match self.exactly {
+            None if self.gate.is_none() && self.attribution.is_none() => Ok(()),
             same if same == self.gate => f.write_str(", without rounding too"),
             Some(gate) => write!(f, "; without rounding '{gate}' refuses"),
             None => f.write_str("; without rounding a hit"),
