@@ -63,8 +63,8 @@ const hairline_kernel *hairline_describe(void) {
         ROBUST ? "embree-robust" : "embree-fast",
         ROBUST ? "Embree " VERSION ", rtcIntersect1, RTC_SCENE_FLAG_ROBUST"
                : "Embree " VERSION ", rtcIntersect1, no scene flags",
-        ROBUST ? "extent=ray,sides=both,boundary=free,coplanar=free,degenerate=free,across=at-least-one"
-               : "extent=ray,sides=both,boundary=free,coplanar=free,degenerate=free",
+        ROBUST ? "extent=ray,sides=both,boundary=free,ends=free,coplanar=free,degenerate=free,across=at-least-one"
+               : "extent=ray,sides=both,boundary=free,ends=free,coplanar=free,degenerate=free",
         HAIRLINE_GIVES_T | HAIRLINE_GIVES_UV,
         0,
         nullptr,

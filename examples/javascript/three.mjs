@@ -1,6 +1,6 @@
 // three.js' Ray.intersectTriangle, without culling, as a kernel for hairline (docs/protocol.md).
 // Its documentation calls the direction normalized, and its source says that "the ray can never fall
-// between" two triangles that share an edge.
+// between" two triangles that share an edge; what it makes of an edge singly it does not say.
 import { createInterface } from "node:readline";
 import { Ray, REVISION, Vector3 } from "three";
 
@@ -8,7 +8,7 @@ const hello = `hairline-kernel 1
 name three-js
 source three ${REVISION}, Ray.intersectTriangle without culling
 scalars f64
-contract extent=ray,sides=both,boundary=closed,direction=unit:4,across=at-least-one
+contract extent=ray,sides=both,boundary=free,ends=free,coplanar=free,degenerate=free,direction=unit:4,across=at-least-one
 ready
 `;
 

@@ -27,6 +27,20 @@ impl EpsilonText {
     }
 }
 
+impl EpsilonText {
+    /// `EPSILON`, `-EPSILON` or `k*EPSILON`; decimal text otherwise, not checked. None if k is no number.
+    fn of(text: &str) -> Option<EpsilonText> {
+        let Some(factor) = text.strip_suffix("EPSILON") else {
+            return Some(EpsilonText::Decimal(text.to_owned()));
+        };
+        Some(EpsilonText::MachineEpsilon(match factor.strip_suffix('*').unwrap_or(factor) {
+            "" => 1.0,
+            "-" => -1.0,
+            factor => factor.parse().ok()?,
+        }))
+    }
+}
+
 impl fmt::Display for EpsilonText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -160,7 +174,8 @@ impl EpsilonChoice {
         for entry in entries {
             let contract = named.map_or(entry.info.contract, |named| named.contract);
             let decimals = |values: &[&str]| -> Vec<EpsilonText> {
-                values.iter().map(|text| EpsilonText::Decimal((*text).to_owned())).collect()
+                let text = |text: &&str| EpsilonText::of(text).expect("the kernel's own epsilons");
+                values.iter().map(text).collect()
             };
             let sets = entry.info.epsilon_sets;
             match self {
@@ -260,16 +275,9 @@ impl From<PresetValue> for EpsilonText {
 
 /// An epsilon that a gate can take.
 fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanError> {
-    let epsilon =
-        match text.strip_suffix("EPSILON").map(|factor| factor.strip_suffix('*').unwrap_or(factor))
-        {
-            Some("") => EpsilonText::MachineEpsilon(1.0),
-            Some("-") => EpsilonText::MachineEpsilon(-1.0),
-            Some(factor) => EpsilonText::MachineEpsilon(factor.parse().map_err(|_| {
-                PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name))
-            })?),
-            None => EpsilonText::Decimal(text.to_owned()),
-        };
+    let epsilon = EpsilonText::of(text).ok_or_else(|| {
+        PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name))
+    })?;
     let (Some(value), Some(_)) = (epsilon.value::<f64>(), epsilon.value::<f32>()) else {
         let name = gate.name;
         return Err(PlanError(format!(

@@ -132,7 +132,8 @@ impl KernelInfo {
     }
 }
 
-/// One epsilon a gate, as decimal text; fixed gates ignore theirs.
+/// One epsilon a gate, as decimal text, or as a multiple of the scalar's distance from 1 to the next
+/// number: `EPSILON`, `16*EPSILON`. Fixed gates ignore theirs.
 #[derive(Clone, Copy, Debug)]
 pub struct EpsilonSet {
     /// What the set is called in a report: `source`, `zero`, a value.

@@ -1,0 +1,33 @@
+//! box3d-rust 0.5.0: `intersect_ray_triangle`, from a start by a delta.
+
+use crate::segment::past_the_triangle;
+use crate::{Entrant, PROMISE};
+use box3d_rust::math_functions::{Vec3, intersect_ray_triangle};
+use hairline::case::Case;
+use hairline::contract::{Contract, Sides};
+use hairline::kernel::{Entry, Hit, KernelInfo};
+
+pub const BOX3D_RUST: Entrant = Entrant {
+    name: INFO.name,
+    package: "box3d-rust 0.5.0",
+    function: "box3d_rust::math_functions::intersect_ray_triangle",
+    promise: "\"Intersect a ray with a triangle. Returns the hit fraction in (0, 1], or 1.0 on miss.\" In \
+        the source back faces are a miss. The delta goes in as the direction times a power of two, so that \
+        it ends beyond the triangle: nothing is rounded by that.",
+    kernel: Some(entry),
+};
+
+const INFO: KernelInfo = KernelInfo {
+    source: "box3d-rust 0.5.0, math_functions::intersect_ray_triangle",
+    ..KernelInfo::own("box3d-rust", Contract { sides: Sides::Front, ..PROMISE })
+};
+
+fn entry() -> Entry {
+    Entry::new(&INFO).f32(|case: &Case<f32>, _: &[f32]| {
+        let (direction, scale) = past_the_triangle(case);
+        let [o, _, a, b, c] = case.vectors();
+        let [o, d, a, b, c] = [o, direction, a, b, c].map(|[x, y, z]| Vec3 { x, y, z });
+        let fraction = intersect_ray_triangle(o, d, a, b, c);
+        (fraction != 1.0).then(|| Hit::at(fraction * scale))
+    })
+}

@@ -1,0 +1,58 @@
+//! bvh 0.13.0: `Ray::intersects_triangle`.
+
+use crate::model::{self, GATES_CULLING, MollerTrumbore, Style, T};
+use crate::{Entrant, PROMISE, UNIT};
+use bvh::bounding_hierarchy::BHValue;
+use bvh::ray::Ray;
+use hairline::case::Case;
+use hairline::contract::{Contract, Sides};
+use hairline::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
+use nalgebra_0_35::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, Point3, Vector3};
+use num_traits::{Float, One, Zero};
+
+pub const BVH: Entrant = Entrant {
+    name: INFO.name,
+    package: "bvh 0.13.0",
+    function: "bvh::ray::Ray::intersects_triangle",
+    promise: "\"Returns the distance to the intersection […] The distance is set to +INFINITY if the ray \
+        does not intersect the triangle, or hits it from behind.\" Ray::new: \"direction will be \
+        normalized\".",
+    kernel: Some(entry),
+};
+
+const INFO: KernelInfo = KernelInfo {
+    source: "bvh 0.13.0, Ray::intersects_triangle",
+    gates: GATES_CULLING,
+    epsilon_sets: &[EpsilonSet { name: "source", values: &["EPSILON", "0", "EPSILON"] }],
+    gives: Gives { t: true, uv: true, facing: false },
+    ..KernelInfo::own("bvh", Contract { sides: Sides::Front, direction: UNIT, ..PROMISE })
+};
+
+fn entry() -> Entry {
+    let entry = model::with_f32::<MollerTrumbore<Model>>(Entry::new(&INFO), test::<f32>);
+    model::with_f64::<MollerTrumbore<Model>>(entry, test::<f64>)
+}
+
+struct Model;
+
+impl Style for Model {
+    const INFO: KernelInfo = INFO;
+    const CULLS: bool = true;
+    const U: Refuse = Refuse::UnlessAtLeast;
+    const T: T = T::Above;
+}
+
+/// The fields are public: the ray is made of a direction that is normalised already, where `Ray::new`
+/// would round it once more.
+fn test<F>(case: &Case<F>, _: &[F]) -> Option<Hit<F>>
+where
+    F: Scalar + BHValue + Float + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + Zero + One,
+{
+    let [o, d, a, b, c] = case.vectors();
+    let [a, b, c] = [a, b, c].map(Point3::from);
+    let inv_direction = Vector3::from(d.map(|x| <F as One>::one() / x));
+    let ray = Ray { origin: Point3::from(o), direction: Vector3::from(d), inv_direction };
+    let hit = ray.intersects_triangle(&a, &b, &c);
+    let is_hit = hit.distance != <F as Float>::infinity();
+    is_hit.then(|| Hit { uv: Some((hit.u, hit.v)), ..Hit::at(hit.distance) })
+}

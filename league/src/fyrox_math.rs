@@ -1,0 +1,31 @@
+//! fyrox-math 1.0.1: `Ray::triangle_intersection`, which takes a ray for the segment o to o + d.
+
+use crate::segment::past_the_triangle;
+use crate::{Entrant, PROMISE};
+use fyrox_math::ray::Ray;
+use hairline::case::Case;
+use hairline::kernel::{Entry, Hit, KernelInfo};
+use nalgebra_0_34::Vector3;
+
+pub const FYROX_MATH: Entrant = Entrant {
+    name: INFO.name,
+    package: "fyrox-math 1.0.1",
+    function: "fyrox_math::ray::Ray::triangle_intersection",
+    promise: "Not documented; its test in the source accepts t in [0, 1]. The direction goes in times a \
+        power of two, so that the segment ends beyond the triangle: nothing is rounded by that.",
+    kernel: Some(entry),
+};
+
+const INFO: KernelInfo = KernelInfo {
+    source: "fyrox-math 1.0.1, Ray::triangle_intersection",
+    ..KernelInfo::own("fyrox-math", PROMISE)
+};
+
+fn entry() -> Entry {
+    Entry::new(&INFO).f32(|case: &Case<f32>, _: &[f32]| {
+        let [o, _, a, b, c] = case.vectors().map(Vector3::from);
+        let (direction, scale) = past_the_triangle(case);
+        let (t, _) = Ray::new(o, Vector3::from(direction)).triangle_intersection(&[a, b, c])?;
+        Some(Hit::at(t * scale))
+    })
+}

@@ -1,0 +1,42 @@
+//! Ray–triangle kernels that are published as Rust crates, as kernels of hairline: one file a crate,
+//! each with what it calls and what its documentation promises.
+//!
+//! The program `league` is hairline with these kernels in it; `league-table` makes docs/league.md.
+
+mod entrant;
+mod foreign;
+mod model;
+mod segment;
+
+mod bevy_picking;
+mod box3d_rust;
+mod brepkit_math;
+mod bvh;
+mod fyrox_math;
+mod manifold_rust;
+mod mesh_geometry;
+mod ncollide3d;
+mod obvhs;
+mod parry3d;
+mod rayx;
+mod tri_mesh;
+mod truck_meshalgo;
+
+pub use entrant::{Entrant, PROMISE, UNIT};
+
+/// Every entrant, those of other languages last.
+pub fn entrants() -> Vec<Entrant> {
+    let crates = [
+        vec![parry3d::PARRY3D, ncollide3d::NCOLLIDE3D, bvh::BVH, bevy_picking::BEVY_PICKING],
+        vec![obvhs::OBVHS, obvhs::OBVHS_EMBREE, rayx::RAYX, rayx::RAYX_MOLLER_TRUMBORE],
+        vec![manifold_rust::MANIFOLD_RUST, brepkit_math::BREPKIT_MATH],
+        vec![truck_meshalgo::TRUCK_MESHALGO, tri_mesh::TRI_MESH, mesh_geometry::MESH_GEOMETRY],
+        vec![fyrox_math::FYROX_MATH, box3d_rust::BOX3D_RUST],
+    ];
+    crates.concat().into_iter().chain(foreign::ENTRANTS.iter().copied()).collect()
+}
+
+/// The entrants that are built into this program, as kernels.
+pub fn kernels() -> Vec<hairline::kernel::Entry> {
+    entrants().iter().filter_map(|entrant| entrant.kernel).map(|kernel| kernel()).collect()
+}

@@ -1,0 +1,61 @@
+//! obvhs 0.4.0: `Triangle::intersect` and `Triangle::intersect_embree`. `RtTriangle` has the same two
+//! formulas with the edges stored.
+
+use crate::{Entrant, PROMISE};
+use hairline::case::Case;
+use hairline::contract::{Contract, Extent};
+use hairline::kernel::{Entry, Hit, KernelInfo};
+use obvhs::ray::Ray;
+use obvhs::triangle::Triangle;
+
+pub const OBVHS: Entrant = Entrant {
+    name: INTERSECT.name,
+    package: "obvhs 0.4.0",
+    function: "obvhs::triangle::Triangle::intersect",
+    promise: "\"Find the distance (t) of the intersection of the Ray and this Triangle. Returns \
+        f32::INFINITY for miss.\" Ray::tmin and tmax: \"the minimum [maximum] t (distance) value for \
+        intersection tests\".",
+    kernel: Some(intersect),
+};
+
+pub const OBVHS_EMBREE: Entrant = Entrant {
+    name: INTERSECT_EMBREE.name,
+    package: "obvhs 0.4.0",
+    function: "obvhs::triangle::Triangle::intersect_embree",
+    promise: "Not documented; taken to return what Triangle::intersect does. Its edges \"not watertight \
+        from the front side?\" in a comment.",
+    kernel: Some(intersect_embree),
+};
+
+const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };
+
+const INTERSECT: KernelInfo =
+    KernelInfo { source: "obvhs 0.4.0, Triangle::intersect", ..KernelInfo::own("obvhs", CONTRACT) };
+
+const INTERSECT_EMBREE: KernelInfo = KernelInfo {
+    source: "obvhs 0.4.0, Triangle::intersect_embree",
+    ..KernelInfo::own("obvhs-embree", CONTRACT)
+};
+
+fn intersect() -> Entry {
+    Entry::new(&INTERSECT).f32(|case: &Case<f32>, _: &[f32]| {
+        let (triangle, ray) = convert(case);
+        hit(triangle.intersect(&ray))
+    })
+}
+
+fn intersect_embree() -> Entry {
+    Entry::new(&INTERSECT_EMBREE).f32(|case: &Case<f32>, _: &[f32]| {
+        let (triangle, ray) = convert(case);
+        hit(triangle.intersect_embree(&ray))
+    })
+}
+
+fn convert(case: &Case<f32>) -> (Triangle, Ray) {
+    let [origin, direction, v0, v1, v2] = case.vectors().map(glam::Vec3A::from);
+    (Triangle { v0, v1, v2 }, Ray::new(origin, direction, case.ray.t_min, case.ray.t_max))
+}
+
+fn hit(t: f32) -> Option<Hit<f32>> {
+    (t != f32::INFINITY).then(|| Hit::at(t))
+}

@@ -1,0 +1,169 @@
+//! The table of all entrants: rates by groups of families.
+
+use super::rows::TableRow;
+use hairline::report::{Example, Rate};
+use std::fmt::Write;
+
+/// Families that ask alike.
+struct Group {
+    name: &'static str,
+    families: &'static [&'static str],
+}
+
+const GROUPS: &[Group] = &[
+    Group {
+        name: "plain",
+        families: &["interior", "outside", "behind", "axis-aligned", "lattice"],
+    },
+    Group {
+        name: "edges",
+        families: &[
+            "edge-exact",
+            "edge-near",
+            "vertex-exact",
+            "vertex-near",
+            "shared-edge",
+            "fan",
+            "polygon",
+        ],
+    },
+    Group { name: "slanted", families: &["grazing", "sliver", "parallel-off"] },
+    Group { name: "start", families: &["origin-on", "origin-near", "respawn", "interval-ends"] },
+    Group { name: "size", families: &["tiny", "huge", "far", "direction-length"] },
+    Group { name: "range", families: &["mixed-scale", "range-ends"] },
+];
+
+/// The groups whose coordinates and directions are of ordinary size.
+const ORDINARY: &[&str] = &["plain", "edges", "slanted"];
+
+/// Both tables of all entrants.
+pub fn tables(rows: &[TableRow]) -> String {
+    let mut text = String::new();
+    let names: Vec<&str> = GROUPS.iter().map(|group| group.name).collect();
+    writeln!(text, "False misses / false hits, in % of the cases that must be hit / missed:\n")
+        .unwrap();
+    writeln!(text, "| kernel | scalar | {} |", names.join(" | ")).unwrap();
+    writeln!(text, "|---|---{}|", "|---".repeat(names.len())).unwrap();
+    for row in rows {
+        let cells: Vec<String> = GROUPS.iter().map(|group| cell(row, group)).collect();
+        let name = row.entrant.name;
+        writeln!(text, "| {name} | {} | {} |", row.scalar, cells.join(" | ")).unwrap();
+    }
+    writeln!(text, "\nWhere triangles meet, errors of t, and time:\n").unwrap();
+    let head = "cracks | doubles | across triangles it promises | t off by ulps: half of the hits, 99 % | ns/ray";
+    writeln!(text, "| kernel | scalar | {head} |\n|---|---|---|---|---|---|---|").unwrap();
+    for row in rows {
+        let [cracks, doubles, promised] = across(row);
+        let errors = row.t_errors.map_or("gives no t".to_owned(), |[half, most]| {
+            format!("{}, {}", number(half), number(most))
+        });
+        let time = row.nanoseconds.map_or(String::new(), |time| format!("{time:.0}"));
+        let (name, scalar) = (row.entrant.name, row.scalar);
+        writeln!(
+            text,
+            "| {name} | {scalar} | {cracks} | {doubles} | {promised} | {errors} | {time} |"
+        )
+        .unwrap();
+    }
+    writeln!(text, "\nThe worst of the groups {}: how far inside the triangle a false miss goes, and how far outside a false hit, in longest edges (along the ray for a hit behind its start):\n", ORDINARY.join(", ")).unwrap();
+    writeln!(text, "| kernel | scalar | | by | shown by |\n|---|---|---|---|---|").unwrap();
+    for row in rows {
+        for finding in ["false-miss", "false-hit"] {
+            if let Some((severity, example)) = worst(row, finding) {
+                let (name, scalar) = (row.entrant.name, row.scalar);
+                let command = command(row, example);
+                let size = number(severity);
+                writeln!(text, "| {name} | {scalar} | {finding} | {size} | `{command}` |").unwrap();
+            }
+        }
+    }
+    text.push('\n');
+    text
+}
+
+/// The command that shows an example, with the program that knows the kernel.
+pub fn command(row: &TableRow, example: &Example) -> String {
+    match row.entrant.kernel {
+        Some(_) => example.command.replacen("hairline", "league", 1),
+        None => example.command.clone(),
+    }
+}
+
+fn cell(row: &TableRow, group: &Group) -> String {
+    let mut sums = [[0; 2]; 2];
+    for result in row.results.iter().filter(|r| group.families.contains(&r.family.as_str())) {
+        for (sum, rate) in
+            sums.iter_mut().zip([&result.total.false_misses, &result.total.false_hits])
+        {
+            *sum = [sum[0] + rate.count, sum[1] + rate.of];
+        }
+    }
+    sums.map(|[count, of]| percent(count, of)).join(" / ")
+}
+
+/// A share in percent, with as many digits as it takes to tell it from 0.
+pub fn percent(count: u64, of: u64) -> String {
+    match (count, of) {
+        (_, 0) => "–".to_owned(),
+        (0, _) => "0".to_owned(),
+        _ => {
+            let share = 100.0 * count as f64 / of as f64;
+            if share >= 0.1 { format!("{share:.1}") } else { format!("{share:.0e}") }
+        }
+    }
+}
+
+/// Cracks and doubles over all groups of triangles, and what the contract promises.
+fn across(row: &TableRow) -> [String; 3] {
+    let parts: Vec<_> = row.results.iter().filter_map(|result| result.across.as_ref()).collect();
+    let sum = |rate: fn(&hairline::report::AcrossPart) -> &Rate| {
+        let (count, of) = parts
+            .iter()
+            .map(|part| (rate(part).count, rate(part).of))
+            .fold((0, 0), |sum: (u64, u64), part| (sum.0 + part.0, sum.1 + part.1));
+        match of {
+            0 => "–".to_owned(),
+            _ => format!("{} of {} ({} %)", digits(count), digits(of), percent(count, of)),
+        }
+    };
+    let promised = parts.first().map_or("", |part| part.promised.as_str()).to_owned();
+    [sum(|part| &part.cracks), sum(|part| &part.doubles), promised]
+}
+
+/// The example with the largest distance from where the verdict would be right.
+fn worst<'a>(row: &TableRow<'a>, finding: &str) -> Option<(f64, &'a Example)> {
+    let ordinary = |family: &str| {
+        let groups = GROUPS.iter().filter(|group| ORDINARY.contains(&group.name));
+        groups.flat_map(|group| group.families).any(|name| *name == family)
+    };
+    let findings = row.results.iter().filter(|r| ordinary(&r.family)).flat_map(|r| &r.findings);
+    let sized = findings.filter(|part| part.finding == finding).filter_map(|part| {
+        let severity = part.worst.severity.as_ref()?;
+        let is_off_the_end = part.class.ends_with("/before") && !part.class.starts_with("outside");
+        let size = match (is_off_the_end, finding) {
+            (true, "false-hit") => severity.along?,
+            _ => severity.in_plane.unwrap_or(severity.in_space),
+        };
+        Some((size, &part.worst))
+    });
+    sized.max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Digits in groups of three.
+pub fn digits(number: u64) -> String {
+    let text = number.to_string();
+    let place = |i: usize| i > 0 && (text.len() - i).is_multiple_of(3);
+    let grouped = text.char_indices().map(|(i, c)| match place(i) {
+        true => format!(",{c}"),
+        false => c.to_string(),
+    });
+    grouped.collect()
+}
+
+fn number(x: f64) -> String {
+    match x {
+        x if x == 0.0 => "0".to_owned(),
+        x if (0.01..1000.0).contains(&x) => format!("{x:.2}"),
+        x => format!("{x:.1e}"),
+    }
+}

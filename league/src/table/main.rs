@@ -1,0 +1,51 @@
+//! `league-table DOCUMENT RECORD.json …`: writes the tables of docs/league.md from records of audits.
+//! What stands between the document's markers is replaced.
+
+mod columns;
+mod details;
+mod precision;
+mod rows;
+
+use hairline::report::Record;
+use std::fs;
+use std::process::ExitCode;
+
+const START: &str = "<!-- made by league/table -->";
+const END: &str = "<!-- end -->";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.split_first().ok_or("usage: league-table DOCUMENT RECORD.json …".to_owned()) {
+        Ok((document, records)) => match run(document, records) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(message) => fail(&message),
+        },
+        Err(message) => fail(&message),
+    }
+}
+
+fn fail(message: &str) -> ExitCode {
+    eprintln!("league-table: {message}");
+    ExitCode::from(2)
+}
+
+fn run(document: &str, paths: &[String]) -> Result<(), String> {
+    let text = fs::read_to_string(document).map_err(|error| format!("{document}: {error}"))?;
+    let (before, rest) = text.split_once(START).ok_or(format!("{document}: no '{START}'"))?;
+    let (_, after) = rest.split_once(END).ok_or(format!("{document}: no '{END}'"))?;
+    let records: Vec<Record> = paths.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
+    let rows = rows::rows(&records)?;
+    let mut made = rows::date(paths)?;
+    made.push_str(&columns::tables(&rows));
+    made.push_str(&precision::table());
+    made.push_str(&details::sections(&rows));
+    let new = format!("{before}{START}\n\n{made}\n{END}{after}");
+    let beside = format!("{document}.new");
+    fs::write(&beside, new).map_err(|error| format!("{beside}: {error}"))?;
+    fs::rename(&beside, document).map_err(|error| format!("{document}: {error}"))
+}
+
+fn read(path: &str) -> Result<Record, String> {
+    let text = fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
+    serde_json::from_str(&text).map_err(|error| format!("{path}: {error}"))
+}
