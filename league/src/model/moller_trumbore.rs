@@ -32,8 +32,11 @@ const EDGE: usize = 1;
 const TIME: usize = 2;
 
 /// The gates of a test that takes both sides.
-pub const GATES: &[Gate] =
-    &[Gate::non_negative("parallel", "abs(det) < e", 2, 1), EDGE_GATE, Gate::signed("t", "!(t > e)", 1, -1)];
+pub const GATES: &[Gate] = &[
+    Gate::non_negative("parallel", "abs(det) < e", 2, 1),
+    EDGE_GATE,
+    Gate::signed("t", "!(t > e)", 1, -1),
+];
 
 /// The gates of a test of both sides on an interval.
 pub const GATES_INTERVAL: &[Gate] = &[

@@ -34,11 +34,12 @@ fn run(document: &str, paths: &[String]) -> Result<(), String> {
     let (before, rest) = text.split_once(START).ok_or(format!("{document}: no '{START}'"))?;
     let (_, after) = rest.split_once(END).ok_or(format!("{document}: no '{END}'"))?;
     let records: Vec<Record> = paths.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
-    let rows = rows::rows(&records)?;
+    let [all, off_the_boundary] = [rows::rows(&records, false)?, rows::rows(&records, true)?];
     let mut made = rows::date(paths)?;
-    made.push_str(&columns::tables(&rows));
+    made.push_str(&columns::tables(&all, &off_the_boundary));
+    made.push_str(&columns::causes(&all));
     made.push_str(&precision::table());
-    made.push_str(&details::sections(&rows));
+    made.push_str(&details::sections(&all));
     let new = format!("{before}{START}\n\n{made}\n{END}{after}");
     let beside = format!("{document}.new");
     fs::write(&beside, new).map_err(|error| format!("{beside}: {error}"))?;

@@ -17,12 +17,14 @@ pub struct TableRow<'a> {
     pub t_errors: Option<[f64; 2]>,
 }
 
-/// In the entrants' order; an error if a record has a kernel that is none of them.
-pub fn rows(records: &[Record]) -> Result<Vec<TableRow<'_>>, String> {
+/// Of the audits that ask nothing about cases near a boundary, or of the others. In the entrants' order;
+/// an error if a record has a kernel that is none of them.
+pub fn rows(records: &[Record], with_band: bool) -> Result<Vec<TableRow<'_>>, String> {
     let entrants = entrants();
     let mut found = BTreeMap::new();
     for record in records {
-        for plan in &record.result.plan.rows {
+        let wanted = |plan: &&RowPart| plan.contract.contains(", free within ") == with_band;
+        for plan in record.result.plan.rows.iter().filter(wanted) {
             let place = entrants.iter().position(|entrant| entrant.name == plan.kernel);
             let place = place.ok_or(format!("'{}' is no entrant", plan.kernel))?;
             for scalar in ["f32", "f64"] {
