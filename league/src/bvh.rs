@@ -23,7 +23,7 @@ pub const BVH: Entrant = Entrant {
 const INFO: KernelInfo = KernelInfo {
     source: "bvh 0.13.0, Ray::intersects_triangle",
     gates: GATES_CULLING,
-    epsilon_sets: &[EpsilonSet { name: "source", values: &["EPSILON", "0", "EPSILON"] }],
+    epsilon_sets: &[EpsilonSet { name: "source", values: &["EPSILON", "0", "EPSILON", "0"] }],
     gives: Gives { t: true, uv: true, facing: false },
     ..KernelInfo::own("bvh", Contract { sides: Sides::Front, direction: UNIT, ..PROMISE })
 };
@@ -39,7 +39,7 @@ impl Style for Model {
     const INFO: KernelInfo = INFO;
     const CULLS: bool = true;
     const U: Refuse = Refuse::UnlessAtLeast;
-    const T: T = T::Above;
+    const T: T = T::AboveAndFinite;
 }
 
 /// The fields are public: the ray is made of a direction that is normalised already, where `Ray::new`

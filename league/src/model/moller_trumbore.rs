@@ -23,6 +23,8 @@ pub trait Style: 'static {
 pub enum T {
     /// `t > e`.
     Above,
+    /// `t > e`, and an infinite t means a miss.
+    AboveAndFinite,
     /// `(t_min..=t_max).contains(&t)`.
     InInterval,
 }
@@ -30,6 +32,7 @@ pub enum T {
 const PARALLEL: usize = 0;
 const EDGE: usize = 1;
 const TIME: usize = 2;
+const FINITE: usize = 3;
 
 /// The gates of a test that takes both sides.
 pub const GATES: &[Gate] = &[
@@ -45,9 +48,13 @@ pub const GATES_INTERVAL: &[Gate] = &[
     Gate::signed("t", "!(t - t_min >= e), !(t_max - t >= e)", 1, -1),
 ];
 
-/// The gates of a test that culls.
-pub const GATES_CULLING: &[Gate] =
-    &[Gate::signed("parallel", "det < e", 2, 1), EDGE_GATE, Gate::signed("t", "!(t > e)", 1, -1)];
+/// The gates of a test that culls, and whose infinite t means a miss.
+pub const GATES_CULLING: &[Gate] = &[
+    Gate::signed("parallel", "det < e", 2, 1),
+    EDGE_GATE,
+    Gate::signed("t", "!(t > e)", 1, -1),
+    Gate::fixed("finite", "t = inf"),
+];
 
 const EDGE_GATE: Gate = Gate::signed("edge", "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0);
 
@@ -92,6 +99,10 @@ impl<Y: Style> Kernel for MollerTrumbore<Y> {
         let t = edge2.dot(&q) * &inverse;
         let in_extent = match Y::T {
             T::Above => sink.one(TIME, Refuse::UnlessAbove, &t),
+            T::AboveAndFinite => {
+                sink.one(TIME, Refuse::UnlessAbove, &t)
+                    && sink.fixed(FINITE, t.is_finite() || t.is_nan())
+            }
             T::InInterval => {
                 sink.one(TIME, Refuse::UnlessAtLeast, &gap(&t, t_min))
                     && sink.one(TIME, Refuse::UnlessAtLeast, &gap(t_max, &t))
