@@ -46,7 +46,7 @@ pub fn tables(rows: &[TableRow], off_the_boundary: &[TableRow]) -> String {
     text.push_str("\nThe same of all cases, those within some ulps of an edge included:\n\n");
     group_table(&mut text, rows);
     writeln!(text, "\nWhere triangles meet, errors of t, and time:\n").unwrap();
-    let head = "cracks | doubles | across triangles it promises | t off by ulps: half of the hits, 99 % | ns/ray";
+    let head = "cracks | doubles | across triangles it promises | t of `interior` off by ulps: half of the hits, 99 % | ns/ray";
     writeln!(text, "| kernel | scalar | {head} |\n|---|---|---|---|---|---|---|").unwrap();
     for row in rows {
         let [cracks, doubles, promised] = across(row);
@@ -61,7 +61,7 @@ pub fn tables(rows: &[TableRow], off_the_boundary: &[TableRow]) -> String {
         )
         .unwrap();
     }
-    writeln!(text, "\nThe worst of the groups {}: how far inside the triangle a false miss goes, and how far outside a false hit, in longest edges (along the ray for a hit behind its start):\n", ORDINARY.join(", ")).unwrap();
+    writeln!(text, "\nThe worst of the groups {}: how far the line passes from the triangle's boundary, inside it for a false miss and outside for a false hit, in longest edges (along the ray for a hit behind its start):\n", ORDINARY.join(", ")).unwrap();
     writeln!(text, "| kernel | scalar | | by | shown by |\n|---|---|---|---|---|").unwrap();
     for row in rows {
         for finding in ["false-miss", "false-hit"] {
@@ -150,7 +150,11 @@ pub fn percent(count: u64, of: u64) -> String {
         (0, _) => "0".to_owned(),
         _ => {
             let share = 100.0 * count as f64 / of as f64;
-            if share >= 0.1 { format!("{share:.1}") } else { format!("{share:.0e}") }
+            match share {
+                share if share >= 0.1 => format!("{share:.1}"),
+                share if share >= 0.001 => format!("{share:.3}"),
+                share => format!("{share:.0e}"),
+            }
         }
     }
 }
@@ -173,7 +177,7 @@ fn across(row: &TableRow) -> [String; 3] {
 }
 
 /// The example with the largest distance from where the verdict would be right.
-fn worst<'a>(row: &TableRow<'a>, finding: &str) -> Option<(f64, &'a Example)> {
+pub fn worst<'a>(row: &TableRow<'a>, finding: &str) -> Option<(f64, &'a Example)> {
     let ordinary = |family: &str| {
         let groups = GROUPS.iter().filter(|group| ORDINARY.contains(&group.name));
         groups.flat_map(|group| group.families).any(|name| *name == family)
@@ -181,11 +185,8 @@ fn worst<'a>(row: &TableRow<'a>, finding: &str) -> Option<(f64, &'a Example)> {
     let findings = row.results.iter().filter(|r| ordinary(&r.family)).flat_map(|r| &r.findings);
     let sized = findings.filter(|part| part.finding == finding).filter_map(|part| {
         let severity = part.worst.severity.as_ref()?;
-        let is_off_the_end = part.class.ends_with("/before") && !part.class.starts_with("outside");
-        let size = match (is_off_the_end, finding) {
-            (true, "false-hit") => severity.along?,
-            _ => severity.in_plane.unwrap_or(severity.in_space),
-        };
+        let is_behind = part.class.ends_with("/before") && !part.class.starts_with("outside");
+        let size = if is_behind { severity.along? } else { severity.in_space };
         Some((size, &part.worst))
     });
     sized.max_by(|a, b| a.0.total_cmp(&b.0))

@@ -1,10 +1,11 @@
-//! `league-table DOCUMENT RECORD.json …`: writes the tables of docs/league.md from records of audits.
-//! What stands between the document's markers is replaced.
+//! `league-table DOCUMENT FOLDER RECORD.json …`: writes the tables of docs/league.md from records of
+//! audits, and the worst known cases to a folder. What stands between the document's markers is replaced.
 
 mod columns;
 mod details;
 mod precision;
 mod rows;
+mod witnesses;
 
 use hairline::report::Record;
 use std::fs;
@@ -15,11 +16,11 @@ const END: &str = "<!-- end -->";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    match arguments.split_first().ok_or("usage: league-table DOCUMENT RECORD.json …".to_owned()) {
-        Ok((document, records)) => match run(document, records) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(message) => fail(&message),
-        },
+    let [document, folder, records @ ..] = &arguments[..] else {
+        return fail("usage: league-table DOCUMENT FOLDER RECORD.json …");
+    };
+    match run(document, folder, records) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(message) => fail(&message),
     }
 }
@@ -29,7 +30,7 @@ fn fail(message: &str) -> ExitCode {
     ExitCode::from(2)
 }
 
-fn run(document: &str, paths: &[String]) -> Result<(), String> {
+fn run(document: &str, folder: &str, paths: &[String]) -> Result<(), String> {
     let text = fs::read_to_string(document).map_err(|error| format!("{document}: {error}"))?;
     let (before, rest) = text.split_once(START).ok_or(format!("{document}: no '{START}'"))?;
     let (_, after) = rest.split_once(END).ok_or(format!("{document}: no '{END}'"))?;
@@ -40,6 +41,7 @@ fn run(document: &str, paths: &[String]) -> Result<(), String> {
     made.push_str(&columns::causes(&all));
     made.push_str(&precision::table());
     made.push_str(&details::sections(&all));
+    witnesses::write(folder, &all)?;
     let new = format!("{before}{START}\n\n{made}\n{END}{after}");
     let beside = format!("{document}.new");
     fs::write(&beside, new).map_err(|error| format!("{beside}: {error}"))?;

@@ -13,7 +13,7 @@ pub struct TableRow<'a> {
     pub results: Vec<&'a KernelResult>,
     /// In the kernel, its way there included.
     pub nanoseconds: Option<f64>,
-    /// Errors of t of right hits: half of them and 99 % of them are at most this, in ulps.
+    /// Errors of t of the hits of `interior`: half of them and 99 % of them are at most this, in ulps.
     pub t_errors: Option<[f64; 2]>,
 }
 
@@ -51,9 +51,8 @@ fn row<'a>(
 ) -> TableRow<'a> {
     let label = format!("{} ({})", plan.kernel, plan.set);
     let times = record.provenance.kernel_nanoseconds.get(scalar);
-    let totals = &record.result.totals;
-    let total = totals.iter().find(|total| total.kernel == plan.kernel && total.scalar == scalar);
-    let t = total.and_then(|total| total.accuracy.get("t"));
+    let interior = results.iter().find(|result| result.family == "interior");
+    let t = interior.and_then(|result| result.accuracy.get("t"));
     let infinite = |quantile: Option<f64>| quantile.unwrap_or(f64::INFINITY);
     TableRow {
         entrant,
