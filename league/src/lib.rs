@@ -8,7 +8,6 @@ mod foreign;
 mod model;
 mod segment;
 
-mod bevy_picking;
 mod box3d_rust;
 mod brepkit_math;
 mod bvh;
@@ -20,17 +19,16 @@ mod obvhs;
 mod parry3d;
 mod rayx;
 mod tri_mesh;
-mod truck_meshalgo;
 
 pub use entrant::{Entrant, PROMISE, UNIT};
 
 /// Every entrant, those of other languages last.
 pub fn entrants() -> Vec<Entrant> {
     let crates = [
-        vec![parry3d::PARRY3D, ncollide3d::NCOLLIDE3D, bvh::BVH, bevy_picking::BEVY_PICKING],
+        vec![parry3d::PARRY3D, ncollide3d::NCOLLIDE3D, bvh::BVH],
         vec![obvhs::OBVHS, obvhs::OBVHS_EMBREE, rayx::RAYX, rayx::RAYX_MOLLER_TRUMBORE],
         vec![manifold_rust::MANIFOLD_RUST, brepkit_math::BREPKIT_MATH],
-        vec![truck_meshalgo::TRUCK_MESHALGO, tri_mesh::TRI_MESH, mesh_geometry::MESH_GEOMETRY],
+        vec![tri_mesh::TRI_MESH, mesh_geometry::MESH_GEOMETRY],
         vec![fyrox_math::FYROX_MATH, box3d_rust::BOX3D_RUST],
     ];
     crates.concat().into_iter().chain(foreign::ENTRANTS.iter().copied()).collect()

@@ -3,7 +3,7 @@
 use crate::model::{self, GATES_INTERVAL, MollerTrumbore, Style, T};
 use crate::{Entrant, PROMISE};
 use hairline::case::Case;
-use hairline::contract::{Boundary, Contract, Extent};
+use hairline::contract::{Contract, Extent};
 use hairline::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
 use nalgebra_0_34::{RealField, Vector3};
 use num_traits::Float;
@@ -15,7 +15,7 @@ pub const RAYX: Entrant = Entrant {
     package: "rayx 0.2.0",
     function: "rayx::Triangle::new, rayx::Triangle::intersect",
     promise: "\"Returns Some(Hit) if the ray intersects within [t_min, t_max].\" \"A ray with parametric \
-        form o + t*d.\" Triangle::new refuses \"zero surface area\"; a refused triangle is a miss here.",
+        form o + t*d.\" The very ends are left to it. Triangle::new refuses \"zero surface area\"; a refused triangle is a miss here.",
     kernel: Some(baldwin_weber),
 };
 
@@ -28,7 +28,7 @@ pub const RAYX_MOLLER_TRUMBORE: Entrant = Entrant {
     kernel: Some(moller_trumbore),
 };
 
-const CONTRACT: Contract = Contract { extent: Extent::Interval, ends: Boundary::Closed, ..PROMISE };
+const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };
 
 const GIVES: Gives = Gives { t: true, uv: true, facing: false };
 
@@ -43,7 +43,7 @@ const MOLLER_TRUMBORE: KernelInfo = KernelInfo {
     gates: GATES_INTERVAL,
     epsilon_sets: &[EpsilonSet { name: "source", values: &["16*EPSILON", "0", "0"] }],
     gives: GIVES,
-    ..KernelInfo::own("rayx-moller-trumbore", Contract { ends: Boundary::Free, ..CONTRACT })
+    ..KernelInfo::own("rayx-moller-trumbore", CONTRACT)
 };
 
 fn baldwin_weber() -> Entry {

@@ -36,11 +36,6 @@ fn every_witness_is_shown_by_the_published_function_and_every_kernel_has_one() {
     let mut replayed = BTreeSet::new();
     for case in &witnesses {
         let name = case.name.as_deref().unwrap();
-        let kernel = &case.found.as_ref().unwrap().kernel;
-        // Of the entrants that need a feature only those that are built in.
-        if find(kernel).is_none() {
-            continue;
-        }
         let find = Find::of_stored(case).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(find.stored().truth, case.truth, "{name}");
         replayed.insert(find.signature.kernel);
@@ -53,9 +48,7 @@ fn every_witness_is_shown_by_the_published_function_and_every_kernel_has_one() {
 #[test]
 fn a_witness_of_another_finding_is_refused() {
     register_all();
-    let known = |case: &&StoredCase| find(&case.found.as_ref().unwrap().kernel).is_some();
-    let witnesses = witnesses();
-    for case in witnesses.iter().filter(known).take(3) {
+    for case in witnesses().iter().take(3) {
         let mut changed = case.clone();
         let found = changed.found.as_mut().unwrap();
         found.signature = found.signature.replace("false-", "true-");
