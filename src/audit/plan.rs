@@ -275,9 +275,8 @@ impl From<PresetValue> for EpsilonText {
 
 /// An epsilon that a gate can take.
 fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanError> {
-    let epsilon = EpsilonText::of(text).ok_or_else(|| {
-        PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name))
-    })?;
+    let epsilon = EpsilonText::of(text)
+        .ok_or_else(|| PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
     let (Some(value), Some(_)) = (epsilon.value::<f64>(), epsilon.value::<f32>()) else {
         let name = gate.name;
         return Err(PlanError(format!(
