@@ -306,9 +306,11 @@ pub struct SeverityPart {
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
     #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
     pub in_space: f64,
     /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
     #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
