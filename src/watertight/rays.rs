@@ -281,7 +281,7 @@ fn exact_axis<F: Float>(p: F, q: F, away: f64) -> (F, F) {
     let fine = ulps(p, f64::INFINITY).min(ulps(q, f64::INFINITY));
     let reach = fine * (1u64 << (F::DIGITS - 3)) as f64;
     let mut nearest = (F::zero(), F::zero());
-    for away in [away, away.clamp(-reach, reach)] {
+    for away in [away, away.min(reach).max(-reach)] {
         let start = middle - away;
         let on_grid = (start / coarse).round() * coarse;
         let origin = F::from_f64(if on_grid.is_finite() { on_grid } else { start });
