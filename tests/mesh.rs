@@ -55,6 +55,29 @@ fn the_table_says_what_the_mesh_is_and_where_rays_slip_through() {
 }
 
 #[test]
+fn a_hit_that_a_neighbour_reports_is_shown_apart() {
+    let folder = scratch("mesh-elsewhere");
+    let file = model("heightfield");
+    let arguments = ["mesh", &file, "--kernel", "woop-watertight", "--details"];
+    let (out, _) = ends(&folder, &arguments, 0);
+    assert!(out.lines().any(|line| line.contains(" elsewhere ")), "{out}");
+    let first = out.lines().position(|line| line.trim_start().starts_with("elsewhere, "));
+    let command = out.lines().nth(first.unwrap() + 1).unwrap();
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
+    let shown = ends(&folder, &words, 0).0;
+    let last = shown.lines().last().unwrap();
+    assert!(last.contains(": 0 of 2 triangles hit; one hit is right, and rounding may"), "{last}");
+    let record = record(&folder, &[&file, "--kernel", "woop-watertight"]);
+    let row = &record["result"]["scalars"][0]["results"][0];
+    let sum = |what: &str| -> u64 {
+        let count = |part: &str| row[part]["total"][what]["count"].as_u64().unwrap();
+        count("edges") + count("vertices")
+    };
+    assert_eq!([sum("cracks"), sum("elsewhere")], [0, 2]);
+}
+
+#[test]
 fn the_record_does_not_depend_on_threads_and_its_findings_are_the_files() {
     let folder = scratch("mesh-files");
     let file = model("icosphere");
@@ -218,7 +241,10 @@ fn contracts_epsilons_and_directions_reach_the_run() {
     assert!(of(&front) * 3 < of(&both) * 2 && of(&front) > 0);
     // An epsilon that no determinant passes leaves nothing but cracks.
     let none = crossings(&["--epsilon", "parallel=1e30"]);
-    assert_eq!(cracks(&none), of(&none));
+    // But for those that may have passed beside a silhouette.
+    let elsewhere = none["elsewhere"]["count"].as_u64().unwrap();
+    assert_eq!(cracks(&none) + elsewhere, of(&none));
+    assert!(elsewhere * 20 < of(&none));
     assert!(of(&crossings(&["--directions", "16"])) > of(&both) * 3 / 2);
     assert_ne!(crossings(&["--seed", "2"]), both);
     assert_ne!(crossings(&["--direction", "unit"]), both);

@@ -27,12 +27,28 @@ pub struct CaseArguments {
     pub(super) corpus: Option<String>,
 }
 
-/// Cases in one of the scalars: one, or the triangles of a group.
+/// Cases in one of the scalars.
 pub enum Cases {
     /// In `f32`.
-    F32(Vec<Case<f32>>, Grouping),
+    F32(Group<f32>),
     /// In `f64`.
-    F64(Vec<Case<f64>>, Grouping),
+    F64(Group<f64>),
+}
+
+/// One case, or the triangles of a group.
+pub struct Group<F: Scalar> {
+    /// A ray and each triangle.
+    pub cases: Vec<Case<F>>,
+    /// How they belong together.
+    pub grouping: Grouping,
+    /// The triangles of a mesh around those of the group; `None` if they are too many to be asked.
+    pub neighbours: Option<Vec<Case<F>>>,
+}
+
+impl<F: Scalar> Group<F> {
+    fn alone(cases: Vec<Case<F>>, grouping: Grouping) -> Group<F> {
+        Group { cases, grouping, neighbours: Some(Vec::new()) }
+    }
 }
 
 impl CaseArguments {
@@ -50,8 +66,8 @@ impl CaseArguments {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
         })?;
         match id.scalar.as_str() {
-            "f32" => Ok(from_id::<f32>(&id, self.mesh.as_deref()).map(|(c, r)| Cases::F32(c, r))?),
-            "f64" => Ok(from_id::<f64>(&id, self.mesh.as_deref()).map(|(c, r)| Cases::F64(c, r))?),
+            "f32" => Ok(from_id(&id, self.mesh.as_deref()).map(Cases::F32)?),
+            "f64" => Ok(from_id(&id, self.mesh.as_deref()).map(Cases::F64)?),
             other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
         }
     }
@@ -73,16 +89,13 @@ impl CaseArguments {
 
 fn stored_cases(stored: StoredCase) -> Cases {
     match stored.case {
-        AnyCase::F32(case) => Cases::F32(vec![case], Grouping::Single),
-        AnyCase::F64(case) => Cases::F64(vec![case], Grouping::Single),
+        AnyCase::F32(case) => Cases::F32(Group::alone(vec![case], Grouping::Single)),
+        AnyCase::F64(case) => Cases::F64(Group::alone(vec![case], Grouping::Single)),
     }
 }
 
 /// The cases of an id, and how they belong together.
-fn from_id<F: Scalar>(
-    id: &CaseId,
-    mesh: Option<&str>,
-) -> Result<(Vec<Case<F>>, Grouping), Failure> {
+fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failure> {
     if let Some(digest) = &id.parameters.mesh {
         let path = mesh.ok_or_else(|| {
             Failure::usage(format!("'{id}' is a case of a mesh: add --mesh FILE"))
@@ -94,10 +107,11 @@ fn from_id<F: Scalar>(
             return Err(Failure::Message(Status::BadInput, message));
         }
         if let Some(part) = Part::of_family(&id.family) {
-            return Ok((around_target(id, &mesh, part)?, part.grouping()));
+            return around_target(id, &mesh, part);
         }
         let family = MeshFamily::new(mesh, path);
-        return Ok((vec![family.make(&id.parameters, id.seed, id.index)], Grouping::Single));
+        let case = family.make(&id.parameters, id.seed, id.index);
+        return Ok(Group::alone(vec![case], Grouping::Single));
     }
     let (name, in_order) = match id.family.strip_suffix("-all") {
         Some(name) => (name, true),
@@ -112,7 +126,7 @@ fn from_id<F: Scalar>(
     } else {
         family.make(&id.parameters, id.seed, id.index)
     };
-    Ok((chosen_triangle(id, made.cases().to_vec())?, family.grouping))
+    Ok(Group::alone(chosen_triangle(id, made.cases().to_vec())?, family.grouping))
 }
 
 /// The triangle of a group that an id names, or all.
@@ -126,7 +140,7 @@ fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Ca
 }
 
 /// The cases of a ray at an edge or vertex of a mesh.
-fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Vec<Case<F>>, Failure> {
+fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Group<F>, Failure> {
     if !Targets::makes(id) {
         let message = format!("'{id}': this program makes another version of its family");
         return Err(Failure::Message(Status::BadInput, message));
@@ -139,7 +153,9 @@ fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Vec<
     }
     let mut cases = Vec::new();
     targets.make(part, id.index, &mut cases);
-    chosen_triangle(id, cases)
+    let (target, _) = targets.place(part, id.index);
+    let neighbours = targets.neighbours(part, target, &cases[0]);
+    Ok(Group { cases: chosen_triangle(id, cases)?, grouping: part.grouping(), neighbours })
 }
 
 /// The family of an id, which must be of the version that this program makes.

@@ -1,6 +1,6 @@
 //! `hairline explain`: one case, its exact truth, and what each gate of each kernel made of it.
 
-use super::case::{CaseArguments, Cases};
+use super::case::{CaseArguments, Cases, Group};
 use super::exit::{Failure, Status};
 use super::input::truth_line;
 use super::output::write_result;
@@ -15,6 +15,7 @@ use crate::judge::{Finding, GroupTruth, Obligation, asked, group_truth, judge};
 use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::{Feature, Truth};
+use crate::watertight::may_be_elsewhere;
 use clap::Args;
 use std::io::{self, Write};
 
@@ -34,8 +35,8 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let cases = arguments.case.cases()?;
     let name = &arguments.case.case;
     write_result("-", |out| match &cases {
-        Cases::F32(cases, grouping) => write_cases(out, name, cases, *grouping, &rows),
-        Cases::F64(cases, grouping) => write_cases(out, name, cases, *grouping, &rows),
+        Cases::F32(group) => write_cases(out, name, group, &rows),
+        Cases::F64(group) => write_cases(out, name, group, &rows),
     })?;
     Ok(Status::Success)
 }
@@ -43,11 +44,11 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
 fn write_cases<F: Scalar>(
     out: &mut dyn Write,
     name: &str,
-    cases: &[Case<F>],
-    grouping: Grouping,
+    group: &Group<F>,
     rows: &[Row],
 ) -> io::Result<()> {
-    let respawned = grouping == Grouping::Respawn;
+    let cases = &group.cases;
+    let respawned = group.grouping == Grouping::Respawn;
     for (i, case) in cases.iter().enumerate() {
         if cases.len() > 1 {
             writeln!(out, "triangle {i} of {}", cases.len())?;
@@ -61,19 +62,15 @@ fn write_cases<F: Scalar>(
     if cases.len() > 1 {
         writeln!(out, "together")?;
         for row in rows {
-            write_group(out, cases, grouping, row)?;
+            write_group(out, group, row)?;
         }
     }
     Ok(())
 }
 
 /// What a contract asks of the triangles together, and what the kernel made of it.
-fn write_group<F: Scalar>(
-    out: &mut dyn Write,
-    cases: &[Case<F>],
-    grouping: Grouping,
-    row: &Row,
-) -> io::Result<()> {
+fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> io::Result<()> {
+    let cases = &group.cases;
     let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     let Some(subject) = F::subject(row.entry) else { return Ok(()) };
@@ -82,9 +79,12 @@ fn write_group<F: Scalar>(
         return writeln!(out, "{}: {failure}; the group is not judged", row.label());
     }
     let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-    let asked = group_truth(&truths, &row.contract, grouping);
+    let asked = group_truth(&truths, &row.contract, group.grouping);
     let judged = match (asked, hits) {
         (GroupTruth::Free, _) => "nothing is asked of the group",
+        (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
+            "one hit is right, and rounding may have moved it to a neighbour: elsewhere"
+        }
         (GroupTruth::Crossing, 0) => "one hit is right: CRACK",
         (GroupTruth::Crossing, 1) => "one hit is right",
         (GroupTruth::Crossing, _) => "one hit is right: DOUBLE",
@@ -94,6 +94,17 @@ fn write_group<F: Scalar>(
         (GroupTruth::Fold { .. }, _) => "at a fold: the parity is WRONG",
     };
     writeln!(out, "{}: {hits} of {} triangles hit; {judged}", row.label(), cases.len())
+}
+
+/// Whether a hit that a group lacks may be among the triangles around it, or these are too many.
+fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
+    let Some(crossing) = truth.crossing() else { return false };
+    let Some(neighbours) = &group.neighbours else { return true };
+    let Some(subject) = F::subject(row.entry) else { return false };
+    let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
+    let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
+    subject.run(neighbours, &row.epsilons::<F>(), &mut verdicts);
+    may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
 }
 
 fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()> {

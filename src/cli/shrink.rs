@@ -29,8 +29,8 @@ pub struct ShrinkArguments {
 pub fn run(arguments: &ShrinkArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     match arguments.case.cases()? {
-        Cases::F32(cases, _) => shrink(&rows, &arguments.case.case, &cases),
-        Cases::F64(cases, _) => shrink(&rows, &arguments.case.case, &cases),
+        Cases::F32(group) => shrink(&rows, &arguments.case.case, &group.cases),
+        Cases::F64(group) => shrink(&rows, &arguments.case.case, &group.cases),
     }
 }
 

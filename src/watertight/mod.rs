@@ -3,19 +3,26 @@
 //! double, and the parity of hits is right or wrong.
 //!
 //! Only edges of two faces wound consistently and vertices inside one closed fan are asked about; what
-//! else a mesh has is recognised exactly and counted ([`Topology`]). Only the triangles around the edge
-//! or vertex are asked, not the whole mesh: a hit elsewhere on it is not looked at. Where triangles are
-//! needles a rounded ray may pass into a neighbour instead, and is then called a crack all the same.
+//! else a mesh has is recognised exactly and counted ([`Topology`]).
+//!
+//! The triangles around the edge or vertex are asked. Where triangles are needles a rounded ray may pass
+//! into a neighbour instead: so before a crossing without a hit is called a crack, all triangles that
+//! share a point with one of these are asked too, and if one reports a hit though the exact line does not
+//! meet it, or the ray may have passed beside a silhouette, the crossing is counted apart, as *elsewhere*
+//! ([`may_be_elsewhere`]). Beyond these neighbours
+//! the mesh is not asked, and if they are more than [`MOST_AROUND`], nor are they. A double stays one: it is two hits around the edge or vertex itself.
 
 #![forbid(unsafe_code)]
 
 mod fans;
+mod neighbours;
 mod rays;
 mod run;
 mod tally;
 mod topology;
 
 pub use fans::{Fans, VertexKind};
+pub use neighbours::{Incidence, MOST_AROUND, may_be_elsewhere};
 pub use rays::{Aim, Part, Targets};
 pub use run::{Found, Plan, RowFound, run};
 pub use tally::{CLASSES, ClassSums, Offence, Tally};

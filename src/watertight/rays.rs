@@ -2,6 +2,7 @@
 //! around it, by index. Exact rays have the target on their line, where such floats were found; near
 //! ones are aimed at it by a program that rounds. The oracle tells which are what.
 
+use super::neighbours;
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters};
@@ -186,6 +187,24 @@ impl<'m> Targets<'m> {
         for case in &mut cases[start..] {
             family::apply(&self.parameters, case);
         }
+    }
+
+    /// The cases of a ray, given by one of its cases, with the triangles that share a point with one
+    /// around its target; none if they are too many ([`super::MOST_AROUND`]).
+    pub fn neighbours<F: Float>(
+        &self,
+        part: Part,
+        target: usize,
+        case: &Case<F>,
+    ) -> Option<Vec<Case<F>>> {
+        let group = self.faces(part, target);
+        let faces = neighbours::around(self.topology, &self.mesh.triangles, group)?;
+        let (origin, direction) = (case.ray.origin.into(), case.ray.direction.into());
+        let of = |face: &u32| Case {
+            ray: case.ray,
+            ..Case::new(origin, direction, self.mesh.vertices::<F>(*face as usize))
+        };
+        Some(faces.iter().map(of).collect())
     }
 
     /// A ray at the segment between two points (or at one point, given twice), which belongs to a

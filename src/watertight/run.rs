@@ -1,5 +1,6 @@
 //! The run: each ray once to the oracle and once to each kernel, with the triangles around its target.
 
+use super::neighbours::may_be_elsewhere;
 use super::rays::{Aim, Part, Targets};
 use super::tally::{Offence, Outcome, Tally};
 use super::topology::Topology;
@@ -11,7 +12,7 @@ use crate::corpus::winds_once;
 use crate::judge::{GroupTruth, group_truth, promises_direction};
 use crate::kernel::{Scalar, Subject, Verdict};
 use crate::oracle::{self, Layers};
-use crate::truth::Truth;
+use crate::truth::{Facing, Truth};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
@@ -59,6 +60,9 @@ pub struct RowFound {
 
 /// Indices that go through together; of vertices a quarter, which have more triangles.
 const CHUNK: u64 = 1024;
+
+/// Neighbours of crossings without a hit that go through together, about.
+const NEIGHBOURS: usize = 4096;
 
 /// Runs a plan on a mesh in one scalar. The sums do not depend on the number of threads.
 pub fn run<F: Scalar>(
@@ -121,7 +125,7 @@ impl Marks {
 
     fn note(&self, row: usize, target: usize, outcome: Outcome, across: Across) {
         let kind = match outcome {
-            Outcome::Right => return,
+            Outcome::Right | Outcome::Elsewhere => return,
             Outcome::Crack => {
                 self.cracked[row][target / 64].fetch_or(1 << (target % 64), Ordering::Relaxed);
                 0
@@ -244,6 +248,16 @@ impl<'a, F: Scalar> Runner<'a, F> {
             *time += self.observer.now() - start;
             let tally = &mut tallies[part as usize];
             let across = self.contracts[row.contract].across;
+            let without = groups().zip(&asked[row.contract]).filter(|((_, group), truth)| {
+                let mut verdicts = verdicts[group.clone()].iter();
+                **truth == GroupTruth::Crossing
+                    && verdicts.all(|verdict| !verdict.hit && verdict.failure.is_none())
+            });
+            let rays = without.filter_map(|((index, group), _)| {
+                let facing = truths[group.start].crossing()?.facing;
+                Some((index, &cases[group.start], facing))
+            });
+            let elsewhere = self.elsewhere(part, row, rays);
             let judged = groups().zip(&asked[row.contract]).zip(&on_target);
             for (((index, group), truth), on_target) in judged {
                 let verdicts = &verdicts[group];
@@ -253,11 +267,60 @@ impl<'a, F: Scalar> Runner<'a, F> {
                 }
                 let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
                 let (target, ray) = self.targets.place(part, index);
-                tally.add(index, Aim::of(ray), *on_target, *truth, hits);
-                marks.note(number, target, Outcome::of(*truth, hits), across);
+                let mut outcome = Outcome::of(*truth, hits);
+                if outcome == Outcome::Crack && elsewhere.binary_search(&index).is_ok() {
+                    outcome = Outcome::Elsewhere;
+                }
+                tally.add(index, (Aim::of(ray), *on_target), (*truth, hits), outcome);
+                marks.note(number, target, outcome, across);
             }
         }
         self.observer.advance(ends.len() as u64);
+    }
+
+    /// Of crossings without a hit, by index, those whose hit may be among the neighbours.
+    fn elsewhere<'c>(
+        &self,
+        part: Part,
+        row: &RunnerRow<F>,
+        rays: impl Iterator<Item = (u64, &'c Case<F>, Facing)>,
+    ) -> Vec<u64> {
+        let (mut elsewhere, mut cases, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
+        let ask = |cases: &mut Vec<Case<F>>, waiting: &mut Vec<(u64, Facing, usize)>| {
+            let mut truths = Vec::with_capacity(cases.len());
+            oracle::truths(cases, &mut truths, &mut Layers::default());
+            let mut verdicts = vec![Verdict::miss(None); cases.len()];
+            if !cases.is_empty() {
+                verdicts_of(row.subject, cases, &row.epsilons, &mut verdicts);
+            }
+            let mut start = 0;
+            let found = waiting.drain(..).filter_map(|(index, facing, end)| {
+                let around = std::mem::replace(&mut start, end)..end;
+                let contract = &self.contracts[row.contract];
+                let (truths, verdicts) = (&truths[around.clone()], &verdicts[around.clone()]);
+                may_be_elsewhere(facing, &cases[around], truths, verdicts, contract)
+                    .then_some(index)
+            });
+            let found: Vec<u64> = found.collect();
+            cases.clear();
+            found
+        };
+        for (index, case, facing) in rays {
+            let (target, _) = self.targets.place(part, index);
+            // Who could not be asked is not accused.
+            let Some(more) = self.targets.neighbours(part, target, case) else {
+                elsewhere.push(index);
+                continue;
+            };
+            cases.extend(more);
+            waiting.push((index, facing, cases.len()));
+            if cases.len() >= NEIGHBOURS {
+                elsewhere.extend(ask(&mut cases, &mut waiting));
+            }
+        }
+        elsewhere.extend(ask(&mut cases, &mut waiting));
+        elsewhere.sort_unstable();
+        elsewhere
     }
 
     /// What a contract asks of the triangles around a target together.

@@ -15,8 +15,12 @@ pub struct ClassSums {
     pub groups: GroupCount,
     /// Crossings with an even number of hits: there the parity is wrong.
     pub even: u64,
+    /// Crossings without a hit whose hit may be among the neighbours: no cracks.
+    pub elsewhere: u64,
     /// The first folds of wrong parity, by index.
     pub first_odd_folds: Vec<u64>,
+    /// The first crossings whose hit may be elsewhere, by index.
+    pub first_elsewhere: Vec<u64>,
 }
 
 /// Everything that is added up for one row at one part of a mesh in one scalar.
@@ -38,6 +42,8 @@ pub enum Outcome {
     Right,
     /// A crossing without a hit.
     Crack,
+    /// A crossing without a hit, which a neighbour may have.
+    Elsewhere,
     /// A crossing with two hits or more.
     Double,
     /// A fold of wrong parity.
@@ -45,7 +51,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Of a number of hits.
+    /// Of a number of hits, the neighbours not asked.
     pub fn of(truth: GroupTruth, hits: usize) -> Outcome {
         match (truth, hits) {
             (GroupTruth::Crossing, 0) => Outcome::Crack,
@@ -79,13 +85,26 @@ impl Tally {
     }
 
     /// Counts a ray that was judged.
-    pub fn add(&mut self, index: u64, aim: Aim, on_target: bool, truth: GroupTruth, hits: usize) {
+    pub fn add(
+        &mut self,
+        index: u64,
+        (aim, on_target): (Aim, bool),
+        (truth, hits): (GroupTruth, usize),
+        outcome: Outcome,
+    ) {
         let class = 2 * usize::from(!on_target) + usize::from(aim.grazing);
         let sums = &mut self.classes[class];
+        if outcome == Outcome::Elsewhere {
+            sums.groups.crossings += 1;
+            sums.elsewhere += 1;
+            if sums.first_elsewhere.len() < self.limit {
+                sums.first_elsewhere.push(index);
+            }
+            return;
+        }
         sums.groups.add(index, truth, hits, self.limit);
         sums.even += u64::from(truth == GroupTruth::Crossing && hits.is_multiple_of(2));
-        let odd_fold = Outcome::of(truth, hits) == Outcome::OddFold;
-        if odd_fold && sums.first_odd_folds.len() < self.limit {
+        if outcome == Outcome::OddFold && sums.first_odd_folds.len() < self.limit {
             sums.first_odd_folds.push(index);
         }
     }
@@ -109,7 +128,9 @@ impl Tally {
         for (sums, more) in self.classes.iter_mut().zip(other.classes) {
             sums.groups.merge(more.groups, limit);
             sums.even += more.even;
+            sums.elsewhere += more.elsewhere;
             merge_first(&mut sums.first_odd_folds, more.first_odd_folds);
+            merge_first(&mut sums.first_elsewhere, more.first_elsewhere);
         }
         self.failures += other.failures;
         merge_first(&mut self.first_failures, other.first_failures);

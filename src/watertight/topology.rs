@@ -5,6 +5,7 @@
 //! indices. Nothing is decided by a tolerance.
 
 use super::fans::{Fans, VertexKind, fan_of};
+use super::neighbours::Incidence;
 use crate::arith::Float;
 use crate::corpus::mesh::Mesh;
 use rayon::prelude::*;
@@ -84,6 +85,8 @@ pub struct Topology {
     pub shared: Vec<SharedEdge>,
     /// The closed fans, by their centres.
     pub fans: Fans,
+    /// The faces at each point.
+    pub incidence: Incidence,
 }
 
 impl Topology {
@@ -103,6 +106,8 @@ impl Topology {
             faces[*kind as usize].note(face, corners);
         }
         let (edges, shared) = edges(&corners, &kinds);
+        let takes_part = |face: usize| kinds[face] != FaceKind::Collapsed;
+        let incidence = Incidence::of(points.len(), &corners, takes_part);
         let mut topology = Topology {
             points,
             used_points: 0,
@@ -112,6 +117,7 @@ impl Topology {
             vertices: Default::default(),
             shared,
             fans: Fans::default(),
+            incidence,
         };
         topology.add_vertices(&corners, &kinds);
         topology
@@ -141,27 +147,9 @@ impl Topology {
 
     /// Sorts the vertices into kinds and keeps the closed fans.
     fn add_vertices(&mut self, corners: &[[u32; 3]], kinds: &[FaceKind]) {
-        let takes_part = |face: usize| kinds[face] != FaceKind::Collapsed;
-        let mut starts = vec![0u32; self.points.len() + 1];
-        for (_, corners) in corners.iter().enumerate().filter(|(face, _)| takes_part(*face)) {
-            corners.iter().for_each(|point| starts[*point as usize + 1] += 1);
-        }
-        for i in 1..starts.len() {
-            starts[i] += starts[i - 1];
-        }
-        let mut incident = vec![0u32; starts[self.points.len()] as usize];
-        let mut next = starts.clone();
-        for (face, corners) in corners.iter().enumerate().filter(|(face, _)| takes_part(*face)) {
-            for point in corners {
-                let place = &mut next[*point as usize];
-                incident[*place as usize] = face as u32;
-                *place += 1;
-            }
-        }
-        drop(next);
         let mut arcs = Vec::new();
         for point in 0..self.points.len() {
-            let around = &incident[starts[point] as usize..starts[point + 1] as usize];
+            let around = self.incidence.at(point);
             let Some(first) = around.first() else { continue };
             self.used_points += 1;
             let sound = around.iter().all(|face| kinds[*face as usize] == FaceKind::Sound);

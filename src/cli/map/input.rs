@@ -56,8 +56,8 @@ impl MapArguments {
             corpus: self.corpus.clone(),
         };
         match case.cases()? {
-            Cases::F32(cases, _) => Ok(Input::F32(*one(&cases, text)?)),
-            Cases::F64(cases, _) => Ok(Input::F64(*one(&cases, text)?)),
+            Cases::F32(group) => Ok(Input::F32(*one(&group.cases, text)?)),
+            Cases::F64(group) => Ok(Input::F64(*one(&group.cases, text)?)),
         }
     }
 

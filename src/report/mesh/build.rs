@@ -135,6 +135,7 @@ impl<F: Float> Builder<'_, F> {
             first_cracks: self.examples(row, part, &sums.groups.first_cracks),
             first_doubles: self.examples(row, part, &sums.groups.first_doubles),
             first_odd_folds: self.examples(row, part, &sums.first_odd_folds),
+            first_elsewhere: self.examples(row, part, &sums.first_elsewhere),
             crack_digest: sums.groups.crack_digest.to_string(),
             double_digest: sums.groups.double_digest.to_string(),
         };
@@ -173,6 +174,7 @@ fn rates(classes: &[ClassSums]) -> AcrossRates {
     let rate = |count: u64, of: u64| -> Rate { rate_between(count, of, true) };
     AcrossRates {
         cracks: rate(sum(|sums| sums.groups.cracks), crossings),
+        elsewhere: rate(sum(|sums| sums.elsewhere), crossings),
         doubles: rate(sum(|sums| sums.groups.doubles), crossings),
         even_crossings: rate(sum(|sums| sums.even), crossings),
         odd_folds: rate(sum(|sums| sums.groups.odd_folds), folds),

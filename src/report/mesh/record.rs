@@ -139,8 +139,10 @@ pub struct MeshPartResult {
 /// Rates across triangles.
 #[derive(Clone, Debug, Serialize)]
 pub struct AcrossRates {
-    /// Crossings without a hit.
+    /// Crossings without a hit, neither around the edge or vertex nor, perhaps, among the neighbours.
     pub cracks: Rate,
+    /// Crossings without a hit there, but which a neighbour may have: no cracks.
+    pub elsewhere: Rate,
     /// Crossings with two hits or more.
     pub doubles: Rate,
     /// Crossings with an even number of hits.
@@ -163,6 +165,8 @@ pub struct MeshClassResult {
     pub first_doubles: Vec<MeshExample>,
     /// The first folds of wrong parity.
     pub first_odd_folds: Vec<MeshExample>,
+    /// The first crossings whose hit may be elsewhere.
+    pub first_elsewhere: Vec<MeshExample>,
     /// Of the set of all cracks.
     pub crack_digest: String,
     /// Of the set of all doubles.

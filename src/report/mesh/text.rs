@@ -47,13 +47,14 @@ fn write_scalar(
     }
     writeln!(
         out,
-        "\n{bold}{:<37} {:<12} {:>20} {:>20} {:>20} {:>20} {:>9} {:>9} {:>6}{plain}",
+        "\n{bold}{:<37} {:<12} {:>20} {:>20} {:>20} {:>20} {:>9} {:>9} {:>9} {:>6}{plain}",
         "kernel (epsilons)",
         "promises",
         "cracks at edges, %",
         "at vertices, %",
         "doubles, %",
         "wrong at folds, %",
+        "elsewhere",
         "edges",
         "vertices",
         "ns/ray"
@@ -69,7 +70,7 @@ fn write_scalar(
         };
         writeln!(
             out,
-            "{label:<37} {:<12} {} {} {} {} {:>9} {:>9} {time:>6.1}",
+            "{label:<37} {:<12} {} {} {} {} {:>9} {:>9} {:>9} {time:>6.1}",
             row.promised,
             share_column(&row.edges.total.cracks, style),
             share_column(&row.vertices.total.cracks, style),
@@ -79,6 +80,7 @@ fn write_scalar(
                 Style { color: style.color && row.promised == "exactly-one", ..style }
             ),
             share_column(&both(|rates| (rates.odd_folds.count, rates.odd_folds.of)), style),
+            short_count(row.edges.total.elsewhere.count + row.vertices.total.elsewhere.count),
             short_count(row.edges.cracked),
             short_count(row.vertices.cracked),
         )?;
@@ -167,7 +169,7 @@ fn write_examples(part: &ScalarPart, style: Style, out: &mut dyn Write) -> io::R
     let limit = if style.details { usize::MAX } else { 1 };
     writeln!(out, "\n{bold}Where{plain}")?;
     for row in &part.results {
-        let mut examples = examples(row, limit);
+        let mut examples = examples(row, limit, style.details);
         if examples.is_empty() {
             writeln!(out, "{}: nowhere", label(row))?;
             continue;
@@ -184,8 +186,9 @@ fn write_examples(part: &ScalarPart, style: Style, out: &mut dyn Write) -> io::R
     Ok(())
 }
 
-/// So many findings of each kind and class: cracks, and what else the row's contract speaks of.
-fn examples(row: &MeshRowResult, limit: usize) -> Vec<(String, &MeshExample)> {
+/// So many findings of each kind and class: cracks, and what else the row's contract speaks of; what
+/// may be elsewhere, which is no finding, on demand.
+fn examples(row: &MeshRowResult, limit: usize, elsewhere: bool) -> Vec<(String, &MeshExample)> {
     let mut all = Vec::new();
     for (name, result) in [("edge", &row.edges), ("vertex", &row.vertices)] {
         for (class, found) in &result.classes {
@@ -193,6 +196,9 @@ fn examples(row: &MeshRowResult, limit: usize) -> Vec<(String, &MeshExample)> {
             if row.promised == "exactly-one" {
                 lists.push(("double", &found.first_doubles));
                 lists.push(("wrong at a fold", &found.first_odd_folds));
+            }
+            if elsewhere {
+                lists.push(("elsewhere", &found.first_elsewhere));
             }
             for (what, list) in lists {
                 let named = |example| (format!("{what}, {name}, {class}"), example);
