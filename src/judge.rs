@@ -8,8 +8,9 @@ mod distance;
 mod tests;
 
 pub use class::Class;
+pub(crate) use class::Kind;
 pub use distance::{
-    Distances, Squares, exact_to_change, nearest_on_segment, smaller, square, ulp_of_points,
+    Distances, Squares, exact_to_change, nearest_on_segment, square, ulp_of_points,
 };
 
 use crate::arith::Float;
@@ -107,7 +108,45 @@ pub fn asked<F: Float>(
     if !promises_direction::<F>(contract.direction, case.ray.direction.into()) {
         return Obligation::Free;
     }
-    let asked = obligation(truth, contract, respawned);
+    in_band(obligation(truth, contract, respawned), case, truth, contract)
+}
+
+/// What contracts ask of many cases; `kinds` are those of the truths.
+pub(crate) fn all_asked<F: Float>(
+    cases: &[Case<F>],
+    truths: &[Truth],
+    kinds: &[Kind],
+    contract: &Contract,
+    respawned: bool,
+) -> Vec<Obligation> {
+    if contract.direction != Direction::Any {
+        let cases = cases.iter().zip(truths);
+        return cases.map(|(case, truth)| asked(case, truth, contract, respawned)).collect();
+    }
+    // Few kinds occur, and each is asked the same.
+    let mut known = [None; Kind::COUNT];
+    let of_kind = |(kind, truth): (&Kind, &Truth)| {
+        let ask = || obligation(truth, contract, respawned);
+        let asked = *known[kind.number()].get_or_insert_with(ask);
+        debug_assert_eq!(asked, obligation(truth, contract, respawned));
+        asked
+    };
+    let mut asked: Vec<Obligation> = kinds.iter().zip(truths).map(of_kind).collect();
+    if contract.band.is_some() {
+        for (asked, (case, truth)) in asked.iter_mut().zip(cases.iter().zip(truths)) {
+            *asked = in_band(*asked, case, truth, contract);
+        }
+    }
+    asked
+}
+
+/// Nothing, within the contract's band.
+fn in_band<F: Float>(
+    asked: Obligation,
+    case: &Case<F>,
+    truth: &Truth,
+    contract: &Contract,
+) -> Obligation {
     match contract.band {
         Some(band)
             if asked != Obligation::Free
@@ -223,6 +262,7 @@ impl Answer {
 }
 
 /// Compares a verdict with what was asked. Values of hits on invalid input are not judged.
+#[inline]
 pub fn judge<F: Float>(
     obligation: Obligation,
     truth: &Truth,
@@ -236,6 +276,7 @@ pub fn judge<F: Float>(
 }
 
 /// Compares an answer with what was asked.
+#[inline]
 pub fn judge_answer(
     obligation: Obligation,
     truth: &Truth,
@@ -285,59 +326,65 @@ pub enum GroupTruth {
 
 /// What the truths of a group ask together, under a contract's extent and sides.
 pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) -> GroupTruth {
-    let Some(crossings) = truths.iter().map(Truth::crossing).collect::<Option<Vec<_>>>() else {
-        return GroupTruth::Free;
-    };
-    let alike = crossings.iter().all(|crossing| crossing.facing == crossings[0].facing);
-    if contract.sides == Sides::Front && !(alike && crossings[0].facing == Facing::Front) {
+    let crossings = truths.iter().filter_map(Truth::crossing);
+    let Some(first) = truths.first().and_then(Truth::crossing) else { return GroupTruth::Free };
+    if crossings.clone().count() < truths.len() {
         return GroupTruth::Free;
     }
-    let met: Vec<&Crossing> =
-        crossings.into_iter().filter(|crossing| crossing.feature != Feature::Outside).collect();
-    let strictly_in_extent = |crossing: &&Crossing| match contract.extent {
+    let alike = crossings.clone().all(|crossing| crossing.facing == first.facing);
+    if contract.sides == Sides::Front && !(alike && first.facing == Facing::Front) {
+        return GroupTruth::Free;
+    }
+    let mut met = crossings.filter(|crossing| crossing.feature != Feature::Outside);
+    let strictly_in_extent = |crossing: &Crossing| match contract.extent {
         Extent::Line => true,
         Extent::Ray => crossing.t_sign == Ordering::Greater,
         Extent::Interval => crossing.place == Place::Within,
     };
-    if !is_off_the_rim(&met, truths.len(), grouping) || !met.iter().all(strictly_in_extent) {
+    if !is_off_the_rim(met.clone(), truths.len(), grouping) || !met.clone().all(strictly_in_extent)
+    {
         return GroupTruth::Free;
     }
-    let inside = met.iter().filter(|crossing| crossing.feature == Feature::Interior).count();
+    let hits = met.clone().count();
+    let inside = met.clone().filter(|crossing| crossing.feature == Feature::Interior).count();
     if alike {
-        let on_edges = met.iter().all(|crossing| crossing.feature.is_edge());
-        let once = if inside > 0 { met.len() == 1 } else { met.len() == 2 || !on_edges };
+        let on_edges = met.all(|crossing| crossing.feature.is_edge());
+        let once = if inside > 0 { hits == 1 } else { hits == 2 || !on_edges };
         return if once { GroupTruth::Crossing } else { GroupTruth::Free };
     }
     // Over a fold the rims of the two triangles pass through each other's inside: the number of hits
     // is owed only where no triangle is met on an edge of its own.
-    let on_shared_edge = inside == 0 && met.len() == 2 && met[0].place == met[1].place;
-    if grouping == Grouping::SharedEdge && (inside == met.len() || on_shared_edge) {
-        return GroupTruth::Fold { odd: met.len() % 2 == 1 };
+    let on_shared_edge =
+        inside == 0 && hits == 2 && met.next().map(|c| c.place) == met.next().map(|c| c.place);
+    if grouping == Grouping::SharedEdge && (inside == hits || on_shared_edge) {
+        return GroupTruth::Fold { odd: hits % 2 == 1 };
     }
     GroupTruth::Free
 }
 
 /// Whether the line passes through the inside of the triangles' union: inside a triangle, on an edge
 /// of two, or at the centre of a closed fan.
-fn is_off_the_rim(met: &[&Crossing], triangles: usize, grouping: Grouping) -> bool {
-    met.iter().any(|crossing| crossing.feature == Feature::Interior)
-        || (met.len() >= 2 && met.iter().all(|crossing| crossing.feature.is_edge()))
-        || (grouping == Grouping::Fan && !met.is_empty() && met.len() == triangles)
+fn is_off_the_rim<'a>(
+    mut met: impl Iterator<Item = &'a Crossing> + Clone,
+    triangles: usize,
+    grouping: Grouping,
+) -> bool {
+    let hits = met.clone().count();
+    met.clone().any(|crossing| crossing.feature == Feature::Interior)
+        || (hits >= 2 && met.all(|crossing| crossing.feature.is_edge()))
+        || (grouping == Grouping::Fan && hits > 0 && hits == triangles)
 }
 
 /// The truth of a planar convex polygon, from the truths of its fan's triangles: a point on a diagonal
 /// is inside. All triangles cross the same plane at the same t, so any that is met speaks for all.
 pub fn polygon_truth(truths: &[Truth]) -> Truth {
-    let met: Vec<&Crossing> = truths
-        .iter()
-        .filter_map(Truth::crossing)
-        .filter(|crossing| crossing.feature != Feature::Outside)
-        .collect();
-    match met.first() {
+    let crossings = truths.iter().filter_map(Truth::crossing);
+    let met = crossings.filter(|crossing| crossing.feature != Feature::Outside);
+    match met.clone().next() {
         None => truths[0],
-        Some(first) if is_off_the_rim(&met, truths.len(), Grouping::Polygon) => {
-            Truth::Transversal(Crossing { feature: Feature::Interior, ..**first })
+        Some(first) if is_off_the_rim(met, truths.len(), Grouping::Polygon) => {
+            Truth::Transversal(Crossing { feature: Feature::Interior, ..*first })
         }
-        Some(first) => Truth::Transversal(**first),
+        Some(first) => Truth::Transversal(*first),
     }
 }

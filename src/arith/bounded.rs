@@ -281,6 +281,19 @@ fn compare(a: &Bounded, b: &Bounded) -> Option<Option<Ordering>> {
     a.sum(&-*b).sign().map(Some)
 }
 
+/// The second of two numbers if its order to the first is `wanted`, or else the first. Where the bounds
+/// do not tell, either is right within the larger one: |min(x, y) - min(x', y')| ≤ max(|x - x'|, |y - y'|).
+fn either(a: Bounded, b: Bounded, wanted: Ordering) -> Bounded {
+    let chosen = |order| if order == Some(wanted) { b } else { a };
+    match compare(&b, &a) {
+        Some(order) => chosen(order),
+        None if a.is_known() && b.is_known() => {
+            Bounded { error: a.error.max(b.error), ..chosen(b.high.partial_cmp(&a.high)) }
+        }
+        None => UNKNOWN,
+    }
+}
+
 impl Real for Bounded {
     fn zero() -> Self {
         Bounded::exact(0.0)
@@ -329,6 +342,12 @@ impl Real for Bounded {
     }
     fn is_finite(&self) -> bool {
         decided(self.is_known().then(|| self.high.is_finite()))
+    }
+    fn smaller(self, other: Self) -> Self {
+        either(self, other, Ordering::Less)
+    }
+    fn larger(self, other: Self) -> Self {
+        either(self, other, Ordering::Greater)
     }
     fn infinity() -> Self {
         Bounded::exact(f64::INFINITY)

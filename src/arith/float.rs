@@ -84,6 +84,7 @@ fn bracket<F: Float>(guess: F, accepts: &impl Fn(&F) -> bool) -> (F, F) {
 
 /// `value * 2^exponent`, rounded once (the steps but the last are exact or already zero or
 /// infinite).
+#[inline]
 pub fn scale_by_power_of_two(mut value: f64, mut exponent: i32) -> f64 {
     while exponent > 1000 {
         value *= power_of_two(1000);

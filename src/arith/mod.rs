@@ -74,6 +74,14 @@ pub trait Real:
     /// The next number below: for a float the next representable one, for an exact number itself
     /// (read as "anything below").
     fn just_below(&self) -> Self;
+    /// The smaller of two numbers; the first where neither is less.
+    fn smaller(self, other: Self) -> Self {
+        if other.is_less(&self) { other } else { self }
+    }
+    /// The larger of two numbers; the first where neither is less.
+    fn larger(self, other: Self) -> Self {
+        if self.is_less(&other) { other } else { self }
+    }
     /// `a*b - c*d` in the wider arithmetic that Woop's fallback needs: `f32` through `f64`, `f64`
     /// by exact products (an addition of this project), exact numbers as they are.
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self;

@@ -68,7 +68,7 @@ pub(super) fn causes<F: Scalar>(
     let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];
-        (*key, places.par_iter().map(of_place).reduce(Causes::default, Causes::merged))
+        (key, places.par_iter().map(of_place).reduce(Causes::default, Causes::merged))
     });
     if most == 0 { BTreeMap::new() } else { counted.collect() }
 }

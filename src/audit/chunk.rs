@@ -7,7 +7,7 @@ use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, GroupTruth, Obligation, group_truth};
+use crate::judge::{self, Class, GroupTruth, Kind, Obligation, group_truth};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
@@ -71,7 +71,7 @@ pub(crate) struct Chunk<F: Scalar> {
     pub cases: Vec<Case<F>>,
     pub places: Vec<Place>,
     pub truths: Vec<Truth>,
-    pub classes: Vec<Class>,
+    pub kinds: Vec<Kind>,
     /// Where each index's cases start, and the end.
     starts: Vec<usize>,
     first_index: u64,
@@ -86,9 +86,16 @@ impl<F: Scalar> Chunk<F> {
         summary: &mut SourceSummary,
     ) -> Chunk<F> {
         let first_index = indices.start;
-        let (mut cases, mut places, mut starts) = (Vec::new(), Vec::new(), vec![0]);
+        let count = (indices.end - indices.start) as usize;
+        let (mut cases, mut places, mut starts) = (Vec::new(), Vec::new(), Vec::new());
+        starts.reserve(count + 1);
+        starts.push(0);
         for index in indices {
             let made = source.make::<F>(index);
+            if cases.is_empty() {
+                cases.reserve(count * made.cases().len());
+                places.reserve(count * made.cases().len());
+            }
             cases.extend_from_slice(made.cases());
             let triangles = 0..made.cases().len() as u32;
             places.extend(triangles.map(|triangle| Place { index, triangle }));
@@ -98,9 +105,9 @@ impl<F: Scalar> Chunk<F> {
         let mut truths = Vec::with_capacity(cases.len());
         oracle::truths(&cases, &mut truths, &mut summary.layers);
         summary.oracle_nanoseconds += observer.now() - start;
-        let classes = truths.iter().map(Class::of).collect();
+        let kinds = truths.iter().map(Kind::of).collect();
         let grouping = source.grouping();
-        let chunk = Chunk { grouping, cases, places, truths, classes, starts, first_index };
+        let chunk = Chunk { grouping, cases, places, truths, kinds, starts, first_index };
         summary.indices += chunk.starts.len() as u64 - 1;
         summary.cases += chunk.cases.len() as u64;
         for (index, range) in chunk.groups() {
@@ -121,8 +128,12 @@ impl<F: Scalar> Chunk<F> {
     /// What a contract asks of each case.
     pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
         let respawned = self.grouping == Grouping::Respawn;
-        let cases = self.truths.iter().zip(&self.cases);
-        cases.map(|(truth, case)| judge::asked(case, truth, contract, respawned)).collect()
+        judge::all_asked(&self.cases, &self.truths, &self.kinds, contract, respawned)
+    }
+
+    /// The class of a case.
+    pub fn class(&self, case: usize) -> Class {
+        self.kinds[case].class()
     }
 
     /// What a contract asks of each group; empty if the source's cases stand alone.

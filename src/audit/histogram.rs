@@ -6,40 +6,80 @@ use std::collections::BTreeMap;
 /// Counts of numbers that are not negative. Merging is commutative, and the number of bins is bounded
 /// by the range of `f64`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Stored", from = "Stored")]
 pub struct Histogram {
-    /// By [`bin`]; zero has a bin of its own.
-    bins: BTreeMap<u16, u64>,
+    zeros: u64,
+    infinite: u64,
+    /// The number of the first bin of `counts`: the lowest that is not empty.
+    first: u16,
+    /// From the lowest bin that is not empty to the highest.
+    counts: Vec<u64>,
     count: u64,
-    #[serde(with = "super::stored::bits")]
     largest: f64,
 }
 
+/// Where zeros are counted, and where infinite numbers are.
+const ZERO: u16 = 0;
+const INFINITE: u16 = bin(f64::INFINITY);
+
 /// The leading bits of a number: the exponent, and three of the significand.
-fn bin(value: f64) -> u16 {
-    if value == 0.0 { 0 } else { (value.to_bits() >> 49) as u16 + 1 }
+const fn bin(value: f64) -> u16 {
+    if value == 0.0 { ZERO } else { (value.to_bits() >> 49) as u16 + 1 }
 }
 
 /// Where a bin starts.
 fn start(bin: u16) -> f64 {
-    if bin == 0 { 0.0 } else { f64::from_bits(u64::from(bin - 1) << 49) }
+    if bin == ZERO { 0.0 } else { f64::from_bits(u64::from(bin - 1) << 49) }
 }
 
 impl Histogram {
     /// Counts a number; NaN as infinite, the sign left out.
     pub fn add(&mut self, value: f64) {
         let value = if value.is_nan() { f64::INFINITY } else { value.abs() };
-        *self.bins.entry(bin(value)).or_default() += 1;
+        *self.slot(bin(value)) += 1;
         self.count += 1;
         self.largest = self.largest.max(value);
     }
 
     /// Adds another histogram.
     pub fn merge(&mut self, other: &Histogram) {
-        for (bin, count) in &other.bins {
-            *self.bins.entry(*bin).or_default() += count;
+        for (bin, count) in other.bins() {
+            *self.slot(bin) += count;
         }
         self.count += other.count;
         self.largest = self.largest.max(other.largest);
+    }
+
+    /// The count of a bin, with room made for it.
+    fn slot(&mut self, bin: u16) -> &mut u64 {
+        if bin == ZERO {
+            return &mut self.zeros;
+        }
+        if bin == INFINITE {
+            return &mut self.infinite;
+        }
+        if self.counts.is_empty() {
+            self.first = bin;
+        }
+        if bin < self.first {
+            let missing = usize::from(self.first - bin);
+            self.counts.splice(0..0, std::iter::repeat_n(0, missing));
+            self.first = bin;
+        }
+        let place = usize::from(bin - self.first);
+        if self.counts.len() <= place {
+            self.counts.resize(place + 1, 0);
+        }
+        &mut self.counts[place]
+    }
+
+    /// The bins that are not empty, in order.
+    fn bins(&self) -> impl Iterator<Item = (u16, u64)> {
+        let between = (self.first..).zip(self.counts.iter().copied());
+        let all = std::iter::once((ZERO, self.zeros))
+            .chain(between)
+            .chain(std::iter::once((INFINITE, self.infinite)));
+        all.filter(|(_, count)| *count > 0)
     }
 
     /// How many numbers.
@@ -57,10 +97,10 @@ impl Histogram {
     pub fn quantile(&self, share: f64) -> f64 {
         let rank = ((share * self.count as f64).ceil() as u64).max(1);
         let mut below = 0;
-        for (bin, count) in &self.bins {
+        for (bin, count) in self.bins() {
             below += count;
             if rank <= below {
-                let end = if *bin == 0 { 0.0 } else { start(bin + 1) };
+                let end = if bin == ZERO { 0.0 } else { start(bin + 1) };
                 return if end < self.largest { end } else { self.largest };
             }
         }
@@ -71,8 +111,8 @@ impl Histogram {
     /// below the normal numbers, `i32::MAX` for infinity.
     pub fn octaves(&self) -> BTreeMap<Option<i32>, u64> {
         let mut octaves = BTreeMap::new();
-        for (bin, count) in &self.bins {
-            let exponent = (start(*bin).to_bits() >> 52) as i32;
+        for (bin, count) in self.bins() {
+            let exponent = (start(bin).to_bits() >> 52) as i32;
             let octave = match exponent {
                 0 => None,
                 0x7ff => Some(i32::MAX),
@@ -81,6 +121,33 @@ impl Histogram {
             *octaves.entry(octave).or_default() += count;
         }
         octaves
+    }
+}
+
+/// As shards hand it on.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    bins: BTreeMap<u16, u64>,
+    count: u64,
+    #[serde(with = "super::stored::bits")]
+    largest: f64,
+}
+
+impl From<Histogram> for Stored {
+    fn from(histogram: Histogram) -> Stored {
+        let bins = histogram.bins().collect();
+        Stored { bins, count: histogram.count, largest: histogram.largest }
+    }
+}
+
+impl From<Stored> for Histogram {
+    fn from(Stored { bins, count, largest }: Stored) -> Histogram {
+        let mut histogram = Histogram { count, largest, ..Histogram::default() };
+        for (bin, count) in bins {
+            // A number beyond the bins is none that a histogram wrote.
+            *histogram.slot(bin.min(INFINITE)) += count;
+        }
+        histogram
     }
 }
 

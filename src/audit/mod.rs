@@ -9,6 +9,7 @@
 mod accuracy;
 mod answers;
 mod attribution;
+mod by_finding;
 mod causes;
 mod chunk;
 mod digest;
@@ -26,6 +27,7 @@ pub(crate) use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
 pub use answers::{Answers, Given};
 pub use attribution::{Attribution, attribute};
+pub use by_finding::ByFinding;
 pub use causes::Causes;
 pub use chunk::SourceSummary;
 pub(crate) use chunk::{CHUNK, Chunk};

@@ -195,8 +195,6 @@ struct Asked {
     /// What was asked, by class.
     classes: Vec<ClassCount>,
     groups: Vec<GroupTruth>,
-    /// Every how many indices the values of hits are measured.
-    sample_every: Option<u64>,
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
@@ -243,12 +241,21 @@ impl<'a, F: Scalar> Runner<'a, F> {
         cell.tally.keep_examples(examples);
     }
 
+    /// The cases of a chunk on which the values of hits are measured.
+    fn sample(&self, source: &Source, chunk: &Chunk<F>) -> Vec<usize> {
+        if self.attribute == 0 {
+            return Vec::new();
+        }
+        let every = source.count::<F>().div_ceil(self.attribute as u64).max(1);
+        let sampled = chunk.groups().filter(|(index, _)| index.is_multiple_of(every));
+        sampled.flat_map(|(_, cases)| cases).collect()
+    }
+
     pub fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut Sums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
-        let measured = self.attribute as u64;
-        let sample_every = (measured > 0).then(|| source.count::<F>().div_ceil(measured).max(1));
-        let ask = |contract| ask(&chunk, contract, sample_every);
-        let asked: Vec<Asked> = self.contracts.iter().map(ask).collect();
+        let sample = self.sample(source, &chunk);
+        let asked: Vec<Asked> =
+            self.contracts.iter().map(|contract| ask(&chunk, contract)).collect();
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         let mut distances = vec![None; chunk.cases.len()];
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
@@ -258,6 +265,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
             let contract = &self.contracts[row.contract];
             let asked = &asked[row.contract];
             row.judge(&chunk, (contract, asked), &verdicts, &mut distances, tally);
+            row.measure(&chunk, &sample, asked, &verdicts, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
@@ -267,14 +275,14 @@ impl<'a, F: Scalar> Runner<'a, F> {
     }
 }
 
-fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract, sample_every: Option<u64>) -> Asked {
+fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
     let obligations = chunk.obligations(contract);
     let mut classes = vec![ClassCount::default(); Class::COUNT];
-    for (class, obligation) in chunk.classes.iter().zip(&obligations) {
-        classes[class.number()].ask(*obligation);
+    for (kind, obligation) in chunk.kinds.iter().zip(&obligations) {
+        classes[kind.class().number()].ask(*obligation);
     }
     let groups = chunk.group_truths(contract);
-    Asked { obligations, classes, groups, sample_every }
+    Asked { obligations, classes, groups }
 }
 
 /// Runs a kernel on all cases.
@@ -308,36 +316,21 @@ impl<F: Scalar> RunnerRow<F> {
         tally: &mut Tally,
     ) {
         tally.ask(&asked.classes);
-        for (i, verdict) in verdicts.iter().enumerate() {
-            let (truth, obligation) = (&chunk.truths[i], asked.obligations[i]);
-            if verdict.hit {
-                tally.hit(chunk.classes[i], *truth != Truth::Invalid);
-            }
-            let finding = judge::judge(obligation, truth, self.info.gives, verdict);
-            let sampled =
-                asked.sample_every.is_some_and(|k| chunk.places[i].index.is_multiple_of(k));
-            match truth.crossing() {
-                Some(crossing)
-                    if sampled
-                        && verdict.hit
-                        && finding != Some(Finding::FalseHit)
-                        && crossing.feature != Feature::Outside =>
-                {
-                    let case = &chunk.cases[i];
-                    tally.accuracy.add(&Errors::of(case, crossing, self.info.gives, verdict));
-                }
-                _ => {}
-            }
-            if let Some(finding) = finding {
+        let mut hits = [0; Class::COUNT];
+        let asked_of = asked.obligations.iter().zip(&chunk.truths);
+        for (i, (verdict, (&obligation, truth))) in verdicts.iter().zip(asked_of).enumerate() {
+            hits[chunk.class(i).number()] += u64::from(verdict.hit);
+            if let Some(finding) = judge::judge(obligation, truth, self.info.gives, verdict) {
                 let severity = (*truth != Truth::Invalid).then(|| {
                     // Kernels tend to be wrong on the same cases.
                     let case = &chunk.cases[i];
                     let distances = distances[i].get_or_insert_with(|| Distances::of(case, truth));
                     (distances.to_change(truth, contract), distances.edge_in_ulps)
                 });
-                tally.find(chunk.classes[i], finding, chunk.places[i], severity);
+                tally.find(chunk.class(i), finding, chunk.places[i], severity);
             }
         }
+        tally.hits(&hits);
         if chunk.grouping == Grouping::Respawn {
             tally.self_hits.rays += verdicts.len() as u64;
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
@@ -349,6 +342,27 @@ impl<F: Scalar> RunnerRow<F> {
             }
             let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
             tally.group(index, *truth, hits);
+        }
+    }
+
+    /// Measures the values of right hits on a sample.
+    fn measure(
+        &self,
+        chunk: &Chunk<F>,
+        sample: &[usize],
+        asked: &Asked,
+        verdicts: &[Verdict<F>],
+        tally: &mut Tally,
+    ) {
+        let gives = self.info.gives;
+        for &i in sample {
+            let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
+            let Some(crossing) = truth.crossing() else { continue };
+            let finding = judge::judge(asked.obligations[i], truth, gives, verdict);
+            let is_right = verdict.hit && finding != Some(Finding::FalseHit);
+            if is_right && crossing.feature != Feature::Outside {
+                tally.accuracy.add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
+            }
         }
     }
 

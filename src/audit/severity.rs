@@ -6,7 +6,7 @@
 use crate::arith::{Exact, ExactVector, Float, Real, Vector};
 use crate::case::{Case, Ray, Triangle};
 use crate::contract::Extent;
-use crate::judge::{Squares, nearest_on_segment, smaller, square, ulp_of_points};
+use crate::judge::{Squares, nearest_on_segment, square, ulp_of_points};
 
 /// The exact distances behind a finding, rounded to floats from exact squares, in units of the
 /// triangle's longest edge (of length, for a triangle that is a point). `None` where a distance does
@@ -31,19 +31,20 @@ pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severi
         return None;
     }
     let (ray, triangle) = case.exact();
-    let Squares { longest, in_space, along } = Squares::of(&ray, &triangle);
     let (Ray { origin: o, direction: d, .. }, Triangle { a, b, c }) = (&ray, &triangle);
+    let n = b.minus(a).cross(&c.minus(a));
+    let capital_d = n.dot(d);
+    let crosses = !capital_d.is_zero();
+    let Squares { longest, in_space, along } = Squares::of(&ray, &triangle, crosses);
     let unit = if longest.is_zero() { Exact::one() } else { longest };
     let relative = |square: Exact| (square / &unit).approximate_root();
 
-    let n = b.minus(a).cross(&c.minus(a));
-    let capital_d = n.dot(d);
-    let in_plane = (!capital_d.is_zero()).then(|| {
+    let in_plane = crosses.then(|| {
         let hit = o.plus(&d.times(&(n.dot(&a.minus(o)) / capital_d)));
         [(a, b), (b, c), (c, a)].map(|(p, q)| point_to_segment(&hit, p, q))
     });
-    let in_plane = in_plane.and_then(|squares| squares.into_iter().reduce(smaller));
-    let along = ends(extent).iter().filter_map(|&end| along[end].clone()).reduce(smaller);
+    let in_plane = in_plane.and_then(|squares| squares.into_iter().reduce(Exact::smaller));
+    let along = ends(extent).iter().filter_map(|&end| along[end].clone()).reduce(Exact::smaller);
     let ulp = Exact::from_f64(ulp_of_points(case).to_f64());
     Some(Severity {
         in_plane: in_plane.map(relative),

@@ -1,6 +1,7 @@
 //! Sums of findings: a commutative monoid, so that any split of a run adds up to the same.
 
 use super::accuracy::Accuracy;
+use super::by_finding::ByFinding;
 use super::digest::Digest;
 use super::histogram::Histogram;
 use crate::judge::{Class, Finding, GroupTruth, Obligation};
@@ -241,8 +242,7 @@ pub struct Tally {
     /// One a class, by [`Class::number`].
     pub classes: Vec<ClassCount>,
     /// Examples by class and finding.
-    #[serde(with = "super::stored::pairs")]
-    pub examples: BTreeMap<(Class, Finding), Examples>,
+    pub examples: ByFinding<Examples>,
     /// How far false misses and false hits are from where the verdict would be right.
     #[serde(with = "super::stored::pairs")]
     pub severities: BTreeMap<Finding, Severities>,
@@ -265,7 +265,7 @@ impl Tally {
     pub fn new(examples: usize, attributed: usize) -> Tally {
         Tally {
             classes: vec![ClassCount::default(); Class::COUNT],
-            examples: BTreeMap::new(),
+            examples: ByFinding::default(),
             severities: BTreeMap::new(),
             accuracy: Accuracy::default(),
             groups: GroupCount::default(),
@@ -291,11 +291,13 @@ impl Tally {
         }
     }
 
-    /// Counts a hit, and whether its values are judged.
-    pub fn hit(&mut self, class: Class, valued: bool) {
-        let count = &mut self.classes[class.number()];
-        count.hits += 1;
-        count.valued_hits += u64::from(valued);
+    /// Adds hits, by class. The values of hits on invalid input are not judged.
+    pub fn hits(&mut self, hits: &[u64; Class::COUNT]) {
+        for (class, hits) in Class::all().zip(hits) {
+            let count = &mut self.classes[class.number()];
+            count.hits += hits;
+            count.valued_hits += if class.is_invalid() { 0 } else { *hits };
+        }
     }
 
     /// Counts a finding with its severity: how far the case is from where the verdict would be right,
@@ -309,7 +311,7 @@ impl Tally {
     ) {
         self.classes[class.number()].findings[finding as usize] += 1;
         let edges = severity.map_or(0.0, |(edges, _)| edges);
-        self.examples.entry((class, finding)).or_default().add(place, edges, self.limit);
+        self.examples.slot(class, finding).add(place, edges, self.limit);
         let by_verdict = matches!(finding, Finding::FalseMiss | Finding::FalseHit);
         if let (true, Some((edges, edge_in_ulps))) = (by_verdict, severity) {
             let severities = self.severities.entry(finding).or_default();
@@ -328,9 +330,8 @@ impl Tally {
         for (count, more) in self.classes.iter_mut().zip(&other.classes) {
             count.merge(more);
         }
-        for (key, more) in other.examples {
-            self.examples.entry(key).or_default().merge(more, self.limit);
-        }
+        let limit = self.limit;
+        self.examples.merge(other.examples, |examples, more| examples.merge(more, limit));
         for (finding, more) in &other.severities {
             self.severities.entry(*finding).or_default().merge(more);
         }
@@ -382,7 +383,7 @@ mod tests {
             assert_eq!(left, whole);
             assert_eq!(swapped, whole);
         }
-        let examples = &whole.examples[&(class, Finding::FalseMiss)];
+        let examples = &whole.examples.get(class, Finding::FalseMiss).unwrap();
         assert_eq!(examples.first.len(), 5);
         assert_eq!(examples.worst.unwrap().0, 10.0);
         assert_eq!(whole.severities[&Finding::FalseMiss].ulps.largest(), 20.0);

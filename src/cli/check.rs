@@ -53,6 +53,22 @@ struct Alone {
     arguments: CheckArguments,
 }
 
+/// The words of the command line that the text of a `hairline.toml` stands for; `file` is its name in
+/// errors, from whose folder its paths are. Their values are parsed as the command line's, and files and
+/// names in them not looked for.
+///
+/// Errors: file and line of what is no setting, or what is wrong with a value.
+pub fn read_settings(text: &str, file: &str) -> Result<Vec<String>, String> {
+    let given = settings::from_file(text, file)
+        .map_err(|failure| failure.message().unwrap_or_default().to_owned())?;
+    let words: Vec<String> = given.into_iter().flat_map(|given| given.words).collect();
+    let program = std::iter::once("check");
+    match Alone::try_parse_from(program.chain(words.iter().map(String::as_str))) {
+        Ok(_) => Ok(words),
+        Err(error) => Err(format!("{file}: {error}")),
+    }
+}
+
 /// Runs the command on the words after `check`.
 pub fn run(words: &[OsString]) -> Result<Status, Failure> {
     let (arguments, given) = with_settings(words)?;

@@ -34,6 +34,7 @@ mod triage;
 mod truth;
 mod worst;
 
+pub use check::read_settings;
 pub use exit::{Failure, Status};
 
 use crate::kernel::{self, Entry};

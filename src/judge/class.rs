@@ -1,7 +1,46 @@
 //! Classes of truths: what reports count by.
 
-use crate::truth::{Crossing, Facing, Feature, Place, Truth};
+use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+/// All of a truth that an obligation depends on: its class, and either the sign of t or what a line in
+/// the plane meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Kind(u8);
+
+impl Kind {
+    /// Numbers of kinds are below this.
+    pub const COUNT: usize = Class::COUNT * 8;
+
+    /// The kind of a truth.
+    pub fn of(truth: &Truth) -> Kind {
+        let detail = match truth {
+            Truth::Transversal(crossing) => match crossing.t_sign {
+                Ordering::Less => 0,
+                Ordering::Equal => 1,
+                Ordering::Greater => 2,
+            },
+            Truth::Coplanar(Contact { kind, meets_ray, meets_line })
+            | Truth::Degenerate(Contact { kind, meets_ray, meets_line }) => {
+                let meets_interval = *kind != ContactKind::None;
+                u8::from(meets_interval) | u8::from(*meets_ray) << 1 | u8::from(*meets_line) << 2
+            }
+            Truth::Parallel | Truth::Invalid => 0,
+        };
+        Kind(Class::of(truth).0 << 3 | detail)
+    }
+
+    /// Its class.
+    pub fn class(self) -> Class {
+        Class(self.0 >> 3)
+    }
+
+    /// A number below [`Kind::COUNT`].
+    pub fn number(self) -> usize {
+        usize::from(self.0)
+    }
+}
 
 /// A coarse class of truths: what reports count by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -61,6 +100,11 @@ impl Class {
             .get(self.number() / per_part)
             .copied()
             .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
+    }
+
+    /// Whether the input has no meaning: no value of a hit is judged then.
+    pub fn is_invalid(self) -> bool {
+        self.number() == Class::COUNT - 1
     }
 
     /// Whether the line is parallel to the plane, or the triangle has no area.

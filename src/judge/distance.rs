@@ -38,35 +38,26 @@ pub struct Squares<R> {
 }
 
 impl<R: Real> Squares<R> {
-    /// Of a valid case, in an arithmetic that does not round.
-    pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>) -> Squares<R> {
+    /// Of a valid case, in an arithmetic that does not round. `crosses` says whether the line crosses
+    /// the plane at one point.
+    pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>, crosses: bool) -> Squares<R> {
         let Ray { origin: o, direction: d, t_min, t_max } = ray;
         let Triangle { a, b, c } = triangle;
         let edges = [(a, b), (b, c), (c, a)];
-        let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(larger);
+        let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(R::larger);
         let to_edges = edges.map(|(p, q)| line_to_segment(o, d, p, q));
         let n = b.minus(a).cross(&c.minus(a));
-        let capital_d = n.dot(d);
-        let t = (!capital_d.is_zero()).then(|| n.dot(&a.minus(o)) / capital_d);
+        let t = crosses.then(|| n.dot(&a.minus(o)) / n.dot(d));
         let along = [&R::zero(), t_min, t_max].map(|end| {
             let gap = t.clone().filter(|_| end.is_finite())? - end;
             Some(gap.clone() * gap * square(d))
         });
         Squares {
             longest: longest.expect("three edges"),
-            in_space: to_edges.into_iter().reduce(smaller).expect("three edges"),
+            in_space: to_edges.into_iter().reduce(R::smaller).expect("three edges"),
             along,
         }
     }
-}
-
-/// The smaller of two numbers.
-pub fn smaller<R: Real>(a: R, b: R) -> R {
-    if b.is_less(&a) { b } else { a }
-}
-
-fn larger<R: Real>(a: R, b: R) -> R {
-    if a.is_less(&b) { b } else { a }
 }
 
 /// The square of a vector's length.
@@ -84,10 +75,10 @@ fn line_to_segment<V: Vector>(o: &V, d: &V, p: &V, q: &V) -> V::Real {
 
 /// `numerator / denominator` cut to [0, 1]; 0 if the denominator is zero.
 pub fn nearest_on_segment<R: Real>(numerator: R, denominator: R) -> R {
-    if denominator.is_zero() || numerator.is_sign_negative() {
+    if denominator.is_zero() {
         return R::zero();
     }
-    smaller(numerator / denominator, R::one())
+    R::zero().larger(R::one().smaller(numerator / denominator))
 }
 
 /// The unit in the last place of the largest coordinate of a case's points.
@@ -103,7 +94,10 @@ impl Distances {
     pub fn of<F: Float>(case: &Case<F>, truth: &Truth) -> Distances {
         let zeros = Zeros::of(truth);
         let ulp = ulp_of_points(case).to_f64();
-        quick(&case.widen(), ulp, &zeros).unwrap_or_else(|| careful(case, ulp, &zeros))
+        let wide = case.widen();
+        let near = NearOne::of(&wide);
+        let with_bounds = || by_bounds(&near, ulp, &zeros).filter(|_| near.is_exact(&wide));
+        quick(&near, ulp, &zeros).or_else(with_bounds).unwrap_or_else(|| exactly(case, ulp, &zeros))
     }
 
     /// How far from where the obligation would be another, lengths being infinite from an infinite end.
@@ -123,17 +117,17 @@ fn to_change<R: Real>(truth: &Truth, contract: &Contract, in_space: R, along: [R
         Extent::Line => (R::infinity(), false),
         Extent::Ray => (to_zero, crossing.t_sign == Ordering::Less),
         Extent::Interval => {
-            (smaller(to_min, to_max), matches!(crossing.place, Place::Before | Place::Beyond))
+            (to_min.smaller(to_max), matches!(crossing.place, Place::Before | Place::Beyond))
         }
     };
     if contract.sides == Sides::Front && crossing.facing == Facing::Back {
         return in_space;
     }
     match (off_end, crossing.feature == Feature::Outside) {
-        (true, true) => larger(along, in_space),
+        (true, true) => along.larger(in_space),
         (true, false) => along,
         (false, true) => in_space,
-        (false, false) => smaller(in_space, along),
+        (false, false) => in_space.smaller(along),
     }
 }
 
@@ -147,7 +141,8 @@ pub fn exact_to_change<F: Float>(
         return None;
     }
     let (ray, triangle) = case.exact();
-    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle);
+    let crosses = truth.crossing().is_some();
+    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle, crosses);
     let unit = if longest.is_zero() { Exact::one() } else { longest };
     let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
     Some((to_change(truth, contract, in_space, along) / unit).sqrt())
@@ -166,7 +161,8 @@ pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: 
         return relative < 1.0;
     }
     let (ray, triangle) = case.exact();
-    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle);
+    let crosses = truth.crossing().is_some();
+    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle, crosses);
     let unit = match band.unit {
         BandUnit::Edges if longest.is_zero() => Exact::one(),
         BandUnit::Edges => longest,
@@ -207,27 +203,61 @@ impl Zeros {
     }
 }
 
+/// A case moved near 1 by powers of two: the points by one, the direction by another.
+struct NearOne {
+    case: Case<f64>,
+    /// The points were divided by 2 to this power.
+    size: i32,
+}
+
+impl NearOne {
+    fn of(case: &Case<f64>) -> NearOne {
+        let [o, d, a, b, c] = case.vectors();
+        let (size, length) = (exponent_of([o, a, b, c].as_flattened()), exponent_of(&d));
+        let [o, a, b, c] = [o, a, b, c].map(|point| point.map(|x| scaled(x, -size)));
+        let [t_min, t_max] = [case.ray.t_min, case.ray.t_max].map(|end| scaled(end, length - size));
+        let near = Case::new(o, d.map(|x| scaled(x, -length)), [a, b, c]).on(t_min, t_max);
+        NearOne { case: near, size }
+    }
+
+    /// Whether every number is that of the case but for the powers of two: none underflowed.
+    fn is_exact(&self, case: &Case<f64>) -> bool {
+        let back = |x: f64, exponent: i32, was: f64| scaled(x, exponent) == was;
+        let length = exponent_of(&case.vectors()[1]);
+        let powers = [self.size, length, self.size, self.size, self.size];
+        let vectors = self.case.vectors().into_iter().zip(case.vectors()).zip(powers);
+        let mut numbers = vectors.flat_map(|((near, was), power)| {
+            std::array::from_fn::<_, 3, _>(|i| (near[i], power, was[i]))
+        });
+        let end = self.size - length;
+        numbers.all(|(near, power, was)| back(near, power, was))
+            && back(self.case.ray.t_min, end, case.ray.t_min)
+            && back(self.case.ray.t_max, end, case.ray.t_max)
+    }
+
+    /// What distances are divided by: the longest edge, or a length of 1 if that is zero.
+    fn unit(&self, longest: f64) -> f64 {
+        if longest > 0.0 { longest } else { scaled(1.0, -self.size) }
+    }
+}
+
+/// The exponent of the largest number; -1023 where all are subnormal.
+fn exponent_of(numbers: &[f64]) -> i32 {
+    let largest = numbers.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    (largest.to_bits() >> 52) as i32 - 1023
+}
+
 /// In floats; none where rounding could matter.
-fn quick(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Option<Distances> {
-    let vectors = case.vectors();
-    let points = [vectors[0], vectors[2], vectors[3], vectors[4]];
-    let exponent_of = |v: &[f64]| {
-        let largest = v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        (largest.to_bits() >> 52) as i32 - 1023
-    };
-    // Far from overflow and underflow: sizes about 1, by powers of two.
-    let (size, length) = (exponent_of(points.as_flattened()), exponent_of(&vectors[1]));
-    let near_one = |v: [f64; 3], exponent: i32| DVec3::from(v.map(|x| scaled(x, -exponent)));
-    let [o, a, b, c] = points.map(|v| near_one(v, size));
-    let d = near_one(vectors[1], length);
+fn quick(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
+    let [o, d, a, b, c] = near.case.vectors().map(DVec3::from);
     let edges = [(a, b), (b, c), (c, a)];
-    let longest = edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q)));
-    let unit = if longest > 0.0 { longest } else { scaled(1.0, -size) };
+    let unit = near.unit(edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q))));
+    let length = d.length();
     let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
         let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));
         let s = (-offset.dot(edge) / edge.dot(edge)).clamp(0.0, 1.0);
         let s = if s.is_nan() { 0.0 } else { s };
-        m.min((offset + edge * s).length() / d.length())
+        m.min((offset + edge * s).length() / length)
     });
     // Off by some 2^-50: cross products of numbers below 4, times an s that only moves the nearest
     // point along the edge.
@@ -241,46 +271,44 @@ fn quick(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Option<Distances> {
             let t = n.dot(a - o) / n.dot(d);
             // Off by the permanents' rounding over n·d.
             let size_of_n = (b - a).length() * (c - a).length();
-            let terms = size_of_n * ((a - o).length() + t.abs() * d.length());
+            let terms = size_of_n * ((a - o).length() + t.abs() * length);
             let error = scaled(terms, -48) / n.dot(d).abs();
             let mut along = [0.0; 3];
-            let ends = [0.0, case.ray.t_min, case.ray.t_max];
+            let ends = [0.0, near.case.ray.t_min, near.case.ray.t_max];
             for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
-                let end = scaled(end, length - size);
                 let gap = (t - end).abs();
                 let certain = gap > 1024.0 * error + scaled(end.abs() + t.abs(), -40);
                 if !is_at && end.is_finite() && !certain {
                     return None;
                 }
-                *along = if is_at { 0.0 } else { gap * d.length() / unit };
+                *along = if is_at { 0.0 } else { gap * length / unit };
             }
             along
         }
     };
     let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
-    Some(Distances { in_space, along, edge_in_ulps: unit / scaled(ulp, -size) })
+    Some(Distances { in_space, along, edge_in_ulps: unit / scaled(ulp, -near.size) })
 }
 
-/// In double-doubles with bounds, or in exact numbers where those do not decide.
-fn careful<F: Float>(case: &Case<F>, ulp: f64, zeros: &Zeros) -> Distances {
-    by_bounds(case, ulp, zeros).unwrap_or_else(|| {
-        let (ray, triangle) = case.exact();
-        let squares = Squares::of(&ray, &triangle);
-        let unit = if squares.longest.is_zero() { Exact::one() } else { squares.longest.clone() };
-        let relative = |square: Exact| Some((square / &unit).approximate_root());
-        let ulp = Exact::from_f64(ulp);
-        let edge_in_ulps = (unit.clone() / (ulp.clone() * ulp)).approximate_root();
-        collect(squares, edge_in_ulps, zeros, case, relative).expect("always a number")
-    })
-}
-
-fn by_bounds<F: Float>(case: &Case<F>, ulp: f64, zeros: &Zeros) -> Option<Distances> {
-    let (ray, triangle) = case.lift(|x| Bounded::new(x.to_f64()));
-    let squares = bounded(|| Squares::of(&ray, &triangle))?;
-    let longest = squares.longest.approximate()?.sqrt();
-    let unit = if longest > 0.0 { longest } else { 1.0 };
+/// In double-doubles with bounds; none where they do not decide.
+fn by_bounds(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
+    let (ray, triangle) = near.case.lift(Bounded::new);
+    let squares = bounded(|| Squares::of(&ray, &triangle, zeros.along.is_some()))?;
+    let unit = near.unit(squares.longest.approximate()?.sqrt());
+    let edge_in_ulps = unit / scaled(ulp, -near.size);
     let relative = |square: Bounded| Some(square.approximate()?.sqrt() / unit);
-    collect(squares, unit / ulp, zeros, case, relative)
+    collect(squares, edge_in_ulps, zeros, &near.case, relative)
+}
+
+/// In exact numbers.
+fn exactly<F: Float>(case: &Case<F>, ulp: f64, zeros: &Zeros) -> Distances {
+    let (ray, triangle) = case.exact();
+    let squares = Squares::of(&ray, &triangle, zeros.along.is_some());
+    let unit = if squares.longest.is_zero() { Exact::one() } else { squares.longest.clone() };
+    let relative = |square: Exact| Some((square / &unit).approximate_root());
+    let ulp = Exact::from_f64(ulp);
+    let edge_in_ulps = (unit.clone() / (ulp.clone() * ulp)).approximate_root();
+    collect(squares, edge_in_ulps, zeros, case, relative).expect("always a number")
 }
 
 fn collect<F: Float, R: Real>(

@@ -166,9 +166,9 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         .map(|class| (class.name(), counts(&tally.classes[class.number()], sample)));
     let findings = tally.examples.iter().map(|((class, finding), examples)| {
         let count = &tally.classes[class.number()];
-        let causes = cell.causes.get(&(*class, *finding));
-        let causes = causes.map(|causes| distribution::causes(causes, count.of(*finding)));
-        finding_part::<F>(source, row, (*class, *finding), count, examples, causes)
+        let causes = cell.causes.get(&(class, finding));
+        let causes = causes.map(|causes| distribution::causes(causes, count.of(finding)));
+        finding_part::<F>(source, row, (class, finding), count, examples, causes)
     });
     let grouping = source.grouping();
     let is_group = !matches!(grouping, Grouping::Single | Grouping::Respawn);

@@ -210,7 +210,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
             let own_to_refuse = if respawned && guards_start {
                 true
             } else {
-                *obligation == Obligation::MustMiss && self.duties[gate].guards(chunk.classes[i])
+                *obligation == Obligation::MustMiss && self.duties[gate].guards(chunk.class(i))
             };
             if own_to_refuse {
                 own.add(axis, margin, place);

@@ -254,7 +254,7 @@ impl<'a, F: Scalar> Pricing<'a, F> {
                 *finding == Finding::FalseHit && self.duty.guards(*class)
             });
             own.filter_map(move |((class, _), examples)| {
-                examples.worst.map(|worst| (source, *class, worst))
+                examples.worst.map(|worst| (source, class, worst))
             })
         });
         let (source, class, (_, place)) =
