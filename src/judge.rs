@@ -275,6 +275,23 @@ pub fn judge<F: Float>(
     judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
 }
 
+/// Whether [`judge()`] surely finds nothing, without a branch: what most verdicts of a run are. Where it
+/// says no, ask there.
+#[inline(always)]
+pub(crate) fn is_plainly_right<F: Float>(
+    obligation: Obligation,
+    kind: Kind,
+    gives: Gives,
+    verdict: &Verdict<F>,
+) -> bool {
+    let finite = (!gives.t | verdict.t.is_finite())
+        & (!gives.uv | (verdict.u.is_finite() & verdict.v.is_finite()));
+    let facing = !gives.facing | (verdict.facing == kind.facing());
+    let right_hit = verdict.hit & (obligation != Obligation::MustMiss) & finite & facing;
+    let right_miss = !verdict.hit & (obligation != Obligation::MustHit);
+    (right_hit | right_miss) & verdict.failure.is_none()
+}
+
 /// Compares an answer with what was asked.
 #[inline]
 pub fn judge_answer(
@@ -360,6 +377,11 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
         return GroupTruth::Fold { odd: hits % 2 == 1 };
     }
     GroupTruth::Free
+}
+
+/// Whether [`group_truth`] is the same under two contracts, whatever the truths.
+pub(crate) fn asks_groups_alike(one: &Contract, other: &Contract) -> bool {
+    (one.extent, one.sides) == (other.extent, other.sides)
 }
 
 /// Whether the line passes through the inside of the triangles' union: inside a triangle, on an edge

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 
 /// Counts of numbers that are not negative. Merging is commutative, and the number of bins is bounded
 /// by the range of `f64`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(into = "Stored", from = "Stored")]
 pub struct Histogram {
     zeros: u64,
     infinite: u64,
-    /// The number of the first bin of `counts`: the lowest that is not empty.
+    /// The number of the first bin of `counts`.
     first: u16,
-    /// From the lowest bin that is not empty to the highest.
+    /// Of all bins between the lowest and the highest that are not empty, and some beside.
     counts: Vec<u64>,
     count: u64,
     largest: f64,
@@ -21,6 +21,9 @@ pub struct Histogram {
 /// Where zeros are counted, and where infinite numbers are.
 const ZERO: u16 = 0;
 const INFINITE: u16 = bin(f64::INFINITY);
+
+/// How many bins are made at a time: eight octaves.
+const ROOM: u16 = 64;
 
 /// The leading bits of a number: the exponent, and three of the significand.
 const fn bin(value: f64) -> u16 {
@@ -58,17 +61,15 @@ impl Histogram {
         if bin == INFINITE {
             return &mut self.infinite;
         }
-        if self.counts.is_empty() {
-            self.first = bin;
-        }
-        if bin < self.first {
-            let missing = usize::from(self.first - bin);
-            self.counts.splice(0..0, std::iter::repeat_n(0, missing));
-            self.first = bin;
+        if bin < self.first || self.counts.is_empty() {
+            let first = bin.saturating_sub(ROOM).max(ZERO + 1);
+            let missing = if self.counts.is_empty() { ROOM } else { self.first - first };
+            self.counts.splice(0..0, std::iter::repeat_n(0, usize::from(missing)));
+            self.first = first;
         }
         let place = usize::from(bin - self.first);
         if self.counts.len() <= place {
-            self.counts.resize(place + 1, 0);
+            self.counts.resize(place + usize::from(ROOM), 0);
         }
         &mut self.counts[place]
     }
@@ -121,6 +122,13 @@ impl Histogram {
             *octaves.entry(octave).or_default() += count;
         }
         octaves
+    }
+}
+
+impl PartialEq for Histogram {
+    fn eq(&self, other: &Histogram) -> bool {
+        let whole = |histogram: &Histogram| (histogram.count, histogram.largest);
+        whole(self) == whole(other) && self.bins().eq(other.bins())
     }
 }
 

@@ -12,15 +12,17 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Finding, GroupTruth, Obligation, obligation, polygon_truth,
+    self, Class, Distances, Finding, GroupTruth, Obligation, asks_groups_alike, obligation,
+    polygon_truth,
 };
 use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
-use crate::truth::{Feature, Truth};
+use crate::truth::Feature;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 /// What a run tells while it goes on, and where it reads a clock.
 pub trait Observer: Sync {
@@ -194,7 +196,7 @@ struct Asked {
     obligations: Vec<Obligation>,
     /// What was asked, by class.
     classes: Vec<ClassCount>,
-    groups: Vec<GroupTruth>,
+    groups: Arc<[GroupTruth]>,
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
@@ -241,6 +243,28 @@ impl<'a, F: Scalar> Runner<'a, F> {
         cell.tally.keep_examples(examples);
     }
 
+    /// What each contract asks on a chunk.
+    fn ask(&self, chunk: &Chunk<F>) -> Vec<Asked> {
+        // Of groups, contracts of the same extent and sides ask the same.
+        let mut of_groups: Vec<(&Contract, Arc<[GroupTruth]>)> = Vec::new();
+        let ask = |contract| {
+            let alike = |(other, _): &&(&Contract, _)| asks_groups_alike(contract, other);
+            let groups = of_groups.iter().find(alike).map(|(_, groups)| groups.clone());
+            let groups = groups.unwrap_or_else(|| {
+                let groups: Arc<[GroupTruth]> = chunk.group_truths(contract).into();
+                of_groups.push((contract, groups.clone()));
+                groups
+            });
+            let obligations = chunk.obligations(contract);
+            let mut classes = vec![ClassCount::default(); Class::COUNT];
+            for (kind, obligation) in chunk.kinds.iter().zip(&obligations) {
+                classes[kind.class().number()].ask(*obligation);
+            }
+            Asked { obligations, classes, groups }
+        };
+        self.contracts.iter().map(ask).collect()
+    }
+
     /// The cases of a chunk on which the values of hits are measured.
     fn sample(&self, source: &Source, chunk: &Chunk<F>) -> Vec<usize> {
         if self.attribute == 0 {
@@ -254,8 +278,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
     pub fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut Sums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
         let sample = self.sample(source, &chunk);
-        let asked: Vec<Asked> =
-            self.contracts.iter().map(|contract| ask(&chunk, contract)).collect();
+        let asked = self.ask(&chunk);
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         let mut distances = vec![None; chunk.cases.len()];
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
@@ -273,16 +296,6 @@ impl<'a, F: Scalar> Runner<'a, F> {
         }
         self.observer.advance(chunk.cases.len() as u64);
     }
-}
-
-fn ask<F: Scalar>(chunk: &Chunk<F>, contract: &Contract) -> Asked {
-    let obligations = chunk.obligations(contract);
-    let mut classes = vec![ClassCount::default(); Class::COUNT];
-    for (kind, obligation) in chunk.kinds.iter().zip(&obligations) {
-        classes[kind.class().number()].ask(*obligation);
-    }
-    let groups = chunk.group_truths(contract);
-    Asked { obligations, classes, groups }
 }
 
 /// Runs a kernel on all cases.
@@ -317,17 +330,23 @@ impl<F: Scalar> RunnerRow<F> {
     ) {
         tally.ask(&asked.classes);
         let mut hits = [0; Class::COUNT];
-        let asked_of = asked.obligations.iter().zip(&chunk.truths);
-        for (i, (verdict, (&obligation, truth))) in verdicts.iter().zip(asked_of).enumerate() {
-            hits[chunk.class(i).number()] += u64::from(verdict.hit);
-            if let Some(finding) = judge::judge(obligation, truth, self.info.gives, verdict) {
-                let severity = (*truth != Truth::Invalid).then(|| {
+        let gives = self.info.gives;
+        let asked_of = asked.obligations.iter().zip(&chunk.kinds);
+        for (i, (verdict, (&obligation, &kind))) in verdicts.iter().zip(asked_of).enumerate() {
+            hits[kind.class().number()] += u64::from(verdict.hit);
+            let truth = &chunk.truths[i];
+            if judge::is_plainly_right(obligation, kind, gives, verdict) {
+                debug_assert_eq!(judge::judge(obligation, truth, gives, verdict), None);
+                continue;
+            }
+            if let Some(finding) = judge::judge(obligation, truth, gives, verdict) {
+                let severity = (!kind.class().is_invalid()).then(|| {
                     // Kernels tend to be wrong on the same cases.
                     let case = &chunk.cases[i];
                     let distances = distances[i].get_or_insert_with(|| Distances::of(case, truth));
                     (distances.to_change(truth, contract), distances.edge_in_ulps)
                 });
-                tally.find(chunk.class(i), finding, chunk.places[i], severity);
+                tally.find(kind.class(), finding, chunk.places[i], severity);
             }
         }
         tally.hits(&hits);
@@ -335,7 +354,7 @@ impl<F: Scalar> RunnerRow<F> {
             tally.self_hits.rays += verdicts.len() as u64;
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
-        for ((index, range), truth) in chunk.groups().zip(&asked.groups) {
+        for ((index, range), truth) in chunk.groups().zip(asked.groups.iter()) {
             let verdicts = &verdicts[range];
             if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
                 continue;

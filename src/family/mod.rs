@@ -217,6 +217,9 @@ impl Makes for f64 {
 /// interval scale with them.
 pub(crate) fn apply<F: Float>(parameters: &Parameters, case: &mut Case<F>) {
     let Parameters { scale, scale_direction, offset, .. } = parameters;
+    if *scale == 0 && *offset == [0.0; 3] && !parameters.unit_direction {
+        return;
+    }
     let [origin, direction, a, b, c] = case.vectors();
     let moved = |point: [F; 3]| -> [F; 3] {
         std::array::from_fn(|i| {

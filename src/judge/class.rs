@@ -36,7 +36,24 @@ impl Kind {
         Class(self.0 >> 3)
     }
 
+    /// The side that the ray crosses the plane from; none if it does not.
+    #[inline]
+    pub fn facing(self) -> Option<Facing> {
+        const FACINGS: [Option<Facing>; Kind::COUNT] = {
+            let mut facings = [None; Kind::COUNT];
+            let mut kind = 0;
+            while kind < 8 * PARTS.len() * SIDES.len() * PLACES.len() {
+                let is_back = kind / 8 / PLACES.len() % SIDES.len() == 1;
+                facings[kind] = Some(if is_back { Facing::Back } else { Facing::Front });
+                kind += 1;
+            }
+            facings
+        };
+        FACINGS[self.number()]
+    }
+
     /// A number below [`Kind::COUNT`].
+    #[inline]
     pub fn number(self) -> usize {
         usize::from(self.0)
     }

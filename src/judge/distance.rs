@@ -2,7 +2,9 @@
 //! along the line from the ends of its extent.
 //!
 //! Three steps, each trusted only where it is certain to a thousandth: floats, double-doubles with
-//! bounds, exact numbers. What the truth knows to be zero is zero.
+//! bounds, integers. What the truth knows to be zero is zero.
+
+mod integers;
 
 use crate::arith::{
     Bounded, Exact, Float, Real, Triple, Vector, bounded, scale_by_power_of_two as scaled,
@@ -95,9 +97,17 @@ impl Distances {
         let zeros = Zeros::of(truth);
         let ulp = ulp_of_points(case).to_f64();
         let wide = case.widen();
+        // No product of a few numbers of f32 leaves the range of f64.
+        if F::MAX_EXPONENT < 128
+            && let Some(found) = quick(&wide, 0, ulp, &zeros)
+        {
+            return found;
+        }
         let near = NearOne::of(&wide);
-        let with_bounds = || by_bounds(&near, ulp, &zeros).filter(|_| near.is_exact(&wide));
-        quick(&near, ulp, &zeros).or_else(with_bounds).unwrap_or_else(|| exactly(case, ulp, &zeros))
+        let ulp_near_one = scaled(ulp, -near.size);
+        let quickly = || quick(&near.case, near.size, ulp_near_one, &zeros);
+        let by_bounds = || by_bounds(&near, ulp_near_one, &zeros).filter(|_| near.is_exact(&wide));
+        quickly().or_else(by_bounds).unwrap_or_else(|| integers::distances(&wide, ulp, &zeros))
     }
 
     /// How far from where the obligation would be another, lengths being infinite from an infinite end.
@@ -234,11 +244,12 @@ impl NearOne {
             && back(self.case.ray.t_min, end, case.ray.t_min)
             && back(self.case.ray.t_max, end, case.ray.t_max)
     }
+}
 
-    /// What distances are divided by: the longest edge, or a length of 1 if that is zero.
-    fn unit(&self, longest: f64) -> f64 {
-        if longest > 0.0 { longest } else { scaled(1.0, -self.size) }
-    }
+/// What distances are divided by: the longest edge, or a length of 1 if that is zero; lengths were
+/// divided by 2^size.
+fn unit_of(longest: f64, size: i32) -> f64 {
+    if longest > 0.0 { longest } else { scaled(1.0, -size) }
 }
 
 /// The exponent of the largest number; -1023 where all are subnormal.
@@ -247,11 +258,15 @@ fn exponent_of(numbers: &[f64]) -> i32 {
     (largest.to_bits() >> 52) as i32 - 1023
 }
 
-/// In floats; none where rounding could matter.
-fn quick(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
-    let [o, d, a, b, c] = near.case.vectors().map(DVec3::from);
+/// In floats, of a case whose lengths, and the ulp, were divided by 2^size; none where rounding could
+/// matter.
+fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Distances> {
+    let vectors = case.vectors();
+    let [o, d, a, b, c] = vectors.map(DVec3::from);
+    let largest =
+        scaled(1.0, exponent_of([vectors[0], vectors[2], vectors[3], vectors[4]].as_flattened()));
     let edges = [(a, b), (b, c), (c, a)];
-    let unit = near.unit(edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q))));
+    let unit = unit_of(edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q))), size);
     let length = d.length();
     let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
         let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));
@@ -259,9 +274,9 @@ fn quick(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
         let s = if s.is_nan() { 0.0 } else { s };
         m.min((offset + edge * s).length() / length)
     });
-    // Off by some 2^-50: cross products of numbers below 4, times an s that only moves the nearest
-    // point along the edge.
-    if !zeros.in_space && in_space < scaled(1.0, -38) {
+    // Off by some 2^-50 of the largest coordinate: cross products of numbers below 4 of it, times an s
+    // that only moves the nearest point along the edge.
+    if !zeros.in_space && in_space < scaled(largest, -38) {
         return None;
     }
     let along = match zeros.along {
@@ -274,7 +289,7 @@ fn quick(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
             let terms = size_of_n * ((a - o).length() + t.abs() * length);
             let error = scaled(terms, -48) / n.dot(d).abs();
             let mut along = [0.0; 3];
-            let ends = [0.0, near.case.ray.t_min, near.case.ray.t_max];
+            let ends = [0.0, case.ray.t_min, case.ray.t_max];
             for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
                 let gap = (t - end).abs();
                 let certain = gap > 1024.0 * error + scaled(end.abs() + t.abs(), -40);
@@ -287,41 +302,19 @@ fn quick(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
         }
     };
     let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
-    Some(Distances { in_space, along, edge_in_ulps: unit / scaled(ulp, -near.size) })
+    Some(Distances { in_space, along, edge_in_ulps: unit / ulp })
 }
 
 /// In double-doubles with bounds; none where they do not decide.
 fn by_bounds(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
     let (ray, triangle) = near.case.lift(Bounded::new);
     let squares = bounded(|| Squares::of(&ray, &triangle, zeros.along.is_some()))?;
-    let unit = near.unit(squares.longest.approximate()?.sqrt());
-    let edge_in_ulps = unit / scaled(ulp, -near.size);
+    let unit = unit_of(squares.longest.approximate()?.sqrt(), near.size);
     let relative = |square: Bounded| Some(square.approximate()?.sqrt() / unit);
-    collect(squares, edge_in_ulps, zeros, &near.case, relative)
-}
-
-/// In exact numbers.
-fn exactly<F: Float>(case: &Case<F>, ulp: f64, zeros: &Zeros) -> Distances {
-    let (ray, triangle) = case.exact();
-    let squares = Squares::of(&ray, &triangle, zeros.along.is_some());
-    let unit = if squares.longest.is_zero() { Exact::one() } else { squares.longest.clone() };
-    let relative = |square: Exact| Some((square / &unit).approximate_root());
-    let ulp = Exact::from_f64(ulp);
-    let edge_in_ulps = (unit.clone() / (ulp.clone() * ulp)).approximate_root();
-    collect(squares, edge_in_ulps, zeros, case, relative).expect("always a number")
-}
-
-fn collect<F: Float, R: Real>(
-    squares: Squares<R>,
-    edge_in_ulps: f64,
-    zeros: &Zeros,
-    case: &Case<F>,
-    relative: impl Fn(R) -> Option<f64>,
-) -> Option<Distances> {
     let in_space = if zeros.in_space { 0.0 } else { relative(squares.in_space)? };
     let mut along = [f64::NAN; 3];
     if let Some(at) = zeros.along {
-        let ends = [0.0, case.ray.t_min.to_f64(), case.ray.t_max.to_f64()];
+        let ends = [0.0, near.case.ray.t_min, near.case.ray.t_max];
         for (i, square) in squares.along.into_iter().enumerate() {
             along[i] = match square {
                 _ if at[i] => 0.0,
@@ -330,5 +323,5 @@ fn collect<F: Float, R: Real>(
             };
         }
     }
-    Some(Distances { in_space, along, edge_in_ulps })
+    Some(Distances { in_space, along, edge_in_ulps: unit / ulp })
 }

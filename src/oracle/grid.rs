@@ -10,7 +10,6 @@ use super::integer::Interval;
 use super::signs::Signs;
 use crate::case::Case;
 use crate::truth::{Contact, ContactKind, Feature, Truth};
-use std::cmp::Ordering;
 
 /// Bits of a coordinate.
 const BITS: i32 = 30;
@@ -64,51 +63,84 @@ fn flat(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], capital_t: i1
 }
 
 /// The contact on [0, inf) of a line in the plane of a triangle with area. The line meets the boundary
-/// nowhere, at one vertex, or at two points of different t, so the signs of their t tell all.
+/// nowhere, at one vertex, or at two points of different t, so the signs of their t tell all. Tables for
+/// branches: the sides of the vertices are as random as the cases.
 fn coplanar_contact(d: [i64; 3], vertices: [[i64; 3]; 3], n: [i64; 3]) -> Contact {
-    const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
-    const EDGES: [(Feature, usize, usize); 3] =
-        [(Feature::EdgeAb, 0, 1), (Feature::EdgeBc, 1, 2), (Feature::EdgeCa, 2, 0)];
     let k = (0..3).find(|&k| n[k] != 0).expect("a triangle with area");
     let m = (0..3).find(|&m| d[m] != 0).expect("a direction that is not zero");
     // The side of the line that each vertex is on: component k of d × vertex.
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let side = vertices.map(|v| d[i] * v[j] - d[j] * v[i]);
-    let mut touches: [Option<(Ordering, Feature)>; 2] = [None; 2];
-    let mut found = 0;
-    let mut touch = |t: Ordering, feature: Feature| {
-        touches[found] = Some((t, feature));
-        found += 1;
+    let digit = |x: i64| (x.signum() + 1) as usize;
+    let met = &MET[9 * digit(side[0]) + 3 * digit(side[1]) + digit(side[2])];
+    // t of the point between v and w, from the sides x and y: (y·v - x·w) / (y - x), over d.
+    let t_sign = |(v, w): (usize, usize)| {
+        let (x, y) = (i128::from(side[v]), i128::from(side[w]));
+        let numerator = y * i128::from(vertices[v][m]) - x * i128::from(vertices[w][m]);
+        numerator.signum() as i64 * (side[w] - side[v]).signum() * d[m].signum()
     };
-    let of_d = d[m].signum();
-    for (v, feature) in VERTICES.into_iter().enumerate() {
-        if side[v] == 0 {
-            touch((vertices[v][m].signum() * of_d).cmp(&0), feature);
-        }
-    }
-    for (feature, v, w) in EDGES {
-        if side[v].signum() * side[w].signum() < 0 {
-            let (x, y) = (i128::from(side[v]), i128::from(side[w]));
-            let numerator = y * i128::from(vertices[v][m]) - x * i128::from(vertices[w][m]);
-            let sign = numerator.signum() as i64 * (side[w] - side[v]).signum() * of_d;
-            touch(sign.cmp(&0), feature);
-        }
-    }
-    let kind = match touches {
-        [None, _] => ContactKind::None,
-        // One vertex; or the first of two points, the other of which is behind the origin.
-        [Some((Ordering::Less, _)), None] => ContactKind::None,
-        [Some((_, feature)), None] => ContactKind::Point(feature),
-        [Some((Ordering::Less, _)), Some((Ordering::Less, _))] => ContactKind::None,
-        [Some((Ordering::Equal, feature)), Some((Ordering::Less, _))]
-        | [Some((Ordering::Less, _)), Some((Ordering::Equal, feature))] => {
-            ContactKind::Point(feature)
-        }
-        _ => ContactKind::Segment,
-    };
-    let meets_ray = kind != ContactKind::None;
-    Contact { kind, meets_ray, meets_line: touches[0].is_some() }
+    let [first, second] = met.between.map(t_sign);
+    let [f, g] = met.features.map(ContactKind::Point);
+    let kinds = [ContactKind::None, f, g, ContactKind::Segment];
+    let kind = kinds[KINDS[met.count][3 * digit(first) + digit(second)]];
+    Contact { kind, meets_ray: kind != ContactKind::None, meets_line: met.count > 0 }
 }
+
+/// Where a line in the plane meets the boundary of a triangle.
+#[derive(Clone, Copy)]
+struct Met {
+    /// At how many points: up to two.
+    count: usize,
+    /// Each lies between two vertices that are not on one side: at the first if that is on the line.
+    between: [(usize, usize); 2],
+    features: [Feature; 2],
+}
+
+/// By the sides of the vertices: 9, 3 and 1 times 0, 1 or 2 for the negative side, the line and the
+/// positive side.
+const MET: [Met; 27] = {
+    const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
+    const EDGES: [Feature; 3] = [Feature::EdgeAb, Feature::EdgeBc, Feature::EdgeCa];
+    let nowhere = Met { count: 0, between: [(0, 0); 2], features: [Feature::Outside; 2] };
+    let mut all = [nowhere; 27];
+    let mut sides = 0;
+    while sides < 27 {
+        let side = [sides / 9, sides / 3 % 3, sides % 3];
+        let met = &mut all[sides];
+        let mut v = 0;
+        while v < 3 {
+            // With area, no three vertices are on the line: that entry is never read.
+            let (w, u) = ((v + 1) % 3, (v + 2) % 3);
+            if side[v] == 1 && met.count < 2 {
+                met.between[met.count] = (v, if side[w] == 1 { u } else { w });
+                met.features[met.count] = VERTICES[v];
+                met.count += 1;
+            }
+            v += 1;
+        }
+        v = 0;
+        while v < 3 {
+            let w = (v + 1) % 3;
+            if side[v] != 1 && side[w] == 2 - side[v] {
+                met.between[met.count] = (v, w);
+                met.features[met.count] = EDGES[v];
+                met.count += 1;
+            }
+            v += 1;
+        }
+        sides += 1;
+    }
+    all
+};
+
+/// What the ray has in common with the triangle (nothing, the first point met, the second, a segment),
+/// by the number of points and 3 and 1 times 0, 1 or 2 for a t below, at and above zero.
+const KINDS: [[usize; 9]; 3] = [
+    [0; 9],
+    [0, 0, 0, 1, 1, 1, 1, 1, 1],
+    // Both behind; one behind and one at the origin; else something of the segment between them.
+    [0, 2, 3, 1, 3, 3, 3, 3, 3],
+];
 
 /// Numbers as integers below 2^30 times a power of two, and its exponent.
 #[inline(always)]

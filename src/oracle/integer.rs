@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// An exact integer: `i128` or `BigInt`.
-pub(super) trait Integer:
+pub(crate) trait Integer:
     Clone
     + Ord
     + Zero
@@ -62,7 +62,7 @@ impl Integer for BigInt {
 }
 
 /// An integer vector.
-pub(super) type Triple<I> = [I; 3];
+pub(crate) type Triple<I> = [I; 3];
 
 /// The interval of a case whose t = numerator / denominator carries a power of two.
 pub(super) struct Interval {
@@ -186,7 +186,7 @@ impl Scaled {
 }
 
 /// Points as integers on a common grid, and the grid's exponent.
-fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64) {
+pub(crate) fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64) {
     let parts = points.map(|point| point.map(decompose));
     let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
     let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
@@ -197,15 +197,15 @@ fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64) {
     (parts.map(|point| point.map(integer)), grid)
 }
 
-pub(super) fn minus<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
+pub(crate) fn minus<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
     std::array::from_fn(|i| a[i].clone() - &b[i])
 }
 
-pub(super) fn dot<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> I {
+pub(crate) fn dot<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> I {
     a[0].clone() * &b[0] + &(a[1].clone() * &b[1]) + &(a[2].clone() * &b[2])
 }
 
-pub(super) fn cross<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
+pub(crate) fn cross<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         I::minor(&a[j], &b[k], &a[k], &b[j])

@@ -16,7 +16,7 @@ mod contact;
 mod determinant;
 mod filter;
 mod grid;
-mod integer;
+pub(crate) mod integer;
 mod monomials;
 mod rational;
 mod resolve;

@@ -1,0 +1,156 @@
+//! Distances where floats and double-doubles do not decide: all that can cancel in integers of any
+//! size, and the rest, products and quotients, in floats with exponents of any size.
+//!
+//! With A = a - o and so on, the offset of the line from a is A×d / |d|, and that from b is B×d / |d|.
+//! The edge between them, B×d - A×d = slope, is met beside its ends where offset and slope are at an
+//! obtuse angle at a and at an acute one at b; the distance is then |(A×d)×(B×d)| / (|slope| |d|), and
+//! (A×d)×(B×d) = (A·(B×d)) d. So three cross products and three determinants are all there is to
+//! round; signs of products with the slope err only where both readings agree to some 2^-50.
+
+use super::{Distances, Zeros};
+use crate::arith::{decompose, scale_by_power_of_two};
+use crate::case::Case;
+use crate::oracle::integer::{Triple, align, cross, dot, minus};
+use num_bigint::BigInt;
+use num_traits::ToPrimitive;
+
+/// A number that is not negative: a power of two times a float, which is zero, infinite, or from 1 to 2.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+struct Wide {
+    exponent: i64,
+    float: f64,
+}
+
+impl Wide {
+    /// In the order of numbers.
+    const ZERO: Wide = Wide { exponent: i64::MIN / 4, float: 0.0 };
+    const INFINITE: Wide = Wide { exponent: i64::MAX / 4, float: f64::INFINITY };
+
+    fn new(float: f64, exponent: i64) -> Wide {
+        if float == 0.0 {
+            return Wide::ZERO;
+        }
+        let (digits, power) = decompose(float);
+        let bits = i64::from(63 - digits.leading_zeros());
+        let near_one = scale_by_power_of_two(digits as f64, -bits as i32);
+        Wide { float: near_one, exponent: exponent + power + bits }
+    }
+
+    /// The magnitude of an integer times a power of two, its first 64 bits.
+    fn of(integer: &BigInt, exponent: i64) -> Wide {
+        let shift = integer.bits().saturating_sub(64);
+        let leading = (integer.magnitude() >> shift).to_u64().expect("64 bits");
+        Wide::new(leading as f64, exponent + shift as i64)
+    }
+
+    fn times(self, other: Wide) -> Wide {
+        Wide::new(self.float * other.float, self.exponent + other.exponent)
+    }
+
+    /// Infinite by zero.
+    fn over(self, other: Wide) -> Wide {
+        if other == Wide::ZERO {
+            return Wide::INFINITE;
+        }
+        Wide::new(self.float / other.float, self.exponent - other.exponent)
+    }
+
+    fn smaller(self, other: Wide) -> Wide {
+        if other < self { other } else { self }
+    }
+
+    fn larger(self, other: Wide) -> Wide {
+        if self < other { other } else { self }
+    }
+
+    fn to_f64(self) -> f64 {
+        scale_by_power_of_two(self.float, self.exponent.clamp(-3000, 3000) as i32)
+    }
+}
+
+/// A vector in floats below 1, times a power of two.
+struct WideVector {
+    floats: [f64; 3],
+    exponent: i64,
+}
+
+impl WideVector {
+    fn of(vector: &Triple<BigInt>, exponent: i64) -> WideVector {
+        let bits = vector.iter().map(BigInt::bits).max().unwrap_or(0);
+        let shift = bits.saturating_sub(64);
+        let float = |x: &BigInt| {
+            let leading = (x >> shift).to_i128().expect("65 bits");
+            scale_by_power_of_two(leading as f64, -64)
+        };
+        WideVector { floats: vector.each_ref().map(float), exponent: exponent + shift as i64 + 64 }
+    }
+
+    fn length(&self) -> Wide {
+        let square = self.floats.iter().map(|x| x * x).sum::<f64>();
+        Wide::new(square.sqrt(), self.exponent)
+    }
+
+    /// The dot product but for a power of two: its sign is what counts.
+    fn dot(&self, other: &WideVector) -> f64 {
+        self.floats.iter().zip(other.floats).map(|(x, y)| x * y).sum()
+    }
+}
+
+/// Of a valid case.
+pub(super) fn distances(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Distances {
+    let [o, d, a, b, c] = case.vectors();
+    let ([o, a, b, c], grid) = align([o, a, b, c]);
+    let ([d], direction_grid) = align([d]);
+    let squared = grid + direction_grid;
+    let length = WideVector::of(&d, direction_grid).length();
+    let points = [&a, &b, &c].map(|point| minus(point, &o));
+    let offsets = points.each_ref().map(|point| cross(point, &d));
+
+    let edges = [(0, 1), (1, 2), (2, 0)];
+    let sides = edges.map(|(p, q)| WideVector::of(&minus(&points[q], &points[p]), grid).length());
+    let longest = sides.into_iter().fold(Wide::ZERO, Wide::larger);
+    let unit = if longest == Wide::ZERO { Wide::new(1.0, 0) } else { longest };
+    let to_edges = edges.map(|(p, q)| {
+        let slope = WideVector::of(&minus(&offsets[q], &offsets[p]), squared);
+        let [at_p, at_q] = [p, q].map(|end| WideVector::of(&offsets[end], squared));
+        if at_p.dot(&slope) < 0.0 && 0.0 < at_q.dot(&slope) {
+            let determinant = dot(&points[p], &offsets[q]);
+            Wide::of(&determinant, grid + squared).over(slope.length())
+        } else {
+            at_p.length().smaller(at_q.length()).over(length)
+        }
+    });
+    let in_space = to_edges.into_iter().fold(Wide::INFINITE, Wide::smaller);
+
+    let along = zeros.along.map_or([f64::NAN; 3], |at| {
+        let n = cross(&minus(&b, &a), &minus(&c, &a));
+        let (capital_t, capital_d) = (dot(&n, &points[0]), dot(&n, &d));
+        let divisor = Wide::of(&capital_d, grid + squared);
+        let ends = [0.0, case.ray.t_min, case.ray.t_max];
+        std::array::from_fn(|i| match ends[i] {
+            _ if at[i] => 0.0,
+            end if end.is_infinite() => f64::INFINITY,
+            end => {
+                let gap = gap((&capital_t, 3 * grid), (&capital_d, grid + squared), end);
+                gap.over(divisor).times(length).over(unit).to_f64()
+            }
+        })
+    });
+    Distances {
+        in_space: if zeros.in_space { 0.0 } else { in_space.over(unit).to_f64() },
+        along,
+        edge_in_ulps: unit.over(Wide::new(ulp, 0)).to_f64(),
+    }
+}
+
+/// |T - end·D|; T and D as integers times powers of two.
+fn gap((t, t_exponent): (&BigInt, i64), (d, d_exponent): (&BigInt, i64), end: f64) -> Wide {
+    let (digits, exponent) = decompose(end);
+    if digits == 0 {
+        return Wide::of(t, t_exponent);
+    }
+    let d_exponent = d_exponent + exponent;
+    let common = t_exponent.min(d_exponent);
+    let gap = (t << (t_exponent - common)) - (d * digits << (d_exponent - common));
+    Wide::of(&gap, common)
+}
