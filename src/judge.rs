@@ -379,9 +379,10 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
     GroupTruth::Free
 }
 
-/// Whether [`group_truth`] is the same under two contracts, whatever the truths.
+/// Whether groups are asked the same under two contracts, whatever the rays and truths.
 pub(crate) fn asks_groups_alike(one: &Contract, other: &Contract) -> bool {
-    (one.extent, one.sides) == (other.extent, other.sides)
+    let all = |contract: &Contract| (contract.extent, contract.sides, contract.direction);
+    all(one) == all(other)
 }
 
 /// Whether the line passes through the inside of the triangles' union: inside a triangle, on an edge

@@ -288,7 +288,8 @@ fn either(a: Bounded, b: Bounded, wanted: Ordering) -> Bounded {
     match compare(&b, &a) {
         Some(order) => chosen(order),
         None if a.is_known() && b.is_known() => {
-            Bounded { error: a.error.max(b.error), ..chosen(b.high.partial_cmp(&a.high)) }
+            let order = b.high.total_cmp(&a.high).then(b.low.total_cmp(&a.low));
+            Bounded { error: a.error.max(b.error), ..chosen(Some(order)) }
         }
         None => UNKNOWN,
     }

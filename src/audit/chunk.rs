@@ -7,7 +7,7 @@ use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, GroupTruth, Kind, Obligation, group_truth};
+use crate::judge::{self, Class, GroupTruth, Kind, Obligation, group_truth, promises_direction};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
@@ -142,6 +142,10 @@ impl<F: Scalar> Chunk<F> {
             return Vec::new();
         }
         let ask = |(_, range): (u64, Range<usize>)| {
+            let direction: [F; 3] = self.cases[range.start].ray.direction.into();
+            if !promises_direction(contract.direction, direction) {
+                return GroupTruth::Free;
+            }
             group_truth(&self.truths[range], contract, self.grouping)
         };
         self.groups().map(ask).collect()

@@ -8,6 +8,7 @@ use super::shard::Shard;
 use super::source::Source;
 use super::stored::ScalarName;
 use super::tally::{ClassCount, Place, Tally};
+use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
@@ -299,7 +300,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
 }
 
 /// Runs a kernel on all cases.
-pub(crate) fn verdicts_of<F: Scalar>(
+pub(crate) fn verdicts_of<F: Float>(
     subject: &dyn Subject<F>,
     cases: &[Case<F>],
     epsilons: &[F],

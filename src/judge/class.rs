@@ -4,8 +4,8 @@ use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
-/// All of a truth that an obligation depends on: its class, and either the sign of t or what a line in
-/// the plane meets.
+/// All of a truth that an obligation depends on: its class, and either the sign of t with whether it is
+/// at an end of the interval, or what a line in the plane meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Kind(u8);
 
@@ -16,11 +16,15 @@ impl Kind {
     /// The kind of a truth.
     pub fn of(truth: &Truth) -> Kind {
         let detail = match truth {
-            Truth::Transversal(crossing) => match crossing.t_sign {
-                Ordering::Less => 0,
-                Ordering::Equal => 1,
-                Ordering::Greater => 2,
-            },
+            Truth::Transversal(crossing) => {
+                let at_end = matches!(crossing.place, Place::AtMin | Place::AtMax);
+                let sign = match crossing.t_sign {
+                    Ordering::Less => 0,
+                    Ordering::Equal => 1,
+                    Ordering::Greater => 2,
+                };
+                u8::from(at_end) | sign << 1
+            }
             Truth::Coplanar(Contact { kind, meets_ray, meets_line })
             | Truth::Degenerate(Contact { kind, meets_ray, meets_line }) => {
                 let meets_interval = *kind != ContactKind::None;

@@ -266,7 +266,12 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Distanc
     let largest =
         scaled(1.0, exponent_of([vectors[0], vectors[2], vectors[3], vectors[4]].as_flattened()));
     let edges = [(a, b), (b, c), (c, a)];
-    let unit = unit_of(edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q))), size);
+    let longest = edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q)));
+    // The square of a very short edge underflows.
+    if longest < scaled(largest, -400) && !(a == b && b == c) {
+        return None;
+    }
+    let unit = unit_of(longest, size);
     let length = d.length();
     let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
         let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));

@@ -149,3 +149,33 @@ fn a_group_that_covers_itself_at_the_ray_is_free() {
     assert_eq!(ask(&truths(&once)), GroupTruth::Crossing);
     assert_eq!(ask(&truths(&twice)), GroupTruth::Free);
 }
+
+#[test]
+fn many_cases_are_asked_what_each_is_asked() {
+    use crate::contract::NAMED;
+    use crate::family::FAMILIES;
+    let own = crate::kernel::KERNELS.iter().map(|entry| entry.info.contract);
+    let unit = Contract { direction: Direction::Unit { ulps: 4 }, ..Contract::CLOSED_RAY };
+    let contracts = NAMED.iter().map(|named| named.contract).chain(own).chain([unit]);
+    for contract in contracts {
+        let ends = [Boundary::Closed, Boundary::Open, Boundary::Free];
+        for contract in ends.map(|ends| Contract { ends, ..contract }) {
+            // All families together, so that ends and insides stand side by side.
+            let made = FAMILIES.iter().flat_map(|family| {
+                (0..40).map(|i| family.make::<f64>(&crate::case::Parameters::default(), 1, i))
+            });
+            let cases: Vec<Case<f64>> = made.flat_map(|made| made.cases().to_vec()).collect();
+            let truths: Vec<Truth> = cases.iter().map(truth).collect();
+            let kinds: Vec<Kind> = truths.iter().map(Kind::of).collect();
+            for respawned in [false, true] {
+                let each: Vec<Obligation> = cases
+                    .iter()
+                    .zip(&truths)
+                    .map(|(case, truth)| asked(case, truth, &contract, respawned))
+                    .collect();
+                let all = all_asked(&cases, &truths, &kinds, &contract, respawned);
+                assert_eq!(all, each, "{contract:?}");
+            }
+        }
+    }
+}

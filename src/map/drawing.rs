@@ -10,7 +10,7 @@ use super::panel::Panel;
 use super::scene::{Layer, Scene};
 use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, escaped, wrapped};
 use crate::arith::{Exact, Float, Real};
-use crate::audit::{Row, exact_severity};
+use crate::audit::{Row, exact_severity, verdicts_of};
 use crate::case::Case;
 use crate::corpus::number;
 use crate::judge::{asked, judge};
@@ -49,7 +49,7 @@ impl Witness {
         let subject = F::subject(row.entry)
             .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
         let mut verdict = [Verdict::miss(None)];
-        subject.run(std::slice::from_ref(case), &row.epsilons::<F>(), &mut verdict);
+        verdicts_of(subject, std::slice::from_ref(case), &row.epsilons::<F>(), &mut verdict);
         let [verdict] = verdict;
         let definition = oracle::define(case);
         let asked = asked(case, &definition.truth, &row.contract, false);

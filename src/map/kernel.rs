@@ -2,7 +2,7 @@
 
 use super::{AxisText, Grid, Map, MapError, Pixels, RayPixel, Step};
 use crate::arith::Float;
-use crate::audit::Row;
+use crate::audit::{Row, verdicts_of};
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{Obligation, asked, judge, obligation};
@@ -106,7 +106,7 @@ fn pixels<F: Float>(
     epsilons: &[F],
 ) -> Vec<RayPixel> {
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
-    subject.run(cases, epsilons, &mut verdicts);
+    verdicts_of(subject, cases, epsilons, &mut verdicts);
     let mut truths = Vec::with_capacity(cases.len());
     oracle::truths(cases, &mut truths, &mut Layers::default());
     let pixel = |((case, verdict), truth): ((&Case<F>, &Verdict<F>), Truth)| {

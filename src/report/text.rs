@@ -320,6 +320,14 @@ fn severity_of(finding: &FindingPart) -> (f64, bool) {
             let in_space = if outside { severity.in_space } else { 0.0 };
             if along > in_space { (along, true) } else { (in_space, false) }
         }
+        // A hit at an end that does not count.
+        Some(along)
+            if finding.finding == "false-hit"
+                && along == 0.0
+                && !finding.class.starts_with("outside") =>
+        {
+            (along, true)
+        }
         Some(along) if finding.finding == "false-miss" && along < severity.in_space => {
             (along, true)
         }

@@ -24,11 +24,13 @@ fn the_exact_value_lies_within_the_bound_and_decided_comparisons_agree() {
         for _ in 0..7 {
             let (i, j) = (draw.below(numbers.len()), draw.below(numbers.len()));
             let ((x, p), (y, q)) = (numbers[i].clone(), numbers[j].clone());
-            let made = match draw.below(5) {
+            let made = match draw.below(7) {
                 0 => (x + y, p + q),
                 1 => (x - y, p - q),
                 2 => (x * y, p * q),
                 3 => (x / y, p / q),
+                4 => (x.smaller(y), p.smaller(q)),
+                5 => (x.larger(y), p.larger(q)),
                 _ if matches!(p, Exact::Rational(_)) => {
                     // Squares have roots that are rational.
                     ((x * x).sqrt(), p.abs())

@@ -154,3 +154,55 @@ fn gap((t, t_exponent): (&BigInt, i64), (d, d_exponent): (&BigInt, i64), end: f6
     let gap = (t << (t_exponent - common)) - (d * digits << (d_exponent - common));
     Wide::of(&gap, common)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::{Exact, Real};
+    use crate::case::Parameters;
+    use crate::family::FAMILIES;
+    use crate::judge::Squares;
+    use crate::oracle;
+    use crate::truth::Truth;
+
+    /// In exact squares, without a float until the end.
+    fn by_squares(case: &Case<f64>, truth: &Truth) -> (f64, [f64; 3]) {
+        let (ray, triangle) = case.exact();
+        let squares = Squares::<Exact>::of(&ray, &triangle, truth.crossing().is_some());
+        let unit = if squares.longest.is_zero() { Exact::one() } else { squares.longest };
+        let relative = |square: Exact| (square / &unit).approximate_root();
+        let along = squares.along.map(|square| square.map_or(f64::NAN, relative));
+        (relative(squares.in_space), along)
+    }
+
+    #[test]
+    fn distances_in_integers_are_those_of_exact_squares() {
+        let near = |found: f64, exact: f64| {
+            found == exact || (found - exact).abs() <= 1e-12 * exact || exact.is_infinite()
+        };
+        let mut compared = 0;
+        for family in FAMILIES {
+            for index in 0..60 {
+                let made = family.make::<f64>(&Parameters::default(), 5, index);
+                for case in made.cases() {
+                    let truth = oracle::truth(case);
+                    if truth == Truth::Invalid {
+                        continue;
+                    }
+                    // As if nothing were known to be zero.
+                    let crosses = truth.crossing().is_some();
+                    let zeros = Zeros { in_space: false, along: crosses.then_some([false; 3]) };
+                    let found = distances(case, 1.0, &zeros);
+                    let (in_space, along) = by_squares(case, &truth);
+                    assert!(near(found.in_space, in_space), "{} {in_space:e}", case.hex());
+                    for (found, exact) in found.along.into_iter().zip(along) {
+                        let agree = exact.is_nan() || near(found, exact);
+                        assert!(agree, "{} {found:e} {exact:e}", case.hex());
+                    }
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 1500, "{compared}");
+    }
+}

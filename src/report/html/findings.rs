@@ -100,15 +100,15 @@ fn source(row: &RowPart, result: &KernelResult, depth: Depth, room: &mut Room) -
     .into_string();
     let around = head.len() + 80;
     if room.left() < around {
-        return (String::new(), result.findings.len() as u64);
+        return (String::new(), (result.findings.len() + groups.len()) as u64);
     }
     let mut inner = Room::new(room.left() - around);
     let mut body =
         inner.fill(result.findings.iter(), |part| class(result, part, depth).into_string());
-    let left_out = inner.left_out;
     for (kind, rate, ids) in groups {
         inner.add(&mut body, &group(row, result, kind, rate, ids).into_string());
     }
+    let left_out = inner.left_out;
     let text = format!("<details class=\"source\"><summary>{head}</summary>{body}</details>");
     room.add(&mut String::new(), &text);
     (text, left_out)

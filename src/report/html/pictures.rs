@@ -108,6 +108,10 @@ fn drawings(row: &Row) -> Vec<Markup> {
     for scalar in &row.scalars {
         for kind in Kind::ALL {
             let Some((family, part)) = worst(scalar, kind) else { continue };
+            // A drawing does not know that its ray starts at the kernel's own hit.
+            if run.contract.no_self_hit && family == "respawn" {
+                continue;
+            }
             let svg = match scalar.scalar {
                 "f32" => drawn::<f32>(&run, &part.worst.bits),
                 _ => drawn::<f64>(&run, &part.worst.bits),
