@@ -257,6 +257,44 @@ fn a_kernel_in_a_shell_is_audited_over_its_pipe() {
 }
 
 #[test]
+fn a_campaign_on_a_command_goes_on_and_its_finds_are_told_again() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign-on-a-command");
+    let _ = fs::remove_dir_all(&folder);
+    let folder = folder.to_str().unwrap();
+    let misses = shell(MISSES);
+    let fuzz = |flags: &[&str]| {
+        let output = hairline(&[&["fuzz", folder, "--evaluations", "3000", "-q"], flags].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        fs::read_to_string(format!("{folder}/finds.jsonl")).unwrap()
+    };
+    let begun = fuzz(&["--kernel-cmd", &misses]);
+    assert!(begun.contains("\"kernel\":\"sh\""), "{begun}");
+    // The campaign knows its kernel, and every find is of a kind of its own.
+    let more = fuzz(&[]);
+    assert!(more.starts_with(&begun), "{more}");
+    let kind = |line: &str| {
+        let find: Value = serde_json::from_str(line).unwrap();
+        find["found"]["signature"].to_string()
+    };
+    let mut kinds: Vec<String> = more.lines().map(kind).collect();
+    kinds.sort();
+    kinds.dedup();
+    assert_eq!(kinds.len(), more.lines().count());
+    let first: Value = serde_json::from_str(begun.lines().next().unwrap()).unwrap();
+    let name = first["name"].as_str().unwrap();
+    let corpus = format!("{folder}/finds.jsonl");
+    let shown = hairline(&["explain", name, "--corpus", &corpus, "--kernel-cmd", &misses]);
+    assert!(
+        text(&shown.stdout).contains("sh (own): miss; asked: must-hit"),
+        "{}",
+        text(&shown.stdout)
+    );
+
+    let twice = refused(&["list", "kernels", "--kernel-cmd", &misses, "--kernel-cmd", &misses], 2);
+    assert!(twice.contains("is given twice"), "{twice}");
+}
+
+#[test]
 fn a_command_that_is_no_kernel_is_refused_with_what_was_found_and_expected() {
     let cases: &[(&str, i32, &str)] = &[
         ("no-such-program-anywhere", 74, "no-such-program-anywhere: it cannot be started: "),

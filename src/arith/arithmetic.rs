@@ -68,10 +68,18 @@ impl Arithmetic {
         }
     }
 
-    /// The largest epsilon that compares with other numbers as `margin` does: where subnormal
-    /// numbers are zero, that of zero is the largest of them.
+    /// The largest epsilon that is not above `margin` once it is flushed: where subnormal numbers are
+    /// zero, the largest of them for a margin of zero or of a positive one, and none of them for a
+    /// negative one.
     pub fn largest_epsilon<F: Float>(self, margin: F) -> F {
-        if self.flushed && margin.is_zero() { just_below(smallest_normal::<F>()) } else { margin }
+        let smallest = smallest_normal::<F>();
+        if !self.flushed || margin.is_nan() || smallest <= margin.abs() {
+            margin
+        } else if margin < F::zero() {
+            -smallest
+        } else {
+            just_below(smallest)
+        }
     }
 
     /// The next number below that this arithmetic tells apart.

@@ -63,13 +63,20 @@ impl PluginArguments {
         let limits = self.limits()?;
         let libraries = self.kernel_lib.iter().map(|path| {
             let flag = format!("--kernel-lib {}", quoted(path));
-            register(path, load(host_of(path)?, limits, flag))
+            started(flag, |flag| register(path, load(host_of(path)?, limits, flag)))
         });
         let commands = self.kernel_cmd.iter().map(|line| {
             let program = Program::parse(line)
                 .map_err(|error| Failure::usage(format!("--kernel-cmd '{line}': {error}")))?;
-            register(line, load(program, limits, format!("--kernel-cmd {}", quoted(line))))
+            let flag = format!("--kernel-cmd {}", quoted(line));
+            started(flag, |flag| register(line, load(program, limits, flag)))
         });
+        let twice = |flags: &[String]| (1..flags.len()).find(|&i| flags[..i].contains(&flags[i]));
+        for flags in [&self.kernel_lib, &self.kernel_cmd] {
+            if let Some(i) = twice(flags) {
+                return Err(Failure::usage(format!("the kernel '{}' is given twice", flags[i])));
+            }
+        }
         libraries.chain(commands).collect()
     }
 
@@ -82,6 +89,15 @@ impl PluginArguments {
         let silence = Duration::from_secs_f64(seconds);
         Ok(Limits { silence, failures: self.kernel_failures })
     }
+}
+
+/// The kernel that a flag brings along, which is started once for the whole run.
+fn started(
+    flag: String,
+    start: impl FnOnce(String) -> Result<&'static Entry, Failure>,
+) -> Result<&'static Entry, Failure> {
+    let known = kernel::all().into_iter().find(|entry| entry.selector() == flag);
+    known.map_or_else(|| start(flag), Ok)
 }
 
 /// This program again, as the process that loads a library.
