@@ -151,7 +151,7 @@ fn gap((t, t_exponent): (&BigInt, i64), (d, d_exponent): (&BigInt, i64), end: f6
     }
     let d_exponent = d_exponent + exponent;
     let common = t_exponent.min(d_exponent);
-    let gap = (t << (t_exponent - common)) - (d * digits << (d_exponent - common));
+    let gap = (t << (t_exponent - common)) - ((d * digits) << (d_exponent - common));
     Wide::of(&gap, common)
 }
 
