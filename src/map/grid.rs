@@ -74,7 +74,7 @@ pub const MOST_PIXELS: usize = 2048;
 
 impl<F: Float> Grid<F> {
     /// About a point, in a chosen plane of two of its coordinates; `step` on both axes, or by
-    /// [`natural_step`] if none. `extent` is a coordinate as large as those that the point is compared with.
+    /// its natural step if none. `extent` is a coordinate as large as those that the point is compared with.
     pub fn about(
         point: usize,
         values: &[F],

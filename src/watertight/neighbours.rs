@@ -3,10 +3,9 @@
 
 use super::topology::Topology;
 use crate::arith::Float;
-use crate::audit::exact_severity;
 use crate::case::Case;
 use crate::contract::Contract;
-use crate::judge::is_in_extent;
+use crate::judge::{Distances, is_in_extent};
 use crate::kernel::Verdict;
 use crate::truth::{Facing, Feature, Truth};
 
@@ -104,8 +103,7 @@ pub fn may_be_elsewhere<F: Float>(
             _ if verdict.failure.is_some() => return true,
             None if verdict.hit => return true,
             Some(crossing) if crossing.facing != facing => {
-                let distance = exact_severity(case, contract.extent).map(|s| s.in_space);
-                if distance.is_some_and(|distance| distance < NEAR) {
+                if Distances::of(case, truth).in_space < NEAR {
                     passed |= !verdict.hit;
                     met |= verdict.hit;
                 }
