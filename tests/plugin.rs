@@ -134,7 +134,7 @@ fn a_library_that_crashes_exits_or_writes_where_it_must_not_is_a_finding_case_by
 fn a_library_that_hangs_is_a_finding_and_the_run_ends() {
     let Some(library) = misbehaving("HANG") else { return };
     let start = Instant::now();
-    let flags = ["--kernel-timeout", "0.1", "--kernel-lib", &library];
+    let flags = ["--kernel-timeout", "0.4", "--kernel-lib", &library];
     let (record, _) = record(&[&flags[..], &FLAGS].concat());
     assert_eq!(count(&record, "timeouts"), faulty_cases());
     assert_eq!(count(&record, "false_misses/count"), COUNT - faulty_cases());

@@ -52,10 +52,14 @@ impl Campaign {
                 None => kernels.push(vec![row]),
             }
         }
-        let [in_f32, in_f64] = plan.scalars.map(|chosen| if chosen { &kernels[..] } else { &[] });
+        // A kernel may run in one scalar alone.
+        let running = |scalar: usize| {
+            let runs = move |rows: &&Vec<&Row>| rows[0].entry.scalars()[scalar];
+            kernels.iter().filter(move |_| plan.scalars[scalar]).filter(runs)
+        };
         Campaign {
-            f32: in_f32.iter().map(|rows| Island::new(rows, plan.varies)).collect(),
-            f64: in_f64.iter().map(|rows| Island::new(rows, plan.varies)).collect(),
+            f32: running(0).map(|rows| Island::new(rows, plan.varies)).collect(),
+            f64: running(1).map(|rows| Island::new(rows, plan.varies)).collect(),
             contract: plan.rows.first().and_then(|row| row.contract_name).unwrap_or("own"),
             seed: plan.seed,
             rounds: 0,

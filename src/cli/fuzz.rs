@@ -11,7 +11,7 @@ use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars};
-use super::sources::set_threads;
+use super::sources::{scalars_in_use, set_threads};
 use crate::campaign::{Campaign, Find, Plan, State};
 use clap::Args;
 use directory::{Begun, Directory};
@@ -92,12 +92,10 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
 
 /// The plan of a campaign.
 fn plan(begun: &Begun) -> Result<Plan, Failure> {
-    Ok(Plan {
-        rows: begun.kernels.rows()?,
-        varies: !begun.kernels.chooses_epsilons(),
-        scalars: chosen_scalars(&begun.scalar)?,
-        seed: begun.seed,
-    })
+    let rows = begun.kernels.rows()?;
+    let scalars = scalars_in_use(&rows, chosen_scalars(&begun.scalar)?)?;
+    let varies = !begun.kernels.chooses_epsilons();
+    Ok(Plan { rows, varies, scalars, seed: begun.seed })
 }
 
 impl FuzzArguments {
