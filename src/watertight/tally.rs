@@ -62,8 +62,8 @@ impl Outcome {
     }
 }
 
-/// An edge or vertex that is not as some row's contract wants it, with how many rays of all rows
-/// together say so.
+/// An edge or vertex with a crack of some row, whatever its contract, or with a double or a wrong fold
+/// of one that promises exactly one hit; and how many rays of all rows together say so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Offence {
     /// Edge or vertex.

@@ -6,8 +6,8 @@ use crate::report::Style;
 use std::collections::HashMap;
 use std::io::{self, Write};
 
-/// An edge (two points) or a vertex (one) that some row's contract does not want so, with how many
-/// rays of all rows together say so. Doubles and folds count for rows that promise exactly one hit.
+/// An edge (two points) or a vertex (one) where rows went wrong, with how many rays of all rows together
+/// say so. Cracks count for every row, doubles and folds for rows that promise exactly one hit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Offender {
     /// `f32` or `f64`.
