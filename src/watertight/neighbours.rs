@@ -102,11 +102,11 @@ pub fn may_be_elsewhere<F: Float>(
         match crossing {
             _ if verdict.failure.is_some() => return true,
             None if verdict.hit => return true,
-            Some(crossing) if crossing.facing != facing => {
-                if Distances::of(case, truth).in_space < NEAR {
-                    passed |= !verdict.hit;
-                    met |= verdict.hit;
-                }
+            Some(crossing)
+                if crossing.facing != facing && Distances::of(case, truth).in_space < NEAR =>
+            {
+                passed |= !verdict.hit;
+                met |= verdict.hit;
             }
             _ => {}
         }
