@@ -41,6 +41,11 @@ impl<V> Triangle<V> {
     pub fn vertices(self) -> [V; 3] {
         [self.a, self.b, self.c]
     }
+
+    /// The edges ab, bc, ca.
+    pub fn edges(&self) -> [(&V, &V); 3] {
+        [(&self.a, &self.b), (&self.b, &self.c), (&self.c, &self.a)]
+    }
 }
 
 /// One question to a kernel: does this ray meet this triangle?

@@ -4,6 +4,7 @@
 
 mod class;
 mod distance;
+mod expected;
 #[cfg(test)]
 mod tests;
 
@@ -12,6 +13,7 @@ pub(crate) use class::Kind;
 pub use distance::{
     Distances, Squares, exact_to_change, nearest_on_segment, square, ulp_of_points,
 };
+pub(crate) use expected::{Expectations, Kinds, ask_all, suspects};
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -109,35 +111,6 @@ pub fn asked<F: Float>(
         return Obligation::Free;
     }
     in_band(obligation(truth, contract, respawned), case, truth, contract)
-}
-
-/// What contracts ask of many cases; `kinds` are those of the truths.
-pub(crate) fn all_asked<F: Float>(
-    cases: &[Case<F>],
-    truths: &[Truth],
-    kinds: &[Kind],
-    contract: &Contract,
-    respawned: bool,
-) -> Vec<Obligation> {
-    if contract.direction != Direction::Any {
-        let cases = cases.iter().zip(truths);
-        return cases.map(|(case, truth)| asked(case, truth, contract, respawned)).collect();
-    }
-    // Few kinds occur, and each is asked the same.
-    let mut known = [None; Kind::COUNT];
-    let of_kind = |(kind, truth): (&Kind, &Truth)| {
-        let ask = || obligation(truth, contract, respawned);
-        let asked = *known[kind.number()].get_or_insert_with(ask);
-        debug_assert_eq!(asked, obligation(truth, contract, respawned));
-        asked
-    };
-    let mut asked: Vec<Obligation> = kinds.iter().zip(truths).map(of_kind).collect();
-    if contract.band.is_some() {
-        for (asked, (case, truth)) in asked.iter_mut().zip(cases.iter().zip(truths)) {
-            *asked = in_band(*asked, case, truth, contract);
-        }
-    }
-    asked
 }
 
 /// Nothing, within the contract's band.
@@ -273,23 +246,6 @@ pub fn judge<F: Float>(
         return Some(failed(failure));
     }
     judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
-}
-
-/// Whether [`judge()`] surely finds nothing, without a branch: what most verdicts of a run are. Where it
-/// says no, ask there.
-#[inline(always)]
-pub(crate) fn is_plainly_right<F: Float>(
-    obligation: Obligation,
-    kind: Kind,
-    gives: Gives,
-    verdict: &Verdict<F>,
-) -> bool {
-    let finite = (!gives.t | verdict.t.is_finite())
-        & (!gives.uv | (verdict.u.is_finite() & verdict.v.is_finite()));
-    let facing = !gives.facing | (verdict.facing == kind.facing());
-    let right_hit = verdict.hit & (obligation != Obligation::MustMiss) & finite & facing;
-    let right_miss = !verdict.hit & (obligation != Obligation::MustHit);
-    (right_hit | right_miss) & verdict.failure.is_none()
 }
 
 /// Compares an answer with what was asked.

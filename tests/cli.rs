@@ -155,6 +155,12 @@ fn epsilons_and_presets_change_the_verdict() {
     assert!(misses(&["--epsilon", "parallel=0"]) < 50);
     assert!(misses(&["--epsilon-preset", "zero"]) < 50);
     assert!(misses(&["--epsilon-preset", "godot"]) > 200);
+    // A scalar that has no such number cannot be asked; one that has it can.
+    let tiny = ["audit", "-n", "20", "--family", "tiny", "--epsilon", "parallel=1e-60"];
+    let in_f64 = ["--scalar", "f64", "--kernel", "moller-trumbore"];
+    let error = refused(Path::new("."), &tiny, 2);
+    assert!(error.contains("1e-60 is 0 in f32 (see --scalar)"), "{error}");
+    assert_eq!(code(&hairline(&[&tiny[..], &in_f64].concat())), 0);
     // A tolerance on the edges takes more hits than none.
     assert!(
         misses(&["--epsilon", "parallel=0,edge=-1e-3"])

@@ -69,6 +69,16 @@ fn one_case_more_on_the_same_cases_is_worse() {
     };
     assert_eq!(counted("one.json", "more.json"), ["worse"]);
     assert_eq!(counted("more.json", "one.json"), ["better"]);
+    // The same kernel under another contract answers another question.
+    audit(&folder, "open.json", &["--family", "edge-near", "--contract", "open-ray"]);
+    let (open, _) = ends(&folder, &["diff", "one.json", "open.json"], 0);
+    assert!(open.contains("cramer (bvh: parallel+t) is judged by another contract"), "{open}");
+    let (same, _) = ends(&folder, &["diff", "one.json", "one.json"], 0);
+    assert!(!same.contains("another contract"), "{same}");
+    // Nothing in common is no agreement.
+    audit(&folder, "other.json", &["--family", "behind"]);
+    let (_, error) = ends(&folder, &["diff", "one.json", "other.json"], 4);
+    assert!(error.contains("nothing to compare"), "{error}");
     // Another version, or no record at all.
     std::fs::write(folder.join("bad.json"), "{}").unwrap();
     ends(&folder, &["diff", "one.json", "bad.json"], 65);

@@ -96,12 +96,15 @@ fn the_finds_of_a_seed_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn a_campaign_goes_on_where_it_stopped() {
-    let directory = fresh("resume");
+    let directory = fresh("resume here");
     let begun = fuzz(&directory, &["--kernel", "cramer", "--scalar", "f32", "-n", "3000"]);
     expect(&begun, 0, "");
     let first = finds(&directory);
     assert!(text(&begun.stdout).contains("3000 evaluations"), "{begun:?}");
     assert!(!directory.join("lock").exists());
+    // The command that it prints takes a folder with a space in its name.
+    let file = format!("--corpus '{}/finds.jsonl' ", directory.display());
+    assert!(text(&begun.stdout).contains(&file), "{begun:?}");
     let resumed = fuzz(&directory, &["-n", "30000"]);
     let summary = text(&resumed.stdout);
     assert!(summary.contains("30000 evaluations") && summary.contains("session 2"), "{summary}");

@@ -89,6 +89,13 @@ fn points_are_mapped_by_id_by_name_and_as_json() {
     let json = r#"{"scalar":"f64","points":[[12,12],[24,24],[0.5,0.5]]}"#;
     let given = text(&[json, "--size", "64", "--epsilon", "1e-14"]);
     assert!(given.contains("orient2d (1e-14) in f64") && given.contains("about 0.5"), "{given}");
+    // The command beside a finding shows it again.
+    let command = given.split_once("hairline orient --case '").unwrap().1.lines().next().unwrap();
+    let (points, rest) = command.split_once("' ").unwrap();
+    let words: Vec<&str> =
+        ["orient", "--case", points].into_iter().chain(rest.split(' ')).collect();
+    let (again, _) = ends(&folder, &words, 0);
+    assert!(again.contains("orient2d (1e-14)") && again.contains("false-zero"), "{again}");
 }
 
 #[test]

@@ -92,9 +92,17 @@ fn gaps_are_refused_or_said_and_can_be_filled_later() {
     let partial = result_bytes(&folder.join("partial.json"));
     let value: serde_json::Value = serde_json::from_str(&partial).unwrap();
     assert_eq!(value["partial"], serde_json::json!({ "of": 3, "present": [0, 2] }));
+    let both = ["merge", files[0], files[2], "--allow-partial", "--format", "text,markdown"];
+    ends(&folder, &[&both[..], &["-o", "p.txt", "-o", "p.md"]].concat(), 0);
+    for file in ["p.txt", "p.md"] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(text.contains("shards 0, 2 of 3 only"), "{text}");
+    }
     merge(&folder, &["partial.json", files[1]], &["-o", "merged.json"], 0);
     audit(&folder, &["-o", "whole.json"]);
     assert_eq!(result_bytes(&folder.join("merged.json")), result_bytes(&folder.join("whole.json")));
+    let (whole, _) = ends(&folder, &[&["merge", "partial.json"], &[files[1]][..]].concat(), 0);
+    assert!(!whole.contains("a part of a run"), "{whole}");
 }
 
 #[test]

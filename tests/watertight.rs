@@ -675,7 +675,11 @@ fn at(feature: Feature, t_sign: Ordering, facing: Facing) -> Truth {
 
 /// Of a group that faces front, with neighbours whose boundary is so far from the line.
 fn is_elsewhere(neighbours: &[(Truth, bool)], distance: f32) -> bool {
-    let contract = NAMED.iter().find(|named| named.name == "closed-ray").unwrap().contract;
+    is_elsewhere_under("closed-ray", neighbours, distance)
+}
+
+fn is_elsewhere_under(contract: &str, neighbours: &[(Truth, bool)], distance: f32) -> bool {
+    let contract = NAMED.iter().find(|named| named.name == contract).unwrap().contract;
     let corners = [[-1.0, -distance, 0.0], [1.0, -distance, 0.0], [0.0, 2.0, 0.0]];
     let cases = vec![Case::<f32>::new([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], corners); 9];
     let truths: Vec<Truth> = neighbours.iter().map(|(truth, _)| *truth).collect();
@@ -709,4 +713,15 @@ fn a_ray_may_pass_beside_a_silhouette() {
     assert!(!is_elsewhere(&[(inside, true)], 1e-4), "the parity is wrong");
     assert!(is_elsewhere(&[(rim, false), (rim, false)], 0.0));
     assert!(!is_elsewhere(&[(rim, false), (rim, true)], 0.0));
+    // Beside several folds: what counts is whether as many hits are lost from either side.
+    let front = at(Feature::Interior, Ordering::Greater, Facing::Front);
+    assert!(is_elsewhere(&[(inside, false), (inside, true)], 1e-4));
+    assert!(!is_elsewhere(&[(inside, false), (front, false)], 1e-4));
+    assert!(is_elsewhere(&[(inside, false), (front, false), (inside, false)], 1e-4));
+    assert!(!is_elsewhere(&[(front, false)], 1e-4), "no silhouette");
+    // Who culls reports none from behind.
+    let culling =
+        |neighbours: &[(Truth, bool)]| is_elsewhere_under("front-closed-ray", neighbours, 1e-4);
+    assert!(culling(&[(inside, false)]) && culling(&[(inside, false), (inside, false)]));
+    assert!(!culling(&[(front, false)]));
 }

@@ -310,6 +310,14 @@ fn the_command_searches_updates_its_table_and_lists_it() {
     let words: Vec<&str> =
         command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
     assert_eq!(hairline_in(&folder, &words).status.code(), Some(0), "{words:?}");
+    // Without a table, what the program knows, by numbers that need no file.
+    let known = hairline_in(&folder, &["worst", "--list", "--kernel", "cramer"]);
+    let known = text(&known.stdout);
+    let command = known.lines().find(|line| line.contains("hairline explain '{")).unwrap();
+    let (case, rest) = command.split_once('\'').unwrap().1.split_once('\'').unwrap();
+    let words = rest.split_whitespace().map(|word| word.trim_matches('\''));
+    let words: Vec<&str> = ["explain", case].into_iter().chain(words).collect();
+    assert_eq!(hairline_in(&folder, &words).status.code(), Some(0), "{words:?}");
     let verified = hairline_in(&folder, &["corpus", "verify", "known.jsonl"]);
     assert!(text(&verified.stdout).contains("stored scores right"), "{}", text(&verified.stderr));
 }

@@ -1,8 +1,27 @@
-//! Entrants of other languages, which go through hairline's plug-ins: see examples/.
+//! Entrants that are built elsewhere: crates whose dependencies are many, in heavy/, and those of other
+//! languages, which go through hairline's plug-ins, in examples/.
 
 use crate::Entrant;
 
 pub const ENTRANTS: &[Entrant] = &[
+    Entrant {
+        name: "bevy_picking",
+        package: "bevy_picking 0.20.1",
+        function: "bevy_picking::mesh_picking::ray_cast::ray_mesh_intersection, Backfaces::Include",
+        promise: "\"Checks if a ray intersects a mesh, and returns the nearest intersection if one \
+            exists.\" Ray3d's direction is a Dir3, \"a normalized vector pointing in a direction\". The \
+            function normalises it again, which is charged to it.",
+        kernel: None,
+    },
+    Entrant {
+        name: "truck-meshalgo",
+        package: "truck-meshalgo 0.4.0",
+        function: "truck_meshalgo::analyzers::IncludingPointInDomain::signed_crossing_faces, not 0",
+        promise: "\"Count signed number of faces crossing ray with origin point and direction \
+            ray_direction. Counter increase if the dot product of the ray and the normal of a face is \
+            positive, and decrease if it is negative.\"",
+        kernel: None,
+    },
     Entrant {
         name: "embree-fast",
         package: "Embree 3.13.5",

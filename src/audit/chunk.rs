@@ -7,7 +7,9 @@ use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, GroupTruth, Kind, Obligation, group_truth, promises_direction};
+use crate::judge::{
+    self, Class, Expectations, GroupTruth, Kinds, Obligation, group_truth, promises_direction,
+};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
@@ -71,7 +73,7 @@ pub(crate) struct Chunk<F: Scalar> {
     pub cases: Vec<Case<F>>,
     pub places: Vec<Place>,
     pub truths: Vec<Truth>,
-    pub kinds: Vec<Kind>,
+    kinds: Kinds,
     /// Where each index's cases start, and the end.
     starts: Vec<usize>,
     first_index: u64,
@@ -105,7 +107,7 @@ impl<F: Scalar> Chunk<F> {
         let mut truths = Vec::with_capacity(cases.len());
         oracle::truths(&cases, &mut truths, &mut summary.layers);
         summary.oracle_nanoseconds += observer.now() - start;
-        let kinds = truths.iter().map(Kind::of).collect();
+        let kinds = Kinds::new(&truths);
         let grouping = source.grouping();
         let chunk = Chunk { grouping, cases, places, truths, kinds, starts, first_index };
         summary.indices += chunk.starts.len() as u64 - 1;
@@ -126,14 +128,19 @@ impl<F: Scalar> Chunk<F> {
     }
 
     /// What a contract asks of each case.
-    pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
+    pub fn expectations(&self, contract: &Contract) -> Expectations {
         let respawned = self.grouping == Grouping::Respawn;
-        judge::all_asked(&self.cases, &self.truths, &self.kinds, contract, respawned)
+        judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, respawned)
+    }
+
+    /// The same, without what else is known of the cases.
+    pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
+        self.expectations(contract).of.iter().map(|expected| expected.obligation()).collect()
     }
 
     /// The class of a case.
     pub fn class(&self, case: usize) -> Class {
-        self.kinds[case].class()
+        self.kinds.of[case].class()
     }
 
     /// What a contract asks of each group; empty if the source's cases stand alone.

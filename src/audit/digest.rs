@@ -16,12 +16,17 @@ pub struct Digest(u128);
 const STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Digest {
-    /// Adds a place.
-    pub fn add(&mut self, place: Place) {
+    /// Of one place.
+    pub fn of(place: Place) -> Digest {
         let triangle = mix(u64::from(place.triangle) ^ STREAM);
         let low = mix(place.index ^ triangle);
         let high = mix(low.wrapping_add(place.index ^ STREAM));
-        self.0 = self.0.wrapping_add(u128::from(high) << 64 | u128::from(low));
+        Digest(u128::from(high) << 64 | u128::from(low))
+    }
+
+    /// Adds a place.
+    pub fn add(&mut self, place: Place) {
+        self.merge(Digest::of(place));
     }
 
     /// Adds what another part of the set gave.

@@ -12,9 +12,11 @@ mod attribution;
 mod by_finding;
 mod causes;
 mod chunk;
+mod command;
 mod digest;
 mod histogram;
 mod interval;
+mod judging;
 mod plan;
 mod run;
 mod severity;
@@ -31,6 +33,7 @@ pub use by_finding::ByFinding;
 pub use causes::Causes;
 pub use chunk::SourceSummary;
 pub(crate) use chunk::{CHUNK, Chunk};
+pub use command::quoted;
 pub use digest::Digest;
 pub use histogram::Histogram;
 pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
@@ -40,7 +43,7 @@ pub(crate) use run::verdicts_of;
 pub use run::{Audit, Cell, Observer, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity};
 pub use shard::Shard;
-pub use source::{CorpusSet, Source, quoted};
+pub use source::{CorpusSet, Source};
 pub use stored::{StoredPlan, StoredSource};
 pub use tally::{
     ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Severities, Tally,

@@ -25,9 +25,23 @@ impl EpsilonText {
         }
         .filter(F::is_finite)
     }
-}
 
-impl EpsilonText {
+    /// In a scalar; none if it is too large there, or so small that it is 0.
+    pub fn fitting<F: Float>(&self) -> Option<F> {
+        self.value().filter(|value: &F| !value.is_zero() || self.is_zero())
+    }
+
+    /// Whether it is written as zero.
+    fn is_zero(&self) -> bool {
+        match self {
+            EpsilonText::Decimal(text) => {
+                let mut digits = text.chars().take_while(|c| !matches!(c, 'e' | 'E'));
+                !digits.any(|c| matches!(c, '1'..='9'))
+            }
+            EpsilonText::MachineEpsilon(factor) => *factor == 0.0,
+        }
+    }
+
     /// `EPSILON`, `-EPSILON` or `k*EPSILON`; decimal text otherwise, not checked. None if k is no number.
     fn of(text: &str) -> Option<EpsilonText> {
         let Some(factor) = text.strip_suffix("EPSILON") else {
@@ -87,7 +101,22 @@ impl Row {
         format!("{} ({})", self.entry.info.name, self.set)
     }
 
-    /// The epsilons in a scalar, one a gate. Texts were checked when the row was made.
+    /// An error if an epsilon is too large for a scalar, or so small that it is 0 there.
+    pub fn check<F: Float>(&self) -> Result<(), PlanError> {
+        for (gate, text) in self.tuned() {
+            if text.fitting::<F>().is_some() {
+                continue;
+            }
+            let wrong = if text.value::<F>().is_some() { "0 in" } else { "beyond the range of" };
+            let (name, gate, scalar) = (self.entry.info.name, gate.name, F::NAME);
+            return Err(PlanError(format!(
+                "gate '{gate}' of {name}: {text} is {wrong} {scalar} (see --scalar)"
+            )));
+        }
+        Ok(())
+    }
+
+    /// The epsilons in a scalar, one a gate; 0 for one that [`Row::check`] refuses.
     pub fn epsilons<F: Float>(&self) -> Vec<F> {
         self.epsilons.iter().map(|text| text.value().unwrap_or(F::zero())).collect()
     }
@@ -277,7 +306,7 @@ impl From<PresetValue> for EpsilonText {
 fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanError> {
     let epsilon = EpsilonText::of(text)
         .ok_or_else(|| PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
-    let (Some(value), Some(_)) = (epsilon.value::<f64>(), epsilon.value::<f32>()) else {
+    let Some(value) = epsilon.value::<f64>() else {
         let name = gate.name;
         return Err(PlanError(format!(
             "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON"
@@ -354,7 +383,7 @@ mod tests {
         );
         assert!(message(&["moller-trumbore"], &[("parallel", "-1e-6")]).contains("means nothing"));
         assert!(message(&["moller-trumbore"], &[("edge", "small")]).contains("is not an epsilon"));
-        assert!(message(&["moller-trumbore"], &[("edge", "1e39")]).contains("is not an epsilon"));
+        assert!(message(&["moller-trumbore"], &[("edge", "1e309")]).contains("is not an epsilon"));
         assert!(message(&["havel-herout"], &[("u", "0")]).contains("takes no epsilon"));
         assert!(
             message(&["moller-trumbore"], &[("edge", "nan*EPSILON")]).contains("is not an epsilon")
@@ -362,6 +391,19 @@ mod tests {
         // A kernel that cannot take a value does not keep the others from taking it.
         let rows = rows(&["havel-herout", "cramer"], given(&[("t", "1e-6")])).unwrap();
         assert_eq!((rows[0].set.as_str(), rows[1].set.as_str()), ("source", "t=1e-6"));
+    }
+
+    #[test]
+    fn an_epsilon_that_a_scalar_has_not_is_refused_there() {
+        let row = |text: &str| rows(&["moller-trumbore"], given(&[("parallel", text)])).unwrap();
+        let in_f32 = |text: &str| row(text)[0].check::<f32>().map_err(|error| error.0);
+        assert!(in_f32("1e39").unwrap_err().contains("1e39 is beyond the range of f32"));
+        assert!(in_f32("1e-60").unwrap_err().contains("1e-60 is 0 in f32"));
+        for fine in ["0", "0.0e5", "1e-45", "3e38", "EPSILON"] {
+            assert_eq!(in_f32(fine), Ok(()), "{fine}");
+        }
+        assert_eq!(row("1e-60")[0].check::<f64>(), Ok(()));
+        assert!(row("1e-400")[0].check::<f64>().is_err());
     }
 
     #[test]

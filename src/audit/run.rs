@@ -1,23 +1,18 @@
 //! The run: each case once to the oracle and once to each kernel.
 
-use super::accuracy::Errors;
 use super::causes::{self, Causes};
 use super::chunk::{CHUNK, Chunk, SourceSummary};
 use super::plan::{Plan, Row};
 use super::shard::Shard;
 use super::source::Source;
 use super::stored::ScalarName;
-use super::tally::{ClassCount, Place, Tally};
+use super::tally::{ClassCount, Tally};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{
-    self, Class, Distances, Finding, GroupTruth, Obligation, asks_groups_alike, obligation,
-    polygon_truth,
-};
+use crate::judge::{self, Class, Expectations, Finding, GroupTruth, asks_groups_alike};
 use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
-use crate::truth::Feature;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -187,17 +182,17 @@ pub(super) struct RunnerRow<F: 'static> {
     /// The row's place in the plan.
     number: usize,
     pub(super) subject: &'static dyn Subject<F>,
-    info: &'static KernelInfo,
+    pub(super) info: &'static KernelInfo,
     pub(super) epsilons: Vec<F>,
     contract: usize,
 }
 
 /// What a contract asks on a chunk.
-struct Asked {
-    obligations: Vec<Obligation>,
+pub(super) struct Asked {
+    pub expectations: Expectations,
     /// What was asked, by class.
-    classes: Vec<ClassCount>,
-    groups: Arc<[GroupTruth]>,
+    pub classes: Vec<ClassCount>,
+    pub groups: Arc<[GroupTruth]>,
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
@@ -256,12 +251,12 @@ impl<'a, F: Scalar> Runner<'a, F> {
                 of_groups.push((contract, groups.clone()));
                 groups
             });
-            let obligations = chunk.obligations(contract);
+            let expectations = chunk.expectations(contract);
             let mut classes = vec![ClassCount::default(); Class::COUNT];
-            for (kind, obligation) in chunk.kinds.iter().zip(&obligations) {
-                classes[kind.class().number()].ask(*obligation);
+            for (class, obligation, cases) in &expectations.counts {
+                classes[class.number()].ask(*obligation, *cases);
             }
-            Asked { obligations, classes, groups }
+            Asked { expectations, classes, groups }
         };
         self.contracts.iter().map(ask).collect()
     }
@@ -281,14 +276,17 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let sample = self.sample(source, &chunk);
         let asked = self.ask(&chunk);
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
-        let mut distances = vec![None; chunk.cases.len()];
+        let mut known = vec![None; chunk.cases.len()];
+        let mut suspects = Vec::new();
         for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
             let start = self.observer.now();
             verdicts_of(row.subject, &chunk.cases, &row.epsilons, &mut verdicts);
             *time += self.observer.now() - start;
             let contract = &self.contracts[row.contract];
             let asked = &asked[row.contract];
-            row.judge(&chunk, (contract, asked), &verdicts, &mut distances, tally);
+            judge::suspects(&asked.expectations.of, row.info.gives, &verdicts, &mut suspects);
+            let found = (&verdicts[..], &suspects[..]);
+            row.judge(&chunk, (contract, asked), found, &mut known, tally);
             row.measure(&chunk, &sample, asked, &verdicts, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
@@ -316,103 +314,6 @@ pub(crate) fn verdicts_of<F: Float>(
     for i in 0..cases.len() {
         if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
             verdicts[i] = Verdict::failed(Failure::Panic);
-        }
-    }
-}
-
-impl<F: Scalar> RunnerRow<F> {
-    fn judge(
-        &self,
-        chunk: &Chunk<F>,
-        (contract, asked): (&Contract, &Asked),
-        verdicts: &[Verdict<F>],
-        distances: &mut [Option<Distances>],
-        tally: &mut Tally,
-    ) {
-        tally.ask(&asked.classes);
-        let mut hits = [0; Class::COUNT];
-        let gives = self.info.gives;
-        let asked_of = asked.obligations.iter().zip(&chunk.kinds);
-        for (i, (verdict, (&obligation, &kind))) in verdicts.iter().zip(asked_of).enumerate() {
-            hits[kind.class().number()] += u64::from(verdict.hit);
-            let truth = &chunk.truths[i];
-            if judge::is_plainly_right(obligation, kind, gives, verdict) {
-                debug_assert_eq!(judge::judge(obligation, truth, gives, verdict), None);
-                continue;
-            }
-            if let Some(finding) = judge::judge(obligation, truth, gives, verdict) {
-                let severity = (!kind.class().is_invalid()).then(|| {
-                    // Kernels tend to be wrong on the same cases.
-                    let case = &chunk.cases[i];
-                    let distances = distances[i].get_or_insert_with(|| Distances::of(case, truth));
-                    (distances.to_change(truth, contract), distances.edge_in_ulps)
-                });
-                tally.find(kind.class(), finding, chunk.places[i], severity);
-            }
-        }
-        tally.hits(&hits);
-        if chunk.grouping == Grouping::Respawn {
-            tally.self_hits.rays += verdicts.len() as u64;
-            tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
-        }
-        for ((index, range), truth) in chunk.groups().zip(asked.groups.iter()) {
-            let verdicts = &verdicts[range];
-            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
-                continue;
-            }
-            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-            tally.group(index, *truth, hits);
-        }
-    }
-
-    /// Measures the values of right hits on a sample.
-    fn measure(
-        &self,
-        chunk: &Chunk<F>,
-        sample: &[usize],
-        asked: &Asked,
-        verdicts: &[Verdict<F>],
-        tally: &mut Tally,
-    ) {
-        let gives = self.info.gives;
-        for &i in sample {
-            let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
-            let Some(crossing) = truth.crossing() else { continue };
-            let finding = judge::judge(asked.obligations[i], truth, gives, verdict);
-            let is_right = verdict.hit && finding != Some(Finding::FalseHit);
-            if is_right && crossing.feature != Feature::Outside {
-                tally.accuracy.add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
-            }
-        }
-    }
-
-    /// Asks about each polygon as a whole; the truth is the union of its fan.
-    fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
-        for (index, range) in chunk.groups() {
-            let cases = &chunk.cases[range.clone()];
-            let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
-            vertices.extend(cases.iter().map(|case| case.triangle.c));
-            let asked = obligation(&polygon_truth(&chunk.truths[range]), contract, false);
-            let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
-            let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
-            let (polygons, place) = (&mut tally.polygons, Place { index, triangle: 0 });
-            match asked {
-                Obligation::MustHit => {
-                    polygons.must_hit += 1;
-                    if !hit {
-                        polygons.false_miss += 1;
-                        polygons.false_miss_digest.add(place);
-                    }
-                }
-                Obligation::MustMiss => {
-                    polygons.must_miss += 1;
-                    if hit {
-                        polygons.false_hit += 1;
-                        polygons.false_hit_digest.add(place);
-                    }
-                }
-                Obligation::Free => {}
-            }
         }
     }
 }

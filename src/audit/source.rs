@@ -1,5 +1,6 @@
 //! Where a plan's cases come from, by index.
 
+use super::command::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily};
@@ -186,9 +187,4 @@ impl Source {
             Source::Corpus(set) => format!("{id} --corpus {}", quoted(&set.file)),
         }
     }
-}
-
-/// A word for a shell.
-pub fn quoted(word: &str) -> String {
-    format!("'{}'", word.replace('\'', "'\\''"))
 }

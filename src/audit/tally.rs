@@ -51,12 +51,12 @@ impl ClassCount {
         }
     }
 
-    /// Counts a case and what was asked of it.
-    pub fn ask(&mut self, obligation: Obligation) {
-        self.cases += 1;
+    /// Counts cases and what was asked of them.
+    pub fn ask(&mut self, obligation: Obligation, cases: u64) {
+        self.cases += cases;
         match obligation {
-            Obligation::MustHit => self.must_hit += 1,
-            Obligation::MustMiss => self.must_miss += 1,
+            Obligation::MustHit => self.must_hit += cases,
+            Obligation::MustMiss => self.must_miss += cases,
             Obligation::Free => {}
         }
     }
@@ -87,11 +87,11 @@ pub struct Examples {
 }
 
 impl Examples {
-    fn add(&mut self, place: Place, severity: f64, limit: usize) {
+    fn add(&mut self, (place, digest): (Place, Digest), severity: f64, limit: usize) {
         if self.first.len() < limit {
             self.first.push(place);
         }
-        self.digest.add(place);
+        self.digest.merge(digest);
         self.propose((severity, place));
     }
 
@@ -300,13 +300,13 @@ impl Tally {
         }
     }
 
-    /// Counts a finding with its severity: how far the case is from where the verdict would be right,
+    /// Counts a finding at a place, whose digest is known, with its severity: how far the case is from where the verdict would be right,
     /// in longest edges, and the longest edge in ulps; none of invalid input.
     pub fn find(
         &mut self,
         class: Class,
         finding: Finding,
-        place: Place,
+        place: (Place, Digest),
         severity: Option<(f64, f64)>,
     ) {
         self.classes[class.number()].findings[finding as usize] += 1;
@@ -364,10 +364,11 @@ mod tests {
     fn any_split_adds_up_to_the_same() {
         let class = Class::all().next().unwrap();
         let event = |tally: &mut Tally, index: u64| {
-            tally.classes[class.number()].ask(Obligation::MustHit);
+            tally.classes[class.number()].ask(Obligation::MustHit, 1);
             if index.is_multiple_of(3) {
                 let place = Place { index, triangle: 0 };
-                tally.find(class, Finding::FalseMiss, place, Some(((index * 7 % 11) as f64, 2.0)));
+                let severity = Some(((index * 7 % 11) as f64, 2.0));
+                tally.find(class, Finding::FalseMiss, (place, Digest::of(place)), severity);
             }
             tally.group(index, GroupTruth::Crossing, (index % 4) as usize);
         };

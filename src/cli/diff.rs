@@ -43,5 +43,9 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
             writeln!(out)
         }
     })?;
+    if comparison.common == 0 {
+        let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
+        return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
+    }
     Ok(Status::Success)
 }

@@ -172,6 +172,7 @@ impl MapArguments {
         crate::corpus::lines::AnyCase: From<Case<F>>,
     {
         let row = self.row()?;
+        row.check::<F>()?;
         if self.drawing {
             let svg = map::drawing_document(case, &row)?;
             return Ok(Picture { summary: summary::of_drawing(case, &row), svg, map: None });

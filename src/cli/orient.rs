@@ -7,6 +7,8 @@ use super::output::write_result;
 use super::progress::Progress;
 use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
+use crate::audit::EpsilonText;
+use crate::corpus::points_json::{self, AnyPoints};
 use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
     Scalar, build, default_rows, find_family, find_known, show,
@@ -50,7 +52,8 @@ pub struct OrientArguments {
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
-    /// Show one case again: an id, or the name of a known case
+    /// Show one case again: an id, the name of a known case, or points as
+    /// {"scalar":"f64","points":[[x,y],...]}, three of the plane or four of space
     #[arg(long, value_name = "ID", conflicts_with_all = ["known", "dimension", "scalar", "count", "seed"])]
     case: Option<String>,
 
@@ -152,6 +155,9 @@ fn one_case(text: &str, rows: &[Row]) -> Result<(CasePart, Option<&'static Known
     if let Some(known) = find_known(text) {
         return Ok((known_case(known, rows)?, Some(known)));
     }
+    if text.trim_start().starts_with('{') {
+        return Ok((given_points(text, rows)?, None));
+    }
     if !text.contains(['/', ':', '@']) {
         let names = KNOWN.iter().map(|known| known.name);
         return Err(unknown("case", text, names, "hairline orient --known"));
@@ -163,6 +169,18 @@ fn one_case(text: &str, rows: &[Row]) -> Result<(CasePart, Option<&'static Known
         other => return Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
     };
     Ok((case, None))
+}
+
+/// The case of points as JSON.
+fn given_points(text: &str, rows: &[Row]) -> Result<CasePart, Failure> {
+    let points =
+        points_json::parse(text).map_err(|error| Failure::usage(format!("--case: {error}")))?;
+    let name = "the points given".to_owned();
+    let case = match &points {
+        AnyPoints::F32(points) => show(name, points, rows),
+        AnyPoints::F64(points) => show(name, points, rows),
+    };
+    case.ok_or_else(|| Failure::usage("--case: points that are not finite have no orientation"))
 }
 
 fn case_of_id<F: Scalar>(id: &PointsId, rows: &[Row]) -> Result<CasePart, Failure> {
@@ -225,7 +243,7 @@ impl OrientArguments {
                 && (!scalars[1] || is_epsilon::<f64>(text));
             if !fits {
                 return Err(Failure::usage(format!(
-                    "--epsilon: '{text}' is not a finite number from 0 in every chosen scalar"
+                    "--epsilon: '{text}' is not a finite number from 0 in every chosen scalar, or too small for one"
                 )));
             }
             if !epsilons.iter().any(|other| other == text) {
@@ -237,5 +255,6 @@ impl OrientArguments {
 }
 
 pub(super) fn is_epsilon<F: Float>(text: &str) -> bool {
-    F::parse(text).is_some_and(|e| e.is_finite() && e >= F::zero())
+    let epsilon = EpsilonText::Decimal(text.to_owned());
+    epsilon.fitting::<F>().is_some_and(|epsilon| epsilon >= F::zero())
 }

@@ -97,11 +97,6 @@ impl KernelArguments {
         self.band.is_some()
     }
 
-    /// ` --contract NAME`, if one is given: the end of a command that shows a case again.
-    pub fn contract_argument(&self) -> String {
-        self.contract.as_ref().map_or(String::new(), |name| format!(" --contract {name}"))
-    }
-
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         let mut chosen = self.plugins.entries()?;
         let all = kernel::all();

@@ -4,6 +4,7 @@ use super::case::{CaseArguments, Cases};
 use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::select::KernelArguments;
+use super::sources::check_epsilons;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
@@ -45,6 +46,7 @@ where
             cases.len()
         )));
     };
+    check_epsilons::<F>(rows)?;
     let row = row_with_finding(rows, case)?;
     let (signature, shrunk) = shrink_finding(row, case).ok_or_else(|| no_finding(rows))?;
     write_result("-", |out| write(out, row, case, &signature, &shrunk))?;

@@ -6,6 +6,7 @@ use super::select::{case_count, chosen_scalars, unknown};
 use crate::audit::{Row, Source};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
+use crate::kernel::Scalar;
 use clap::Args;
 use std::sync::Arc;
 
@@ -153,14 +154,27 @@ impl SourceArguments {
     }
 }
 
-/// Of the chosen scalars those that a kernel runs in; an error if there are none.
+/// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no
+/// number of one of them.
 pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
     let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
     if used == [false; 2] {
         let message = "no selected kernel runs in the chosen scalars (see --scalar)".to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
+    if chosen[0] {
+        check_epsilons::<f32>(rows)?;
+    }
+    if chosen[1] {
+        check_epsilons::<f64>(rows)?;
+    }
     Ok(used)
+}
+
+/// An error if an epsilon of a kernel that runs in a scalar is no number of it.
+pub fn check_epsilons<F: Scalar>(rows: &[Row]) -> Result<(), Failure> {
+    let mut runs = rows.iter().filter(|row| F::subject(row.entry).is_some());
+    Ok(runs.try_for_each(Row::check::<F>)?)
 }
 
 /// The indices of a run; an error if there are none.

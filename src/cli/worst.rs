@@ -5,8 +5,8 @@ use super::input::open;
 use super::output::{write_file, write_result};
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars, unknown};
-use super::sources::set_threads;
-use crate::audit::Observer;
+use super::sources::{scalars_in_use, set_threads};
+use crate::audit::{Observer, quoted};
 use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
@@ -60,9 +60,9 @@ pub struct WorstArguments {
     #[arg(long)]
     list: bool,
 
-    /// The table that --list prints
-    #[arg(long, default_value = "corpora/worst.jsonl", value_name = "FILE", requires = "list")]
-    table: String,
+    /// The table that --list prints [default: what was known when the program was built]
+    #[arg(long, value_name = "FILE", requires = "list")]
+    table: Option<String>,
 
     /// Threads [default: all cores]; without --time the result does not depend on it
     #[arg(long, value_name = "N")]
@@ -72,6 +72,9 @@ pub struct WorstArguments {
     #[arg(long, short)]
     quiet: bool,
 }
+
+/// The table of the worst known, as it was when the program was built.
+const KNOWN: &[u8] = include_bytes!("../../corpora/worst.jsonl");
 
 /// Runs the command.
 pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
@@ -91,7 +94,7 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     };
     let found = search(arguments, &goals);
     let Some(path) = &arguments.update else {
-        write_result("-", |out| write_entries(out, &arguments.kernels, found.entries(), None))?;
+        write_result("-", |out| write_entries(out, found.entries(), None))?;
         return Ok(Status::Success);
     };
     let updates: Vec<(Update, &Entry)> =
@@ -103,7 +106,7 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     eprintln!("{path}: {added} added, {raised} raised, {kept} stay as they were");
     let changed = updates.iter().filter(|(update, _)| *update != Update::Kept);
     let changed = changed.map(|(_, entry)| *entry);
-    write_result("-", |out| write_entries(out, &arguments.kernels, changed, Some(path)))?;
+    write_result("-", |out| write_entries(out, changed, Some(path)))?;
     Ok(Status::Success)
 }
 
@@ -133,6 +136,7 @@ impl WorstArguments {
             .filter(|goal| self.wants(goal))
             .collect();
         let scalars = chosen_scalars(&self.scalar)?;
+        scalars_in_use(&rows, scalars)?;
         Ok(scalars.map(|chosen| if chosen { goals.clone() } else { Vec::new() }))
     }
 
@@ -186,7 +190,10 @@ fn search(arguments: &WorstArguments, [f32_goals, f64_goals]: &[Vec<Goal>; 2]) -
 /// The known entries of the chosen kernels, scalars, objectives, gates and domains; of any epsilons,
 /// unless some are chosen.
 fn list(arguments: &WorstArguments, goals: &[Vec<Goal>; 2]) -> Result<Status, Failure> {
-    let table = read_table(&arguments.table)?;
+    let table = match &arguments.table {
+        Some(path) => read_table(path)?,
+        None => Table::read(KNOWN, "the known table")?,
+    };
     let key = |goal: &Goal| {
         let epsilons = arguments.kernels.chooses_epsilons().then(|| goal.row.epsilon_argument());
         (goal.row.entry.info.name, goal.target, goal.domain, epsilons)
@@ -197,11 +204,10 @@ fn list(arguments: &WorstArguments, goals: &[Vec<Goal>; 2]) -> Result<Status, Fa
     };
     let entries: Vec<&Entry> = table.entries().filter(wanted).collect();
     if entries.is_empty() {
-        let message = format!("{}: nothing is known of what was asked for", arguments.table);
+        let message = "nothing is known of what was asked for".to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
-    let (path, kernels) = (Some(arguments.table.as_str()), &arguments.kernels);
-    write_result("-", |out| write_entries(out, kernels, entries.into_iter(), path))?;
+    write_result("-", |out| write_entries(out, entries.into_iter(), arguments.table.as_deref()))?;
     Ok(Status::Success)
 }
 
@@ -212,7 +218,6 @@ fn read_table(path: &str) -> Result<Table, Failure> {
 /// Two lines an entry: how bad it is, and the command that shows it.
 fn write_entries<'a>(
     out: &mut dyn Write,
-    kernels: &KernelArguments,
     entries: impl Iterator<Item = &'a Entry>,
     table: Option<&str>,
 ) -> io::Result<()> {
@@ -248,17 +253,11 @@ fn write_entries<'a>(
             write!(out, " ({relative:.1e} of t)")?;
         }
         writeln!(out)?;
-        let (case, corpus) = match table {
-            Some(table) => (entry.name(), format!(" --corpus {table}")),
-            None => (bare_line(&entry.case), String::new()),
+        let case = match table {
+            Some(table) => format!("{} --corpus {}", quoted(&entry.name()), quoted(table)),
+            None => quoted(&bare_line(&entry.case)),
         };
-        let epsilons = epsilons.map_or(String::new(), |text| format!(" --epsilon '{text}'"));
-        let contract = kernels.contract_argument();
-        writeln!(
-            out,
-            "        hairline explain '{case}'{corpus} --kernel {}{epsilons}{contract}",
-            info.name
-        )?;
+        writeln!(out, "        {}", row.explain_command(&case))?;
     }
     Ok(())
 }

@@ -41,7 +41,6 @@ impl Kind {
     }
 
     /// The side that the ray crosses the plane from; none if it does not.
-    #[inline]
     pub fn facing(self) -> Option<Facing> {
         const FACINGS: [Option<Facing>; Kind::COUNT] = {
             let mut facings = [None; Kind::COUNT];

@@ -43,23 +43,29 @@ impl<R: Real> Squares<R> {
     /// Of a valid case, in an arithmetic that does not round. `crosses` says whether the line crosses
     /// the plane at one point.
     pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>, crosses: bool) -> Squares<R> {
-        let Ray { origin: o, direction: d, t_min, t_max } = ray;
-        let Triangle { a, b, c } = triangle;
-        let edges = [(a, b), (b, c), (c, a)];
+        let (o, d) = (&ray.origin, &ray.direction);
+        let edges = triangle.edges();
         let longest = edges.map(|(p, q)| square(&q.minus(p))).into_iter().reduce(R::larger);
         let to_edges = edges.map(|(p, q)| line_to_segment(o, d, p, q));
-        let n = b.minus(a).cross(&c.minus(a));
-        let t = crosses.then(|| n.dot(&a.minus(o)) / n.dot(d));
-        let along = [&R::zero(), t_min, t_max].map(|end| {
-            let gap = t.clone().filter(|_| end.is_finite())? - end;
-            Some(gap.clone() * gap * square(d))
-        });
         Squares {
             longest: longest.expect("three edges"),
             in_space: to_edges.into_iter().reduce(R::smaller).expect("three edges"),
-            along,
+            along: if crosses { along(ray, triangle) } else { [None, None, None] },
         }
     }
+}
+
+/// The squares of |t - end|·|d| for ends 0, t_min and t_max, of a line that crosses the plane; none
+/// where the end is infinite.
+fn along<R: Real>(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>) -> [Option<R>; 3] {
+    let Ray { origin: o, direction: d, t_min, t_max } = ray;
+    let Triangle { a, b, c } = triangle;
+    let n = b.minus(a).cross(&c.minus(a));
+    let t = n.dot(&a.minus(o)) / n.dot(d);
+    [&R::zero(), t_min, t_max].map(|end| {
+        let gap = end.is_finite().then(|| t.clone() - end)?;
+        Some(gap.clone() * gap * square(d))
+    })
 }
 
 /// The square of a vector's length.
@@ -99,15 +105,15 @@ impl Distances {
         let wide = case.widen();
         // No product of a few numbers of f32 leaves the range of f64.
         if F::MAX_EXPONENT < 128
-            && let Some(found) = quick(&wide, 0, ulp, &zeros)
+            && let Some(found) = quick(&wide, 0, ulp, &zeros).and_then(Quick::certain)
         {
             return found;
         }
         let near = NearOne::of(&wide);
-        let ulp_near_one = scaled(ulp, -near.size);
-        let quickly = || quick(&near.case, near.size, ulp_near_one, &zeros);
-        let by_bounds = || by_bounds(&near, ulp_near_one, &zeros).filter(|_| near.is_exact(&wide));
-        quickly().or_else(by_bounds).unwrap_or_else(|| integers::distances(&wide, ulp, &zeros))
+        let found = quick(&near.case, near.size, scaled(ulp, -near.size), &zeros);
+        let certain = found.and_then(Quick::certain);
+        let by_bounds = || by_bounds(&near, &found?, &zeros).filter(|_| near.is_exact(&wide));
+        certain.or_else(by_bounds).unwrap_or_else(|| integers::distances(&wide, ulp, &zeros))
     }
 
     /// How far from where the obligation would be another, lengths being infinite from an infinite end.
@@ -258,75 +264,103 @@ fn exponent_of(numbers: &[f64]) -> i32 {
     (largest.to_bits() >> 52) as i32 - 1023
 }
 
-/// In floats, of a case whose lengths, and the ulp, were divided by 2^size; none where rounding could
-/// matter.
-fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Distances> {
+/// What floats find, and what they leave in doubt.
+#[derive(Clone, Copy)]
+struct Quick {
+    distances: Distances,
+    /// What lengths are divided by.
+    unit: f64,
+    /// Edges so near to the line that rounding could matter; none if the distance is certain.
+    edges_in_doubt: [bool; 3],
+    along_in_doubt: bool,
+}
+
+impl Quick {
+    fn certain(self) -> Option<Distances> {
+        let doubt = self.along_in_doubt || self.edges_in_doubt != [false; 3];
+        (!doubt).then_some(self.distances)
+    }
+}
+
+/// In floats, of a case whose lengths, and the ulp, were divided by 2^size; none where a square may
+/// underflow.
+fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> {
     let vectors = case.vectors();
     let [o, d, a, b, c] = vectors.map(DVec3::from);
     let largest =
         scaled(1.0, exponent_of([vectors[0], vectors[2], vectors[3], vectors[4]].as_flattened()));
-    let edges = [(a, b), (b, c), (c, a)];
-    let longest = edges.iter().fold(0.0f64, |m, (p, q)| m.max(p.distance(*q)));
+    let sides = [b - a, c - b, a - c].map(DVec3::length_squared);
+    let longest = sides.into_iter().fold(0.0, f64::max).sqrt();
     // The square of a very short edge underflows.
     if longest < scaled(largest, -400) && !(a == b && b == c) {
         return None;
     }
     let unit = unit_of(longest, size);
     let length = d.length();
-    let in_space = edges.iter().fold(f64::INFINITY, |m, (p, q)| {
-        let (offset, edge) = ((*p - o).cross(d), (*q - *p).cross(d));
-        let s = (-offset.dot(edge) / edge.dot(edge)).clamp(0.0, 1.0);
+    let offsets = [a, b, c].map(|p| (p - o).cross(d));
+    let to_edges = [(0, 1), (1, 2), (2, 0)].map(|(p, q)| {
+        let (offset, edge) = (offsets[p], offsets[q] - offsets[p]);
+        let s = (-offset.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
         let s = if s.is_nan() { 0.0 } else { s };
-        m.min((offset + edge * s).length() / length)
+        (offset + edge * s).length_squared()
     });
-    // Off by some 2^-50 of the largest coordinate: cross products of numbers below 4 of it, times an s
-    // that only moves the nearest point along the edge.
-    if !zeros.in_space && in_space < scaled(largest, -38) {
-        return None;
+    let in_space = to_edges.into_iter().fold(f64::INFINITY, f64::min).sqrt() / length;
+    // Let L be `largest` and u = 2^-53. Coordinates are below 2L, so p - o is below 4L in each, and its
+    // rounding, that of two products and of their difference come to 24uL|d| in the cross product. The
+    // difference of two of these, its product with s and the sum round by less than 40uL|d| together;
+    // a rounded s only chooses another point of the edge. In all that is below 2^-46 L|d|.
+    let near = scaled(largest, -36);
+    let mut edges_in_doubt = [false; 3];
+    if !zeros.in_space && (in_space < near || in_space.is_nan()) {
+        // An edge beyond twice that is not the nearest.
+        let limit = 2.0 * near * length;
+        edges_in_doubt = to_edges.map(|square| square < limit * limit || square.is_nan());
     }
-    let along = match zeros.along {
-        None => [f64::NAN; 3],
-        Some(at) => {
-            let n = (b - a).cross(c - a);
-            let t = n.dot(a - o) / n.dot(d);
-            // Off by the permanents' rounding over n·d.
-            let size_of_n = (b - a).length() * (c - a).length();
-            let terms = size_of_n * ((a - o).length() + t.abs() * length);
-            let error = scaled(terms, -48) / n.dot(d).abs();
-            let mut along = [0.0; 3];
-            let ends = [0.0, case.ray.t_min, case.ray.t_max];
-            for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
-                let gap = (t - end).abs();
-                let certain = gap > 1024.0 * error + scaled(end.abs() + t.abs(), -40);
-                if !is_at && end.is_finite() && !certain {
-                    return None;
-                }
-                *along = if is_at { 0.0 } else { gap * length / unit };
-            }
-            along
+    let mut along = [f64::NAN; 3];
+    let mut along_in_doubt = false;
+    if let Some(at) = zeros.along {
+        let n = (b - a).cross(c - a);
+        let t = n.dot(a - o) / n.dot(d);
+        // Off by the permanents' rounding over n·d.
+        let terms = longest * longest * ((a - o).length() + t.abs() * length);
+        let error = scaled(terms, -48) / n.dot(d).abs();
+        let ends = [0.0, case.ray.t_min, case.ray.t_max];
+        for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
+            let gap = (t - end).abs();
+            let certain = gap > 1024.0 * error + scaled(end.abs() + t.abs(), -40);
+            along_in_doubt |= !is_at && end.is_finite() && !certain;
+            *along = if is_at { 0.0 } else { gap * length / unit };
         }
-    };
+    }
     let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
-    Some(Distances { in_space, along, edge_in_ulps: unit / ulp })
+    let distances = Distances { in_space, along, edge_in_ulps: unit / ulp };
+    Some(Quick { distances, unit, edges_in_doubt, along_in_doubt })
 }
 
-/// In double-doubles with bounds; none where they do not decide.
-fn by_bounds(near: &NearOne, ulp: f64, zeros: &Zeros) -> Option<Distances> {
+/// What floats left in doubt, in double-doubles with bounds; none where they do not decide.
+fn by_bounds(near: &NearOne, found: &Quick, zeros: &Zeros) -> Option<Distances> {
     let (ray, triangle) = near.case.lift(Bounded::new);
-    let squares = bounded(|| Squares::of(&ray, &triangle, zeros.along.is_some()))?;
-    let unit = unit_of(squares.longest.approximate()?.sqrt(), near.size);
-    let relative = |square: Bounded| Some(square.approximate()?.sqrt() / unit);
-    let in_space = if zeros.in_space { 0.0 } else { relative(squares.in_space)? };
-    let mut along = [f64::NAN; 3];
-    if let Some(at) = zeros.along {
+    let mut distances = found.distances;
+    let relative = |square: Bounded| Some(square.approximate()?.sqrt() / found.unit);
+    if found.edges_in_doubt != [false; 3] {
+        distances.in_space = f64::INFINITY;
+        for ((p, q), in_doubt) in triangle.edges().into_iter().zip(found.edges_in_doubt) {
+            if in_doubt {
+                let square = bounded(|| line_to_segment(&ray.origin, &ray.direction, p, q))?;
+                distances.in_space = distances.in_space.min(relative(square)?);
+            }
+        }
+    }
+    if let (true, Some(at)) = (found.along_in_doubt, zeros.along) {
+        let squares = bounded(|| along(&ray, &triangle))?;
         let ends = [0.0, near.case.ray.t_min, near.case.ray.t_max];
-        for (i, square) in squares.along.into_iter().enumerate() {
-            along[i] = match square {
+        for (i, square) in squares.into_iter().enumerate() {
+            distances.along[i] = match square {
                 _ if at[i] => 0.0,
                 _ if ends[i].is_infinite() => f64::INFINITY,
                 square => relative(square?)?,
             };
         }
     }
-    Some(Distances { in_space, along, edge_in_ulps: unit / ulp })
+    Some(distances)
 }

@@ -150,6 +150,31 @@ fn a_group_that_covers_itself_at_the_ray_is_free() {
     assert_eq!(ask(&truths(&twice)), GroupTruth::Free);
 }
 
+/// Whoever is no suspect shows nothing, whatever the verdict; without values, every suspect does.
+fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
+    let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
+    let mut found = Vec::new();
+    for number in 0..96 {
+        let bit = |k: usize| number >> k & 1 == 1;
+        let gives = Gives { t: bit(0), uv: bit(1), facing: bit(2) };
+        let failure = (number >= 80).then_some(Failure::Panic);
+        let value = |k: usize| if bit(k) { 0.5 } else { nan };
+        let (hit, facing) = (failure.is_none() && bit(3), facings[number / 16 % 3]);
+        let verdict =
+            Verdict { hit, facing, t: value(4), u: value(5), failure, ..Verdict::miss(None) };
+        let verdict = Verdict { v: value(6), ..verdict };
+        suspects(&all.of, gives, &vec![verdict; truths.len()], &mut found);
+        let findings = truths.iter().zip(&all.of).enumerate().filter(|(_, (truth, expected))| {
+            judge(expected.obligation(), truth, gives, &verdict).is_some()
+        });
+        let findings: Vec<usize> = findings.map(|(i, _)| i).collect();
+        assert!(findings.iter().all(|i| found.binary_search(i).is_ok()), "{gives:?} {verdict:?}");
+        if !(gives.t || gives.uv || gives.facing) {
+            assert_eq!(found, findings, "{verdict:?}");
+        }
+    }
+}
+
 #[test]
 fn many_cases_are_asked_what_each_is_asked() {
     use crate::contract::NAMED;
@@ -166,15 +191,27 @@ fn many_cases_are_asked_what_each_is_asked() {
             });
             let cases: Vec<Case<f64>> = made.flat_map(|made| made.cases().to_vec()).collect();
             let truths: Vec<Truth> = cases.iter().map(truth).collect();
-            let kinds: Vec<Kind> = truths.iter().map(Kind::of).collect();
+            let kinds = Kinds::new(&truths);
             for respawned in [false, true] {
                 let each: Vec<Obligation> = cases
                     .iter()
                     .zip(&truths)
                     .map(|(case, truth)| asked(case, truth, &contract, respawned))
                     .collect();
-                let all = all_asked(&cases, &truths, &kinds, &contract, respawned);
-                assert_eq!(all, each, "{contract:?}");
+                let all = ask_all(&cases, &truths, &kinds, &contract, respawned);
+                let of: Vec<_> = all.of.iter().map(|expected| expected.obligation()).collect();
+                assert_eq!(of, each, "{contract:?}");
+                let is_free = |i: &usize| each[*i] == Obligation::Free;
+                assert_eq!(all.free, (0..each.len()).filter(is_free).collect::<Vec<_>>());
+                let mut counts = vec![[0u64; 3]; Class::COUNT];
+                for (class, asked, count) in &all.counts {
+                    counts[class.number()][*asked as usize] += count;
+                }
+                for (truth, asked) in truths.iter().zip(&each) {
+                    counts[Class::of(truth).number()][*asked as usize] -= 1;
+                }
+                assert!(counts.iter().flatten().all(|count| *count == 0), "{contract:?}");
+                no_suspect_is_overlooked(&truths, &all);
             }
         }
     }

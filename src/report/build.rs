@@ -312,21 +312,5 @@ pub(super) fn explain_command<F: Scalar>(
     index: u64,
     triangle: Option<usize>,
 ) -> String {
-    explain_with(row, &source.explain_arguments::<F>(index, triangle))
-}
-
-/// The command that shows what these arguments name, with a row.
-pub(super) fn explain_with(row: &Row, arguments: &str) -> String {
-    let command = format!("hairline explain {arguments} {}", row.entry.selector());
-    let mut command = command.trim_end().to_owned();
-    if let Some(epsilons) = row.epsilon_argument() {
-        command.push_str(&format!(" --epsilon '{epsilons}'"));
-    }
-    if let Some(contract) = row.contract_name {
-        command.push_str(&format!(" --contract {contract}"));
-    }
-    if let Some(band) = row.contract.band {
-        command.push_str(&format!(" --band {band}"));
-    }
-    command
+    row.explain_command(&source.explain_arguments::<F>(index, triangle))
 }

@@ -1,8 +1,8 @@
 //! Two records side by side: what got better, what got worse.
 
 use super::{
-    Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, disagreements, group_digits,
-    rate_of,
+    Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
+    group_digits, rate_of,
 };
 use crate::audit::clopper_pearson_at;
 use serde::Serialize;
@@ -41,15 +41,30 @@ pub struct Difference {
     pub command: Option<String>,
 }
 
+/// A kernel that the records judge by different contracts.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct ContractChange {
+    /// The kernel with its epsilons.
+    pub row: String,
+    /// The old record's contract, in words.
+    pub old: String,
+    /// The new one's.
+    pub new: String,
+}
+
 /// What two records have in common, and where they differ.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// Whether the cases are the same, so that any difference counts.
     pub same_cases: bool,
+    /// Kernels, epsilons, scalars and families, taken together, that both records have.
+    pub common: usize,
     /// How many classes of disagreement were compared.
     pub compared: usize,
     /// Those that differ, the worse first.
     pub differences: Vec<Difference>,
+    /// Kernels whose contracts differ, so that the rates are of other questions.
+    pub contracts: Vec<ContractChange>,
     /// Classes of disagreement of kernels, epsilons, scalars or families that only the old record has.
     pub only_old: usize,
     /// And only the new one.
@@ -60,6 +75,7 @@ pub struct Comparison {
 /// a count or of the set of failing cases is one. Else rates differ if their Clopper-Pearson intervals, at
 /// 0.05 divided by the number of comparisons, are disjoint.
 pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
+    let contracts = contract_changes(old, new);
     let (old, new) = (Side::of(old), Side::of(new));
     let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
     let (common, lone): (Vec<&Key>, Vec<&Key>) =
@@ -73,11 +89,29 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
     differences.sort_by_key(|difference| difference.change as u8);
     Comparison {
         same_cases: judge.same_cases,
+        common: old.results.keys().filter(|place| new.results.contains_key(*place)).count(),
         compared: common.len(),
         differences,
+        contracts,
         only_old: lone.iter().filter(|key| old.found.contains_key(**key)).count(),
         only_new: lone.iter().filter(|key| new.found.contains_key(**key)).count(),
     }
+}
+
+/// The rows that both plans have, by contracts that are not the same.
+fn contract_changes(old: &ResultPart, new: &ResultPart) -> Vec<ContractChange> {
+    let pairs = old.plan.rows.iter().flat_map(|before| {
+        let same = |after: &&RowPart| (&after.kernel, &after.set) == (&before.kernel, &before.set);
+        new.plan.rows.iter().find(same).map(|after| (before, after))
+    });
+    let changed = pairs.filter(|(before, after)| before.contract != after.contract);
+    changed
+        .map(|(before, after)| ContractChange {
+            row: format!("{} ({})", before.kernel, before.set),
+            old: before.contract.clone(),
+            new: after.contract.clone(),
+        })
+        .collect()
 }
 
 /// One of the records.
@@ -169,6 +203,13 @@ impl Comparison {
             "{} classes of disagreement compared, on {how}",
             group_digits(self.compared as u64)
         )?;
+        for ContractChange { row, old, new } in &self.contracts {
+            writeln!(
+                out,
+                "{row} is judged by another contract, so its rates answer another question"
+            )?;
+            writeln!(out, "    before: {old}\n    now:    {new}")?;
+        }
         for (title, change) in [
             ("Worse", Change::Worse),
             ("Better", Change::Better),

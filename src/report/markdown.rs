@@ -39,6 +39,12 @@ fn whole(record: &Record) -> String {
          Shares of cases, with 95 % intervals (Clopper-Pearson).\n",
         plan.hash
     ));
+    if let Some(partial) = &record.result.partial {
+        let words = partial.in_words();
+        text.push_str(&format!(
+            "\n**A part of a run**: {words}; every count and share is of it alone.\n"
+        ));
+    }
     for scalar in &plan.scalars {
         scalar_part(record, scalar, &mut text);
     }

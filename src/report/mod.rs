@@ -30,7 +30,7 @@ mod why;
 
 pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
-pub use compare::{Change, Comparison, Difference, difference};
+pub use compare::{Change, Comparison, ContractChange, Difference, difference};
 pub use conformance::*;
 use disagreement::kinds_of;
 pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of};

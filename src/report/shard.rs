@@ -46,6 +46,15 @@ fn digest(sums: &str) -> String {
     hex(&Sha256::digest(sums.as_bytes())[..8])
 }
 
+impl PartialPart {
+    /// `shards 0, 2 of 3 only`.
+    pub(super) fn in_words(&self) -> String {
+        let present: Vec<String> = self.present.iter().map(u64::to_string).collect();
+        let noun = if present.len() == 1 { "shard" } else { "shards" };
+        format!("{noun} {} of {} only", present.join(", "), self.of)
+    }
+}
+
 impl From<Shard> for PartialPart {
     fn from(shard: Shard) -> PartialPart {
         PartialPart { of: shard.of(), present: vec![shard.index()] }

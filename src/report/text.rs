@@ -28,6 +28,13 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         record.provenance.threads,
         record.provenance.seconds
     )?;
+    if let Some(partial) = &result.partial {
+        writeln!(
+            out,
+            "a part of a run: {}; every count and share is of it alone",
+            partial.in_words()
+        )?;
+    }
     for scalar in &result.plan.scalars {
         write_scalar(record, scalar, style, out)?;
     }
@@ -185,6 +192,12 @@ fn write_scalar(
         if let Some(errors) = row.total.and_then(|total| accuracy_text(&total.accuracy)) {
             writeln!(out, "    values in ulps: {errors}")?;
         }
+    }
+    if rows.iter().any(|row| row.part.kernel.contains('+')) {
+        writeln!(
+            out,
+            "ns/ray of a kernel in another arithmetic (NAME+fma) is the time of its emulation"
+        )?;
     }
     write_failures(&rows, out)?;
     write_exact_shares(record, scalar, &rows, out)?;

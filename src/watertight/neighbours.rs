@@ -4,7 +4,7 @@
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::Case;
-use crate::contract::Contract;
+use crate::contract::{Contract, Sides};
 use crate::judge::{Distances, is_in_extent};
 use crate::kernel::Verdict;
 use crate::truth::{Facing, Feature, Truth};
@@ -82,8 +82,10 @@ const NEAR: f64 = 1.0 / 1024.0;
 /// Whether a hit that a group lacks may have been moved by rounding, as its neighbours' verdicts show:
 ///
 /// - one reports a hit though the exact line does not meet it, or gives no verdict;
-/// - or the line meets one that faces the other way, near its boundary, and it reports no hit either: a
-///   rounded ray passes beside both, as at a silhouette, and the parity is right.
+/// - or the line meets some near their boundary, one of them from the other side, and with the group's
+///   hit an even number is lost: a rounded ray passes beside a silhouette, or beside several folds, and
+///   the parity of the hits is right. Of a kernel that culls, which reports none from the other side,
+///   one such neighbour is enough.
 ///
 /// Any other neighbour that the line meets, as on the far side of a small mesh, excuses nothing. All
 /// triangles of the group face as said.
@@ -94,7 +96,10 @@ pub fn may_be_elsewhere<F: Float>(
     verdicts: &[Verdict<F>],
     contract: &Contract,
 ) -> bool {
-    let (mut passed, mut met) = (false, false);
+    let (mut lost, mut beside_silhouette) = (0, false);
+    // Of the faces that meet at a point of the line: whether one was met there, and none reported, by
+    // side. Their crossings are one.
+    let mut shared = [None; 2];
     for ((case, truth), verdict) in neighbours.iter().zip(truths).zip(verdicts) {
         let crossing = truth.crossing().filter(|crossing| {
             crossing.feature != Feature::Outside && is_in_extent(crossing, contract.extent)
@@ -102,14 +107,20 @@ pub fn may_be_elsewhere<F: Float>(
         match crossing {
             _ if verdict.failure.is_some() => return true,
             None if verdict.hit => return true,
-            Some(crossing)
-                if crossing.facing != facing && Distances::of(case, truth).in_space < NEAR =>
-            {
-                passed |= !verdict.hit;
-                met |= verdict.hit;
+            Some(crossing) if Distances::of(case, truth).in_space < NEAR => {
+                let from_behind = crossing.facing != facing;
+                beside_silhouette |= from_behind && !verdict.hit;
+                match crossing.feature {
+                    Feature::Interior => lost += usize::from(!verdict.hit),
+                    _ => {
+                        let none = shared[usize::from(from_behind)].get_or_insert(true);
+                        *none &= !verdict.hit;
+                    }
+                }
             }
             _ => {}
         }
     }
-    passed && !met
+    lost += shared.iter().filter(|none| **none == Some(true)).count();
+    beside_silhouette && (lost % 2 == 1 || contract.sides == Sides::Front)
 }

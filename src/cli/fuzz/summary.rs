@@ -1,5 +1,6 @@
 //! What a campaign says when it stops.
 
+use crate::audit::quoted;
 use crate::campaign::Find;
 use crate::judge::Finding;
 use std::collections::BTreeMap;
@@ -48,14 +49,7 @@ pub fn write_summary(
 
 /// The command that shows a find.
 pub fn explain_command(find: &Find, file: &str) -> String {
-    let epsilons = find.row.epsilon_argument();
-    let epsilons = epsilons.map_or(String::new(), |text| format!(" --epsilon '{text}'"));
-    let contract = match find.row.contract_name {
-        Some(name) => format!(" --contract {name}"),
-        None => String::new(),
-    };
-    let (name, kernel) = (find.name(), find.signature.kernel);
-    format!("hairline explain '{name}' --corpus {file} --kernel {kernel}{epsilons}{contract}")
+    find.row.explain_command(&format!("'{}' --corpus {}", find.name(), quoted(file)))
 }
 
 /// How many signatures were known after how many seconds.

@@ -1,7 +1,7 @@
 //! What a map shows, in words: counts, and for each kind of finding a case to look at.
 
 use crate::arith::{Exact, Float};
-use crate::audit::{Row, exact_severity};
+use crate::audit::{Row, exact_severity, quoted};
 use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::corpus::number;
@@ -77,18 +77,10 @@ where
         url: None,
         found: None,
     };
-    let mut command =
-        format!("hairline explain '{}' {}", write_case(&stored), row.entry.selector());
-    if let Some(epsilons) = row.epsilon_argument() {
-        let _ = write!(command, " --epsilon '{epsilons}'");
-    }
-    if let Some(name) = row.contract_name {
-        let _ = write!(command, " --contract {name}");
-    }
-    command
+    row.explain_command(&quoted(&write_case(&stored)))
 }
 
-/// Points and the row's determinant on them.
+/// The command that shows points with every predicate, and the plain one with the row's epsilon.
 pub fn points<F: orientation::Scalar>(points: &Points<F>, row: &orientation::Row) -> String {
     let written: Vec<String> = points
         .iter()
@@ -97,18 +89,11 @@ pub fn points<F: orientation::Scalar>(points: &Points<F>, row: &orientation::Row
             format!("[{}]", numbers.join(","))
         })
         .collect();
-    let bits: Vec<String> = points
-        .iter()
-        .map(|point| point.iter().map(|x| x.hex()).collect::<Vec<_>>().join(","))
-        .collect();
-    let computed = row.answer(points).map_or(String::new(), |(determinant, answer)| {
-        format!(" det = {:e}, says {}", determinant.to_f64(), answer.symbol())
-    });
+    let epsilon = row.epsilon.as_ref().map_or(String::new(), |text| format!(" --epsilon {text}"));
     format!(
-        "{{\"scalar\":\"{}\",\"points\":[{}]}} (bits {}){computed}",
+        "hairline orient --case '{{\"scalar\":\"{}\",\"points\":[{}]}}'{epsilon}",
         F::NAME,
         written.join(","),
-        bits.join(" ")
     )
 }
 

@@ -5,7 +5,7 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::{Row, quoted};
 use crate::corpus::mesh::Mesh;
-use crate::report::build::{explain_with, promised, provenance_of, row_part};
+use crate::report::build::{promised, provenance_of, row_part};
 use crate::report::{Context, Rate, rate_between};
 use crate::watertight::{
     CLASSES, ClassSums, Found, Noted, Part, Plan, RowFound, Tally, Targets, Topology,
@@ -158,7 +158,7 @@ impl<F: Float> Builder<'_, F> {
             MeshExample {
                 points: self.points(&self.targets.points(part, target)),
                 lines: faces.map(|face| self.mesh.lines[*face as usize]).collect(),
-                command: explain_with(row, &arguments),
+                command: row.explain_command(&arguments),
                 id,
             }
         };

@@ -1,0 +1,137 @@
+//! What the verdicts of one row on a chunk come to.
+
+use super::accuracy::Errors;
+use super::chunk::Chunk;
+use super::digest::Digest;
+use super::run::{Asked, RunnerRow};
+use super::tally::{Place, Tally};
+use crate::contract::Contract;
+use crate::family::Grouping;
+use crate::judge::{self, Class, Distances, Finding, Obligation, obligation, polygon_truth};
+use crate::kernel::{Scalar, Verdict};
+use crate::truth::Feature;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What is worked out of a case once some kernel is wrong on it.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    /// None of invalid input.
+    distances: Option<Distances>,
+    /// Of its place.
+    digest: Digest,
+}
+
+impl Known {
+    fn of<F: Scalar>(chunk: &Chunk<F>, case: usize) -> Known {
+        let valid = !chunk.class(case).is_invalid();
+        Known {
+            distances: valid.then(|| Distances::of(&chunk.cases[case], &chunk.truths[case])),
+            digest: Digest::of(chunk.places[case]),
+        }
+    }
+}
+
+impl<F: Scalar> RunnerRow<F> {
+    /// Judges the verdicts; only `suspects` can show a finding ([`judge::suspects`]).
+    pub fn judge(
+        &self,
+        chunk: &Chunk<F>,
+        (contract, asked): (&Contract, &Asked),
+        (verdicts, suspects): (&[Verdict<F>], &[usize]),
+        known: &mut [Option<Known>],
+        tally: &mut Tally,
+    ) {
+        tally.ask(&asked.classes);
+        let gives = self.info.gives;
+        let class = |i: usize| chunk.class(i);
+        // Who is no suspect hit where a hit was asked, and missed where a miss was.
+        let mut hits: [u64; Class::COUNT] = std::array::from_fn(|i| asked.classes[i].must_hit);
+        for &i in &asked.expectations.free {
+            hits[class(i).number()] += u64::from(verdicts[i].hit);
+        }
+        for &i in suspects {
+            let (verdict, truth, obligation) =
+                (&verdicts[i], &chunk.truths[i], asked.expectations.of[i].obligation());
+            let number = class(i).number();
+            match obligation {
+                Obligation::MustHit => hits[number] -= u64::from(!verdict.hit),
+                Obligation::MustMiss => hits[number] += u64::from(verdict.hit),
+                Obligation::Free => {}
+            }
+            if let Some(finding) = judge::judge(obligation, truth, gives, verdict) {
+                // Kernels tend to be wrong on the same cases.
+                let Known { distances, digest } =
+                    known[i].get_or_insert_with(|| Known::of(chunk, i));
+                let severity = distances.as_ref().map(|distances| {
+                    (distances.to_change(truth, contract), distances.edge_in_ulps)
+                });
+                tally.find(class(i), finding, (chunk.places[i], *digest), severity);
+            }
+        }
+        tally.hits(&hits);
+        if chunk.grouping == Grouping::Respawn {
+            tally.self_hits.rays += verdicts.len() as u64;
+            tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
+        }
+        for ((index, range), truth) in chunk.groups().zip(asked.groups.iter()) {
+            let verdicts = &verdicts[range];
+            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
+                continue;
+            }
+            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
+            tally.group(index, *truth, hits);
+        }
+    }
+
+    /// Measures the values of right hits on a sample.
+    pub fn measure(
+        &self,
+        chunk: &Chunk<F>,
+        sample: &[usize],
+        asked: &Asked,
+        verdicts: &[Verdict<F>],
+        tally: &mut Tally,
+    ) {
+        let gives = self.info.gives;
+        for &i in sample {
+            let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
+            let Some(crossing) = truth.crossing() else { continue };
+            let finding =
+                judge::judge(asked.expectations.of[i].obligation(), truth, gives, verdict);
+            let is_right = verdict.hit && finding != Some(Finding::FalseHit);
+            if is_right && crossing.feature != Feature::Outside {
+                tally.accuracy.add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
+            }
+        }
+    }
+
+    /// Asks about each polygon as a whole; the truth is the union of its fan.
+    pub fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
+        for (index, range) in chunk.groups() {
+            let cases = &chunk.cases[range.clone()];
+            let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
+            vertices.extend(cases.iter().map(|case| case.triangle.c));
+            let asked = obligation(&polygon_truth(&chunk.truths[range]), contract, false);
+            let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
+            let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
+            let (polygons, place) = (&mut tally.polygons, Place { index, triangle: 0 });
+            match asked {
+                Obligation::MustHit => {
+                    polygons.must_hit += 1;
+                    if !hit {
+                        polygons.false_miss += 1;
+                        polygons.false_miss_digest.add(place);
+                    }
+                }
+                Obligation::MustMiss => {
+                    polygons.must_miss += 1;
+                    if hit {
+                        polygons.false_hit += 1;
+                        polygons.false_hit_digest.add(place);
+                    }
+                }
+                Obligation::Free => {}
+            }
+        }
+    }
+}
