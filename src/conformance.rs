@@ -103,6 +103,15 @@ impl Request {
         if let Some(contract) = self.contract {
             rows.iter_mut().for_each(|row| row.contract = contract);
         }
+        for row in &rows {
+            let [in_f32, in_f64] = self.entry.scalars();
+            if in_f32 {
+                row.check::<f32>()?;
+            }
+            if in_f64 {
+                row.check::<f64>()?;
+            }
+        }
         let source = |family| Source::Family {
             family,
             parameters: self.parameters.clone(),

@@ -169,6 +169,22 @@ fn epsilons_and_presets_change_the_verdict() {
 }
 
 #[test]
+fn a_table_of_nothing_says_why() {
+    let plan = ["audit", "-n", "20", "--kernel", "cramer", "--threads", "1"];
+    let far = [&plan[..], &["--family", "tiny,far", "--offset", "1e60:0:0"]].concat();
+    let table = text(&hairline(&far).stdout);
+    let [f32, f64] = table.split_once("\nf64, 40 cases").map(<[&str; 2]>::from).unwrap();
+    assert!(f32.contains("1 kernel row, 2 families, 1 thread, "), "{table}");
+    assert!(f32.contains("f32, 40 cases for each kernel\nAll are invalid: "), "{table}");
+    assert!(!f64.contains("All are invalid"), "{table}");
+    let folder = scratch("one-scalar");
+    fs::write(folder.join("one.jsonl"), format!("{CASE}\n")).unwrap();
+    let table = hairline_in(&folder, &["audit", "--corpus", "one.jsonl", "--kernel", "cramer"], "");
+    assert!(text(&table.stdout).contains("f32, 1 case for each kernel\nkernel"), "{table:?}");
+    assert!(text(&table.stdout).ends_with("f64, 0 cases for each kernel\n"), "{table:?}");
+}
+
+#[test]
 fn one_contract_for_all_changes_what_is_asked() {
     let of = |contract: &str| {
         let arguments = [

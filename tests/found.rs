@@ -134,5 +134,11 @@ fn what_cannot_be_triaged_is_said() {
     expect(&triage(&path("old")), 65, "is of format 0");
     fs::write(folder.join("right.jsonl"), "{\"scalar\":\"f32\",\"origin\":[1,1,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[4,0,0],\"c\":[0,4,0]}\n").unwrap();
     expect(&triage(&path("right.jsonl")), 4, "nothing in it on which a chosen kernel is wrong");
+    let with = |more: &[&str]| {
+        let right = path("right.jsonl");
+        hairline(&[&["triage", "-o", &output, "--kernel", "cramer", &right], more].concat())
+    };
+    expect(&with(&["--epsilon", "t=1e39"]), 2, "1e39 is beyond the range of f32");
+    expect(&with(&["--band", "1e-3"]), 2, "run again without one");
     assert!(!Path::new(&output).exists());
 }

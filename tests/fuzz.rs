@@ -116,6 +116,7 @@ fn a_campaign_goes_on_where_it_stopped() {
     let other = fuzz(&directory, &["--kernel", "plucker", "-n", "40000"]);
     expect(&other, 2, "begun with other kernels, epsilons or contract");
     expect(&fuzz(&directory, &["--seed", "5"]), 2, "begun with other seed");
+    expect(&fuzz(&directory, &["--band", "4ulps"]), 2, "run again without one");
     assert_eq!(finds(&directory), all);
 }
 

@@ -89,6 +89,8 @@ fn points_are_mapped_by_id_by_name_and_as_json() {
     let json = r#"{"scalar":"f64","points":[[12,12],[24,24],[0.5,0.5]]}"#;
     let given = text(&[json, "--size", "64", "--epsilon", "1e-14"]);
     assert!(given.contains("orient2d (1e-14) in f64") && given.contains("about 0.5"), "{given}");
+    let small = text(&[json, "--size", "4", "--epsilon", "1e-60"]);
+    assert!(small.contains("orient2d (1e-60) in f64"), "{small}");
     // The command beside a finding shows it again.
     let command = given.split_once("hairline orient --case '").unwrap().1.lines().next().unwrap();
     let (points, rest) = command.split_once("' ").unwrap();
@@ -131,7 +133,7 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["map", "orient2d:near@9/f64/1/1"], 2, "is at version 1"),
         (&["map", "--at", "collinear", "--kernel", "cramer"], 2, "unknown predicate"),
         (&["map", "--at", "collinear", "--kernel", "robust::orient3d"], 2, "does not run"),
-        (&["map", "--at", "collinear", "--epsilon", "t=1"], 2, "is not a finite number"),
+        (&["map", "--at", "collinear", "--epsilon", "t=1"], 2, "is not a finite number in f64"),
         (&["map", "--at", "collinear", "--contract", "open-ray"], 2, "is not for points"),
         (&["map", "--at", "collinear", "--drawing"], 2, "not of points"),
         (&["map", "--at", "collinear", "--vary", "d"], 2, "is none of a, b, c"),

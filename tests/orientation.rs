@@ -291,6 +291,8 @@ fn the_text_has_tables_and_cases() {
     }
     let case = text(&hairline(&["--case", "orient3d:near@1/f32/1/17"]));
     assert!(case.contains("exact: ") && !case.contains("robust"), "{case}");
+    let small = text(&hairline(&["--case", "orient3d:near@1/f64/1/17", "--epsilon", "1e-60"]));
+    assert!(small.contains("orient3d (1e-60)"), "{small}");
     let points = "{\"scalar\":\"f64\",\"points\":[[0,0],[1,0],[0,1]]}";
     let given = text(&hairline(&["--case", points]));
     assert!(given.contains("the points given") && given.contains("exact: +"), "{given}");
@@ -307,6 +309,7 @@ fn wrong_usage_and_output_that_fails_have_their_codes() {
         (&["--epsilon", "nan"], 2),
         (&["--epsilon", "1e39"], 2),
         (&["--epsilon", "1e-60"], 2),
+        (&["--epsilon", "1e-60", "--case", "orient3d:near@1/f32/1/17"], 2),
         (&["--case", "{\"scalar\":\"f64\",\"points\":[[0,0],[1,1]]}"], 2),
         (&["--case", "{\"scalar\":\"f64\",\"points\":[[0,0],[1,1],[\"nan\",2]]}"], 2),
         (&["--case", "corner-underflow"], 2),

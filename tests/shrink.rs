@@ -272,6 +272,11 @@ fn what_cannot_be_shrunk_is_refused_with_the_reason() {
         (&["shrink", "tiny@1/f32/-/1/2314"], 2, "choose one by --kernel and --epsilon"),
         (&["shrink", "tiny@1/f32/-/1/2314", "--kernel", "crammer"], 2, "did you mean 'cramer'?"),
         (&["shrink", "nonsense", "--kernel", "cramer"], 2, "is not a case id"),
+        (
+            &["shrink", "tiny@1/f32/-/1/2314", "--kernel", "cramer", "--epsilon", "t=1e-60"],
+            2,
+            "1e-60 is 0 in f32",
+        ),
         (&["shrink", "{\"scalar\":\"f32\"}", "--kernel", "cramer"], 65, "missing field 'origin'"),
         (&["shrink", "tiny@9/f32/-/1/1", "--kernel", "cramer"], 65, "version 9"),
         (&["shrink", "x", "--corpus", "no.jsonl", "--kernel", "cramer"], 74, "no.jsonl"),

@@ -719,6 +719,12 @@ fn a_ray_may_pass_beside_a_silhouette() {
     assert!(!is_elsewhere(&[(inside, false), (front, false)], 1e-4));
     assert!(is_elsewhere(&[(inside, false), (front, false), (inside, false)], 1e-4));
     assert!(!is_elsewhere(&[(front, false)], 1e-4), "no silhouette");
+    // What one of the faces at an edge reports is not lost.
+    assert!(!is_elsewhere(&[(rim, false), (rim, true), (front, false)], 1e-4));
+    // Two edges are two crossings.
+    let other_rim = at(Feature::EdgeBc, Ordering::Greater, Facing::Back);
+    assert!(!is_elsewhere(&[(rim, false), (other_rim, false)], 0.0));
+    assert!(is_elsewhere(&[(rim, false), (other_rim, false), (front, false)], 0.0));
     // Who culls reports none from behind.
     let culling =
         |neighbours: &[(Truth, bool)]| is_elsewhere_under("front-closed-ray", neighbours, 1e-4);

@@ -7,7 +7,9 @@ use super::run::{Asked, RunnerRow};
 use super::tally::{Place, Tally};
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, Distances, Finding, Obligation, obligation, polygon_truth};
+use crate::judge::{
+    self, Class, Distances, Finding, Obligation, obligation, polygon_truth, promises_direction,
+};
 use crate::kernel::{Scalar, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -111,7 +113,11 @@ impl<F: Scalar> RunnerRow<F> {
             let cases = &chunk.cases[range.clone()];
             let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
             vertices.extend(cases.iter().map(|case| case.triangle.c));
-            let asked = obligation(&polygon_truth(&chunk.truths[range]), contract, false);
+            let asked = match promises_direction(contract.direction, cases[0].ray.direction.into())
+            {
+                true => obligation(&polygon_truth(&chunk.truths[range]), contract, false),
+                false => Obligation::Free,
+            };
             let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
             let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
             let (polygons, place) = (&mut tally.polygons, Place { index, triangle: 0 });

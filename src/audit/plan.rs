@@ -60,7 +60,10 @@ impl fmt::Display for EpsilonText {
         match self {
             EpsilonText::Decimal(text) => f.write_str(text),
             EpsilonText::MachineEpsilon(factor) if *factor == 1.0 => f.write_str("EPSILON"),
-            EpsilonText::MachineEpsilon(factor) => write!(f, "{factor}*EPSILON"),
+            EpsilonText::MachineEpsilon(factor) if (1e-3..1e6).contains(&factor.abs()) => {
+                write!(f, "{factor}*EPSILON")
+            }
+            EpsilonText::MachineEpsilon(factor) => write!(f, "{factor:e}*EPSILON"),
         }
     }
 }

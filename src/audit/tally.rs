@@ -300,8 +300,9 @@ impl Tally {
         }
     }
 
-    /// Counts a finding at a place, whose digest is known, with its severity: how far the case is from where the verdict would be right,
-    /// in longest edges, and the longest edge in ulps; none of invalid input.
+    /// Counts a finding at a place, whose digest is known, with its severity: how far the case is from
+    /// where the verdict would be right, in longest edges, and the longest edge in ulps; none of invalid
+    /// input.
     pub fn find(
         &mut self,
         class: Class,

@@ -170,6 +170,7 @@ where
     AnyCase: From<Case<F>>,
 {
     let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), contract).map_err(|e| e.0)?;
+    row.check::<F>().map_err(|error| error.0)?;
     let island = islands.iter_mut().find(|island| island.is_of(&saved.kernel));
     let island = island.ok_or_else(|| format!("no {} in {}", saved.kernel, F::NAME))?;
     let bits: &[u64; 17] =

@@ -90,8 +90,17 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
     outcome.map(|()| Status::Success)
 }
 
+/// Finds are kept, and run again, without a band.
+pub fn refuse_band(kernels: &KernelArguments) -> Result<(), Failure> {
+    match kernels.has_band() {
+        true => Err(Failure::usage("--band: finds are kept and run again without one")),
+        false => Ok(()),
+    }
+}
+
 /// The plan of a campaign.
 fn plan(begun: &Begun) -> Result<Plan, Failure> {
+    refuse_band(&begun.kernels)?;
     let rows = begun.kernels.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&begun.scalar)?)?;
     let varies = !begun.kernels.chooses_epsilons();

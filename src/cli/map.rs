@@ -4,10 +4,11 @@ mod input;
 mod summary;
 
 use super::exit::{Failure, Status};
-use super::orient::is_epsilon;
+use super::orient::check_epsilon;
 use super::output::{paired_outputs, write_result};
 use super::select::{KernelArguments, unknown};
 use super::sources::set_threads;
+use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::kernel::Scalar;
@@ -194,7 +195,7 @@ impl MapArguments {
         if self.drawing {
             return Err(Failure::usage("--drawing is of a ray and a triangle, not of points"));
         }
-        let row = self.predicate(points.dimension())?;
+        let row = self.predicate::<F>(points.dimension())?;
         let names = &POINT_NAMES[..=points.dimension().number()];
         let point = self.varied(names, point)?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
@@ -204,7 +205,7 @@ impl MapArguments {
         Ok(self.picture(map, &grid, &again))
     }
 
-    fn picture<F: crate::arith::Float>(
+    fn picture<F: Float>(
         &self,
         map: Map,
         grid: &Grid<F>,
@@ -238,7 +239,7 @@ impl MapArguments {
     }
 
     /// The one predicate with its epsilon.
-    fn predicate(&self, dimension: Dimension) -> Result<orientation::Row, Failure> {
+    fn predicate<F: Float>(&self, dimension: Dimension) -> Result<orientation::Row, Failure> {
         let (names, epsilon) = self.kernels.of_predicate()?;
         let name = match names {
             [] => dimension.name(),
@@ -254,11 +255,7 @@ impl MapArguments {
             if !predicate.takes_epsilon {
                 return Err(Failure::usage(format!("predicate '{name}' takes no epsilon")));
             }
-            if !is_epsilon::<f32>(text) {
-                return Err(Failure::usage(format!(
-                    "--epsilon: '{text}' is not a finite number from 0, as a predicate takes it"
-                )));
-            }
+            check_epsilon::<F>(text)?;
         }
         let epsilon = predicate.takes_epsilon.then(|| epsilon.unwrap_or("0").to_owned());
         Ok(orientation::Row { predicate, epsilon })

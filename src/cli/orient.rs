@@ -93,8 +93,9 @@ struct CasesRecord<'a> {
 /// Runs the command.
 pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
     let scalars = chosen_scalars(&arguments.scalar)?;
-    let rows = arguments.rows(scalars)?;
+    let rows = arguments.rows()?;
     if arguments.known {
+        arguments.check_epsilons([false, true])?;
         let cases: Vec<(CasePart, Option<&Known>)> = KNOWN
             .iter()
             .map(|known| Ok((known_case(known, &rows)?, Some(known))))
@@ -102,8 +103,11 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         return arguments.write_cases(&cases);
     }
     if let Some(text) = &arguments.case {
-        return arguments.write_cases(&[one_case(text, &rows)?]);
+        let case = one_case(text, &rows)?;
+        arguments.check_epsilons(["f32", "f64"].map(|scalar| case.0.scalar == scalar))?;
+        return arguments.write_cases(&[case]);
     }
+    arguments.check_epsilons(scalars)?;
     let plan = Plan {
         rows,
         dimensions: arguments.dimensions()?,
@@ -235,26 +239,35 @@ impl OrientArguments {
     }
 
     /// All predicates, the plain ones once with each epsilon.
-    fn rows(&self, scalars: [bool; 2]) -> Result<Vec<Row>, Failure> {
+    fn rows(&self) -> Result<Vec<Row>, Failure> {
         let mut epsilons: Vec<String> = Vec::new();
         for text in &self.epsilon {
             let text = text.trim();
-            let fits = (!scalars[0] || is_epsilon::<f32>(text))
-                && (!scalars[1] || is_epsilon::<f64>(text));
-            if !fits {
-                return Err(Failure::usage(format!(
-                    "--epsilon: '{text}' is not a finite number from 0 in every chosen scalar, or too small for one"
-                )));
-            }
+            check_epsilon::<f64>(text)?;
             if !epsilons.iter().any(|other| other == text) {
                 epsilons.push(text.to_owned());
             }
         }
         Ok(default_rows(&epsilons))
     }
+
+    /// An error if an epsilon is no number of a scalar.
+    fn check_epsilons(&self, scalars: [bool; 2]) -> Result<(), Failure> {
+        for text in self.epsilon.iter().filter(|_| scalars[0]) {
+            check_epsilon::<f32>(text.trim())?;
+        }
+        Ok(())
+    }
 }
 
-pub(super) fn is_epsilon<F: Float>(text: &str) -> bool {
+/// An error if a text is no epsilon of a predicate in a scalar.
+pub(super) fn check_epsilon<F: Float>(text: &str) -> Result<(), Failure> {
     let epsilon = EpsilonText::Decimal(text.to_owned());
-    epsilon.fitting::<F>().is_some_and(|epsilon| epsilon >= F::zero())
+    let wrong = match epsilon.value::<F>() {
+        Some(value) if value < F::zero() => "is below 0",
+        Some(_) if epsilon.fitting::<F>().is_some() => return Ok(()),
+        Some(_) => "is 0",
+        None => "is not a finite number",
+    };
+    Err(Failure::usage(format!("--epsilon: '{text}' {wrong} in {}", F::NAME)))
 }

@@ -3,7 +3,7 @@
 mod inputs;
 
 use super::exit::{Failure, Status};
-use super::fuzz::explain_command;
+use super::fuzz::{explain_command, refuse_band};
 use super::input::corpus_files;
 use super::output::{write_file, write_result};
 use super::select::KernelArguments;
@@ -80,6 +80,7 @@ impl OneEach {
 /// Runs the command.
 pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
+    refuse_band(&arguments.kernels)?;
     let rows = arguments.kernels.rows()?;
     let mut read = Vec::new();
     for path in &arguments.paths {

@@ -27,6 +27,7 @@ mod shard;
 mod text;
 mod verdict;
 mod why;
+mod worst;
 
 pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
@@ -87,4 +88,9 @@ pub(crate) fn group_digits(number: u64) -> String {
         text.push(digit);
     }
     text
+}
+
+/// `3 findings`, `1 finding`.
+pub(crate) fn number_of(count: u64, one: &str, many: &str) -> String {
+    format!("{} {}", group_digits(count), if count == 1 { one } else { many })
 }

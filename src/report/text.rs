@@ -2,9 +2,9 @@
 //! show them again.
 
 use super::record::*;
-use super::why::{accuracy_text, causes_text, severity_text};
-use super::{Style, group_digits};
-use std::collections::BTreeMap;
+use super::why::{accuracy_text, causes_text};
+use super::worst::write_worst;
+use super::{Style, group_digits, number_of};
 use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
@@ -17,15 +17,14 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         writeln!(out)?;
     }
     let result = &record.result;
-    let families = result.plan.sources.len();
     writeln!(
         out,
-        "{}, plan {}: {} kernel rows, {families} {}, {} threads, {:.1} s",
+        "{}, plan {}: {}, {}, {}, {:.1} s",
         record.provenance.tool,
         result.plan.hash,
-        result.plan.rows.len(),
-        if families == 1 { "family" } else { "families" },
-        record.provenance.threads,
+        number_of(result.plan.rows.len() as u64, "kernel row", "kernel rows"),
+        number_of(result.plan.sources.len() as u64, "family", "families"),
+        number_of(record.provenance.threads as u64, "thread", "threads"),
         record.provenance.seconds
     )?;
     if let Some(partial) = &result.partial {
@@ -40,13 +39,16 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     }
     let broken: Vec<&SourcePart> =
         result.sources.iter().filter(|source| source.promise_broken > 0).collect();
+    if !broken.is_empty() {
+        writeln!(out)?;
+    }
     for source in broken {
         let (scalar, family) = (&source.scalar, &source.family);
         let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
         let first = source.first_broken.as_deref().unwrap_or("-");
         writeln!(
             out,
-            "\n{scalar} {family}: {n} of {of} indices are not what the family's promise says, first {first}"
+            "{scalar} {family}: {n} of {of} indices are not what the family's promise says, first {first}"
         )?;
     }
     Ok(())
@@ -56,7 +58,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
 pub(super) struct RowView<'a> {
     pub(super) part: &'a RowPart,
     pub(super) total: Option<&'a RowTotal>,
-    results: Vec<&'a KernelResult>,
+    pub(super) results: Vec<&'a KernelResult>,
 }
 
 impl<'a> RowView<'a> {
@@ -93,7 +95,7 @@ impl<'a> RowView<'a> {
     }
 
     /// The flag that sets the row's epsilons.
-    fn epsilon_flag(&self) -> String {
+    pub(super) fn epsilon_flag(&self) -> String {
         let pairs: Vec<String> =
             self.part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
         if pairs.is_empty() { String::new() } else { format!(" --epsilon '{}'", pairs.join(",")) }
@@ -105,7 +107,7 @@ impl<'a> RowView<'a> {
     }
 
     /// A family's first groups that no triangle reported, by id.
-    fn first_cracks(&self) -> Vec<(&str, &str)> {
+    pub(super) fn first_cracks(&self) -> Vec<(&str, &str)> {
         self.results
             .iter()
             .filter_map(|result| {
@@ -116,7 +118,7 @@ impl<'a> RowView<'a> {
     }
 
     /// How many cases could have shown a kind of finding: of one class, or of all.
-    fn trials(&self, kind: &str, class: &str) -> u64 {
+    pub(super) fn trials(&self, kind: &str, class: &str) -> u64 {
         let of = |counts: &Counts| match kind {
             "false-miss" => counts.false_misses.of,
             "false-hit" => counts.false_hits.of,
@@ -151,7 +153,21 @@ fn write_scalar(
     let cases: u64 =
         record.result.sources.iter().filter(|s| s.scalar == scalar).map(|s| s.cases).sum();
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    writeln!(out, "\n{bold}{scalar}{plain}, {} cases for each kernel", group_digits(cases))?;
+    let of_cases = number_of(cases, "case", "cases");
+    writeln!(out, "\n{bold}{scalar}{plain}, {of_cases} for each kernel")?;
+    if cases == 0 {
+        return Ok(());
+    }
+    let is_all_invalid = |row: &RowView| {
+        let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
+        invalid.map(|counts| counts.cases).sum::<u64>() == cases
+    };
+    if rows.first().is_some_and(is_all_invalid) {
+        writeln!(
+            out,
+            "All are invalid: a number is infinite or NaN, or the direction is zero. Nothing else was asked."
+        )?;
+    }
     writeln!(
         out,
         "{bold}{:<37} {:>20} {:<16} {:>20} {:<16} {:>6} {:>6} {:>6} {:>6}{plain}",
@@ -257,121 +273,6 @@ fn write_exact_shares(
         )?;
     }
     Ok(())
-}
-
-/// For each row and finding the worst example of each class, or of all classes together.
-fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
-    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    let by_class = style.details || rows.len() <= 2;
-    let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
-    writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
-    for row in rows {
-        let mut worst: BTreeMap<(&str, &str), (u64, &FindingPart)> = BTreeMap::new();
-        for finding in row.results.iter().flat_map(|result| &result.findings) {
-            let class = if by_class { finding.class.as_str() } else { "" };
-            let entry = worst.entry((&finding.finding, class)).or_insert((0, finding));
-            entry.0 += finding.rate.count;
-            if severity(entry.1) < severity(finding) {
-                entry.1 = finding;
-            }
-        }
-        let label = format!("{} ({})", row.part.kernel, row.part.set);
-        let cracks = row.first_cracks();
-        if worst.is_empty() && cracks.is_empty() {
-            writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
-            continue;
-        }
-        writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
-        for ((kind, class), (count, finding)) in &worst {
-            let of = row.trials(kind, class);
-            let sampled = finding.rate.interval.is_some();
-            let share = if sampled { interval_of(*count, of) } else { String::new() };
-            let (count, of) = (group_digits(*count), group_digits(of));
-            let distance = describe_severity(finding);
-            let (named, worst) = match *class {
-                "" => (String::new(), format!("{}, ", finding.class)),
-                class => (format!(" {class}"), String::new()),
-            };
-            writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
-            let severity = row.total.and_then(|total| total.severity.get(*kind));
-            match severity {
-                Some(severity) if class.is_empty() => {
-                    writeln!(out, "        {}", severity_text(severity))?;
-                }
-                _ => {}
-            }
-            if let Some(causes) = causes_text(&row.results, kind, class) {
-                writeln!(out, "        why: {causes}")?;
-            }
-            writeln!(out, "        {}", finding.worst.command)?;
-            writeln!(out, "        {}", finding.worst.bits)?;
-        }
-        for (family, id) in cracks {
-            writeln!(
-                out,
-                "    crack, first of {family}: no triangle of the group reports the hit"
-            )?;
-            writeln!(
-                out,
-                "        {}",
-                format!("hairline explain '{id}' {}{}", row.part.selector, row.epsilon_flag())
-                    .trim_end()
-            )?;
-        }
-    }
-    Ok(())
-}
-
-/// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
-/// before or beyond the extent it is.
-fn severity_of(finding: &FindingPart) -> (f64, bool) {
-    let Some(severity) = &finding.worst.severity else { return (0.0, false) };
-    let off_end = finding.class.ends_with("/before") || finding.class.ends_with("/beyond");
-    match severity.along {
-        Some(along) if finding.finding == "false-hit" && off_end => {
-            let outside = finding.class.starts_with("outside");
-            let in_space = if outside { severity.in_space } else { 0.0 };
-            if along > in_space { (along, true) } else { (in_space, false) }
-        }
-        // A hit at an end that does not count.
-        Some(along)
-            if finding.finding == "false-hit"
-                && along == 0.0
-                && !finding.class.starts_with("outside") =>
-        {
-            (along, true)
-        }
-        Some(along) if finding.finding == "false-miss" && along < severity.in_space => {
-            (along, true)
-        }
-        _ => (severity.in_space, false),
-    }
-}
-
-pub(super) fn severity(finding: &FindingPart) -> f64 {
-    severity_of(finding).0
-}
-
-pub(super) fn describe_severity(finding: &FindingPart) -> String {
-    if matches!(finding.finding.as_str(), "panic" | "crash" | "timeout") {
-        return "on the case below".to_owned();
-    }
-    let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };
-    let (distance, along) = severity_of(finding);
-    if distance == 0.0 {
-        return if along {
-            "exactly at an end".to_owned()
-        } else {
-            "exactly on the boundary".to_owned()
-        };
-    }
-    let ulps = distance * severity.edge_in_ulps;
-    let what = if along {
-        "of the longest edge from an end of the extent"
-    } else {
-        "of the longest edge from the boundary"
-    };
-    format!("by {distance:.2e} {what} ({ulps:.2e} ulps of the largest coordinate)")
 }
 
 /// ` (20.3% [20.0%, 20.6%])`; nothing of nothing.

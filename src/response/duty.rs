@@ -30,15 +30,17 @@ impl Duty {
         for class in Class::all() {
             let off_the_ends = class.is_off_the_interval() && contract.extent != Extent::Line;
             let from_behind = class.is_back() && contract.sides == Sides::Front;
-            let outside =
-                !class.is_flat() && !off_the_ends && !from_behind || class.part() == "outside";
+            let within = !class.is_flat() && !off_the_ends && !from_behind;
+            // Inside the triangle nothing must be missed but what lies on an open end.
+            let at_an_end = within && class.part() == "interior" && contract.extent != Extent::Line;
+            let outside = within && class.part() != "interior" || class.part() == "outside";
             classes[class.number()] = match name {
                 PARALLEL => class.is_flat() || from_behind && culls,
-                T => off_the_ends,
+                T => off_the_ends || at_an_end,
                 _ => {
                     outside
                         || class.is_flat() && !has(PARALLEL)
-                        || off_the_ends && !has(T)
+                        || (off_the_ends || at_an_end) && !has(T)
                         || from_behind && !culls
                 }
             };
@@ -76,6 +78,9 @@ mod tests {
         assert_eq!(guarded("moller-trumbore", "parallel"), flat);
         assert!(guarded("plane-inside-out", "t").contains(&"interior/front/before".to_owned()));
         assert!(!guarded("plane-inside-out", "t").contains(&"outside/front/within".to_owned()));
+        let at_an_open_end = "interior/front/within".to_owned();
+        assert!(guarded("plane-inside-out", "t").contains(&at_an_open_end));
+        assert!(!guarded("plane-inside-out", "edge").contains(&at_an_open_end));
         assert!(guarded("plane-inside-out", "edge").contains(&"outside/back/before".to_owned()));
         // Culling by the determinant's sign; by the edges' where there is no determinant.
         let culled = "interior/back/within".to_owned();

@@ -125,10 +125,13 @@ pub fn causes(rows: &[TableRow]) -> String {
 
 /// The command that shows an example, with the program that knows the kernel.
 pub fn command(row: &TableRow, example: &Example) -> String {
-    match row.entrant.kernel {
-        Some(_) => example.command.replacen("hairline", "league", 1),
-        None => example.command.clone(),
-    }
+    let program = match row.entrant.kernel {
+        Some(_) => "league",
+        // Known by its name in a program, and not in this one.
+        None if row.plan.selector.starts_with("--kernel ") => "league-heavy",
+        None => "hairline",
+    };
+    example.command.replacen("hairline", program, 1)
 }
 
 fn cell(row: &TableRow, group: &Group) -> String {

@@ -4,6 +4,7 @@ use crate::audit::Row;
 use crate::campaign::Find;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::fuzz::{CAMPAIGN, FINDS, read_begun, read_finds};
+use crate::cli::sources::check_epsilons;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::fuzzing::AnyInput;
@@ -92,6 +93,10 @@ fn read_case(
     finds: &mut Vec<Find>,
 ) -> Result<(), Failure> {
     if stored.found.is_none() {
+        match stored.case {
+            AnyCase::F32(_) => check_epsilons::<f32>(rows)?,
+            AnyCase::F64(_) => check_epsilons::<f64>(rows)?,
+        }
         finds.extend(of_rows(rows, stored.case, file));
         return Ok(());
     }

@@ -1,7 +1,8 @@
 //! What a check found that was not expected, and what was expected and not found.
 
 use super::room::Room;
-use super::words::{code, counts, link, number_of, shortened};
+use super::words::{code, counts, link, shortened};
+use crate::report::number_of;
 use crate::report::{Conformance, Deviation, Method, Record, group_digits};
 use maud::{Markup, PreEscaped, html};
 

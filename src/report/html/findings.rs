@@ -2,11 +2,12 @@
 
 use super::room::Room;
 use super::view::{Row, View};
-use super::words::{code, counts, number_of, share};
+use super::words::{code, counts, share};
 use crate::report::group_digits;
+use crate::report::number_of;
 use crate::report::record::*;
-use crate::report::text::describe_severity;
 use crate::report::why::causes_text;
+use crate::report::worst::describe_severity;
 use maud::{Markup, PreEscaped, html};
 
 /// How many of a class's first examples are shown.

@@ -2,7 +2,8 @@
 
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
-use super::words::{counts, interval, number_of, percent};
+use super::words::{counts, interval, percent};
+use crate::report::number_of;
 use crate::report::record::Rate;
 use maud::{Markup, PreEscaped, html};
 use std::collections::HashMap;

@@ -15,6 +15,7 @@ mod view;
 mod words;
 
 use super::{Record, Style};
+use crate::report::number_of;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -22,7 +23,7 @@ use room::Room;
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use view::View;
-use words::{number_of, shortened};
+use words::shortened;
 
 /// A report has fewer bytes.
 const LIMIT: usize = 9_800_000;

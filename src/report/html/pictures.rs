@@ -10,7 +10,7 @@ use crate::contract::NAMED;
 use crate::kernel::Scalar;
 use crate::map::{self, Ink};
 use crate::report::record::*;
-use crate::report::text::severity;
+use crate::report::worst::severity;
 use crate::report::{MapPart, Record, group_digits};
 use crate::response::SPANNING;
 use maud::{Markup, PreEscaped, html};

@@ -34,11 +34,6 @@ pub(super) fn counts(rate: &Rate) -> String {
     format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
 }
 
-/// `3 findings`, `1 finding`.
-pub(super) fn number_of(count: u64, one: &str, many: &str) -> String {
-    format!("{} {}", group_digits(count), if count == 1 { one } else { many })
-}
-
 /// Text that people wrote, as a link if it is an address of the web.
 pub(super) fn link(url: &str) -> Markup {
     let is_scheme = |scheme: &str| {

@@ -1,0 +1,123 @@
+//! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
+
+use super::record::FindingPart;
+use super::text::{RowView, interval_of};
+use super::why::{causes_text, severity_text};
+use super::{Style, group_digits};
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// For each row and finding the worst example of each class, or of all classes together.
+pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let by_class = style.details || rows.len() <= 2;
+    let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
+    writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
+    for row in rows {
+        let mut worst: BTreeMap<(&str, &str), (u64, &FindingPart)> = BTreeMap::new();
+        for finding in row.results.iter().flat_map(|result| &result.findings) {
+            let class = if by_class { finding.class.as_str() } else { "" };
+            let entry = worst.entry((&finding.finding, class)).or_insert((0, finding));
+            entry.0 += finding.rate.count;
+            if severity(entry.1) < severity(finding) {
+                entry.1 = finding;
+            }
+        }
+        let label = format!("{} ({})", row.part.kernel, row.part.set);
+        let cracks = row.first_cracks();
+        if worst.is_empty() && cracks.is_empty() {
+            writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
+            continue;
+        }
+        writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
+        for ((kind, class), (count, finding)) in &worst {
+            let of = row.trials(kind, class);
+            let sampled = finding.rate.interval.is_some();
+            let share = if sampled { interval_of(*count, of) } else { String::new() };
+            let (count, of) = (group_digits(*count), group_digits(of));
+            let distance = describe_severity(finding);
+            let (named, worst) = match *class {
+                "" => (String::new(), format!("{}, ", finding.class)),
+                class => (format!(" {class}"), String::new()),
+            };
+            writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
+            let severity = row.total.and_then(|total| total.severity.get(*kind));
+            match severity {
+                Some(severity) if class.is_empty() => {
+                    writeln!(out, "        {}", severity_text(severity))?;
+                }
+                _ => {}
+            }
+            if let Some(causes) = causes_text(&row.results, kind, class) {
+                writeln!(out, "        why: {causes}")?;
+            }
+            writeln!(out, "        {}", finding.worst.command)?;
+            writeln!(out, "        {}", finding.worst.bits)?;
+        }
+        for (family, id) in cracks {
+            writeln!(
+                out,
+                "    crack, first of {family}: no triangle of the group reports the hit"
+            )?;
+            writeln!(
+                out,
+                "        {}",
+                format!("hairline explain '{id}' {}{}", row.part.selector, row.epsilon_flag())
+                    .trim_end()
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
+/// before or beyond the extent it is.
+fn severity_of(finding: &FindingPart) -> (f64, bool) {
+    let Some(severity) = &finding.worst.severity else { return (0.0, false) };
+    let off_end = finding.class.ends_with("/before") || finding.class.ends_with("/beyond");
+    match severity.along {
+        Some(along) if finding.finding == "false-hit" && off_end => {
+            let outside = finding.class.starts_with("outside");
+            let in_space = if outside { severity.in_space } else { 0.0 };
+            if along > in_space { (along, true) } else { (in_space, false) }
+        }
+        // A hit at an end that does not count.
+        Some(along)
+            if finding.finding == "false-hit"
+                && along == 0.0
+                && !finding.class.starts_with("outside") =>
+        {
+            (along, true)
+        }
+        Some(along) if finding.finding == "false-miss" && along < severity.in_space => {
+            (along, true)
+        }
+        _ => (severity.in_space, false),
+    }
+}
+
+pub(super) fn severity(finding: &FindingPart) -> f64 {
+    severity_of(finding).0
+}
+
+pub(super) fn describe_severity(finding: &FindingPart) -> String {
+    if matches!(finding.finding.as_str(), "panic" | "crash" | "timeout") {
+        return "on the case below".to_owned();
+    }
+    let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };
+    let (distance, along) = severity_of(finding);
+    if distance == 0.0 {
+        return if along {
+            "exactly at an end".to_owned()
+        } else {
+            "exactly on the boundary".to_owned()
+        };
+    }
+    let ulps = distance * severity.edge_in_ulps;
+    let what = if along {
+        "of the longest edge from an end of the extent"
+    } else {
+        "of the longest edge from the boundary"
+    };
+    format!("by {distance:.2e} {what} ({ulps:.2e} ulps of the largest coordinate)")
+}
