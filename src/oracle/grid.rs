@@ -145,10 +145,13 @@ const KINDS: [[usize; 9]; 3] = [
 /// Numbers as integers below 2^30 times a power of two, and its exponent.
 #[inline(always)]
 fn on_grid<const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
-    let mut largest = 0.0;
-    for x in values {
-        largest = if x.abs() > largest { x.abs() } else { largest };
+    // Four maxima side by side, so that none waits for the one before.
+    let larger = |m: f64, x: f64| if x > m { x } else { m };
+    let mut maxima = [0.0; 4];
+    for (i, x) in values.into_iter().enumerate() {
+        maxima[i % 4] = larger(maxima[i % 4], x.abs());
     }
+    let largest = larger(larger(maxima[0], maxima[1]), larger(maxima[2], maxima[3]));
     if largest == 0.0 {
         return Some(([0; N], 0));
     }
@@ -159,16 +162,17 @@ fn on_grid<const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
         return None;
     }
     let scale = f64::from_bits(((1023 + shift) as u64) << 52);
+    let unscale = f64::from_bits(((1023 - shift) as u64) << 52);
     let mut integers = [0; N];
-    let mut fits = true;
+    // The bits of all differences between a number and its integer scaled back, which is zero for a
+    // multiple alone: one that underflowed to zero is none.
+    let mut differences = 0;
     for i in 0..N {
-        let scaled = values[i] * scale;
-        let shifted = scaled + TO_INTEGER;
-        // A number that underflows to zero is no multiple either.
-        fits &= (shifted - TO_INTEGER == scaled) & ((scaled != 0.0) | (values[i] == 0.0));
+        let shifted = values[i] * scale + TO_INTEGER;
+        differences |= ((shifted - TO_INTEGER) * unscale - values[i]).to_bits();
         integers[i] = shifted.to_bits().wrapping_sub(TO_INTEGER.to_bits()) as i64;
     }
-    fits.then_some((integers, -i64::from(shift)))
+    (differences == 0).then_some((integers, -i64::from(shift)))
 }
 
 #[inline(always)]
