@@ -69,6 +69,12 @@ fn one_case_more_on_the_same_cases_is_worse() {
     };
     assert_eq!(counted("one.json", "more.json"), ["worse"]);
     assert_eq!(counted("more.json", "one.json"), ["better"]);
+    // A family more does not make the cases of the others other ones.
+    audit(&folder, "two.json", &["--family", "edge-near,behind"]);
+    let (json, _) = ends(&folder, &["diff", "more.json", "two.json", "--format", "json"], 0);
+    let comparison: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(comparison["same_cases"], true, "{json}");
+    assert_eq!(comparison["differences"][0]["change"], "better", "{json}");
     // The same kernel under another contract answers another question.
     audit(&folder, "open.json", &["--family", "edge-near", "--contract", "open-ray"]);
     let (open, _) = ends(&folder, &["diff", "one.json", "open.json"], 0);

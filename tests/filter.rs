@@ -50,6 +50,11 @@ fn right_answers_are_0_and_wrong_ones_1_with_the_tables_of_an_audit() {
     let (code, table, error) = judged("closed-ray", &answers(&interior, "hit t=1"));
     assert_eq!((code, error.as_str()), (0, ""), "{table}");
     assert!(table.contains("f64, 1,500 cases for each kernel"), "{table}");
+    // Who says that t is given has its errors measured.
+    let f32 = generated(&["--family", "interior", "-n", "50", "--scalar", "f32"]);
+    let hello = "hairline-kernel 1\nname mine\nscalars f32\ncontract closed-ray\ngives t\nready\n";
+    let output = hairline(&["judge"], &(hello.to_owned() + &answers(&f32, "hit t=1")));
+    assert!(text(&output.stdout).contains("values in ulps: t half within"), "{output:?}");
     let (code, table, _) = judged("closed-ray", &answers(&interior, "miss"));
     assert_eq!(code, 1);
     assert!(table.contains("false-miss interior/front/within"), "{table}");

@@ -180,6 +180,8 @@ fn a_panic_is_a_finding_and_the_run_goes_on() {
     let total = &outcome.record.result.results[0].total;
     assert!((100..300).contains(&total.panics), "{}", total.panics);
     assert_eq!(total.panics + total.hits, 400);
+    // Where there is no verdict it is not wrong, nor right.
+    assert_eq!((total.false_misses.of, total.false_misses.count), (total.hits, 0));
 }
 
 #[test]

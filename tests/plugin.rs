@@ -115,6 +115,11 @@ fn a_library_that_crashes_exits_or_writes_where_it_must_not_is_a_finding_case_by
         assert_eq!(count(&record, "timeouts"), 0, "{fault}");
         // Everywhere else it misses what it must hit: the run went on.
         assert_eq!(count(&record, "false_misses/count"), COUNT - faulty, "{fault}");
+        assert_eq!(
+            count(&record, "false_misses/of"),
+            COUNT - faulty,
+            "{fault}: no verdict, no trial"
+        );
         let table = text(&hairline(&[&["audit"][..], &flags].concat()).stdout);
         assert!(table.contains(&format!("misbehave (own): {faulty} crashes")), "{table}");
         // The command in the table shows it again, with what it died of.
@@ -164,6 +169,29 @@ fn prints_and_bad_values_of_a_library_do_no_harm() {
     let Some(library) = misbehaving("RETURN_NAN") else { return };
     let (nan, _) = record(&[&["--kernel-lib", &library][..], &FLAGS].concat());
     assert_eq!(count(&nan, "bad_values/count"), faulty_cases());
+}
+
+#[test]
+fn crashes_are_expected_once_they_are_blessed() {
+    let Some(library) = misbehaving("SEGFAULT") else { return };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-blessed");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("e.toml");
+    let file = file.to_str().unwrap();
+    let check = |more: &[&str]| {
+        let plan = ["check", "-q", "--expectations", file, "--family", "interior", "-n", "300"];
+        hairline(&[&plan[..], &["--scalar", "f64"], more].concat())
+    };
+    let own = ["--kernel-lib", &library];
+    assert_eq!(check(&[&own[..], &["--bless"]].concat()).status.code(), Some(0));
+    assert!(fs::read_to_string(file).unwrap().contains("\"crash\""));
+    let output = check(&own);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    // Without its library the kernel is not known, and what would make it so is said.
+    let output = check(&["--kernel", "plucker"]);
+    assert_eq!(output.status.code(), Some(65));
+    assert!(text(&output.stderr).contains("--kernel-lib or --kernel-cmd"), "{output:?}");
 }
 
 #[test]

@@ -68,6 +68,9 @@ impl<F: Scalar> RunnerRow<F> {
                     (distances.to_change(truth, contract), distances.edge_in_ulps)
                 });
                 tally.find(class(i), finding, (chunk.places[i], *digest), severity);
+                if finding.is_failure() {
+                    tally.classes[number].fail(obligation);
+                }
             }
         }
         tally.hits(&hits);

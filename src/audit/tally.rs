@@ -27,6 +27,9 @@ pub struct ClassCount {
     pub must_hit: u64,
     /// Of these, those that must be missed.
     pub must_miss: u64,
+    /// Of those that must be hit, and of those that must be missed, those without a verdict: the kernel
+    /// failed.
+    pub without_verdict: [u64; 2],
     /// Hits that the kernel reported.
     pub hits: u64,
     /// Of these, those whose values are judged: all but those on invalid input.
@@ -44,8 +47,8 @@ impl ClassCount {
     /// How many cases could have shown a finding: the denominator of its rate.
     pub fn trials(&self, finding: Finding) -> u64 {
         match finding {
-            Finding::FalseMiss => self.must_hit,
-            Finding::FalseHit => self.must_miss,
+            Finding::FalseMiss => self.must_hit - self.without_verdict[0],
+            Finding::FalseHit => self.must_miss - self.without_verdict[1],
             Finding::BadValue => self.valued_hits.saturating_sub(self.of(Finding::FalseHit)),
             Finding::Panic | Finding::Crash | Finding::Timeout => self.cases,
         }
@@ -61,8 +64,19 @@ impl ClassCount {
         }
     }
 
+    /// Counts a case on which the kernel failed.
+    pub fn fail(&mut self, obligation: Obligation) {
+        match obligation {
+            Obligation::MustHit => self.without_verdict[0] += 1,
+            Obligation::MustMiss => self.without_verdict[1] += 1,
+            Obligation::Free => {}
+        }
+    }
+
     /// Adds another count.
     pub fn merge(&mut self, other: &ClassCount) {
+        self.without_verdict[0] += other.without_verdict[0];
+        self.without_verdict[1] += other.without_verdict[1];
         self.cases += other.cases;
         self.must_hit += other.must_hit;
         self.must_miss += other.must_miss;

@@ -37,6 +37,10 @@ pub struct JudgeArguments {
     examples: usize,
 }
 
+/// How many findings of each class to attribute: none can be, which is said of so many. The values of
+/// hits are measured of all.
+const ATTRIBUTE: usize = 100;
+
 /// Runs the command.
 pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
     let outputs = arguments.report.outputs()?;
@@ -220,7 +224,7 @@ impl Sets {
     fn finish(mut self, lines: &Lines) -> Result<(Plan, Audit), Failure> {
         self.close(lines)?;
         let Sets { row, sources, scalars, examples, audit, .. } = self;
-        Ok((Plan { rows: vec![row], sources, scalars, examples, attribute: 0 }, audit))
+        Ok((Plan { rows: vec![row], sources, scalars, examples, attribute: ATTRIBUTE }, audit))
     }
 }
 
@@ -256,7 +260,7 @@ impl<F: Scalar> Set<F> {
         given: &'static Given<F>,
         examples: usize,
     ) -> Set<F> {
-        let answers = Answers::new(row, given, examples, 0, number, &Unobserved);
+        let answers = Answers::new(row, given, examples, ATTRIBUTE, number, &Unobserved);
         let triangles = source.make::<F>(0).cases().len();
         let verdicts = Vec::new();
         Set { source, number, answers, verdicts, first_index: 0, index: 0, triangle: 0, triangles }

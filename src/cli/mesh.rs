@@ -10,7 +10,7 @@ use super::sources::{scalars_in_use, set_threads};
 use crate::corpus::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::report::mesh::{MESH_FORMATS, build};
-use crate::report::{Context, Style};
+use crate::report::{Context, Style, number_of};
 use crate::watertight::{self, Found, Part, Plan, Targets, Topology};
 use clap::Args;
 
@@ -139,7 +139,8 @@ impl MeshArguments {
         progress.add_total(rays);
         if !self.quiet {
             let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();
-            eprintln!("{rows} kernel rows on {rays} rays in {}", F::NAME);
+            let rows = number_of(rows as u64, "kernel row", "kernel rows");
+            eprintln!("{rows} on {rays} rays in {}", F::NAME);
         }
         watertight::run::<F>(mesh, topology, plan, progress)
     }

@@ -9,7 +9,8 @@ use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices
 use crate::Unobserved;
 use crate::audit::{self, Plan, Shard};
 use crate::report::{
-    Context, FORMATS, Format, HTML, PartialPart, Record, Style, build, illustrations, shard_part,
+    Context, FORMATS, Format, HTML, PartialPart, Record, Style, build, illustrations, number_of,
+    shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -135,7 +136,10 @@ impl RunArguments {
         let threads = set_threads(self.threads)?;
         let total = total_indices(&plan.sources, plan.scalars)?;
         if !self.report.quiet {
-            let (rows, sources) = (plan.rows.len(), plan.sources.len());
+            let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");
+            let sources =
+                number_of(plan.sources.len() as u64, "source of cases", "sources of cases");
+            let threads = number_of(threads as u64, "thread", "threads");
             let names = ["f32", "f64"];
             let scalars: Vec<&str> = names
                 .into_iter()
@@ -144,7 +148,7 @@ impl RunArguments {
                 .map(|pair| pair.0)
                 .collect();
             eprintln!(
-                "{rows} kernel rows on {sources} sources of cases in {}: {total} indices{}, {threads} threads",
+                "{rows} on {sources} in {}: {total} indices{}, {threads}",
                 scalars.join(" and "),
                 shard.map_or(String::new(), |shard| format!(", of them shard {shard}"))
             );

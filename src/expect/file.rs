@@ -111,6 +111,13 @@ impl Reader<'_> {
     fn check_row(&self, row: &RowText) -> Result<(), InputError> {
         if kernel::find(row.kernel.get_ref()).is_none() {
             let kernels: Vec<&str> = kernel::all().iter().map(|entry| entry.info.name).collect();
+            if nearest_name(row.kernel.get_ref(), kernels.iter().copied()).is_none() {
+                let message = format!(
+                    "unknown kernel '{}': see `hairline list kernels`; one of your own is known by its --kernel-lib or --kernel-cmd",
+                    row.kernel.get_ref()
+                );
+                return Err(self.error(&row.kernel.span(), message));
+            }
             self.check("kernel", &row.kernel, &kernels)?;
         }
         self.check("scalar", &row.scalar, &["f32", "f64"])

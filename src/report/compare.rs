@@ -55,7 +55,7 @@ pub struct ContractChange {
 /// What two records have in common, and where they differ.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// Whether the cases are the same, so that any difference counts.
+    /// Whether the cases of all families compared are the same, so that any difference counts.
     pub same_cases: bool,
     /// Kernels, epsilons, scalars and families, taken together, that both records have.
     pub common: usize,
@@ -71,8 +71,8 @@ pub struct Comparison {
     pub only_new: usize,
 }
 
-/// Compares. Where both records are of the same cases (the same sources of the same sizes) any change of
-/// a count or of the set of failing cases is one. Else rates differ if their Clopper-Pearson intervals, at
+/// Compares. Where both records have the same cases of a family (the same set of the same size) any change
+/// of a count or of the set of failing cases is one. Else rates differ if their Clopper-Pearson intervals, at
 /// 0.05 divided by the number of comparisons, are disjoint.
 pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
     let contracts = contract_changes(old, new);
@@ -81,14 +81,14 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
     let (common, lone): (Vec<&Key>, Vec<&Key>) =
         keys.into_iter().partition(|key| old.result(key).is_some() && new.result(key).is_some());
     let judge = Judge {
-        same_cases: old.sources == new.sources && old.partial == new.partial,
+        same_parts: old.partial == new.partial,
         tail: ERROR / common.len().max(1) as f64 / 2.0,
     };
     let mut differences: Vec<Difference> =
         common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
     differences.sort_by_key(|difference| difference.change as u8);
     Comparison {
-        same_cases: judge.same_cases,
+        same_cases: common.iter().all(|key| judge.same_cases(key, &old, &new)),
         common: old.results.keys().filter(|place| new.results.contains_key(*place)).count(),
         compared: common.len(),
         differences,
@@ -118,19 +118,21 @@ fn contract_changes(old: &ResultPart, new: &ResultPart) -> Vec<ContractChange> {
 struct Side<'a> {
     found: BTreeMap<Key, Disagreement<'a>>,
     results: BTreeMap<[&'a str; 4], &'a KernelResult>,
-    sources: Vec<(&'a str, u64)>,
+    /// By family: the id of the set, and how many indices.
+    sources: BTreeMap<&'a str, (&'a str, u64)>,
     partial: Option<&'a PartialPart>,
 }
 
 impl<'a> Side<'a> {
     fn of(result: &'a ResultPart) -> Side<'a> {
+        let sources = result.plan.sources.iter();
         Side {
             found: disagreements(result)
                 .into_iter()
                 .map(|found| (found.key.clone(), found))
                 .collect(),
             results: result.by_place(),
-            sources: result.plan.sources.iter().map(|s| (s.set.as_str(), s.count)).collect(),
+            sources: sources.map(|s| (s.family.as_str(), (s.set.as_str(), s.count))).collect(),
             partial: result.partial.as_ref(),
         }
     }
@@ -145,7 +147,7 @@ impl<'a> Side<'a> {
 }
 
 struct Judge {
-    same_cases: bool,
+    same_parts: bool,
     tail: f64,
 }
 
@@ -157,7 +159,7 @@ impl Judge {
         if old_rate.count == new_rate.count && old_rate.of == new_rate.of && same_set {
             return None;
         }
-        let change = self.change(&old_rate, &new_rate);
+        let change = self.change(self.same_cases(key, old, new), &old_rate, &new_rate);
         let side = if change == Change::Better { old } else { new };
         let example = side.found.get(key).and_then(|found| found.example.as_ref());
         Some(Difference {
@@ -169,9 +171,15 @@ impl Judge {
         })
     }
 
-    fn change(&self, old: &Rate, new: &Rate) -> Change {
+    /// Whether both records have the same cases of a family.
+    fn same_cases(&self, key: &Key, old: &Side, new: &Side) -> bool {
+        let family = key.family.as_str();
+        self.same_parts && old.sources.get(family) == new.sources.get(family)
+    }
+
+    fn change(&self, same_cases: bool, old: &Rate, new: &Rate) -> Change {
         let whole_sets = old.interval.is_none() && new.interval.is_none() && old.of == new.of;
-        if self.same_cases || whole_sets {
+        if same_cases || whole_sets {
             return match new.count.cmp(&old.count) {
                 std::cmp::Ordering::Greater => Change::Worse,
                 std::cmp::Ordering::Less => Change::Better,
@@ -196,7 +204,7 @@ impl Comparison {
         let how = if self.same_cases {
             "the same cases: every difference counts"
         } else {
-            "other cases: rates differ if their Clopper-Pearson intervals at 0.05 / comparisons are disjoint"
+            "other cases, of some families at least: their rates differ if their Clopper-Pearson intervals at 0.05 / comparisons are disjoint"
         };
         writeln!(
             out,

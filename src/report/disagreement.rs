@@ -28,6 +28,8 @@ pub const FINDING_KINDS: &[(&str, &str)] = &[
     ("false-hit", "The contract asks for a miss and the kernel reports a hit"),
     ("bad-value", "A hit that is not false, with a value that is not finite or a wrong facing"),
     ("panic", "The kernel panicked"),
+    ("crash", "The kernel's process died, or it wrote outside its output"),
+    ("timeout", "The kernel's process gave no answer in time"),
     ("crack", "No triangle of a group reports a ray through its inside"),
     ("double", "Two triangles of a group report one crossing"),
     ("polygon-false-miss", "The contract asks for a hit of the whole polygon, and it is missed"),
@@ -138,6 +140,8 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
         "false-hit" => counts.false_hits.clone(),
         "bad-value" => counts.bad_values.clone(),
         "panic" => rate_between(counts.panics, counts.cases, false),
+        "crash" => rate_between(counts.crashes, counts.cases, false),
+        "timeout" => rate_between(counts.timeouts, counts.cases, false),
         _ => none(),
     }
 }

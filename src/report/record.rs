@@ -189,9 +189,9 @@ pub struct Counts {
     pub free: u64,
     /// Hits that the kernel reported.
     pub hits: u64,
-    /// Of the cases that must be hit.
+    /// Of the cases that must be hit, and have a verdict.
     pub false_misses: Rate,
-    /// Of the cases that must be missed.
+    /// Of the cases that must be missed, and have a verdict.
     pub false_hits: Rate,
     /// Of the hits that are not false.
     pub bad_values: Rate,
