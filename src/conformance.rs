@@ -103,15 +103,7 @@ impl Request {
         if let Some(contract) = self.contract {
             rows.iter_mut().for_each(|row| row.contract = contract);
         }
-        for row in &rows {
-            let [in_f32, in_f64] = self.entry.scalars();
-            if in_f32 {
-                row.check::<f32>()?;
-            }
-            if in_f64 {
-                row.check::<f64>()?;
-            }
-        }
+        rows.iter().try_for_each(|row| row.check_in([true; 2]))?;
         let source = |family| Source::Family {
             family,
             parameters: self.parameters.clone(),

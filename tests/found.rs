@@ -134,6 +134,10 @@ fn what_cannot_be_triaged_is_said() {
     expect(&triage(&path("old")), 65, "is of format 0");
     fs::write(folder.join("right.jsonl"), "{\"scalar\":\"f32\",\"origin\":[1,1,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[4,0,0],\"c\":[0,4,0]}\n").unwrap();
     expect(&triage(&path("right.jsonl")), 4, "nothing in it on which a chosen kernel is wrong");
+    // An input of a target that reads no case is no error.
+    fs::create_dir(folder.join("settings")).unwrap();
+    fs::write(folder.join("settings/crash"), "kernel = 1").unwrap();
+    expect(&triage(&path("settings/crash")), 4, "the target settings holds no case; left out");
     let with = |more: &[&str]| {
         let right = path("right.jsonl");
         hairline(&[&["triage", "-o", &output, "--kernel", "cramer", &right], more].concat())

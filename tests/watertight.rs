@@ -515,7 +515,7 @@ fn asked<F: Float>(cases: &[Case<F>], part: Part) -> Option<(bool, bool)> {
 }
 
 /// Whether no face that has a point in common with a face of a group, and is not of it, is hit where the
-/// exact line does not meet it, nor was a silhouette passed.
+/// exact line does not meet it, nor was a silhouette passed: by rationals, and by points instead of faces.
 fn nothing_was_moved<F: Scalar>(
     mesh: &Mesh,
     group: &[u32],
@@ -526,7 +526,8 @@ fn nothing_was_moved<F: Scalar>(
     let corners = |face: u32| mesh.vertices::<F>(face as usize);
     let near: Vec<[F; 3]> = group.iter().flat_map(|face| corners(*face)).collect();
     let turned = |case: &Case<F>| signs(case).map(|(side, ..)| side);
-    let (mut passed, mut met) = (false, false);
+    // By the points among which the line passes and the side: whether a face there is hit.
+    let mut crossings: Vec<(Vec<[F; 3]>, bool, bool)> = Vec::new();
     for face in 0..mesh.triangles.len() as u32 {
         let points = corners(face);
         if group.contains(&face) || !points.iter().any(|point| near.contains(point)) {
@@ -536,20 +537,29 @@ fn nothing_was_moved<F: Scalar>(
         let other = Case::new(origin, direction, points);
         let mut verdict = [Verdict::miss(None)];
         F::subject(entry).unwrap().run(&[other], &row.epsilons::<F>(), &mut verdict);
+        let hit = verdict[0].hit;
         let weights = signs(&other).filter(|(_, ahead, _)| *ahead).map(|(.., weights)| weights);
-        let smallest = weights.map_or(-1, |weights| *weights.iter().min().unwrap());
-        if smallest < 0 {
-            if verdict[0].hit {
+        let Some(weights) = weights.filter(|weights| weights.iter().all(|w| *w >= 0)) else {
+            if hit {
                 return false;
             }
-        } else if turned(&other) != turned(case)
-            && exact_severity(&other, Extent::Ray).unwrap().in_space < 1.0 / 1024.0
-        {
-            passed |= !verdict[0].hit;
-            met |= verdict[0].hit;
+            continue;
+        };
+        if exact_severity(&other, Extent::Ray).unwrap().in_space >= 1.0 / 1024.0 {
+            continue;
+        }
+        let met = points.into_iter().zip(weights).filter(|(_, weight)| *weight > 0);
+        let mut met: Vec<[F; 3]> = met.map(|(point, _)| point).collect();
+        met.sort_by(|p, q| p.partial_cmp(q).unwrap());
+        let from_behind = turned(&other) != turned(case);
+        match crossings.iter_mut().find(|known| known.0 == met && known.1 == from_behind) {
+            Some(known) => known.2 |= hit,
+            None => crossings.push((met, from_behind, hit)),
         }
     }
-    met || !passed
+    let lost = crossings.iter().filter(|(.., hit)| !hit);
+    let from_behind = lost.clone().any(|(_, from_behind, _)| *from_behind);
+    !(from_behind && lost.count() % 2 == 1)
 }
 
 fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], directions: u64) {

@@ -119,6 +119,18 @@ impl Row {
         Ok(())
     }
 
+    /// The same in `f32`, and in `f64`, each if it is chosen and the kernel runs in it.
+    pub fn check_in(&self, scalars: [bool; 2]) -> Result<(), PlanError> {
+        let [in_f32, in_f64] = self.entry.scalars();
+        if scalars[0] && in_f32 {
+            self.check::<f32>()?;
+        }
+        if scalars[1] && in_f64 {
+            self.check::<f64>()?;
+        }
+        Ok(())
+    }
+
     /// The epsilons in a scalar, one a gate; 0 for one that [`Row::check`] refuses.
     pub fn epsilons<F: Float>(&self) -> Vec<F> {
         self.epsilons.iter().map(|text| text.value().unwrap_or(F::zero())).collect()

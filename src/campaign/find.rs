@@ -1,6 +1,6 @@
 //! A find: a finding of a kind, on a case as simple as it was made, as a line of a corpus file.
 
-use crate::audit::{Attribution, PlanError, Row};
+use crate::audit::{Attribution, Row};
 use crate::corpus::Provenance;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
@@ -50,7 +50,7 @@ impl fmt::Display for FindError {
 impl Find {
     /// What a row shows on a case; none if it is as it should be.
     pub fn of(row: &Row, case: AnyCase) -> Option<Find> {
-        check(row, &case).ok()?;
+        row.check_in(case.scalars()).ok()?;
         let signature = match &case {
             AnyCase::F32(case) => Signature::of(row, case),
             AnyCase::F64(case) => Signature::of(row, case),
@@ -73,7 +73,7 @@ impl Find {
         let wrong = |message: String| FindError::Wrong(format!("found: {message}"));
         let row = Row::named(&found.kernel, found.epsilons.as_deref(), &found.contract)
             .map_err(|error| wrong(error.0))?;
-        check(&row, &stored.case).map_err(|error| wrong(error.0))?;
+        row.check_in(stored.case.scalars()).map_err(|error| wrong(error.0))?;
         let Provenance { signature, version, .. } = found;
         let said = format!("'{signature}', as hairline {version} found");
         let find = Find::of(&row, stored.case)
@@ -146,13 +146,5 @@ impl Find {
             AnyCase::F32(case) => Size::of(case),
             AnyCase::F64(case) => Size::of(case),
         }
-    }
-}
-
-/// Whether the case's scalar has the row's epsilons.
-fn check(row: &Row, case: &AnyCase) -> Result<(), PlanError> {
-    match case {
-        AnyCase::F32(_) => row.check::<f32>(),
-        AnyCase::F64(_) => row.check::<f64>(),
     }
 }

@@ -35,6 +35,16 @@ pub enum Cases {
     F64(Group<f64>),
 }
 
+impl Cases {
+    /// Whether they are of `f32`, and whether of `f64`.
+    pub fn scalars(&self) -> [bool; 2] {
+        match self {
+            Cases::F32(_) => [true, false],
+            Cases::F64(_) => [false, true],
+        }
+    }
+}
+
 /// One case, or the triangles of a group.
 pub struct Group<F: Scalar> {
     /// A ray and each triangle.

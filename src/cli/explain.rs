@@ -5,7 +5,6 @@ use super::exit::{Failure, Status};
 use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
-use super::sources::check_epsilons;
 use crate::arith::{Exact, Float};
 use crate::audit::{Errors, Row, attribute, exact_severity};
 use crate::case::Case;
@@ -35,10 +34,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases()?;
     let name = &arguments.case.case;
-    match &cases {
-        Cases::F32(_) => check_epsilons::<f32>(&rows)?,
-        Cases::F64(_) => check_epsilons::<f64>(&rows)?,
-    }
+    rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
     write_result("-", |out| match &cases {
         Cases::F32(group) => write_cases(out, name, group, &rows),
         Cases::F64(group) => write_cases(out, name, group, &rows),

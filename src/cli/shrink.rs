@@ -4,7 +4,6 @@ use super::case::{CaseArguments, Cases};
 use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::select::KernelArguments;
-use super::sources::check_epsilons;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
@@ -29,7 +28,9 @@ pub struct ShrinkArguments {
 /// Runs the command.
 pub fn run(arguments: &ShrinkArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
-    match arguments.case.cases()? {
+    let cases = arguments.case.cases()?;
+    rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
+    match cases {
         Cases::F32(group) => shrink(&rows, &arguments.case.case, &group.cases),
         Cases::F64(group) => shrink(&rows, &arguments.case.case, &group.cases),
     }
@@ -46,7 +47,6 @@ where
             cases.len()
         )));
     };
-    check_epsilons::<F>(rows)?;
     let row = row_with_finding(rows, case)?;
     let (signature, shrunk) = shrink_finding(row, case).ok_or_else(|| no_finding(rows))?;
     write_result("-", |out| write(out, row, case, &signature, &shrunk))?;

@@ -6,7 +6,6 @@ use super::select::{case_count, chosen_scalars, unknown};
 use crate::audit::{Row, Source};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
-use crate::kernel::Scalar;
 use clap::Args;
 use std::sync::Arc;
 
@@ -162,19 +161,8 @@ pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Fail
         let message = "no selected kernel runs in the chosen scalars (see --scalar)".to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
-    if chosen[0] {
-        check_epsilons::<f32>(rows)?;
-    }
-    if chosen[1] {
-        check_epsilons::<f64>(rows)?;
-    }
+    rows.iter().try_for_each(|row| row.check_in(chosen))?;
     Ok(used)
-}
-
-/// An error if an epsilon of a kernel that runs in a scalar is no number of it.
-pub fn check_epsilons<F: Scalar>(rows: &[Row]) -> Result<(), Failure> {
-    let mut runs = rows.iter().filter(|row| F::subject(row.entry).is_some());
-    Ok(runs.try_for_each(Row::check::<F>)?)
 }
 
 /// The indices of a run; an error if there are none.

@@ -20,6 +20,16 @@ pub enum AnyCase {
     F64(Case<f64>),
 }
 
+impl AnyCase {
+    /// Whether it is of `f32`, and whether of `f64`.
+    pub fn scalars(&self) -> [bool; 2] {
+        match self {
+            AnyCase::F32(_) => [true, false],
+            AnyCase::F64(_) => [false, true],
+        }
+    }
+}
+
 impl From<Case<f32>> for AnyCase {
     fn from(case: Case<f32>) -> AnyCase {
         AnyCase::F32(case)

@@ -89,7 +89,7 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
         }));
         let row = rows.get(&(part.kernel.as_str(), part.set.as_str()));
         for (finding, rate, digest, first) in across(part) {
-            let example = first.first().map(|id| group_example(row.copied(), &part.kernel, id));
+            let example = row.zip(first.first()).map(|(row, id)| group_example(row, id));
             let key = Key::of(part, "group", finding);
             all.push(Disagreement { key, rate, digest, example });
         }
@@ -155,19 +155,11 @@ pub(super) fn kinds_of(part: &KernelResult) -> Vec<&'static str> {
 }
 
 /// A group by its id: its bits are those of several triangles, and are left to the command.
-fn group_example(row: Option<&RowPart>, kernel: &str, id: &str) -> Example {
-    let epsilons: Vec<String> = row
-        .map(|row| row.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect())
-        .unwrap_or_default();
-    let flag = if epsilons.is_empty() {
-        String::new()
-    } else {
-        format!(" --epsilon '{}'", epsilons.join(","))
-    };
+fn group_example(row: &RowPart, id: &str) -> Example {
     Example {
         case: id.to_owned(),
         bits: String::new(),
         severity: None,
-        command: format!("hairline explain '{id}' --kernel {kernel}{flag}"),
+        command: row.explain_command(id),
     }
 }

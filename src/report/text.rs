@@ -94,13 +94,6 @@ impl<'a> RowView<'a> {
         }
     }
 
-    /// The flag that sets the row's epsilons.
-    pub(super) fn epsilon_flag(&self) -> String {
-        let pairs: Vec<String> =
-            self.part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
-        if pairs.is_empty() { String::new() } else { format!(" --epsilon '{}'", pairs.join(",")) }
-    }
-
     /// Hits on NaN, infinities, zero directions and impossible intervals.
     fn hits_on_invalid(&self) -> u64 {
         self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()

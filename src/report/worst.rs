@@ -1,11 +1,29 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
-use super::record::FindingPart;
+use super::record::{FindingPart, RowPart};
 use super::text::{RowView, interval_of};
 use super::why::{causes_text, severity_text};
 use super::{Style, group_digits};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
+
+impl RowPart {
+    /// The flags that choose the kernel and set its epsilons.
+    pub(super) fn flags(&self) -> String {
+        let pairs: Vec<String> =
+            self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
+        let epsilons = match &pairs[..] {
+            [] => String::new(),
+            pairs => format!(" --epsilon '{}'", pairs.join(",")),
+        };
+        format!("{}{epsilons}", self.selector).trim_end().to_owned()
+    }
+
+    /// The command that shows a case again by its id.
+    pub(super) fn explain_command(&self, id: &str) -> String {
+        format!("hairline explain '{id}' {}", self.flags()).trim_end().to_owned()
+    }
+}
 
 /// For each row and finding the worst example of each class, or of all classes together.
 pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -59,12 +77,7 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
                 out,
                 "    crack, first of {family}: no triangle of the group reports the hit"
             )?;
-            writeln!(
-                out,
-                "        {}",
-                format!("hairline explain '{id}' {}{}", row.part.selector, row.epsilon_flag())
-                    .trim_end()
-            )?;
+            writeln!(out, "        {}", row.part.explain_command(id))?;
         }
     }
     Ok(())
@@ -120,4 +133,24 @@ pub(super) fn describe_severity(finding: &FindingPart) -> String {
         "of the longest edge from the boundary"
     };
     format!("by {distance:.2e} {what} ({ulps:.2e} ulps of the largest coordinate)")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kernel_of_ones_own_is_chosen_by_its_own_flag() {
+        let mut row = RowPart {
+            kernel: "mine".to_owned(),
+            selector: "--kernel-lib './libmine.so'".to_owned(),
+            set: "source".to_owned(),
+            epsilons: [("t".to_owned(), "1e-6".to_owned())].into(),
+            contract: String::new(),
+        };
+        let command = "hairline explain 'x' --kernel-lib './libmine.so'";
+        assert_eq!(row.explain_command("x"), format!("{command} --epsilon 't=1e-6'"));
+        row.epsilons.clear();
+        assert_eq!(row.explain_command("x"), command);
+    }
 }

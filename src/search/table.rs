@@ -161,11 +161,7 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<Goal, String> {
     }
     let epsilons = Some(epsilons).filter(|text| *text != "-");
     let row = Row::named(kernel, epsilons, "own").map_err(|error| error.0)?;
-    match case {
-        AnyCase::F32(_) => row.check::<f32>(),
-        AnyCase::F64(_) => row.check::<f64>(),
-    }
-    .map_err(|error| error.0)?;
+    row.check_in(case.scalars()).map_err(|error| error.0)?;
     let target = Target::find(target, row.entry.info)
         .ok_or_else(|| format!("'{target}' is nothing that {kernel} is searched for"))?;
     let domain = Domain::find(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;

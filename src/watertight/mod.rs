@@ -9,8 +9,8 @@
 //! into a neighbour instead: so before a crossing without a hit is called a crack, all triangles that
 //! share a point with one of these are asked too, and if one reports a hit though the exact line does not
 //! meet it, or the ray may have passed beside a silhouette, the crossing is counted apart, as *elsewhere*
-//! ([`may_be_elsewhere`]). Beyond these neighbours
-//! the mesh is not asked, and if they are more than [`MOST_AROUND`], nor are they. A double stays one: it is two hits around the edge or vertex itself.
+//! ([`may_be_elsewhere`]). Beyond these neighbours the mesh is not asked, and if they are more than
+//! [`MOST_AROUND`], nor are they. A double stays one: it is two hits around the edge or vertex itself.
 
 #![forbid(unsafe_code)]
 

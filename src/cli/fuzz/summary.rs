@@ -49,7 +49,7 @@ pub fn write_summary(
 
 /// The command that shows a find.
 pub fn explain_command(find: &Find, file: &str) -> String {
-    find.row.explain_command(&format!("'{}' --corpus {}", find.name(), quoted(file)))
+    find.row.explain_command(&format!("{} --corpus {}", quoted(&find.name()), quoted(file)))
 }
 
 /// How many signatures were known after how many seconds.

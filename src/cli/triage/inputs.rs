@@ -4,7 +4,6 @@ use crate::audit::Row;
 use crate::campaign::Find;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::fuzz::{CAMPAIGN, FINDS, read_begun, read_finds};
-use crate::cli::sources::check_epsilons;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::fuzzing::AnyInput;
@@ -16,7 +15,7 @@ use std::path::{Path, PathBuf};
 const WITH_INPUTS: [&str; 4] = ["kernels", "pinned", "response", "oracle"];
 
 /// Targets whose inputs hold no case.
-const WITHOUT_CASES: [&str; 3] = ["mesh", "orientation", "config"];
+const WITHOUT_CASES: [&str; 3] = ["mesh", "orientation", "settings"];
 
 /// Adds what the rows get wrong in a file or folder.
 pub fn read_path(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Failure> {
@@ -93,10 +92,7 @@ fn read_case(
     finds: &mut Vec<Find>,
 ) -> Result<(), Failure> {
     if stored.found.is_none() {
-        match stored.case {
-            AnyCase::F32(_) => check_epsilons::<f32>(rows)?,
-            AnyCase::F64(_) => check_epsilons::<f64>(rows)?,
-        }
+        rows.iter().try_for_each(|row| row.check_in(stored.case.scalars()))?;
         finds.extend(of_rows(rows, stored.case, file));
         return Ok(());
     }

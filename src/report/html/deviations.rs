@@ -2,8 +2,7 @@
 
 use super::room::Room;
 use super::words::{code, counts, link, shortened};
-use crate::report::number_of;
-use crate::report::{Conformance, Deviation, Method, Record, group_digits};
+use crate::report::{Conformance, Deviation, Method, Record, group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 
 /// Bytes for each list.

@@ -3,11 +3,10 @@
 use super::room::Room;
 use super::view::{Row, View};
 use super::words::{code, counts, share};
-use crate::report::group_digits;
-use crate::report::number_of;
 use crate::report::record::*;
 use crate::report::why::causes_text;
 use crate::report::worst::describe_severity;
+use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 
 /// How many of a class's first examples are shown.
@@ -153,20 +152,13 @@ fn grouped(result: &KernelResult) -> impl Iterator<Item = (&'static str, &Rate, 
 }
 
 fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[String]) -> Markup {
-    let epsilons: Vec<String> =
-        row.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
-    let flag = if epsilons.is_empty() {
-        String::new()
-    } else {
-        format!(" --epsilon '{}'", epsilons.join(","))
-    };
     let promised = result.across.as_ref().map_or("nothing", |across| across.promised.as_str());
     html! {
         div.class {
             h5 { (kind) }
             p { (share(rate)) ", " (counts(rate)) " crossings; across triangles the contract promises " (promised) }
             @for id in ids {
-                p.example { (code(&format!("hairline explain '{id}' {}{flag}", row.selector))) }
+                p.example { (code(&row.explain_command(id))) }
             }
         }
     }

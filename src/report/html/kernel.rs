@@ -7,10 +7,9 @@ use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
 use super::words::{code, counts, percent, share};
 use crate::kernel::{self, Gate, Tunable};
-use crate::report::group_digits;
-use crate::report::number_of;
 use crate::report::record::*;
 use crate::report::why::{CauseShare, cause_shares, short};
+use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 use std::collections::HashMap;
 
@@ -89,13 +88,6 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
 fn facts(row: &Row) -> Markup {
     let info = kernel::find(&row.part.kernel).map(|entry| entry.info);
     let gates: &[Gate] = info.map_or(&[], |info| info.gates);
-    let epsilons: Vec<String> =
-        row.part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
-    let epsilons = if epsilons.is_empty() {
-        String::new()
-    } else {
-        format!(" --epsilon '{}'", epsilons.join(","))
-    };
     let unknown = row
         .part
         .epsilons
@@ -105,7 +97,7 @@ fn facts(row: &Row) -> Markup {
         dl.facts {
             dt { "Contract" } dd { (row.part.contract) }
             @if let Some(info) = info { dt { "Source" } dd { (info.source) } }
-            dt { "Run again" } dd { (code(&format!("hairline audit {}{epsilons}", row.part.selector))) }
+            dt { "Run again" } dd { (code(&format!("hairline audit {}", row.part.flags()))) }
         }
         @if !row.part.epsilons.is_empty() || !gates.is_empty() {
             div.scroll tabindex="0" role="group" aria-label="Gates" {

@@ -14,8 +14,7 @@ mod room;
 mod view;
 mod words;
 
-use super::{Record, Style};
-use crate::report::number_of;
+use super::{Record, Style, number_of};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
