@@ -457,6 +457,9 @@ fn the_corpora_verify_and_a_changed_digest_does_not() {
     .unwrap();
     fs::write(folder.join("made/meshes/torus.obj"), "v 0 0 0\n").unwrap();
     assert!(refused(&folder, &["corpus", "verify", "made"], 65).contains("manifest.jsonl:"));
+    fs::write(folder.join("empty.jsonl"), "").unwrap();
+    let error = refused(&folder, &["corpus", "verify", "empty.jsonl"], 4);
+    assert!(error.contains("empty.jsonl: no case to verify"), "{error}");
 }
 
 #[test]

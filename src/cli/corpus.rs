@@ -118,7 +118,7 @@ fn write_family<F: Scalar>(
 }
 
 fn verify(path: &str) -> Result<Status, Failure> {
-    let mut report = Vec::new();
+    let (mut report, mut nothing) = (Vec::new(), true);
     for file in corpus_files(path)? {
         let stored = read_corpus(&file)?;
         let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
@@ -139,6 +139,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let scores =
             if scores > 0 { format!(", {scores} stored scores right") } else { String::new() };
         let cases = stored.len();
+        nothing &= cases == 0;
         report.push(format!(
             "{file}: {cases} cases, {with_truth} stored truths right{scores}{finds}"
         ));
@@ -147,6 +148,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
     if manifest_path.exists() {
         let name = manifest_path.display().to_string();
         let lines = manifest::read(BufReader::new(open(&name)?), &name)?;
+        nothing &= lines.is_empty();
         let folder = manifest_path.parent().unwrap_or(Path::new("."));
         for (number, line) in &lines {
             manifest::verify(line, |mesh| fs::read(folder.join("meshes").join(mesh)))
@@ -156,6 +158,12 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let sets = lines.len() - meshes;
         report
             .push(format!("{name}: {sets} generated sets and {meshes} meshes are the same again"));
+    }
+    if nothing {
+        return Err(Failure::Message(
+            Status::NothingSelected,
+            format!("{path}: no case to verify"),
+        ));
     }
     write_result("-", |out| report.iter().try_for_each(|line| writeln!(out, "{line}")))?;
     Ok(Status::Success)

@@ -112,7 +112,9 @@ impl FuzzArguments {
     fn asked(&self) -> Begun {
         let both = || vec!["f32".to_owned(), "f64".to_owned()];
         let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };
-        Begun::new(self.kernels.clone(), scalar, self.seed.unwrap_or(1))
+        // A campaign is for keeping on, and to a kernel that crashes a crash is no news.
+        let kernels = self.kernels.clone().go_on_after_failures();
+        Begun::new(kernels, scalar, self.seed.unwrap_or(1))
     }
 
     /// What the campaign was begun with; a new one is begun. Flags that are given must agree.

@@ -30,9 +30,10 @@ pub struct PluginArguments {
     )]
     kernel_timeout: f64,
 
-    /// On how many cases such a kernel may crash or hang before the run ends
-    #[arg(long, value_name = "N", default_value_t = FAILURES, help_heading = "Kernels of your own")]
-    kernel_failures: u64,
+    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; a
+    /// campaign goes on]
+    #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
+    kernel_failures: Option<u64>,
 }
 
 /// How long a kernel may be silent if nothing else is said.
@@ -47,12 +48,17 @@ impl Default for PluginArguments {
             kernel_lib: Vec::new(),
             kernel_cmd: Vec::new(),
             kernel_timeout: TIMEOUT_SECONDS,
-            kernel_failures: FAILURES,
+            kernel_failures: None,
         }
     }
 }
 
 impl PluginArguments {
+    /// With no end after many failures, unless one was asked for.
+    pub fn go_on_after_failures(&mut self) {
+        self.kernel_failures.get_or_insert(u64::MAX);
+    }
+
     /// Whether any kernel is brought along.
     pub fn names_kernels(&self) -> bool {
         !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
@@ -87,7 +93,7 @@ impl PluginArguments {
             return Err(Failure::usage(message));
         }
         let silence = Duration::from_secs_f64(seconds);
-        Ok(Limits { silence, failures: self.kernel_failures })
+        Ok(Limits { silence, failures: self.kernel_failures.unwrap_or(FAILURES) })
     }
 }
 

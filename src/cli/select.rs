@@ -50,6 +50,12 @@ pub struct KernelArguments {
 }
 
 impl KernelArguments {
+    /// With no end after many crashes of a kernel of one's own, unless one was asked for.
+    pub fn go_on_after_failures(mut self) -> Self {
+        self.plugins.go_on_after_failures();
+        self
+    }
+
     /// The rows that the flags ask for.
     pub fn rows(&self) -> Result<Vec<Row>, Failure> {
         let band: Option<Band> = self

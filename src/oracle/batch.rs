@@ -2,7 +2,7 @@
 //! filter takes them in lanes.
 
 use super::filter::{self, LANES, Lanes};
-use super::{Layer, Layers, behind_the_filter};
+use super::{Layer, Layers};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
@@ -135,7 +135,10 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
 /// Cases that the filter can take in groups, however they are stored.
 pub(super) trait Stored<F: Float> {
     fn count(&self) -> usize;
-    fn at(&self, index: usize) -> Case<F>;
+    /// The layers behind the filter. They are compiled into each way of storing: a case that is handed
+    /// over in memory is written in pieces that are not those in which it is read, which costs more than
+    /// some of the layers.
+    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth;
     /// t_min and t_max.
     fn interval(&self, index: usize) -> (f64, f64);
     /// o, d, a, b, c of the cases of a group of N, lane by lane.
@@ -147,9 +150,9 @@ impl<F: Float> Stored<F> for [Case<F>] {
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
-    fn at(&self, index: usize) -> Case<F> {
-        self[index]
+    #[inline(never)]
+    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
+        super::behind_the_filter(&self[index], layers)
     }
     #[inline(always)]
     fn interval(&self, index: usize) -> (f64, f64) {
@@ -175,9 +178,9 @@ impl<F: Float, C: Deref<Target = [F]>> Stored<F> for Batch<C> {
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
-    fn at(&self, index: usize) -> Case<F> {
-        self.case(index)
+    #[inline(never)]
+    fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
+        super::behind_the_filter(&self.case(index), layers)
     }
     #[inline(always)]
     fn interval(&self, index: usize) -> (f64, f64) {
@@ -233,7 +236,7 @@ pub(super) fn decide_group<F: Float, const N: usize>(
                 layers.count(Layer::Filter, 1);
                 *truth
             }
-            None => behind_the_filter(&cases.at(first + k), layers),
+            None => cases.behind_the_filter(first + k, layers),
         });
     }
 }

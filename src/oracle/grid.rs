@@ -2,8 +2,8 @@
 //! 2^30 times it, and so are the direction's coordinates of another, every predicate is computed
 //! exactly in machine integers, and zero is zero.
 //!
-//! Widths: coordinates below 2^30, differences below 2^31, minors below 2^63 (64 bits hold them), the
-//! determinants below 2^96 (128 bits).
+//! Widths: coordinates below 2^30, differences below 2^31, minors and the normal below 2^63 (64 bits hold
+//! them), the determinants below 2^96 (128 bits).
 
 use super::contact;
 use super::integer::Interval;
@@ -16,8 +16,14 @@ const BITS: i32 = 30;
 /// Adding and subtracting it rounds a number below 2^51 to an integer; the sum's low bits are it.
 const TO_INTEGER: f64 = 1.5 * (1u64 << 52) as f64;
 
-/// The truth, if the coordinates lie on such a grid.
+/// The truth, if the coordinates lie on such a grid and the case is valid: a NaN, an infinity and a
+/// direction of zero are on no grid.
+#[inline(always)]
 pub(super) fn decide(case: &Case<f64>) -> Option<Truth> {
+    let ordered = case.ray.t_min <= case.ray.t_max;
+    if !ordered {
+        return None;
+    }
     let [o, d, a, b, c] = case.vectors();
     let mut flat_positions = [0.0; 12];
     flat_positions.copy_from_slice([o, a, b, c].as_flattened());
@@ -26,14 +32,17 @@ pub(super) fn decide(case: &Case<f64>) -> Option<Truth> {
     let at = |k: usize| [positions[3 * k], positions[3 * k + 1], positions[3 * k + 2]];
     let [a, b, c] = [minus(at(1), at(0)), minus(at(2), at(0)), minus(at(3), at(0))];
     let (bc, ca, ab) = (cross(b, c), cross(c, a), cross(a, b));
-    // The negated weights, whose sum is D.
-    let weights = [wide_dot(d, bc), wide_dot(d, ca), wide_dot(d, ab)];
-    let capital_d = weights[0] + weights[1] + weights[2];
+    // (b-a)×(c-a), which is the sum of all three; that of two is (B-A)×C, below 2^63 as well.
+    let normal = [0, 1, 2].map(|i| bc[i] + ca[i] + ab[i]);
+    let capital_d = wide_dot(d, normal);
     let capital_t = wide_dot(a, bc);
     let interval = Interval::new(case, p - q);
     if capital_d == 0 {
-        return Some(flat(&interval, d, [a, b, c], capital_t));
+        return Some(flat(&interval, d, [a, b, c], normal, capital_t));
     }
+    // The negated weights, whose sum is D.
+    let (u, v) = (wide_dot(d, bc), wide_dot(d, ca));
+    let weights = [u, v, capital_d - u - v];
     let sign = |x: i128| x.cmp(&0);
     let signs = Signs {
         d: sign(capital_d),
@@ -47,9 +56,14 @@ pub(super) fn decide(case: &Case<f64>) -> Option<Truth> {
 
 /// Lines parallel to the plane, and triangles without area.
 #[inline(never)]
-fn flat(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], capital_t: i128) -> Truth {
+fn flat(
+    interval: &Interval,
+    d: [i64; 3],
+    vertices: [[i64; 3]; 3],
+    n: [i64; 3],
+    capital_t: i128,
+) -> Truth {
     let [a, b, c] = vertices;
-    let n = cross(minus(b, a), minus(c, a));
     let degenerate = n == [0; 3];
     if !degenerate && capital_t != 0 {
         return Truth::Parallel;
@@ -80,20 +94,17 @@ fn coplanar_contact(d: [i64; 3], vertices: [[i64; 3]; 3], n: [i64; 3]) -> Contac
         numerator.signum() as i64 * (side[w] - side[v]).signum() * d[m].signum()
     };
     let [first, second] = met.between.map(t_sign);
-    let [f, g] = met.features.map(ContactKind::Point);
-    let kinds = [ContactKind::None, f, g, ContactKind::Segment];
-    let kind = kinds[KINDS[met.count][3 * digit(first) + digit(second)]];
-    Contact { kind, meets_ray: kind != ContactKind::None, meets_line: met.count > 0 }
+    met.contacts[3 * digit(first) + digit(second)]
 }
 
-/// Where a line in the plane meets the boundary of a triangle.
+/// Where a line in the plane meets the boundary of a triangle, and what that makes of the contact.
 #[derive(Clone, Copy)]
 struct Met {
-    /// At how many points: up to two.
-    count: usize,
-    /// Each lies between two vertices that are not on one side: at the first if that is on the line.
+    /// The points, up to two: each lies between two vertices that are not on one side, at the first if
+    /// that is on the line.
     between: [(usize, usize); 2],
-    features: [Feature; 2],
+    /// By 3 and 1 times 0, 1 or 2 for a point's t below, at and above zero.
+    contacts: [Contact; 9],
 }
 
 /// By the sides of the vertices: 9, 3 and 1 times 0, 1 or 2 for the negative side, the line and the
@@ -101,20 +112,21 @@ struct Met {
 const MET: [Met; 27] = {
     const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
     const EDGES: [Feature; 3] = [Feature::EdgeAb, Feature::EdgeBc, Feature::EdgeCa];
-    let nowhere = Met { count: 0, between: [(0, 0); 2], features: [Feature::Outside; 2] };
-    let mut all = [nowhere; 27];
+    let none = Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
+    let mut all = [Met { between: [(0, 0); 2], contacts: [none; 9] }; 27];
     let mut sides = 0;
     while sides < 27 {
         let side = [sides / 9, sides / 3 % 3, sides % 3];
         let met = &mut all[sides];
+        let (mut count, mut features) = (0, [Feature::Outside; 2]);
         let mut v = 0;
         while v < 3 {
             // With area, no three vertices are on the line: that entry is never read.
             let (w, u) = ((v + 1) % 3, (v + 2) % 3);
-            if side[v] == 1 && met.count < 2 {
-                met.between[met.count] = (v, if side[w] == 1 { u } else { w });
-                met.features[met.count] = VERTICES[v];
-                met.count += 1;
+            if side[v] == 1 && count < 2 {
+                met.between[count] = (v, if side[w] == 1 { u } else { w });
+                features[count] = VERTICES[v];
+                count += 1;
             }
             v += 1;
         }
@@ -122,27 +134,38 @@ const MET: [Met; 27] = {
         while v < 3 {
             let w = (v + 1) % 3;
             if side[v] != 1 && side[w] == 2 - side[v] {
-                met.between[met.count] = (v, w);
-                met.features[met.count] = EDGES[v];
-                met.count += 1;
+                met.between[count] = (v, w);
+                features[count] = EDGES[v];
+                count += 1;
             }
             v += 1;
+        }
+        let mut t = 0;
+        while t < 9 {
+            let kind = match COMMON[count][t] {
+                0 => ContactKind::None,
+                3 => ContactKind::Segment,
+                point => ContactKind::Point(features[point - 1]),
+            };
+            let meets_ray = !matches!(kind, ContactKind::None);
+            met.contacts[t] = Contact { kind, meets_ray, meets_line: count > 0 };
+            t += 1;
         }
         sides += 1;
     }
     all
 };
 
-/// What the ray has in common with the triangle (nothing, the first point met, the second, a segment),
-/// by the number of points and 3 and 1 times 0, 1 or 2 for a t below, at and above zero.
-const KINDS: [[usize; 9]; 3] = [
+/// What the ray has in common with the triangle (0: nothing, 1: the first point met, 2: the second, 3: a
+/// segment), by the number of points and by the signs of their t as [`Met::contacts`] are.
+const COMMON: [[usize; 9]; 3] = [
     [0; 9],
     [0, 0, 0, 1, 1, 1, 1, 1, 1],
     // Both behind; one behind and one at the origin; else something of the segment between them.
     [0, 2, 3, 1, 3, 3, 3, 3, 3],
 ];
 
-/// Numbers as integers below 2^30 times a power of two, and its exponent.
+/// Numbers, not all zero, as integers below 2^30 times a power of two, and its exponent.
 #[inline(always)]
 fn on_grid<const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
     // Four maxima side by side, so that none waits for the one before.
@@ -152,12 +175,9 @@ fn on_grid<const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
         maxima[i % 4] = larger(maxima[i % 4], x.abs());
     }
     let largest = larger(larger(maxima[0], maxima[1]), larger(maxima[2], maxima[3]));
-    if largest == 0.0 {
-        return Some(([0; N], 0));
-    }
     let exponent = (largest.to_bits() >> 52) as i32 - 1023;
     let shift = BITS - 1 - exponent;
-    // The scale must be a normal number; subnormal coordinates are for the layers behind.
+    // The scale must be a normal number; zeros and subnormal numbers alone are for the layers behind.
     if !(-1000..=1000).contains(&shift) {
         return None;
     }
@@ -165,7 +185,7 @@ fn on_grid<const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
     let unscale = f64::from_bits(((1023 - shift) as u64) << 52);
     let mut integers = [0; N];
     // The bits of all differences between a number and its integer scaled back, which is zero for a
-    // multiple alone: one that underflowed to zero is none.
+    // multiple alone: one that underflowed to zero is none, and a NaN or an infinity gives a NaN.
     let mut differences = 0;
     for i in 0..N {
         let shifted = values[i] * scale + TO_INTEGER;
@@ -204,7 +224,22 @@ mod tests {
         assert!(on_grid([most, 0.5]).is_none());
         assert_eq!(on_grid([0.75, -0.5]), Some(([3 << 28, -2 << 28], -30)));
         assert!(on_grid([1e300, 5e-324]).is_none(), "underflow is noticed");
-        assert_eq!(on_grid([0.0, -0.0]), Some(([0, 0], 0)));
+        assert_eq!(on_grid([1.0, 0.0, -0.0]), Some(([1 << 29, 0, 0], -29)));
+    }
+
+    #[test]
+    fn what_is_no_number_is_on_no_grid() {
+        assert!(on_grid([0.0, -0.0]).is_none(), "zeros have no exponent");
+        for wrong in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for i in 0..12 {
+                for others in [1.0, 0.0] {
+                    let mut values = [others; 12];
+                    values[i] = wrong;
+                    assert!(on_grid(values).is_none(), "{wrong} at {i}");
+                }
+            }
+            assert!(on_grid([wrong; 3]).is_none(), "{wrong} alone");
+        }
     }
 
     #[test]

@@ -135,13 +135,14 @@ pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut
 }
 
 /// The layers behind the filter.
-#[inline(never)]
+#[inline(always)]
 fn behind_the_filter<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
     let case = case.widen();
-    let (truth, layer) = if !is_valid(&case) {
-        (Truth::Invalid, Layer::Invalid)
-    } else if let Some(truth) = grid::decide(&case) {
+    // What is invalid is on no grid: it is asked for only then.
+    let (truth, layer) = if let Some(truth) = grid::decide(&case) {
         (truth, Layer::Grid)
+    } else if !is_valid(&case) {
+        (Truth::Invalid, Layer::Invalid)
     } else {
         resolve::decide(&case)
     };
