@@ -6,10 +6,10 @@
 
 use hairline::audit::{EpsilonChoice, Observer, Source};
 use hairline::case::{Case, Parameters};
+use hairline::epsilon::{Axis, Request, run, tunable_gates};
 use hairline::family::FAMILIES;
 use hairline::kernel::{KERNELS, Scalar, Verdict};
 use hairline::oracle::{Layers, truths};
-use hairline::response::{Axis, Request, run, tunable_gates};
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -15,7 +15,7 @@
 //! |---|---|
 //! | 6 | [`cli`]: one file a command, the only place that prints; [`audit()`]: an audit from a program's own tests |
 //! | 5 | [`report`]: the record and its formats; `expect`: what is known to be wrong |
-//! | 4 | [`mod@audit`]: plans, runs, sums, severity; [`response`]: every epsilon; [`search`]: the worst and the simplest; [`campaign`]: campaigns; [`map`]: pictures of verdicts; [`watertight`]: whether rays slip through a mesh; [`selfcheck`]: the oracle held to its definition |
+//! | 4 | [`mod@audit`]: plans, runs, sums, severity; [`epsilon`]: every epsilon; [`explore`]: the worst, the simplest, campaigns; [`map`]: pictures of verdicts; [`mesh`]: whether rays slip through a mesh; [`selfcheck`]: the oracle held to its definition |
 //! | 3 | [`judge`]: the only place that compares a verdict with a truth |
 //! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
 //! | 1 | [`case`], [`truth`], [`contract`]: the words |
@@ -42,15 +42,12 @@ pub mod oracle;
 pub mod judge;
 
 pub mod audit;
-pub mod campaign;
-pub mod fuzzing;
-pub mod response;
-pub mod search;
+pub mod epsilon;
+pub mod explore;
+pub mod mesh;
 pub mod selfcheck;
 #[cfg(feature = "proptest")]
-pub mod strategy;
-
-pub mod watertight;
+pub use explore::strategy;
 
 pub mod orientation;
 

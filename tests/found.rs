@@ -1,7 +1,7 @@
 //! Stored finds: each still shows exactly its signature; triage makes them.
 
-use hairline::campaign::Find;
 use hairline::corpus::lines::{self, StoredCase};
+use hairline::explore::campaign::Find;
 use hairline::kernel::KERNELS;
 use std::collections::BTreeSet;
 use std::fs;

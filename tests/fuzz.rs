@@ -1,7 +1,7 @@
 //! Campaigns: known facts from scratch, the same finds on any number of threads, nothing lost.
 
 use hairline::audit::{Attribution, EpsilonChoice};
-use hairline::campaign::{Campaign, Find, Plan};
+use hairline::explore::campaign::{Campaign, Find, Plan};
 use hairline::judge::Finding;
 use hairline::kernel::find;
 use std::collections::BTreeSet;

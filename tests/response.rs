@@ -2,10 +2,10 @@
 
 use hairline::audit::{self, EpsilonChoice, EpsilonText, Observer, Plan, Row, Source};
 use hairline::case::{Draw, Parameters};
+use hairline::epsilon::{Axis, Question, Request, Response, run, tunable_gates};
 use hairline::family::find;
 use hairline::judge::Finding;
 use hairline::kernel::{KERNELS, Scalar, Tunable};
-use hairline::response::{Axis, Question, Request, Response, run, tunable_gates};
 
 struct Silent;
 

@@ -5,12 +5,12 @@ use hairline::audit::{EpsilonChoice, Row};
 use hairline::case::{Case, Parameters};
 use hairline::contract::NAMED;
 use hairline::corpus::number;
+use hairline::explore::{
+    Signature, Simplification, Size, c_snippet, rust_snippet, shrink, shrink_finding,
+};
 use hairline::family::FAMILIES;
 use hairline::judge::Finding;
 use hairline::kernel::{KERNELS, Scalar, find};
-use hairline::search::{
-    Signature, Simplification, Size, c_snippet, rust_snippet, shrink, shrink_finding,
-};
 use std::path::Path;
 use std::process::{Command, Output};
 

@@ -3,9 +3,9 @@
 use hairline::arith::Float;
 use hairline::case::Case;
 use hairline::contract::{Across, Boundary, Contract};
+use hairline::explore::Size;
 use hairline::kernel::{Scalar, Verdict, find};
 use hairline::oracle::define;
-use hairline::search::Size;
 use hairline::strategy::{self, Promise, STRATEGIES, conforms, conforms_together, named};
 use hairline::truth::{Feature, Place, Truth};
 use num_rational::BigRational;

@@ -8,11 +8,11 @@ use hairline::contract::{Extent, NAMED};
 use hairline::corpus::mesh::{Mesh, read_obj, write_obj};
 use hairline::corpus::shapes;
 use hairline::kernel::{Entry, Scalar, Verdict, find};
-use hairline::truth::{Crossing, Facing, Feature, Place, Truth};
-use hairline::watertight::{
+use hairline::mesh::{
     Aim, CLASSES, EdgeKind, FaceKind, Found, MOST_AROUND, Part, Plan, Targets, Topology,
     VertexKind, may_be_elsewhere, run,
 };
+use hairline::truth::{Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;

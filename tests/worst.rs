@@ -4,12 +4,12 @@ use hairline::arith::{Exact, Float};
 use hairline::audit::{EpsilonChoice, Row, exact_severity};
 use hairline::case::{Case, Parameters};
 use hairline::corpus::lines::{self, AnyCase};
+use hairline::explore::{
+    Decimal, Domain, Entry, Goal, Objective, Table, Update, exact_score, find_worst, replay, search,
+};
 use hairline::family::FAMILIES;
 use hairline::kernel::{KERNELS, Scalar, Verdict, find};
 use hairline::oracle::define;
-use hairline::search::{
-    Decimal, Domain, Entry, Goal, Objective, Table, Update, exact_score, find_worst, replay, search,
-};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;

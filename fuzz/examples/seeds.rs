@@ -3,7 +3,7 @@
 
 use hairline::case::Draw;
 use hairline::corpus::lines::{AnyCase, read};
-use hairline::fuzzing::{AnyInput, CONSTRUCTIONS, Input, MAX_GATES};
+use hairline::explore::inputs::{AnyInput, CONSTRUCTIONS, Input, MAX_GATES};
 use hairline::kernel::KERNELS;
 use std::fs;
 

@@ -1,7 +1,7 @@
 //! The fast oracle against its definition in rationals, one by one and in lanes.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::check_oracle;
+use hairline::explore::inputs::check_oracle;
 use hairline_fuzz::{hold, with_input};
 
 fn compare(data: &[u8]) {

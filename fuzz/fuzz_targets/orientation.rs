@@ -1,7 +1,7 @@
 //! Orientation predicates against the determinant in rationals.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::check_orientation;
+use hairline::explore::inputs::check_orientation;
 use hairline_fuzz::{hold, with_input};
 
 fn compare(data: &[u8]) {

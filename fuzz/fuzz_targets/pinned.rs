@@ -2,7 +2,7 @@
 //! the run if HAIRLINE_FINDING names them; see `hairline_fuzz::Pinned` for what else can be asked.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::check_kernel;
+use hairline::explore::inputs::check_kernel;
 use hairline_fuzz::{Pinned, hold, with_input};
 use std::sync::LazyLock;
 

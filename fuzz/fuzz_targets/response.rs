@@ -1,8 +1,8 @@
 //! What is said about every epsilon against running the kernel at it.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::{AnyInput, check_response};
-use hairline::response::Axis;
+use hairline::explore::inputs::{AnyInput, check_response};
+use hairline::epsilon::Axis;
 use hairline_fuzz::hold;
 use std::sync::LazyLock;
 

@@ -6,11 +6,11 @@ mod pinned;
 pub use pinned::Pinned;
 
 use hairline::case::Draw;
-use hairline::fuzzing::AnyInput;
+use hairline::explore::inputs::AnyInput;
 use std::{env, fs, path::Path};
 
 /// Declares a fuzz target over bytes: `target!(function)`; with `target!(function, cases)` bytes are
-/// inputs of `hairline::fuzzing`, which are moved as such.
+/// inputs of `hairline::explore::inputs`, which are moved as such.
 #[macro_export]
 macro_rules! target {
     ($function:path $(, $cases:ident)?) => {
@@ -56,9 +56,9 @@ pub fn move_input(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> O
 #[macro_export]
 macro_rules! with_input {
     ($data:expr, |$input:ident| $body:expr) => {
-        match hairline::fuzzing::AnyInput::from_bytes($data) {
-            hairline::fuzzing::AnyInput::F32($input) => $body,
-            hairline::fuzzing::AnyInput::F64($input) => $body,
+        match hairline::explore::inputs::AnyInput::from_bytes($data) {
+            hairline::explore::inputs::AnyInput::F32($input) => $body,
+            hairline::explore::inputs::AnyInput::F64($input) => $body,
         }
     };
 }

@@ -2,10 +2,10 @@
 
 use hairline::arith::Float;
 use hairline::audit::{EpsilonChoice, Row, exact_severity};
-use hairline::fuzzing::{Input, disagreement};
+use hairline::explore::inputs::{Input, disagreement};
 use hairline::judge::Finding;
 use hairline::kernel::{Entry, Scalar, find};
-use hairline::search::Signature;
+use hairline::explore::Signature;
 use std::env;
 
 /// What the environment asks for.

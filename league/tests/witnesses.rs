@@ -1,7 +1,7 @@
 //! The worst known cases: each entrant still shows, at its pinned version, the very finding that its
 //! line in witnesses/ says.
 
-use hairline::campaign::Find;
+use hairline::explore::campaign::Find;
 use hairline::corpus::lines::{self, StoredCase};
 use hairline::kernel::{find, register};
 use hairline_league::kernels;

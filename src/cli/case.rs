@@ -8,7 +8,7 @@ use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
 use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
 use crate::kernel::Scalar;
-use crate::watertight::{Part, Targets, Topology};
+use crate::mesh::{Part, Targets, Topology};
 use clap::Args;
 
 /// Which case.

@@ -4,15 +4,15 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_files, open, read_corpus};
 use super::output::{write_file, write_result};
 use super::select::unknown;
-use crate::campaign::Find;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
 use crate::corpus::manifest::{self, ManifestLine};
+use crate::explore;
+use crate::explore::campaign::Find;
 use crate::family::{FAMILIES, Family, find};
 use crate::kernel::Scalar;
 use crate::oracle;
-use crate::search;
 use clap::{Args, Subcommand};
 use std::fs;
 use std::io::{self, BufReader, Write};
@@ -126,7 +126,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let (mut scores, mut finds) = (0, 0);
         for case in &stored {
             agree(&file, case)?;
-            let replayed = search::replay(case);
+            let replayed = explore::replay(case);
             scores +=
                 u64::from(replayed.map_err(|message| InputError::at(&file, case.line, message))?);
             if case.found.is_some() {

@@ -7,11 +7,11 @@ use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;
+use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::Family;
 use crate::kernel::{Gate, Scalar, nearest_name};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
-use crate::response::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use clap::Args;
 
 /// Which kernel, gate and cases, and how to report.

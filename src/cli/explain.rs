@@ -13,9 +13,9 @@ use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::Grouping;
 use crate::judge::{Finding, GroupTruth, Obligation, asked, group_truth, judge};
 use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
+use crate::mesh::may_be_elsewhere;
 use crate::oracle;
 use crate::truth::{Feature, Truth};
-use crate::watertight::may_be_elsewhere;
 use clap::Args;
 use std::io::{self, Write};
 

@@ -12,7 +12,7 @@ use super::output::write_result;
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars};
 use super::sources::{scalars_in_use, set_threads};
-use crate::campaign::{Campaign, Find, Plan, State};
+use crate::explore::campaign::{Campaign, Find, Plan, State};
 use clap::Args;
 use directory::{Begun, Directory};
 use std::io::{self, Write};

@@ -9,9 +9,9 @@ use super::select::{KernelArguments, chosen_scalars};
 use super::sources::{scalars_in_use, set_threads};
 use crate::corpus::mesh::Mesh;
 use crate::kernel::Scalar;
+use crate::mesh::{self, Found, Part, Plan, Targets, Topology};
 use crate::report::mesh::{MESH_FORMATS, build};
 use crate::report::{Context, Style, number_of};
-use crate::watertight::{self, Found, Part, Plan, Targets, Topology};
 use clap::Args;
 
 /// Which mesh and kernels, and how to report it.
@@ -142,6 +142,6 @@ impl MeshArguments {
             let rows = number_of(rows as u64, "kernel row", "kernel rows");
             eprintln!("{rows} on {rays} rays in {}", F::NAME);
         }
-        watertight::run::<F>(mesh, topology, plan, progress)
+        mesh::run::<F>(mesh, topology, plan, progress)
     }
 }

@@ -7,11 +7,11 @@ use super::select::KernelArguments;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
-use crate::kernel::Scalar;
-use crate::oracle;
-use crate::search::{
+use crate::explore::{
     SIMPLIFICATIONS, Shrunk, Signature, Size, c_snippet, rust_snippet, shrink_finding,
 };
+use crate::kernel::Scalar;
+use crate::oracle;
 use clap::Args;
 use std::io::{self, Write};
 

@@ -4,7 +4,7 @@ use super::columns::worst;
 use super::rows::TableRow;
 use hairline::arith::Float;
 use hairline::audit::Row;
-use hairline::campaign::Find;
+use hairline::explore::campaign::Find;
 use hairline::case::Case;
 use hairline::corpus::lines::{AnyCase, write_case};
 use hairline::kernel::{find, register};

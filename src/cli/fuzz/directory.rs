@@ -8,12 +8,12 @@
 //! - `lock`: one process at a time.
 
 use super::lock::{Lock, LockError};
-use crate::campaign::{Find, State};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_file;
 use crate::cli::select::KernelArguments;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, write_case};
+use crate::explore::campaign::{Find, State};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};

@@ -1,7 +1,7 @@
 //! What a campaign says when it stops.
 
 use crate::audit::quoted;
-use crate::campaign::Find;
+use crate::explore::campaign::Find;
 use crate::judge::Finding;
 use std::collections::BTreeMap;
 use std::io::{self, Write};

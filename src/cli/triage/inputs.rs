@@ -1,12 +1,12 @@
 //! What triage reads: campaign directories, corpora, cargo-fuzz artifacts.
 
 use crate::audit::Row;
-use crate::campaign::Find;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::fuzz::{CAMPAIGN, FINDS, read_begun, read_finds};
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::fuzzing::AnyInput;
+use crate::explore::campaign::Find;
+use crate::explore::inputs::AnyInput;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -5,8 +5,8 @@
 
 use super::record::{EpsilonRecord, GatePart};
 use crate::audit::clopper_pearson;
+use crate::epsilon::LEAST_SUM;
 use crate::report::Style;
-use crate::response::LEAST_SUM;
 use std::io::{self, Write};
 
 const WIDTH: f64 = 940.0;

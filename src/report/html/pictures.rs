@@ -7,12 +7,12 @@ use crate::arith::Float;
 use crate::audit;
 use crate::case::Case;
 use crate::contract::NAMED;
+use crate::epsilon::SPANNING;
 use crate::kernel::Scalar;
 use crate::map::{self, Ink};
 use crate::report::record::*;
 use crate::report::worst::severity;
 use crate::report::{MapPart, Record, group_digits};
-use crate::response::SPANNING;
 use maud::{Markup, PreEscaped, html};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

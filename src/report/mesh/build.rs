@@ -5,11 +5,11 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::{Row, quoted};
 use crate::corpus::mesh::Mesh;
-use crate::report::build::{promised, provenance_of, row_part};
-use crate::report::{Context, Rate, rate_between};
-use crate::watertight::{
+use crate::mesh::{
     CLASSES, ClassSums, Found, Noted, Part, Plan, RowFound, Tally, Targets, Topology,
 };
+use crate::report::build::{promised, provenance_of, row_part};
+use crate::report::{Context, Rate, rate_between};
 use std::collections::BTreeMap;
 
 const FACES: [&str; 5] = ["sound", "collapsed", "without_area", "duplicated", "out_of_range"];

@@ -1,16 +1,13 @@
-//! Floor 4: searches for the worst case of a kernel, and for the simplest of a kind.
-//!
-//! [`search`] climbs from the families' cases towards the largest error of a margin or a value, the
-//! false miss farthest inside, the false hit farthest outside; [`shrink`] walks from any case to one
-//! with fewer bits that still shows the same. Both use moves on cases: random ones ([`mutate`]) and a
-//! fixed list of simplifications ([`Simplification`]).
+//! Floor 4: searches among cases. Moves ([`mutate`]), simplifications ([`Simplification`]) and
+//! signatures of findings are shared; on top of them stand the search for the worst case
+//! ([`worst`]), the descent to the simplest ([`shrink`]), fuzz campaigns ([`campaign`]), the inputs of
+//! fuzz targets ([`inputs`]) and strategies for proptest.
 //!
 //! Architecture invariant: everything is a function of its arguments. Seeds and counts decide, never
 //! a clock nor the number of threads.
 
 #![forbid(unsafe_code)]
 
-mod climb;
 mod decimal;
 mod domain;
 mod moves;
@@ -19,10 +16,13 @@ mod shrink;
 mod signature;
 mod simplify;
 mod snippet;
-mod table;
 
-pub(crate) use climb::family_case;
-pub use climb::{Found, Goal, LANES, exact_score, search};
+pub mod campaign;
+pub mod inputs;
+#[cfg(feature = "proptest")]
+pub mod strategy;
+pub mod worst;
+
 pub use decimal::Decimal;
 pub use domain::Domain;
 pub use moves::mutate;
@@ -32,4 +32,7 @@ pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored};
 pub use signature::Signature;
 pub use simplify::{Change, SIMPLIFICATIONS, ScaleBy, Simplification, Size};
 pub use snippet::{c_snippet, rust_snippet};
-pub use table::{Entry, Table, Update, find_worst, replay};
+pub(crate) use worst::family_case;
+pub use worst::{
+    Entry, Found, Goal, LANES, Table, Update, exact_score, find_worst, replay, search,
+};

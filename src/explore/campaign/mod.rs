@@ -4,7 +4,7 @@
 //! for each kernel and scalar an island: a bounded population of cases with epsilons, by kind of
 //! finding, and by class of truth and deciding gate where there is none yet. It makes new ones from
 //! the families at many scales, and by moves from those it keeps; it prefers margins near their
-//! epsilon, then findings that are worse. Each new [`Signature`](crate::search::Signature) is a
+//! epsilon, then findings that are worse. Each new [`Signature`](crate::explore::Signature) is a
 //! [`Find`], made simpler with bounded effort.
 //!
 //! Architecture invariant: what is found depends on the rows, the seed and the number of evaluations,

@@ -6,8 +6,8 @@ use crate::arith::Float;
 use crate::audit::{EpsilonText, Row};
 use crate::case::{Case, Draw};
 use crate::corpus::lines::AnyCase;
+use crate::explore::mutate;
 use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
-use crate::search::mutate;
 
 /// As many gates as a kernel may have for its epsilons to be told.
 pub const MAX_GATES: usize = 8;

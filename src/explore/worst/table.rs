@@ -6,16 +6,16 @@
 //! digits; the score that the search found, before the case was simplified; and what finds it again.
 
 use super::climb::{Goal, exact_score, search};
-use super::decimal::Decimal;
-use super::domain::Domain;
-use super::objective::Target;
-use super::shrink::shrink_scored;
-use super::simplify::Size;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
+use crate::explore::decimal::Decimal;
+use crate::explore::domain::Domain;
+use crate::explore::objective::Target;
+use crate::explore::shrink::shrink_scored;
+use crate::explore::simplify::Size;
 use crate::kernel::Scalar;
 use crate::oracle;
 use rayon::prelude::*;

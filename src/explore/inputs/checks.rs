@@ -6,12 +6,12 @@ use crate::arith::Float;
 use crate::audit::{CorpusSet, Observer, Source};
 use crate::case::{Case, Draw};
 use crate::corpus::lines::AnyCase;
+use crate::epsilon::{Axis, Question, Request, run, tunable_gates};
+use crate::explore::{Signature, mutate};
 use crate::judge::{self, Obligation};
 use crate::kernel::{Scalar, Subject, Verdict, refused_by};
 use crate::oracle::{self, Layers};
 use crate::orientation::{self, Points, ScaledPoints, default_rows, defined_determinant};
-use crate::response::{Axis, Question, Request, run, tunable_gates};
-use crate::search::{Signature, mutate};
 use num_rational::BigRational;
 use num_traits::Zero;
 use std::fmt;
@@ -167,7 +167,7 @@ where
         let margin = |case: &Case<F>| gated.measure(case).margins[gate];
         let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());
         let about = margins.flat_map(|m| [m.offset_ulps(-1), m, m.offset_ulps(1)]);
-        let lowest = crate::response::floor::<F>(&entry.info.gates[gate]);
+        let lowest = crate::epsilon::floor::<F>(&entry.info.gates[gate]);
         for epsilon in about.chain([epsilons[gate]]).filter(|e| lowest <= *e && e.is_finite()) {
             let mut at = epsilons.clone();
             at[gate] = epsilon;
@@ -203,7 +203,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fuzzing::AnyInput;
+    use crate::explore::inputs::AnyInput;
     use crate::kernel::find;
     use std::collections::HashSet;
 

@@ -3,9 +3,9 @@
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::{Case, Draw};
+use crate::explore::{Signature, scale, verdict_and_finding};
 use crate::judge::{Class, Distances, Finding};
 use crate::kernel::Scalar;
-use crate::search::{Signature, scale, verdict_and_finding};
 use crate::truth::Truth;
 use std::collections::BTreeMap;
 use std::sync::Arc;

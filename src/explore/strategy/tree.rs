@@ -3,8 +3,8 @@
 use super::promise::Promise;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
+use crate::explore::{Simplification, Size};
 use crate::kernel::Scalar;
-use crate::search::{Simplification, Size};
 use proptest::prelude::any;
 use proptest::strategy::{NewTree, Strategy, ValueTree};
 use proptest::test_runner::TestRunner;

@@ -5,12 +5,12 @@
 //! on the goal, the seed and the number of evaluations only, not on the number of threads nor on the
 //! other goals.
 
-use super::decimal::Decimal;
-use super::domain::Domain;
-use super::moves::mutate;
-use super::objective::{Scorer, Target};
 use crate::audit::Row;
 use crate::case::{Case, Draw, Parameters};
+use crate::explore::decimal::Decimal;
+use crate::explore::domain::Domain;
+use crate::explore::moves::mutate;
+use crate::explore::objective::{Scorer, Target};
 use crate::family::FAMILIES;
 use crate::kernel::Scalar;
 use rayon::prelude::*;

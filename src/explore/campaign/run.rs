@@ -152,7 +152,7 @@ where
     newcomers.into_par_iter().map(|newcomer| newcomer.into_find(seed, evaluations)).collect()
 }
 
-fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::search::Signature)
+fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explore::Signature)
 where
     AnyCase: From<Case<F>>,
 {

@@ -8,8 +8,8 @@ use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::{Case, Draw, Parameters};
 use crate::corpus::lines::AnyCase;
+use crate::explore::{Signature, family_case, mutate, shrink};
 use crate::kernel::Scalar;
-use crate::search::{Signature, family_case, mutate, shrink};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 

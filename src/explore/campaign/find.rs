@@ -4,8 +4,8 @@ use crate::audit::{Attribution, Row};
 use crate::corpus::Provenance;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
+use crate::explore::{Signature, Size};
 use crate::oracle;
-use crate::search::{Signature, Size};
 use std::fmt;
 
 /// One example of a kind of finding.
