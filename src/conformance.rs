@@ -2,12 +2,13 @@
 
 #![forbid(unsafe_code)]
 
-use crate::audit::{self, EpsilonChoice, Observer, Plan, PlanError, Source, did_you_mean};
+use crate::audit::{self, EpsilonChoice, Observer, Plan, PlanError, Source};
 use crate::case::Parameters;
 use crate::contract::Contract;
 use crate::family::{FAMILIES, Family, find};
-use crate::kernel::{Entry, nearest_name};
+use crate::kernel::Entry;
 use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
+use crate::suggest::did_you_mean;
 use std::fmt::{self, Write};
 
 /// An audit of a kernel, to be narrowed and run: all families, 2,000 cases of each, seed 1, the
@@ -138,8 +139,8 @@ impl Request {
         let Some(names) = &self.families else { return Ok(FAMILIES.iter().collect()) };
         let known = |name: &String| {
             find(name).ok_or_else(|| {
-                let near = nearest_name(name, FAMILIES.iter().map(|family| family.name));
-                let advice = did_you_mean(near, "hairline list families");
+                let names = FAMILIES.iter().map(|family| family.name);
+                let advice = did_you_mean(name, names, "hairline list families");
                 PlanError(format!("unknown family '{name}'{advice}"))
             })
         };

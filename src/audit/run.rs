@@ -2,7 +2,8 @@
 
 use super::causes::{self, Causes};
 use super::chunk::{CHUNK, Chunk, SourceSummary};
-use super::plan::{Plan, Row};
+use super::plan::Plan;
+use super::row::Row;
 use super::shard::Shard;
 use super::source::Source;
 use super::stored::ScalarName;

@@ -1,6 +1,6 @@
 //! Where a plan's cases come from, by index.
 
-use super::command::quoted;
+use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily};

@@ -9,9 +9,10 @@ use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::Family;
-use crate::kernel::{Gate, Scalar, nearest_name};
+use crate::kernel::{Gate, Scalar};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
+use crate::suggest::nearest_name;
 use clap::Args;
 
 /// Which kernel, gate and cases, and how to report.

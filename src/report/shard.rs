@@ -168,6 +168,8 @@ pub fn merged<E: From<String>>(
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
     record.illustrations = illustrate(&plan);
+    record.provenance.plan_flags =
+        parts.provenance.first().and_then(|part| part.plan_flags.clone());
     record.provenance.parts = parts.provenance;
     Ok(record)
 }

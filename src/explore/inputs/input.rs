@@ -134,7 +134,6 @@ impl<F: Scalar> Input<F> {
             set: "fuzzed".to_owned(),
             epsilons: self.epsilons.iter().map(text).collect(),
             contract: self.entry.info.contract,
-            contract_name: None,
         }
     }
 }
