@@ -1,6 +1,6 @@
 //! `hairline map` as a user runs it.
 
-mod program;
+use crate::program;
 
 use program::{ends, hairline, scratch};
 use std::fs;

@@ -1,7 +1,7 @@
 //! Every format of `audit` and `check` beside its public schema or a reader of its own.
 
-mod json_schema;
-mod program;
+use crate::json_schema;
+use crate::program;
 
 use program::{ends, scratch};
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! Kernels in other machines' arithmetic, as a user meets them: next to each other in one table, held
 //! to what a compiler makes of the same source, and what they do at shared edges.
 
-mod program;
+use crate::program;
 
 use program::{ends, scratch};
 use serde_json::Value;

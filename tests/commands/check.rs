@@ -1,6 +1,6 @@
 //! `hairline check` as CI runs it: exit codes, blessing, stale and unexpected disagreements, settings.
 
-mod program;
+use crate::program;
 
 use program::{ends, hairline_with, result_bytes, scratch};
 use std::fs;

@@ -1,6 +1,6 @@
 //! `hairline mesh` as a user runs it: output, files for viewers, exit codes, bad input.
 
-mod program;
+use crate::program;
 
 use program::{ends, hairline, result_bytes, scratch};
 use serde_json::Value;

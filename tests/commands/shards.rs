@@ -1,6 +1,6 @@
 //! Parts of a run and their merging: byte for byte the run without parts, and nothing else.
 
-mod program;
+use crate::program;
 
 use program::{ends, result_bytes, scratch};
 use std::fs;

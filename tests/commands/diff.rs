@@ -1,6 +1,6 @@
 //! `hairline diff` of real records: better and worse on the same cases, and by intervals on others.
 
-mod program;
+use crate::program;
 
 use program::{ends, scratch};
 use std::path::Path;

@@ -215,7 +215,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     let program = std::path::Path::new(env!("CARGO_BIN_EXE_hairline"));
     let program = program.with_file_name("examples").join("own_kernel");
     if !program.exists() {
-        // `cargo test` builds the examples, `cargo test --test own` does not.
+        // `cargo test` builds the examples, `cargo test --test commands` does not.
         eprintln!("NOT TESTED: {} is not built", program.display());
         return;
     }

@@ -182,8 +182,8 @@ fn what_shrinks_to_nothing_is_nothing() {
 
 /// The snippets of these files are compiled into this test, and are what the program prints.
 mod snippets {
-    include!("snippets/false_miss.rs");
-    include!("snippets/false_hit.rs");
+    include!("../snippets/false_miss.rs");
+    include!("../snippets/false_hit.rs");
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn the_rust_snippets_are_those_that_were_compiled() {
     let (case, _) = findings::<f32>(&tiny, "tiny", 1)[0];
     let (signature, shrunk) = shrink_finding(&tiny, &case).unwrap();
     let snippet = rust_snippet(&tiny, &shrunk.case, &signature);
-    assert_eq!(snippet, include_str!("snippets/false_miss.rs"), "{snippet}");
+    assert_eq!(snippet, include_str!("../snippets/false_miss.rs"), "{snippet}");
     // Not simplified: an interval of its own.
     let ends = row("half-space", None);
     let case = Case::<f64>::new(
@@ -203,7 +203,7 @@ fn the_rust_snippets_are_those_that_were_compiled() {
     let case = case.on(f64::NEG_INFINITY, 0.5);
     let signature = Signature::of(&ends, &case).unwrap();
     let snippet = rust_snippet(&ends, &case, &signature);
-    assert_eq!(snippet, include_str!("snippets/false_hit.rs"), "{snippet}");
+    assert_eq!(snippet, include_str!("../snippets/false_hit.rs"), "{snippet}");
 }
 
 #[test]

@@ -17,7 +17,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const TABLE: &str = include_str!("../corpora/worst.jsonl");
+const TABLE: &str = include_str!("../../corpora/worst.jsonl");
 
 fn row(kernel: &str) -> Row {
     EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().swap_remove(0)
@@ -328,7 +328,7 @@ fn wrong_tables_and_flags_are_refused_before_any_search() {
     let line = TABLE.lines().next().unwrap();
     let score = line.split_once("score=").unwrap().1.split_once(' ').unwrap().0;
     let name = line.split_once("worst:").unwrap().1.split_once('"').unwrap().0;
-    let curated = include_str!("../corpora/curated.jsonl").lines().next().unwrap();
+    let curated = include_str!("../../corpora/curated.jsonl").lines().next().unwrap();
     let wrong_score = line.replace(&format!("score={score}"), "score=1.25e-9");
     for (table, message) in [
         (format!("{line}\n{curated}\n"), "t.jsonl:2: no entry"),

@@ -1,7 +1,7 @@
 //! `--format html` as a user meets it: what is in the file, whatever the threads and the shards, and what
 //! happens where it cannot be written. tests/browser looks at it in a browser.
 
-mod program;
+use crate::program;
 
 use program::{ends, scratch};
 use serde_json::Value;

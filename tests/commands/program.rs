@@ -1,7 +1,5 @@
 //! The program run as a user runs it, for the tests of several commands.
 
-#![allow(dead_code, reason = "each test file uses its share")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,0 +1,15 @@
+//! The library through its public items, against definitions, laws and published facts. One binary,
+//! because each one links the whole library.
+
+mod accuracy;
+mod arithmetic;
+mod drawing;
+mod facts;
+mod families;
+mod map;
+mod margins;
+mod oracle;
+mod response;
+mod severity;
+mod strategy;
+mod watertight;
