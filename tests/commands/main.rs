@@ -18,6 +18,7 @@ mod orientation;
 mod own;
 mod plugin;
 mod program;
+mod rows;
 mod shards;
 mod shrink;
 mod variants;

@@ -1,8 +1,8 @@
 //! A row (kernel, epsilons, contract, band, arithmetic) is the same in every command that is printed.
 
-mod program;
 
-use program::{ends, scratch};
+
+use super::program::{ends, scratch};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
