@@ -162,7 +162,8 @@ impl Source {
     pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
         let id = match self {
             Source::Family { family, parameters, exhaustive: true, .. } => {
-                // The in-order index of the lattice is its own set, seed "0" of version "all".
+                // In its natural order the lattice has a name of its own: `lattice-all@1/f32/-/0/17`,
+                // whose seed is always 0.
                 let mut id = family.id::<F>(parameters, 0, index);
                 id.family = format!("{}-all", family.name);
                 id

@@ -29,7 +29,9 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
+pub use gate::{
+    Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
+};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};

@@ -125,11 +125,14 @@ fn one_case_more_or_another_one_is_noticed() {
     };
     let digit = if digest.starts_with('0') { '1' } else { '0' };
     let other = format!("{head}digest = \"{digit}{}", &digest[1..]);
-    for (new, code) in [(with(count - 1), 1), (with(count + 1), 3), (other, 1)] {
+    for (new, code, others) in
+        [(with(count - 1), 1, false), (with(count + 1), 3, false), (other, 1, true)]
+    {
         let old = fs::read_to_string(folder.join(FILE)).unwrap();
         edit(&folder, |text| text.replacen(&line, &new, 1));
         let (out, _) = ends(&folder, &["check", "--quiet"], code);
         assert!(out.contains("edge-near: false-miss of interior/front/within"), "{out}");
+        assert_eq!(out.contains("(other cases)"), others, "{out}");
         fs::write(folder.join(FILE), old).unwrap();
     }
 }

@@ -473,6 +473,65 @@ fn generated_cases_carry_truths_that_verify() {
 }
 
 #[test]
+fn exact_margins_are_right_where_a_factor_leaves_the_range_of_f64() {
+    let explain = |case: &str| {
+        let output = hairline(&["explain", case, "--kernel", "plane-unit-normal"]);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let gate = |out: &str, gate: &str| {
+        let start = format!("    {gate} ");
+        out.lines().find(|line| line.starts_with(&start)).expect("a line a gate").to_owned()
+    };
+    // The normal has length 1e-320, a double with few digits, and n·d is still 1.
+    let case = r#"{"scalar":"f64","origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[1e-160,0,0],"c":[0,1e-160,0]}"#;
+    let out = explain(case);
+    assert!(gate(&out, "parallel").contains("(exactly   1.000000e0)"), "{out}");
+    let out = explain("range-ends@1/f64/-/424242/70");
+    assert!(out.contains("(exactly 6.470441e-93)") && !out.contains("NaN)"), "{out}");
+    // 1e-320 is 9.99988671826831e-321 in binary, and the product of the edges is beyond the doubles.
+    let wide = case.replace("1e-160", "1e200").replace("[0,0,1]", "[1e199,1e199,1]");
+    let out = explain(&wide);
+    assert!(gate(&out, "edge").contains("e399)"), "{out}");
+}
+
+#[test]
+fn explain_shows_on_which_side_of_the_epsilon_a_margin_lies() {
+    // The determinant is 2.9955555e-19, whose first seven digits are below it.
+    let case = r#"{"scalar":"f32","origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[2.9955555e-19,0,0],"c":[0,1,0]}"#;
+    let parallel = |kernel: &str, epsilon: &str| {
+        let epsilon = format!("parallel={epsilon}");
+        let out =
+            text(&hairline(&["explain", case, "--kernel", kernel, "--epsilon", &epsilon]).stdout);
+        let line = out.lines().find(|line| line.starts_with("    parallel"));
+        line.expect("a gate").split("   [").next().unwrap().to_owned()
+    };
+    for (kernel, epsilon, expected) in [
+        (
+            "moller-trumbore",
+            "2.9955555e-19",
+            "margin 2.9955555e-19 (exactly 2.9955555e-19) at e = 2.9955555e-19: passes",
+        ),
+        (
+            "moller-trumbore",
+            "2.9955552e-19",
+            "margin 2.99555549e-19 (exactly 2.99555549e-19) at e = 2.9955552e-19: passes",
+        ),
+        // A gate that refuses x <= e accepts what is below x.
+        (
+            "cramer",
+            "2.9955555e-19",
+            "margin 2.995555e-19 (exactly below 2.9955555e-19) at e = 2.9955555e-19: refuses",
+        ),
+        ("moller-trumbore", "1e-6", "margin 2.995555e-19 (exactly 2.995555e-19) at e = 1e-6: ref"),
+    ] {
+        let line = parallel(kernel, epsilon);
+        let words = line.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(expected), "{expected}: {line}");
+    }
+}
+
+#[test]
 fn a_stored_case_is_explained_by_name_and_a_given_one_by_its_json() {
     let named = hairline(&[
         "explain",

@@ -136,6 +136,57 @@ fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
 }
 
 #[test]
+fn a_gate_is_on_t_by_its_role_whatever_its_dimension() {
+    // Of dimension length / |d|, length³ / |d| and length³.
+    for kernel in ["cramer", "woop-watertight", "plucker"] {
+        let family = ["--family", "respawn,interior", "--scales", "none", "--scalar", "f32"];
+        let part = only(record(&[&["--kernel", kernel, "--gate", "t"][..], &family].concat()));
+        let zero = part.prices.iter().find(|price| price.epsilon == "0").expect("weighed");
+        let [respawn, interior] = &zero.families[..] else { panic!("{:?}", zero.families) };
+        // Every ray that starts on its triangle is this gate's to keep off it.
+        assert_eq!((respawn.lost.of, respawn.let_through.of), (0, 2000), "{kernel}");
+        assert!(respawn.let_through.count > 0 && interior.lost.of == 2000, "{kernel}");
+    }
+}
+
+#[test]
+fn all_kernels_are_studied_but_those_that_cannot_be() {
+    let cheap = ["--family", "interior", "--scales", "none", "--scalar", "f32", "-n", "20"];
+    let run = |arguments: &[&str]| {
+        let output = hairline(&[&["epsilon", "--format", "json"], &cheap[..], arguments].concat());
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        let record: EpsilonRecord = serde_json::from_str(&told(&output)).expect("a record");
+        let mut kernels: Vec<String> =
+            record.result.gates.into_iter().map(|gate| gate.kernel).collect();
+        kernels.dedup();
+        (kernels, error)
+    };
+    let (all, notes) = run(&[]);
+    let expected: Vec<&str> = hairline::kernel::KERNELS
+        .iter()
+        .map(|entry| entry.info.name)
+        .filter(|name| *name != "havel-herout")
+        .collect();
+    assert_eq!(all, expected);
+    assert!(notes.contains("left out: havel-herout has no gate that takes an epsilon"), "{notes}");
+    let (some, notes) = run(&["--kernel", "havel-herout,cramer,moller-trumbore", "--gate", "t"]);
+    assert_eq!(some, ["cramer"]);
+    assert!(notes.contains("left out: moller-trumbore has no gate 't'"), "{notes}");
+    let (_, notes) = run(&["--kernel", "havel-herout,cramer", "-q"]);
+    assert!(!notes.contains("left out"), "{notes}");
+}
+
+#[test]
+fn one_is_singular() {
+    let arguments = ["epsilon", "-k", "cramer", "--family", "interior", "--scalar", "f32", "-q"];
+    let text = told(&hairline(&[&arguments[..], &["-n", "1", "--scales", "none"]].concat()));
+    assert!(text.contains("  1 source: 1 case must hit, 0 must miss\n"), "{text}");
+    let output = hairline(&["explain", "interior@1/f32/-/1/0.3"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains("has 1 triangle, counted from 0"), "{error}");
+}
+
+#[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let run = |threads| {
         let part = ["--kernel", "cramer", "--gate", "t,edge", "--map", "--threads", threads];
@@ -191,15 +242,14 @@ fn bad_arguments_are_refused_with_a_reason() {
     };
     let kernel = ["--kernel", "moller-trumbore"];
     let with = |more: &[&'static str]| [&kernel[..], more].concat();
-    refused(&[], "name a kernel");
     refused(&with(&["--gate", "paralel"]), "did you mean 'parallel'?");
     refused(&with(&["--gate", "edge,edge"]), "given twice");
-    refused(&["--kernel", "havel-herout"], "no gate of it takes an epsilon");
+    refused(&["--kernel", "havel-herout"], "havel-herout has no gate that takes an epsilon");
+    refused(&["--gate", "paralel"], "did you mean 'parallel'?");
     refused(&with(&["--map"]), "name two gates");
     refused(&with(&["--at", "nan"]), "not a finite number");
     refused(&with(&["--gate", "parallel", "--at", "-1"]), "means nothing");
     refused(&with(&["--relative", "--at", "1"]), "nothing to show");
-    refused(&["--kernel", "cramer,havel-herout"], "no gate of it takes an epsilon");
     refused(&with(&["--family", "interior,interior"]), "given twice");
     refused(&with(&["--scales", "3"]), "not a scale");
     refused(&with(&["--format", "pdf"]), "unknown format 'pdf'");

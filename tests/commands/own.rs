@@ -5,7 +5,7 @@ use hairline::audit::{self, EpsilonChoice, PlanError};
 use hairline::case::{Case, Parameters, Ray, Triangle};
 use hairline::contract::{Across, Boundary, Contract, Demand, Extent, Sides};
 use hairline::kernel::{
-    Entry, EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Scalar, Sink, all, find,
+    Entry, EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Scalar, Sink, all, find,
     nearest_name, register,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,8 +16,8 @@ struct Volumes;
 impl Kernel for Volumes {
     const INFO: KernelInfo = KernelInfo {
         gates: &[
-            Gate::non_negative("parallel", "abs(det) < e", 2, 1),
-            Gate::signed("edge", "min(u, v, w) < e, all of det's sign", 2, 1),
+            Gate::non_negative(Role::Parallel, "abs(det) < e", 2, 1),
+            Gate::signed(Role::Edge, "min(u, v, w) < e, all of det's sign", 2, 1),
         ],
         epsilon_sets: &[EpsilonSet { name: "own", values: &["1e-3", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

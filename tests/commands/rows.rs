@@ -1,7 +1,5 @@
 //! A row (kernel, epsilons, contract, band, arithmetic) is the same in every command that is printed.
 
-
-
 use super::program::{ends, scratch};
 use std::fs;
 use std::path::Path;

@@ -8,7 +8,7 @@ use hairline::explore::{
     Decimal, Domain, Entry, Goal, Objective, Table, Update, exact_score, find_worst, replay, search,
 };
 use hairline::family::FAMILIES;
-use hairline::kernel::{KERNELS, Scalar, Verdict, find};
+use hairline::kernel::{KERNELS, Role, Scalar, Verdict, find};
 use hairline::oracle::define;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -97,7 +97,8 @@ fn scores_are_what_the_documentation_says() {
             }
             Objective::Margin => {
                 let gate = target.gate?;
-                let margin = subject.gated().unwrap().measure(case).margins[gate];
+                // The float that the gate compares: of a gate `x <= e` the margin is the one below.
+                let threshold = subject.gated().unwrap().thresholds(case)[gate];
                 let exact =
                     subject.gated().unwrap().measure_exact(case).margins[gate].to_rational()?;
                 let [o, d, a, b, c] = case.vectors().map(|v| v.map(rational));
@@ -111,7 +112,7 @@ fn scores_are_what_the_documentation_says() {
                 let scale = num_traits::Pow::pow(extent, i32::from(dimension.length))
                     * num_traits::Pow::pow(length, i32::from(dimension.direction));
                 let unit = scale.max(exact.abs()) * ulp;
-                ((rational(margin) - exact).abs() / unit).to_f64()
+                ((rational(threshold) - exact).abs() / unit).to_f64()
             }
             Objective::FalseMiss => {
                 let feature = exact.truth.crossing()?.feature;
@@ -122,7 +123,7 @@ fn scores_are_what_the_documentation_says() {
             Objective::FalseHit => {
                 assert!(verdict.hit);
                 let gates = row.entry.info.gates;
-                let at_t = target.gate.is_some_and(|gate| gates[gate].name == "t");
+                let at_t = target.gate.is_some_and(|gate| gates[gate].role == Role::T);
                 // Off the end as well as outside, the larger distance counts.
                 (!at_t).then_some(exact_severity(case, row.contract.extent)?.in_space)
             }
@@ -140,6 +141,18 @@ fn scores_are_what_the_documentation_says() {
         compared += 1;
     }
     assert!(compared > 400, "{compared}");
+}
+
+#[test]
+fn a_determinant_that_is_zero_exactly_has_no_error_where_zero_is_refused() {
+    // Seen along its plane, at a size at which one float below zero is many ulps of the scale.
+    let (o, x, y) = ([0.0; 3], [1e-30f32, 0.0, 0.0], [0.0, 1e-30, 0.0]);
+    let case = Case::<f32>::new([0.0, 0.0, 1e-30], [1e-30, 0.0, 0.0], [o, x, y]);
+    for kernel in ["cramer", "convex-polygon", "plane-inside-out"] {
+        let goal = goal(kernel, "margin:parallel", Domain::Any);
+        assert_eq!(exact_score(&goal, &case), Some(Decimal::ZERO), "{kernel}");
+        assert_eq!(goal.scorer::<f32>().quick(&case), 0.0, "{kernel}");
+    }
 }
 
 #[test]

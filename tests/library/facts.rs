@@ -207,3 +207,22 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
     assert!(polygons.must_hit > 1000 && polygons.must_miss > 500);
     assert_eq!((polygons.false_miss, polygons.false_hit), (0, 0));
 }
+
+#[test]
+fn plucker_multiplies_an_end_of_zero_as_its_source_does() {
+    // |den| overflows, and 0·inf is NaN. Woop's source compares with 0 itself.
+    let case = Case::<f32>::new(
+        [1e19, 1e19, 1.0],
+        [0.0, 0.0, -1.0],
+        [[0.0; 3], [1e20, 0.0, 0.0], [0.0, 1e20, 0.0]],
+    );
+    let gate = |name: &str| {
+        let entry = kernel::find(name).unwrap();
+        let mut verdict = [Verdict::miss(None)];
+        let epsilons = vec![0.0; entry.info.gates.len()];
+        f32::subject(entry).unwrap().run(&[case], &epsilons, &mut verdict);
+        verdict[0].refused_by.map(|gate| entry.info.gates[usize::from(gate)].name)
+    };
+    assert_eq!(gate("plucker"), Some("t"));
+    assert_ne!(gate("woop-watertight"), Some("t"));
+}
