@@ -204,6 +204,6 @@ fn convex_polygon_is_plane_inside_out_on_triangles_and_right_on_lattice_polygons
     }
     let run = audit(&["convex-polygon"], EpsilonChoice::Source, None, "polygon", Some(5000));
     let polygons = tally(&run, "f64", "convex-polygon (zero)").polygons;
-    assert!(polygons.must_hit > 1000 && polygons.must_miss > 500);
-    assert_eq!((polygons.false_miss, polygons.false_hit), (0, 0));
+    assert!(polygons.count.must_hit > 1000 && polygons.count.must_miss > 500);
+    assert_eq!(polygons.count.findings.iter().sum::<u64>(), 0);
 }

@@ -37,6 +37,7 @@ pub use command::quoted;
 pub use digest::Digest;
 pub use histogram::Histogram;
 pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
+pub(crate) use judging::polygon_verdict;
 pub(crate) use plan::did_you_mean;
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
 pub(crate) use run::verdicts_of;
