@@ -7,9 +7,7 @@ use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{
-    self, Class, Expectations, GroupTruth, Kinds, Obligation, group_truth, promises_direction,
-};
+use crate::judge::{self, Class, Expectations, GroupTruth, Kinds, Obligation, group_obligation};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
@@ -149,11 +147,8 @@ impl<F: Scalar> Chunk<F> {
             return Vec::new();
         }
         let ask = |(_, range): (u64, Range<usize>)| {
-            let direction: [F; 3] = self.cases[range.start].ray.direction.into();
-            if !promises_direction(contract.direction, direction) {
-                return GroupTruth::Free;
-            }
-            group_truth(&self.truths[range], contract, self.grouping)
+            let (cases, truths) = (&self.cases[range.clone()], &self.truths[range]);
+            group_obligation(cases, truths, contract, self.grouping)
         };
         self.groups().map(ask).collect()
     }

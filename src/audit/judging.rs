@@ -4,13 +4,14 @@ use super::accuracy::Errors;
 use super::chunk::Chunk;
 use super::digest::Digest;
 use super::run::{Asked, RunnerRow};
-use super::tally::{Place, Tally};
+use super::tally::Tally;
+use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Finding, Obligation, obligation, polygon_truth, promises_direction,
+    self, Class, Distances, Finding, Obligation, polygon_obligation, polygon_truth,
 };
-use crate::kernel::{Scalar, Verdict};
+use crate::kernel::{Failure, Scalar, Subject, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -110,37 +111,27 @@ impl<F: Scalar> RunnerRow<F> {
         }
     }
 
-    /// Asks about each polygon as a whole; the truth is the union of its fan.
+    /// Judges each polygon as a whole; its truth is that of the union of its fan.
     pub fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
         for (index, range) in chunk.groups() {
-            let cases = &chunk.cases[range.clone()];
-            let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
-            vertices.extend(cases.iter().map(|case| case.triangle.c));
-            let asked = match promises_direction(contract.direction, cases[0].ray.direction.into())
-            {
-                true => obligation(&polygon_truth(&chunk.truths[range]), contract, false),
-                false => Obligation::Free,
-            };
-            let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
-            let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
-            let (polygons, place) = (&mut tally.polygons, Place { index, triangle: 0 });
-            match asked {
-                Obligation::MustHit => {
-                    polygons.must_hit += 1;
-                    if !hit {
-                        polygons.false_miss += 1;
-                        polygons.false_miss_digest.add(place);
-                    }
-                }
-                Obligation::MustMiss => {
-                    polygons.must_miss += 1;
-                    if hit {
-                        polygons.false_hit += 1;
-                        polygons.false_hit_digest.add(place);
-                    }
-                }
-                Obligation::Free => {}
-            }
+            let (cases, truths) = (&chunk.cases[range.clone()], &chunk.truths[range]);
+            let owed = polygon_obligation(cases, truths, contract);
+            let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
+            let finding = judge::judge(owed, &polygon_truth(truths), self.info.gives, &verdict);
+            tally.polygon(index, (owed, verdict.hit, finding));
         }
     }
+}
+
+/// A kernel's verdict on a polygon, given as its fan.
+pub(crate) fn polygon_verdict<F: Scalar>(
+    subject: &dyn Subject<F>,
+    cases: &[Case<F>],
+    epsilons: &[F],
+) -> Verdict<F> {
+    let Case { ray, triangle } = &cases[0];
+    let mut vertices = vec![triangle.a, triangle.b];
+    vertices.extend(cases.iter().map(|case| case.triangle.c));
+    let run = || subject.run_polygon(&vertices, ray, epsilons);
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or(Verdict::failed(Failure::Panic))
 }

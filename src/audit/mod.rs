@@ -38,6 +38,7 @@ pub use digest::Digest;
 pub use epsilon_text::EpsilonText;
 pub use histogram::Histogram;
 pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
+pub(crate) use judging::polygon_verdict;
 pub use plan::{EpsilonChoice, Plan, PlanError};
 pub(crate) use row::flags;
 pub use row::{Row, RowSpec, quoted, shell_word};

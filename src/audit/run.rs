@@ -12,7 +12,7 @@ use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
-use crate::judge::{self, Class, Expectations, Finding, GroupTruth, asks_groups_alike};
+use crate::judge::{self, Class, Expectations, Finding, GroupTruth, owes_groups_alike};
 use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -242,10 +242,10 @@ impl<'a, F: Scalar> Runner<'a, F> {
 
     /// What each contract asks on a chunk.
     fn ask(&self, chunk: &Chunk<F>) -> Vec<Asked> {
-        // Of groups, contracts of the same extent and sides ask the same.
+        // Many contracts ask the same of every group.
         let mut of_groups: Vec<(&Contract, Arc<[GroupTruth]>)> = Vec::new();
         let ask = |contract| {
-            let alike = |(other, _): &&(&Contract, _)| asks_groups_alike(contract, other);
+            let alike = |(other, _): &&(&Contract, _)| owes_groups_alike(contract, other);
             let groups = of_groups.iter().find(alike).map(|(_, groups)| groups.clone());
             let groups = groups.unwrap_or_else(|| {
                 let groups: Arc<[GroupTruth]> = chunk.group_truths(contract).into();

@@ -207,21 +207,38 @@ impl GroupCount {
     }
 }
 
-/// A polygon kernel's answers about whole polygons.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// What a kernel that takes polygons did with whole ones.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PolygonCount {
-    /// Polygons that must be hit.
-    pub must_hit: u64,
-    /// Of these, missed.
-    pub false_miss: u64,
-    /// Which.
-    pub false_miss_digest: Digest,
-    /// Polygons that must be missed.
-    pub must_miss: u64,
-    /// Of these, hit.
-    pub false_hit: u64,
-    /// Which.
-    pub false_hit_digest: Digest,
+    /// The polygons, what the contract asks of them, and what was found.
+    pub count: ClassCount,
+    /// The polygons that show a finding.
+    #[serde(with = "super::stored::pairs")]
+    pub examples: BTreeMap<Finding, Examples>,
+}
+
+impl PolygonCount {
+    /// Counts a polygon, whether it was hit, and what that shows.
+    fn add(&mut self, index: u64, answer: (Obligation, bool, Option<Finding>), limit: usize) {
+        let (obligation, hit, finding) = answer;
+        self.count.ask(obligation, 1);
+        self.count.hits += u64::from(hit);
+        self.count.valued_hits += u64::from(hit);
+        let Some(finding) = finding else { return };
+        self.count.findings[finding as usize] += 1;
+        if finding.is_failure() {
+            self.count.fail(obligation);
+        }
+        let place = Place { index, triangle: 0 };
+        self.examples.entry(finding).or_default().add((place, Digest::of(place)), 0.0, limit);
+    }
+
+    fn merge(&mut self, other: PolygonCount, limit: usize) {
+        self.count.merge(&other.count);
+        for (finding, more) in other.examples {
+            self.examples.entry(finding).or_default().merge(more, limit);
+        }
+    }
 }
 
 /// Second hits on the triangle that a ray starts on.
@@ -340,6 +357,11 @@ impl Tally {
         self.groups.add(index, truth, hits, self.group_limit);
     }
 
+    /// Counts a whole polygon: what the contract asks of it, whether it was hit, and what that shows.
+    pub fn polygon(&mut self, index: u64, answer: (Obligation, bool, Option<Finding>)) {
+        self.polygons.add(index, answer, self.group_limit);
+    }
+
     /// Adds another tally.
     pub fn merge(&mut self, other: Tally) {
         for (count, more) in self.classes.iter_mut().zip(&other.classes) {
@@ -352,12 +374,7 @@ impl Tally {
         }
         self.accuracy.merge(&other.accuracy);
         self.groups.merge(other.groups, self.group_limit);
-        self.polygons.must_hit += other.polygons.must_hit;
-        self.polygons.false_miss += other.polygons.false_miss;
-        self.polygons.must_miss += other.polygons.must_miss;
-        self.polygons.false_hit += other.polygons.false_hit;
-        self.polygons.false_miss_digest.merge(other.polygons.false_miss_digest);
-        self.polygons.false_hit_digest.merge(other.polygons.false_hit_digest);
+        self.polygons.merge(other.polygons, self.group_limit);
         self.self_hits.rays += other.self_hits.rays;
         self.self_hits.hits += other.self_hits.hits;
     }

@@ -6,17 +6,20 @@ use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
 use crate::arith::{Exact, Float, Real};
-use crate::audit::{Errors, Row, attribute, exact_severity};
+use crate::audit::{Errors, Row, attribute, exact_severity, polygon_verdict, verdicts_of};
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::explore::Decimal;
 use crate::family::Grouping;
-use crate::judge::{Finding, GroupTruth, Obligation, asked, group_truth, judge};
+use crate::judge::{
+    Finding, GroupTruth, Obligation, asked, group_obligation, judge, polygon_obligation,
+    polygon_truth,
+};
 use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
 use crate::mesh::may_be_elsewhere;
 use crate::oracle;
 use crate::report::epsilon::shortest;
-use crate::explore::Decimal;
 use crate::truth::{Feature, Truth};
 use clap::Args;
 use std::cmp::Ordering;
@@ -67,6 +70,9 @@ fn write_cases<F: Scalar>(
         writeln!(out, "together")?;
         for row in rows {
             write_group(out, group, row)?;
+            if group.grouping == Grouping::Polygon && row.entry.info.polygons {
+                write_polygon(out, cases, row)?;
+            }
         }
     }
     Ok(())
@@ -78,12 +84,12 @@ fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> i
     let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     let Some(subject) = F::subject(row.entry) else { return Ok(()) };
-    subject.run(cases, &row.epsilons::<F>(), &mut verdicts);
+    verdicts_of(subject, cases, &row.epsilons::<F>(), &mut verdicts);
     if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
         return writeln!(out, "{}: {failure}; the group is not judged", row.label());
     }
     let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-    let asked = group_truth(&truths, &row.contract, group.grouping);
+    let asked = group_obligation(cases, &truths, &row.contract, group.grouping);
     let judged = match (asked, hits) {
         (GroupTruth::Free, _) => "nothing is asked of the group",
         (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
@@ -100,6 +106,33 @@ fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> i
     writeln!(out, "{}: {hits} of {} triangles hit; {judged}", row.label(), cases.len())
 }
 
+/// What a kernel makes of a polygon as a whole.
+fn write_polygon<F: Scalar>(out: &mut dyn Write, cases: &[Case<F>], row: &Row) -> io::Result<()> {
+    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let Some(subject) = F::subject(row.entry) else { return Ok(()) };
+    let owed = polygon_obligation(cases, &truths, &row.contract);
+    let verdict = polygon_verdict(subject, cases, &row.epsilons());
+    let finding = judge(owed, &polygon_truth(&truths), row.entry.info.gives, &verdict);
+    let corners = cases.len() + 2;
+    let judged = judged(owed, &verdict, finding);
+    writeln!(out, "{}: the polygon of {corners} corners as a whole: {judged}", row.label())
+}
+
+/// A verdict beside what the contract asks, in words.
+fn judged<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -> String {
+    let demand = match owed {
+        Obligation::MustHit => "a hit",
+        Obligation::MustMiss => "a miss",
+        Obligation::Free => "nothing",
+    };
+    let said = match verdict.failure {
+        Some(failure) => failure.to_string(),
+        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
+    };
+    let judged = finding.map_or("as it should".to_owned(), |finding| finding.name().to_uppercase());
+    format!("{said}; its contract asks {demand}: {judged}")
+}
+
 /// Whether a hit that a group lacks may be among the triangles around it, or these are too many.
 fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     let Some(crossing) = truth.crossing() else { return false };
@@ -107,7 +140,7 @@ fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     let Some(subject) = F::subject(row.entry) else { return false };
     let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
     let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
-    subject.run(neighbours, &row.epsilons::<F>(), &mut verdicts);
+    verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
     may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
 }
 
@@ -167,23 +200,16 @@ fn write_row<F: Scalar>(
     };
     let epsilons: Vec<F> = row.epsilons();
     let mut verdict = [Verdict::miss(None)];
-    subject.run(std::slice::from_ref(case), &epsilons, &mut verdict);
+    verdicts_of(subject, std::slice::from_ref(case), &epsilons, &mut verdict);
     let [verdict] = verdict;
 
     let asked = asked(case, truth, &row.contract, respawned);
     let finding = judge(asked, truth, row.entry.info.gives, &verdict);
-    let demand = match asked {
-        Obligation::MustHit => "a hit",
-        Obligation::MustMiss => "a miss",
-        Obligation::Free => "nothing",
-    };
-    let said = match verdict.failure {
-        Some(failure) => failure.to_string(),
-        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
-    };
-    let judged = finding.map_or("as it should".to_owned(), |finding| finding.name().to_uppercase());
-    writeln!(out, "{}: {said}; its contract asks {demand}: {judged}", row.label())?;
+    writeln!(out, "{}: {}", row.label(), judged(asked, &verdict, finding))?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
+    if verdict.failure.is_some() {
+        return Ok(());
+    }
     match subject.gated() {
         Some(gated) => write_gates(out, case, gated, &verdict, row)?,
         None => write_epsilons(out, row)?,

@@ -1,6 +1,7 @@
 //! What the judge asks and finds, by hand.
 
 use super::*;
+use crate::family::Grouping;
 use crate::oracle::truth;
 
 fn down_at(x: f64, y: f64, z: f64) -> Truth {

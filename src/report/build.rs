@@ -4,8 +4,8 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, ClassCount, CorpusSet, Examples, GroupCount, Place, Plan, Row, Source,
-    SourceSummary, Tally, clopper_pearson, exact_severity,
+    Audit, Cell, ClassCount, CorpusSet, Examples, GroupCount, Place, Plan, PolygonCount, Row,
+    Source, SourceSummary, clopper_pearson, exact_severity,
 };
 use crate::case::Case;
 use crate::contract::Across;
@@ -185,7 +185,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         accuracy: distribution::accuracy(&tally.accuracy),
         across: is_group.then(|| across_part::<F>(source, row, &tally.groups)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
-            .then(|| polygon_part(tally, sample)),
+            .then(|| polygon_part::<F>(source, &tally.polygons)),
         self_hits: (grouping == Grouping::Respawn)
             .then(|| rate(tally.self_hits.hits, tally.self_hits.rays, sample)),
     }
@@ -258,13 +258,28 @@ fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> Ac
     }
 }
 
-fn polygon_part(tally: &Tally, sample: bool) -> PolygonPart {
-    let polygons = &tally.polygons;
+fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonPart {
+    let sample = source.is_sample();
+    let part = |finding: Finding| {
+        let examples = polygons.examples.get(&finding);
+        let places = examples.iter().flat_map(|examples| &examples.first);
+        PolygonFinding {
+            finding: finding.name().to_owned(),
+            rate: rate(polygons.count.of(finding), polygons.count.trials(finding), sample),
+            digest: examples.map(|examples| examples.digest).unwrap_or_default().to_string(),
+            first: places.map(|place| source.id::<F>(place.index, None)).collect(),
+        }
+    };
+    let (misses, hits) = (part(Finding::FalseMiss), part(Finding::FalseHit));
+    let others = Finding::ALL[2..].iter().map(|finding| part(*finding));
     PolygonPart {
-        false_misses: rate(polygons.false_miss, polygons.must_hit, sample),
-        false_hits: rate(polygons.false_hit, polygons.must_miss, sample),
-        false_miss_digest: polygons.false_miss_digest.to_string(),
-        false_hit_digest: polygons.false_hit_digest.to_string(),
+        false_misses: misses.rate,
+        false_hits: hits.rate,
+        false_miss_digest: misses.digest,
+        false_hit_digest: hits.digest,
+        first_false_misses: misses.first,
+        first_false_hits: hits.first,
+        others: others.filter(|part| 0 < part.rate.count).collect(),
     }
 }
 

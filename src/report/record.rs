@@ -357,19 +357,43 @@ pub struct AcrossPart {
     pub double_digest: String,
 }
 
-/// A polygon kernel's answers about whole polygons.
+/// What a kernel that takes polygons did with whole ones.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonPart {
-    /// Of the polygons that must be hit.
+    /// Of the polygons that must be hit, and have a verdict.
     pub false_misses: Rate,
-    /// Of the polygons that must be missed.
+    /// Of the polygons that must be missed, and have a verdict.
     pub false_hits: Rate,
     /// Of the set of all false misses.
     pub false_miss_digest: String,
     /// Of the set of all false hits.
     pub false_hit_digest: String,
+    /// Ids of the first false misses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_false_misses: Vec<String>,
+    /// Ids of the first false hits.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_false_hits: Vec<String>,
+    /// Polygons with a bad value, and those without a verdict.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<PolygonFinding>,
+}
+
+/// A finding on whole polygons.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PolygonFinding {
+    /// `bad-value`, `panic`, `crash`, `timeout`.
+    pub finding: String,
+    /// How often.
+    pub rate: Rate,
+    /// Of the set of all its polygons.
+    pub digest: String,
+    /// Ids of the first.
+    pub first: Vec<String>,
 }
 
 /// Where and how a record was made.

@@ -1,5 +1,6 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
+use super::disagreement::polygons;
 use super::record::{FindingPart, RowPart};
 use super::text::{RowView, interval_of};
 use super::why::{causes_text, severity_text};
@@ -53,7 +54,9 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
         }
         let label = format!("{} ({})", row.part.kernel, row.part.set);
         let cracks = row.first_cracks();
-        if worst.is_empty() && cracks.is_empty() {
+        let polygons = row.results.iter().flat_map(|result| polygons(result));
+        let polygons: Vec<_> = polygons.filter(|(_, rate, ..)| 0 < rate.count).collect();
+        if worst.is_empty() && cracks.is_empty() && polygons.is_empty() {
             writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
             continue;
         }
@@ -88,6 +91,13 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
                 "    crack, first of {family}: no triangle of the group reports the hit"
             )?;
             writeln!(out, "        {}", row.part.explain_command(id))?;
+        }
+        for (kind, rate, _, first) in polygons {
+            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
+            writeln!(out, "    {kind}: {count} of {of} whole polygons")?;
+            for id in first.iter().take(1) {
+                writeln!(out, "        {}", row.part.explain_command(id))?;
+            }
         }
     }
     Ok(())

@@ -564,10 +564,9 @@ fn nothing_was_moved<F: Scalar>(
 
 fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], directions: u64) {
     let mesh = shape(name);
-    let named = NAMED.iter().find(|named| named.name == "closed-ray");
     for kernel in kernels {
         let entry = find(kernel).unwrap();
-        let rows = EpsilonChoice::Source.rows(&[entry], named).unwrap()[..1].to_vec();
+        let rows = EpsilonChoice::Source.rows(&[entry], Some("closed-ray")).unwrap()[..1].to_vec();
         let plan = plan(rows, directions);
         let found = found::<F>(&mesh, &plan);
         let topology = Topology::of::<F>(&mesh);
