@@ -15,10 +15,7 @@ use std::fmt::{self, Write};
 /// kernel's own epsilons and contract, unless said otherwise.
 ///
 /// ```
-/// use hairline::arith::Vector;
-/// use hairline::case::Case;
-/// use hairline::contract::Contract;
-/// use hairline::kernel::{Entry, Hit, KernelInfo};
+/// use hairline::{Case, Contract, Entry, Hit, KernelInfo, Vector};
 ///
 /// // The plane's t alone: whatever the triangle, it hits.
 /// fn plane(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
@@ -33,7 +30,7 @@ use std::fmt::{self, Write};
 /// hairline::audit(&kernel).families(["interior"]).count(500).assert_conforms();
 /// let outcome = hairline::audit(&kernel).families(["outside"]).count(500).run()?;
 /// assert!(outcome.findings().any(|finding| finding.finding == "false-hit"));
-/// # Ok::<(), hairline::audit::PlanError>(())
+/// # Ok::<(), hairline::PlanError>(())
 /// ```
 pub fn audit(kernel: &Entry) -> Request {
     Request {

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod arithmetic;
+mod contradictions;
 mod drawing;
 mod facts;
 mod families;
