@@ -82,9 +82,6 @@ pub use report::{Example, FindingPart, Rate, SeverityPart};
 #[cfg(feature = "proptest")]
 pub use explore::strategy;
 
-#[cfg(feature = "cli")]
-use conformance::{Unobserved, conforms};
-
 #[cfg(feature = "internals")]
 #[doc(hidden)]
 pub mod internals;

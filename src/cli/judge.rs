@@ -8,12 +8,12 @@ use super::reporting::ReportArguments;
 use crate::arith::Float;
 use crate::audit::{Answers, Audit, CHUNK, EpsilonChoice, Given, Plan, Row, Source};
 use crate::case::CaseId;
+use crate::conformance::{Unobserved, conforms};
 use crate::contract::Contract;
 use crate::corpus::InputError;
 use crate::kernel::{Entry, Gives, KernelInfo, Scalar, Verdict};
 use crate::plugin::{Start, text};
 use crate::report::{Context, build};
-use crate::{Unobserved, conforms};
 use clap::Args;
 use std::io::{BufRead, BufReader, Read};
 

@@ -179,7 +179,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// A scalar that kernels are registered in.
-pub trait Scalar: Float + crate::family::Makes {
+pub trait Scalar: Float {
     /// The kernel of a row, if it runs in this scalar.
     fn subject(entry: &Entry) -> Option<&'static dyn Subject<Self>>;
 }

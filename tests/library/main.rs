@@ -7,6 +7,7 @@ mod contradictions;
 mod drawing;
 mod facts;
 mod families;
+mod floors;
 mod map;
 mod margins;
 mod oracle;

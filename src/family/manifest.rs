@@ -1,11 +1,11 @@
 //! The manifest: generated sets and meshes, each by what makes it again and a digest that proves it
 //! is the same.
 
-use super::InputError;
-use super::mesh::write_obj;
-use super::shapes::{self, POLYGONS_OBJ};
+use super::{FAMILIES, Family};
 use crate::case::Parameters;
-use crate::family::{self, FAMILIES, Family};
+use crate::corpus::mesh::write_obj;
+use crate::corpus::shapes::{self, POLYGONS_OBJ};
+use crate::corpus::{InputError, hex};
 use crate::kernel::Scalar;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -114,11 +114,6 @@ fn digest_of(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
 
-/// Lower-case hexadecimal.
-pub fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// The lines of a manifest. Blank lines are skipped.
 pub fn read(reader: impl BufRead, file: &str) -> Result<Vec<(usize, ManifestLine)>, InputError> {
     let mut lines = Vec::new();
@@ -159,7 +154,7 @@ pub fn verify(
 
 fn digest_again(line: &SetLine) -> Result<String, String> {
     let family =
-        family::find(&line.family).ok_or_else(|| format!("unknown family '{}'", line.family))?;
+        super::find(&line.family).ok_or_else(|| format!("unknown family '{}'", line.family))?;
     if family.version != line.version {
         return Err(format!(
             "family '{}' is at version {}, the manifest has {}",
