@@ -32,6 +32,7 @@ mod woop_watertight;
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, nearest_name, register};
 pub use subject::{
     ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,
