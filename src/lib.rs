@@ -68,6 +68,9 @@ use conformance::{Unobserved, conforms};
 pub mod plugin;
 
 #[cfg(feature = "cli")]
+mod descriptors;
+
+#[cfg(feature = "cli")]
 pub mod expect;
 
 #[cfg(feature = "cli")]
