@@ -41,8 +41,8 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrations(plan, &Unobserved));
     let record = merged(parts, illustrate, &progress, |source| open(source, quiet))
         .map_err(|Unmergeable(failure)| failure)?;
-    outputs.write(&record)?;
     self_check(&record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }
 
