@@ -19,16 +19,17 @@
 //! | 3 | [`judge`]: the only place that compares a verdict with a truth |
 //! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
 //! | 1 | [`case`], [`truth`], [`contract`]: the words |
-//! | 0 | [`arith`]: `f32` and `f64` on glam's vectors, and exact numbers |
+//! | 0 | [`arith`]: `f32` and `f64` on glam's vectors, and exact numbers; `engine`: chunks of indices on all threads, into one sum |
 //!
 //! Orientation predicates are kernels of a kind of their own: points instead of rays, a sign instead
 //! of a hit. [`orientation`] holds them beside floors 2 to 4, with their table, families, exact
-//! determinant and audit; it takes only `arith`, [`case::Draw`] and the audit's clock from the rest.
+//! determinant and audit; it takes only `arith`, `engine` and [`case::Draw`] from the rest.
 //!
 //! A new kernel is one file in `kernel/` and one row in its registry; a new family one file in
 //! `family/` and one row; a new format one file in `report/` and one row.
 
 pub mod arith;
+mod engine;
 
 pub mod case;
 pub mod contract;
@@ -57,9 +58,9 @@ pub mod report;
 
 mod conformance;
 
-pub use conformance::{Outcome, Request, audit};
 #[cfg(feature = "cli")]
-use conformance::{Unobserved, conforms};
+use conformance::conforms;
+pub use conformance::{Outcome, Request, audit};
 
 #[cfg(feature = "cli")]
 pub mod plugin;

@@ -3,7 +3,8 @@
 use super::accuracy::Errors;
 use super::chunk::Chunk;
 use super::digest::Digest;
-use super::run::{Asked, RunnerRow};
+use super::rows::RowIn;
+use super::run::Asked;
 use super::tally::Tally;
 use crate::case::Case;
 use crate::contract::Contract;
@@ -34,7 +35,7 @@ impl Known {
     }
 }
 
-impl<F: Scalar> RunnerRow<F> {
+impl<F: Scalar> RowIn<F> {
     /// Judges the verdicts; only `suspects` can show a finding ([`judge::suspects`]).
     pub fn judge(
         &self,

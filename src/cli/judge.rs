@@ -9,12 +9,13 @@ use super::select::named_contract;
 use crate::arith::Float;
 use crate::audit::{Answers, Audit, CHUNK, EpsilonChoice, Given, Plan, Row, Source};
 use crate::case::CaseId;
+use crate::conforms;
 use crate::contract::{Contract, NamedContract};
 use crate::corpus::InputError;
+use crate::engine::Unobserved;
 use crate::kernel::{Entry, Gives, KernelInfo, Scalar, Verdict};
 use crate::plugin::{Start, text};
 use crate::report::{Context, build};
-use crate::{Unobserved, conforms};
 use clap::Args;
 use std::io::{BufRead, BufReader, Read};
 

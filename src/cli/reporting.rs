@@ -6,8 +6,8 @@ use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
-use crate::Unobserved;
 use crate::audit::{self, Plan, Shard};
+use crate::engine::Unobserved;
 use crate::report::{
     Context, FORMATS, Format, HTML, PartialPart, Record, Style, build, illustrations, number_of,
     shard_part,
