@@ -1,7 +1,7 @@
 //! The run: each case once to the oracle and once to each kernel.
 
 use super::causes::{self, Causes};
-use super::chunk::{CHUNK, Chunk, SourceSummary};
+use super::chunk::{Chunk, SourceSummary};
 use super::plan::{Plan, Row};
 use super::rows::Rows;
 use super::shard::Shard;
@@ -99,7 +99,7 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
         let empty = || runner.no_sums(plan.examples, number);
         let add = |sums: &mut Sums, indices| runner.add_chunk(source, indices, sums);
         let indices = shard.range(source.count::<F>());
-        runner.add_to(engine::sum(indices, CHUNK, observer, empty, add), audit);
+        runner.add_to(engine::sum(indices, source.chunk(), observer, empty, add), audit);
     }
 }
 
@@ -247,7 +247,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
             let asked = &asked[row.contract];
             judge::suspects(&asked.expectations.of, row.info.gives, &verdicts, &mut suspects);
             let found = (&verdicts[..], &suspects[..]);
-            row.judge(&chunk, (contract, asked), found, &mut known, tally);
+            row.judge((source, &chunk), (contract, asked), found, &mut known, tally);
             row.measure(&chunk, &sample, asked, &verdicts, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {

@@ -18,7 +18,7 @@ pub struct Key {
     pub family: String,
     /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
     pub class: String,
-    /// `false-miss`, …, `crack`, `double`, `polygon-false-miss`, `polygon-false-hit`.
+    /// `false-miss`, …, `crack`, `double`, `odd-fold`, `polygon-false-miss`, `polygon-false-hit`.
     pub finding: String,
 }
 
@@ -34,6 +34,7 @@ pub const FINDING_KINDS: &[(&str, &str)] = &[
     ("double", "Two triangles of a group report one crossing"),
     ("polygon-false-miss", "The contract asks for a hit of the whole polygon, and it is missed"),
     ("polygon-false-hit", "The contract asks for a miss of the whole polygon, and it is hit"),
+    ("odd-fold", "Over a folded edge the number of hits on its two triangles has the wrong parity"),
 ];
 
 impl Key {
@@ -110,10 +111,12 @@ fn across(part: &KernelResult) -> Vec<Together<'_>> {
         ("crack", &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
     let doubles: Together =
         ("double", &across.doubles, &across.double_digest, across.first_doubles.as_slice());
+    let folds: Together =
+        ("odd-fold", &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised.as_str() {
         "nothing" => Vec::new(),
         "at-least-one" => vec![cracks],
-        _ => vec![cracks, doubles],
+        _ => vec![cracks, doubles, folds],
     }
 }
 
