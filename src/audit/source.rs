@@ -250,11 +250,19 @@ impl Source {
     /// The words after `hairline explain` that show a case again.
     pub fn explain_arguments<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
         let id = quoted(&self.id::<F>(index, triangle));
+        match self.file_flag() {
+            Some(flag) => format!("{id} {flag}"),
+            None => id,
+        }
+    }
+
+    /// The flag that names the file from which an id makes its case; none of families.
+    pub fn file_flag(&self) -> Option<String> {
         match self {
-            Source::Family { .. } => id,
-            Source::Mesh { family, .. } => format!("{id} --mesh {}", quoted(family.path())),
-            Source::MeshPart { surface, .. } => format!("{id} --mesh {}", quoted(surface.path())),
-            Source::Corpus(set) => format!("{id} --corpus {}", quoted(&set.file)),
+            Source::Family { .. } => None,
+            Source::Mesh { family, .. } => Some(format!("--mesh {}", quoted(family.path()))),
+            Source::MeshPart { surface, .. } => Some(format!("--mesh {}", quoted(surface.path()))),
+            Source::Corpus(set) => Some(format!("--corpus {}", quoted(&set.file))),
         }
     }
 }

@@ -257,6 +257,7 @@ fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> Ac
         crack_digest: groups.crack_digest.to_string(),
         double_digest: groups.double_digest.to_string(),
         odd_fold_digest: groups.odd_fold_digest.to_string(),
+        file: source.file_flag(),
         elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
     }
 }

@@ -92,7 +92,7 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
         let groups = across(part).into_iter().map(|found| ("group", found));
         let polygons = polygons(part).into_iter().map(|found| ("polygon", found));
         for (class, (finding, rate, digest, first)) in groups.chain(polygons) {
-            let example = row.zip(first.first()).map(|(row, id)| group_example(row, id));
+            let example = row.zip(first.first()).map(|(row, id)| group_example(row, part, id));
             let key = Key::of(part, class, finding);
             all.push(Disagreement { key, rate, digest, example });
         }
@@ -169,11 +169,11 @@ pub(super) fn kinds_of(part: &KernelResult) -> Vec<&str> {
 }
 
 /// A group by its id: its bits are those of several triangles, and are left to the command.
-fn group_example(row: &RowPart, id: &str) -> Example {
+fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
     Example {
         case: id.to_owned(),
         bits: String::new(),
         severity: None,
-        command: row.explain_command(id),
+        command: row.explain_group(result, id),
     }
 }

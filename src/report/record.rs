@@ -353,6 +353,9 @@ pub struct AcrossPart {
     /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elsewhere: Option<Rate>,
+    /// The flag that names the file from which an id makes its group, as `--mesh 'model.obj'`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
 }
 
 /// What a kernel that takes polygons did with whole ones.

@@ -168,7 +168,7 @@ fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[S
                 }
             }
             @for id in ids {
-                p.example { (code(&row.explain_command(id))) }
+                p.example { (code(&row.explain_group(result, id))) }
             }
         }
     }
