@@ -100,12 +100,12 @@ impl<'a> RowView<'a> {
     }
 
     /// A family's first groups that no triangle reported, by id.
-    pub(super) fn first_cracks(&self) -> Vec<(&str, &str)> {
+    pub(super) fn first_cracks(&self) -> Vec<(&KernelResult, &str)> {
         self.results
             .iter()
             .filter_map(|result| {
                 let across = result.across.as_ref()?;
-                Some((result.family.as_str(), across.first_cracks.first()?.as_str()))
+                Some((*result, across.first_cracks.first()?.as_str()))
             })
             .collect()
     }

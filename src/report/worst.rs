@@ -1,7 +1,7 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
 use super::disagreement::polygons;
-use super::record::{FindingPart, RowPart};
+use super::record::{FindingPart, KernelResult, RowPart};
 use super::text::{RowView, interval_of};
 use super::why::{causes_text, severity_text};
 use super::{Style, group_digits};
@@ -28,6 +28,13 @@ impl RowPart {
     /// The flags that make this row again.
     pub(super) fn flags(&self) -> String {
         flags(&self.selector, self.epsilon_argument().as_deref(), &self.contract_words)
+    }
+
+    /// The command that shows a group of a result again by its id.
+    pub(super) fn explain_group(&self, result: &KernelResult, id: &str) -> String {
+        let file = result.across.as_ref().and_then(|across| across.file.as_deref());
+        let command = self.explain_command(id);
+        file.map_or(command.clone(), |flag| format!("{command} {flag}"))
     }
 
     /// The command that shows a case again by its id.
@@ -85,12 +92,13 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
             writeln!(out, "        {}", finding.worst.command)?;
             writeln!(out, "        {}", finding.worst.bits)?;
         }
-        for (family, id) in cracks {
+        for (result, id) in cracks {
+            let family = &result.family;
             writeln!(
                 out,
                 "    crack, first of {family}: no triangle of the group reports the hit"
             )?;
-            writeln!(out, "        {}", row.part.explain_command(id))?;
+            writeln!(out, "        {}", row.part.explain_group(result, id))?;
         }
         for (kind, rate, _, first) in polygons {
             let (count, of) = (group_digits(rate.count), group_digits(rate.of));
