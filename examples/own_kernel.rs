@@ -1,9 +1,7 @@
 //! The whole program with kernels of one's own in it: `cargo run --example own_kernel -- audit
 //! --kernel mine,bounding-box`. One is a closure, one a small trait, in one scalar each.
 
-use hairline::case::Case;
-use hairline::contract::Contract;
-use hairline::kernel::{Entry, EpsilonSet, Gate, Hit, KernelInfo, Role, Test};
+use hairline::{Case, Contract, Entry, EpsilonSet, Gate, Hit, KernelInfo, Role, Test};
 
 /// The plain test by signed volumes, with an epsilon on the ray's parameter.
 struct Mine;

@@ -1,7 +1,7 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
@@ -106,10 +106,10 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let all = studies.iter().map(|study| study(&progress)).collect::<Result<Vec<_>, _>>()?;
     progress.finish();
     let record = record(sources, all, threads, progress.seconds());
-    for (format, path) in outputs {
+    write_results(outputs, |format, _, out| {
         let style = Style { color: ColorChoice::Never.enabled(false), details: false };
-        write_result(path, |out| (format.write)(&record, style, out))?;
-    }
+        (format.write)(&record, style, out)
+    })?;
     Ok(Status::Success)
 }
 

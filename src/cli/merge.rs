@@ -4,8 +4,8 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_set, read_mesh, read_record};
 use super::progress::Progress;
 use super::reporting::{ReportArguments, self_check};
-use crate::Unobserved;
 use crate::audit::{Plan, Source, StoredSource};
+use crate::conformance::Unobserved;
 use crate::corpus::InputError;
 use crate::family::MeshFamily;
 use crate::report::{illustrations, mergeable, merged};
@@ -41,8 +41,8 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrations(plan, &Unobserved));
     let record = merged(parts, illustrate, &progress, |source| open(source, quiet))
         .map_err(|Unmergeable(failure)| failure)?;
-    outputs.write(&record)?;
     self_check(&record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }
 

@@ -2,14 +2,22 @@
 
 #![forbid(unsafe_code)]
 
+/// Prints to standard error. Unlike the standard library's it does not panic if nobody can read it.
+macro_rules! eprintln {
+    ($($words:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($words)*);
+    }};
+}
+
 mod audit;
 mod case;
-mod check;
+pub(crate) mod check;
 mod config;
 mod corpus;
 mod diff;
 mod epsilon;
-mod exit;
+pub(crate) mod exit;
 mod explain;
 mod fuzz;
 mod generate;
@@ -34,8 +42,7 @@ mod triage;
 mod truth;
 mod worst;
 
-pub use check::read_settings;
-pub use exit::{Failure, Status};
+use exit::{Failure, Status};
 
 use crate::kernel::{self, Entry};
 use crate::plugin;
@@ -112,7 +119,7 @@ pub fn main() -> ExitCode {
 /// become exit codes.
 ///
 /// ```no_run
-/// use hairline::{case::Case, contract::Contract, kernel::{Entry, Hit, KernelInfo}};
+/// use hairline::{Case, Contract, Entry, Hit, KernelInfo};
 ///
 /// const INFO: KernelInfo = KernelInfo::own("mine", Contract::CLOSED_RAY);
 ///
@@ -132,10 +139,13 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
+            if error.use_stderr() {
+                let _ = error.print();
+                return Status::Usage.into();
+            }
             // Help and version are no errors.
-            let code = if error.use_stderr() { Status::Usage } else { Status::Success };
-            let _ = error.print();
-            return code.into();
+            let printed = output::standard_output().map(drop).and_then(|()| Ok(error.print()?));
+            return printed.map_or_else(ended, |()| Status::Success.into());
         }
     };
     let outcome = match arguments.command {
@@ -167,11 +177,14 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     // What went wrong in a kernel of the user's own goes before what was made of its verdicts.
     match plugins::check().and(outcome) {
         Ok(status) => status.into(),
-        Err(failure) => {
-            if let Some(message) = failure.message() {
-                eprintln!("hairline: {message}");
-            }
-            failure.status().into()
-        }
+        Err(failure) => ended(failure),
     }
+}
+
+/// Says why a command stops.
+fn ended(failure: Failure) -> ExitCode {
+    if let Some(message) = failure.message() {
+        eprintln!("hairline: {message}");
+    }
+    failure.status().into()
 }

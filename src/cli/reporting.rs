@@ -1,13 +1,13 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
-use crate::Unobserved;
 use crate::audit::{self, Plan, Shard};
+use crate::conformance::Unobserved;
 use crate::report::{
     Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, illustrations,
     number_of, shard_part,
@@ -83,11 +83,10 @@ impl Outputs<'_> {
 
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
-        for (format, path) in &self.pairs {
-            let style = Style { color: self.color.enabled(*path == "-"), details: self.details };
-            write_result(path, |out| (format.write)(record, style, out))?;
-        }
-        Ok(())
+        write_results(self.pairs.clone(), |format, path, out| {
+            let style = Style { color: self.color.enabled(path == "-"), details: self.details };
+            (format.write)(record, style, out)
+        })
     }
 }
 

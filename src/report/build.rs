@@ -9,7 +9,7 @@ use crate::audit::{
 };
 use crate::case::Case;
 use crate::contract::Across;
-use crate::corpus::manifest::hex;
+use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::Scalar;

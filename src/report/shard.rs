@@ -3,7 +3,7 @@
 use super::build::plan_part;
 use super::{Context, Illustrations, Provenance, Record, build};
 use crate::audit::{self, Audit, Observer, Plan, Shard, Source, StoredPlan, StoredSource};
-use crate::corpus::manifest::hex;
+use crate::corpus::hex;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 

@@ -1,13 +1,13 @@
 //! Why kernels are wrong: tracked runs are the float runs, and known causes come out.
 
-use hairline::arith::{Arithmetic, Float};
-use hairline::audit::{Attribution, attribute};
-use hairline::case::{Case, Draw, Parameters};
-use hairline::contract::{Contract, NAMED};
-use hairline::family::{FAMILIES, find};
-use hairline::judge::{Class, Finding, Obligation, judge, obligation};
-use hairline::kernel::{self, KERNELS, Scalar, Subject, Verdict};
-use hairline::oracle::truth;
+use hairline::internals::arith::{Arithmetic, Float};
+use hairline::internals::audit::{Attribution, attribute};
+use hairline::internals::case::{Case, Draw, Parameters};
+use hairline::internals::contract::{Contract, NAMED};
+use hairline::internals::family::{FAMILIES, find};
+use hairline::internals::judge::{Class, Finding, Obligation, judge, obligation};
+use hairline::internals::kernel::{self, KERNELS, Scalar, Subject, Verdict};
+use hairline::internals::oracle::truth;
 use std::collections::BTreeMap;
 
 fn run<F: Scalar>(kernel: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {

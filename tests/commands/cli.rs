@@ -426,10 +426,10 @@ fn a_full_disk_is_reported_and_a_closed_pipe_is_no_error() {
 #[test]
 fn every_kernel_family_contract_and_preset_is_listed() {
     let list = |what: &str| text(&hairline(&["list", what]).stdout);
-    for entry in hairline::kernel::KERNELS {
+    for entry in hairline::internals::kernel::KERNELS {
         assert!(list("kernels").contains(entry.info.name));
     }
-    for family in hairline::family::FAMILIES {
+    for family in hairline::internals::family::FAMILIES {
         assert!(
             list("families").contains(family.name) && list("families").contains(family.promise)
         );
@@ -555,7 +555,7 @@ fn a_stored_case_is_explained_by_name_and_a_given_one_by_its_json() {
 fn the_readme_lists_the_exit_codes_of_the_program() {
     let readme =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
-    use hairline::cli::Status;
+    use hairline::internals::cli::Status;
     for status in [
         Status::Success,
         Status::Disagreements,

@@ -1,6 +1,6 @@
 //! `hairline epsilon` as a user runs it.
 
-use hairline::report::epsilon::{CurvePart, EpsilonRecord, GatePart};
+use hairline::internals::report::epsilon::{CurvePart, EpsilonRecord, GatePart};
 use std::process::{Command, Output};
 
 fn hairline(arguments: &[&str]) -> Output {
@@ -162,7 +162,7 @@ fn all_kernels_are_studied_but_those_that_cannot_be() {
         (kernels, error)
     };
     let (all, notes) = run(&[]);
-    let expected: Vec<&str> = hairline::kernel::KERNELS
+    let expected: Vec<&str> = hairline::internals::kernel::KERNELS
         .iter()
         .map(|entry| entry.info.name)
         .filter(|name| *name != "havel-herout")

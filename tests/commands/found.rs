@@ -1,8 +1,8 @@
 //! Stored finds: each still shows exactly its signature; triage makes them.
 
-use hairline::corpus::lines::{self, StoredCase};
-use hairline::explore::campaign::Find;
-use hairline::kernel::KERNELS;
+use hairline::internals::corpus::lines::{self, StoredCase};
+use hairline::internals::explore::campaign::Find;
+use hairline::internals::kernel::KERNELS;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

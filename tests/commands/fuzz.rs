@@ -1,9 +1,9 @@
 //! Campaigns: known facts from scratch, the same finds on any number of threads, nothing lost.
 
-use hairline::audit::{Attribution, EpsilonChoice};
-use hairline::explore::campaign::{Campaign, Find, Plan};
-use hairline::judge::Finding;
-use hairline::kernel::find;
+use hairline::internals::audit::{Attribution, EpsilonChoice};
+use hairline::internals::explore::campaign::{Campaign, Find, Plan};
+use hairline::internals::judge::Finding;
+use hairline::internals::kernel::find;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};

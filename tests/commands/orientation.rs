@@ -1,7 +1,7 @@
 //! Orientation predicates: what is known about robust, laws of the exact sign, promises, the command.
 
-use hairline::audit::Observer;
-use hairline::orientation::{
+use hairline::internals::audit::Observer;
+use hairline::internals::orientation::{
     Answer, Counts, Dimension, FAMILIES, Finding, KNOWN, Plan, Points, Row, Scalar, ScaledPoints,
     SetSummary, default_rows, defined_determinant, find_known, judge, run,
 };

@@ -1,27 +1,25 @@
 //! Shrinking: the same finding on the simplest case, a local minimum, printed to be pasted.
 
-use hairline::arith::Float;
-use hairline::audit::{EpsilonChoice, Row};
-use hairline::case::{Case, Parameters};
-use hairline::contract::NAMED;
-use hairline::corpus::number;
-use hairline::explore::{
+use hairline::internals::arith::Float;
+use hairline::internals::audit::{EpsilonChoice, Row};
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::corpus::number;
+use hairline::internals::explore::{
     Signature, Simplification, Size, c_snippet, rust_snippet, shrink, shrink_finding,
 };
-use hairline::family::FAMILIES;
-use hairline::judge::Finding;
-use hairline::kernel::{KERNELS, Scalar, find};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::judge::Finding;
+use hairline::internals::kernel::{KERNELS, Scalar};
 use std::path::Path;
 use std::process::{Command, Output};
 
 fn row(kernel: &str, contract: Option<&str>) -> Row {
-    let named = contract.map(|name| NAMED.iter().find(|named| named.name == name).unwrap());
-    EpsilonChoice::Source.rows(&[find(kernel).unwrap()], named).unwrap().swap_remove(0)
+    Row::named(kernel, None, contract.unwrap_or("own")).unwrap()
 }
 
 /// Cases of a family on which a row shows a finding, with its signature.
 fn findings<F: Scalar>(row: &Row, family: &str, count: usize) -> Vec<(Case<F>, Signature)> {
-    let family = hairline::family::find(family).unwrap();
+    let family = hairline::internals::family::find(family).unwrap();
     (0..3000)
         .flat_map(|i| family.make::<F>(&Parameters::default(), 1, i).cases().to_vec())
         .filter_map(|case| Signature::of(row, &case).map(|signature| (case, signature)))

@@ -1,15 +1,15 @@
 //! The search for the worst: witnesses replay, scores are what they say, nothing depends on threads.
 
-use hairline::arith::{Exact, Float};
-use hairline::audit::{EpsilonChoice, Row, exact_severity};
-use hairline::case::{Case, Parameters};
-use hairline::corpus::lines::{self, AnyCase};
-use hairline::explore::{
+use hairline::internals::arith::{Exact, Float};
+use hairline::internals::audit::{EpsilonChoice, Row, exact_severity};
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::corpus::lines::{self, AnyCase};
+use hairline::internals::explore::{
     Decimal, Domain, Entry, Goal, Objective, Table, Update, exact_score, find_worst, replay, search,
 };
-use hairline::family::FAMILIES;
-use hairline::kernel::{KERNELS, Role, Scalar, Verdict, find};
-use hairline::oracle::define;
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{KERNELS, Role, Scalar, Verdict, find};
+use hairline::internals::oracle::define;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
@@ -116,7 +116,7 @@ fn scores_are_what_the_documentation_says() {
             }
             Objective::FalseMiss => {
                 let feature = exact.truth.crossing()?.feature;
-                assert!(!verdict.hit && feature != hairline::truth::Feature::Outside);
+                assert!(!verdict.hit && feature != hairline::internals::truth::Feature::Outside);
                 let severity = exact_severity(case, row.contract.extent)?;
                 Some(severity.along.map_or(severity.in_space, |t| t.min(severity.in_space)))
             }

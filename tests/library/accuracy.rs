@@ -1,12 +1,12 @@
 //! Errors of values against the definition's rationals.
 
-use hairline::arith::Float;
-use hairline::audit::Errors;
-use hairline::case::{Case, Parameters};
-use hairline::family::FAMILIES;
-use hairline::kernel::{KERNELS, Scalar, Verdict, find};
-use hairline::oracle::define;
-use hairline::truth::{Feature, Truth};
+use hairline::internals::arith::Float;
+use hairline::internals::audit::Errors;
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{KERNELS, Scalar, Verdict, find};
+use hairline::internals::oracle::define;
+use hairline::internals::truth::{Feature, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{Signed, ToPrimitive, Zero};
 

@@ -1,8 +1,10 @@
 //! Other machines' arithmetic: fused products against exact rationals, flushing against its
 //! definition, and what both do to kernels.
 
-use hairline::arith::{Arithmetic, Emulated, Float, Real, Triple, Vector, scale_by_power_of_two};
-use hairline::case::Draw;
+use hairline::internals::arith::{
+    Arithmetic, Emulated, Float, Real, Triple, Vector, scale_by_power_of_two,
+};
+use hairline::internals::case::Draw;
 use num_bigint::BigInt;
 use num_traits::Signed;
 

@@ -1,11 +1,11 @@
 //! Drawings read back: places against geometry worked out by hand, and numbers that are numbers for
 //! every family.
 
-use hairline::audit::Row;
-use hairline::case::{Case, Parameters};
-use hairline::family::FAMILIES;
-use hairline::kernel::Scalar;
-use hairline::map;
+use hairline::internals::audit::Row;
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::Scalar;
+use hairline::internals::map;
 
 fn drawn<F: Scalar>(case: &Case<F>, kernel: &str) -> String {
     map::drawing(case, &Row::named(kernel, None, "own").unwrap()).unwrap()
@@ -96,8 +96,8 @@ fn an_inset_keeps_its_digits_however_near_the_edge_is() {
 #[test]
 fn a_wrong_t_is_drawn_where_it_points() {
     // Along (1, 0, -1) onto (2, 1, 0), where t is 4; a kernel that says 4.5 means (2.5, 1) in the plane.
-    use hairline::contract::Contract;
-    use hairline::kernel::{Entry, Hit, KernelInfo, register};
+    use hairline::internals::contract::Contract;
+    use hairline::internals::kernel::{Entry, Hit, KernelInfo, register};
     const INFO: KernelInfo = KernelInfo::own("half-too-far", Contract::CLOSED_RAY);
     register(Entry::new(&INFO).f64(|_: &Case<f64>, _: &[f64]| Some(Hit::at(4.5)))).unwrap();
     let triangle = [[0.0, 0.0, 0.0], [8.0, 0.0, 0.0], [0.0, 4.0, 0.0]];

@@ -1,11 +1,11 @@
 //! Known facts about the kernels come out of a run.
 
-use hairline::arith::Float;
-use hairline::audit::{Audit, EpsilonChoice, Observer, Plan, Source, Tally, run};
-use hairline::case::{Case, Parameters};
-use hairline::family;
-use hairline::judge::{Class, Finding};
-use hairline::kernel::{self, KERNELS, Scalar, Verdict};
+use hairline::internals::arith::Float;
+use hairline::internals::audit::{Audit, EpsilonChoice, Observer, Plan, Source, Tally, run};
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::family;
+use hairline::internals::judge::{Class, Finding};
+use hairline::internals::kernel::{self, KERNELS, Scalar, Verdict};
 
 struct Quiet;
 
@@ -47,7 +47,7 @@ fn tally<'a>((plan, audit): &'a (Plan, Audit), scalar: &str, label: &str) -> &'a
     &found.unwrap().tally
 }
 
-fn of_class(tally: &Tally, name: &str) -> hairline::audit::ClassCount {
+fn of_class(tally: &Tally, name: &str) -> hairline::internals::audit::ClassCount {
     tally.classes[Class::all().find(|class| class.name() == name).unwrap().number()]
 }
 

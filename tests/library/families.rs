@@ -1,10 +1,10 @@
 //! Each family keeps its promise, and the fast oracle agrees with the definition on its cases.
 
-use hairline::case::Parameters;
-use hairline::family::{FAMILIES, Family};
-use hairline::kernel::Scalar;
-use hairline::oracle;
-use hairline::truth::Truth;
+use hairline::internals::case::Parameters;
+use hairline::internals::family::{FAMILIES, Family};
+use hairline::internals::kernel::Scalar;
+use hairline::internals::oracle;
+use hairline::internals::truth::Truth;
 
 fn check<F: Scalar>(family: &Family, count: u64) {
     for index in 0..count {

@@ -3,9 +3,11 @@
 
 mod accuracy;
 mod arithmetic;
+mod contradictions;
 mod drawing;
 mod facts;
 mod families;
+mod floors;
 mod map;
 mod margins;
 mod oracle;

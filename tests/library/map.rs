@@ -1,17 +1,17 @@
 //! Maps pixel by pixel against direct evaluation, published pictures, and what is drawn read back.
 
-use hairline::arith::Float;
-use hairline::audit::Row;
-use hairline::case::Case;
-use hairline::judge::Finding;
-use hairline::kernel::{Scalar, Verdict};
-use hairline::map::{
+use hairline::internals::arith::Float;
+use hairline::internals::audit::Row;
+use hairline::internals::case::Case;
+use hairline::internals::judge::Finding;
+use hairline::internals::kernel::{Scalar, Verdict};
+use hairline::internals::map::{
     self, Grid, Ink, Map, Part, Pixels, RayPixel, SignPixel, Spot, Step, grid_of_case,
     grid_of_points, of_kernel, of_predicate, standard_points,
 };
-use hairline::oracle;
-use hairline::orientation::{self, Answer, Dimension, PREDICATES};
-use hairline::truth::{Feature, Truth};
+use hairline::internals::oracle;
+use hairline::internals::orientation::{self, Answer, Dimension, PREDICATES};
+use hairline::internals::truth::{Feature, Truth};
 use std::cmp::Ordering;
 
 fn row(kernel: &str, epsilons: Option<&str>, contract: &str) -> Row {
@@ -96,7 +96,7 @@ fn standard_cases_lie_on_what_they_are_called_by_in_both_scalars() {
 
 #[test]
 fn standard_maps_show_every_kernel_beside_both_truths() {
-    for kernel in hairline::kernel::all() {
+    for kernel in hairline::internals::kernel::all() {
         for spot in Spot::ALL {
             let map = map::standard::<f32>(&row(kernel.info.name, None, "own"), spot, [64, 64]);
             let map = map.unwrap();

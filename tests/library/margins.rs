@@ -1,9 +1,11 @@
 //! Margins say what a kernel does: one measurement gives the verdict at every epsilon.
 
-use hairline::arith::{Arithmetic, Float, scale_by_power_of_two};
-use hairline::case::{Case, Draw, Parameters};
-use hairline::family::FAMILIES;
-use hairline::kernel::{Entry, KERNELS, Scalar, Subject, Verdict, in_arithmetic, refused_by};
+use hairline::internals::arith::{Arithmetic, Float, scale_by_power_of_two};
+use hairline::internals::case::{Case, Draw, Parameters};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{
+    Entry, KERNELS, Scalar, Subject, Verdict, in_arithmetic, refused_by,
+};
 
 /// Indices of each family, wild cases, and epsilon sets for each case and kernel.
 const INDICES: u64 = 100;

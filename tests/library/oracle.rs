@@ -1,14 +1,14 @@
 //! The oracle against integer arithmetic, its definition, and laws that any truth obeys.
 
-use hairline::arith::scale_by_power_of_two;
-use hairline::case::{Case, Parameters};
-use hairline::family::{FAMILIES, find};
-use hairline::oracle::{Layer, define, truth};
-use hairline::selfcheck::{
+use hairline::internals::arith::scale_by_power_of_two;
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::family::{FAMILIES, find};
+use hairline::internals::oracle::{Layer, define, truth};
+use hairline::internals::selfcheck::{
     self,
     Reference::{Definition, Integers},
 };
-use hairline::truth::{Crossing, Facing, Feature, Place, Truth};
+use hairline::internals::truth::{Crossing, Facing, Feature, Place, Truth};
 use proptest::prelude::*;
 
 #[test]

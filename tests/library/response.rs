@@ -1,11 +1,11 @@
 //! A response says at every epsilon what the audit finds when it runs the kernel at that epsilon.
 
-use hairline::audit::{self, EpsilonChoice, EpsilonText, Observer, Plan, Row, Source};
-use hairline::case::{Draw, Parameters};
-use hairline::epsilon::{Axis, Question, Request, Response, run, tunable_gates};
-use hairline::family::find;
-use hairline::judge::Finding;
-use hairline::kernel::{KERNELS, Scalar, Tunable};
+use hairline::internals::audit::{self, EpsilonChoice, EpsilonText, Observer, Plan, Row, Source};
+use hairline::internals::case::{Draw, Parameters};
+use hairline::internals::epsilon::{Axis, Question, Request, Response, run, tunable_gates};
+use hairline::internals::family::find;
+use hairline::internals::judge::Finding;
+use hairline::internals::kernel::{KERNELS, Scalar, Tunable};
 
 struct Silent;
 

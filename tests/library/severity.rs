@@ -1,13 +1,13 @@
 //! Distances and bands against an independent computation in rationals.
 
-use hairline::arith::Float;
-use hairline::case::{Case, Draw, Parameters};
-use hairline::contract::{Band, BandUnit, Boundary, Contract, Extent, Sides};
-use hairline::family::FAMILIES;
-use hairline::judge::{Distances, Obligation, asked, obligation};
-use hairline::kernel::Scalar;
-use hairline::oracle::{define, truth};
-use hairline::truth::{Facing, Feature, Place, Truth};
+use hairline::internals::arith::Float;
+use hairline::internals::case::{Case, Draw, Parameters};
+use hairline::internals::contract::{Band, BandUnit, Boundary, Contract, Extent, Sides};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::judge::{Distances, Obligation, asked, obligation};
+use hairline::internals::kernel::Scalar;
+use hairline::internals::oracle::{define, truth};
+use hairline::internals::truth::{Facing, Feature, Place, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;

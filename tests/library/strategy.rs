@@ -1,13 +1,13 @@
 //! Strategies keep their promises through every step of shrinking, and end in simple cases.
 
-use hairline::arith::Float;
-use hairline::case::Case;
-use hairline::contract::{Across, Boundary, Contract};
-use hairline::explore::Size;
-use hairline::kernel::{Scalar, Verdict, find};
-use hairline::oracle::define;
+use hairline::internals::arith::Float;
+use hairline::internals::case::Case;
+use hairline::internals::contract::{Across, Boundary, Contract};
+use hairline::internals::explore::Size;
+use hairline::internals::kernel::{Scalar, Verdict, find};
+use hairline::internals::oracle::define;
+use hairline::internals::truth::{Feature, Place, Truth};
 use hairline::strategy::{self, Promise, STRATEGIES, conforms, conforms_together, named};
-use hairline::truth::{Feature, Place, Truth};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
@@ -231,8 +231,10 @@ fn a_kernel_by_the_definition_conforms_on_any_case() {
             definition.truth.hits_closed() == Some(true) && definition.truth.crossing().is_some();
         definition.exact.t.filter(|_| hit).and_then(|t| t.to_f64())
     };
-    let contract =
-        Contract { extent: hairline::contract::Extent::Interval, ..Contract::CLOSED_RAY };
+    let contract = Contract {
+        extent: hairline::internals::contract::Extent::Interval,
+        ..Contract::CLOSED_RAY
+    };
     proptest!(|(case in strategy::any_case::<f64>(), pair in strategy::shared_edge::<f64>())| {
         hairline::prop_assert_conforms!(exact, contract, case);
         hairline::prop_assert_conforms_together!(exact, contract.with_across(Across::AtLeastOne), pair);

@@ -1,18 +1,18 @@
 //! Rays at the edges and vertices of meshes: what a mesh is, by hand and by brute force; counts against
 //! the definition in rationals; known facts; threads.
 
-use hairline::arith::Float;
-use hairline::audit::{EpsilonChoice, Observer, Row, exact_severity};
-use hairline::case::{Case, Draw};
-use hairline::contract::{Extent, NAMED};
-use hairline::corpus::mesh::{Mesh, read_obj, write_obj};
-use hairline::corpus::shapes;
-use hairline::kernel::{Entry, Scalar, Verdict, find};
-use hairline::mesh::{
+use hairline::internals::arith::Float;
+use hairline::internals::audit::{EpsilonChoice, Observer, Row, exact_severity};
+use hairline::internals::case::{Case, Draw};
+use hairline::internals::contract::{Extent, NAMED};
+use hairline::internals::corpus::mesh::{Mesh, read_obj, write_obj};
+use hairline::internals::corpus::shapes;
+use hairline::internals::kernel::{Entry, Scalar, Verdict, find};
+use hairline::internals::mesh::{
     Aim, CLASSES, EdgeKind, FaceKind, Found, MOST_AROUND, Part, Plan, Targets, Topology,
     VertexKind, may_be_elsewhere, run,
 };
-use hairline::truth::{Crossing, Facing, Feature, Place, Truth};
+use hairline::internals::truth::{Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;

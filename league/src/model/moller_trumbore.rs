@@ -1,9 +1,9 @@
 //! Möller and Trumbore's test in the order in which most crates write it: divided by the determinant
 //! before the edges are compared, t last.
 
-use hairline::arith::{Real, Vector};
-use hairline::case::{Ray, Triangle};
-use hairline::kernel::{Gate, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
+use hairline::internals::arith::{Real, Vector};
+use hairline::internals::case::{Ray, Triangle};
+use hairline::internals::kernel::{Gate, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use std::marker::PhantomData;
 
 /// In what the crates differ.

@@ -1,17 +1,19 @@
 //! What must hold for every input, whatever its kernel gets wrong: the parts of this crate agree with
 //! each other. A kernel's own disagreements are told apart from these.
 
-use super::input::{Input, of_kernel};
-use crate::arith::Float;
-use crate::audit::{CorpusSet, Observer, Source};
-use crate::case::{Case, Draw};
-use crate::corpus::lines::AnyCase;
-use crate::epsilon::{Axis, Question, Request, run, tunable_gates};
-use crate::explore::{Signature, mutate};
-use crate::judge::{self, Obligation};
-use crate::kernel::{Scalar, Subject, Verdict, refused_by};
-use crate::oracle::{self, Layers};
-use crate::orientation::{self, Points, ScaledPoints, default_rows, defined_determinant};
+use hairline::internals::arith::Float;
+use hairline::internals::audit::{CorpusSet, Observer, Source};
+use hairline::internals::case::{Case, Draw};
+use hairline::internals::corpus::lines::AnyCase;
+use hairline::internals::epsilon::{Axis, Question, Request, run, tunable_gates};
+use hairline::internals::explore::inputs::{Input, of_kernel};
+use hairline::internals::explore::{Signature, mutate};
+use hairline::internals::judge::{self, Obligation};
+use hairline::internals::kernel::{Scalar, Subject, Verdict, refused_by};
+use hairline::internals::oracle::{self, Layers};
+use hairline::internals::orientation::{
+    self, Points, ScaledPoints, default_rows, defined_determinant,
+};
 use num_rational::BigRational;
 use num_traits::Zero;
 use std::fmt;
@@ -167,7 +169,7 @@ where
         let margin = |case: &Case<F>| gated.measure(case).margins[gate];
         let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());
         let about = margins.flat_map(|m| [m.offset_ulps(-1), m, m.offset_ulps(1)]);
-        let lowest = crate::epsilon::floor::<F>(&entry.info.gates[gate]);
+        let lowest = hairline::internals::epsilon::floor::<F>(&entry.info.gates[gate]);
         for epsilon in about.chain([epsilons[gate]]).filter(|e| lowest <= *e && e.is_finite()) {
             let mut at = epsilons.clone();
             at[gate] = epsilon;
@@ -198,68 +200,4 @@ where
         }
     }
     set
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::explore::inputs::AnyInput;
-    use crate::kernel::find;
-    use std::collections::HashSet;
-
-    /// Constructions, numbers of any bits, and mutants of both.
-    fn for_all_inputs(count: u64, mut check: impl FnMut(&AnyInput)) {
-        for i in 0..count {
-            let mut draw = Draw::new("checks", 1, i);
-            let data: Vec<u8> = (0..draw.below(200)).map(|_| draw.bits() as u8).collect();
-            let input = AnyInput::from_bytes(&data);
-            check(&input);
-            check(&input.mutated(&mut draw));
-        }
-    }
-
-    #[test]
-    fn nothing_contradicts_itself_on_random_inputs() {
-        for_all_inputs(1500, |input| match input {
-            AnyInput::F32(input) => check_all(input),
-            AnyInput::F64(input) => check_all(input),
-        });
-        fn check_all<F: Scalar + orientation::Scalar>(input: &Input<F>) {
-            check_oracle(&input.case).unwrap();
-            check_kernel(input).unwrap();
-            check_orientation(&input.case).unwrap();
-        }
-    }
-
-    #[test]
-    fn responses_contradict_no_run_on_random_inputs() {
-        let (narrow, wide) = (Axis::new(&[]), Axis::new(&[]));
-        for_all_inputs(40, |input| match input {
-            AnyInput::F32(input) => check_response(input, &narrow).unwrap(),
-            AnyInput::F64(input) => check_response(input, &wide).unwrap(),
-        });
-    }
-
-    #[test]
-    fn constructions_show_false_misses_and_false_hits_of_many_kernels() {
-        let (mut kernels, mut findings) = (HashSet::new(), HashSet::new());
-        for_all_inputs(3000, |input| {
-            let signature = match input {
-                AnyInput::F32(input) => disagreement(input),
-                AnyInput::F64(input) => disagreement(input),
-            };
-            kernels.extend(signature.iter().map(|signature| signature.kernel));
-            findings.extend(signature.iter().map(|signature| signature.finding));
-        });
-        assert!(kernels.len() >= 10 && findings.len() >= 2, "{kernels:?} {findings:?}");
-    }
-
-    #[test]
-    fn a_disagreement_is_the_known_one() {
-        let triangle = [[0.0, -1.0, 0.0], [0.0, 1.0, 9.536743e-7], [0.0; 3]];
-        let case = Case::<f32>::new([0.0, 0.0, 2.3841858e-7], [1.0, 0.0, 0.0], triangle);
-        let input = Input::of_source(find("moller-trumbore").unwrap(), case);
-        let signature = disagreement(&input).expect("the printed epsilon misses it");
-        assert_eq!((signature.finding.name(), signature.gate), ("false-miss", Some("parallel")));
-    }
 }

@@ -2,9 +2,9 @@
 
 #![forbid(unsafe_code)]
 
-use super::{case_json, json};
+use super::Points;
 use crate::arith::Float;
-use crate::orientation::Points;
+use crate::corpus::{case_json, json};
 use serde_json::value::RawValue;
 
 /// Points in the scalar that they were written for.
