@@ -14,7 +14,7 @@ pub const SCHEMA: &str = "hairline-record/1";
 
 /// Everything that a run found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// [`SCHEMA`].
@@ -36,7 +36,7 @@ pub struct Record {
 
 /// What was found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ResultPart {
     /// What was asked.
@@ -64,7 +64,7 @@ impl ResultPart {
 
 /// Distributions of one kernel row in one scalar, over all sources.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowTotal {
     /// `f32` or `f64`.
@@ -81,7 +81,7 @@ pub struct RowTotal {
 
 /// What was asked.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanPart {
     /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
@@ -96,7 +96,7 @@ pub struct PlanPart {
 
 /// A kernel with its epsilons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowPart {
     /// The kernel's name.
@@ -113,7 +113,7 @@ pub struct RowPart {
 
 /// A source of cases as planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlannedSource {
     /// The name in tables.
@@ -126,7 +126,7 @@ pub struct PlannedSource {
 
 /// What a source gave in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SourcePart {
     /// `f32` or `f64`.
@@ -149,7 +149,7 @@ pub struct SourcePart {
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct KernelResult {
     /// `f32` or `f64`.
@@ -180,7 +180,7 @@ pub struct KernelResult {
 
 /// Counts and rates of findings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
     /// Cases.
@@ -205,7 +205,7 @@ pub struct Counts {
 
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rate {
     /// How many.
@@ -220,7 +220,7 @@ pub struct Rate {
 
 /// One finding in one class.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
     /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
@@ -241,7 +241,7 @@ pub struct FindingPart {
 
 /// Why findings happened, of the first by index.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CausesPart {
     /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
@@ -253,7 +253,7 @@ pub struct CausesPart {
 
 /// How far cases with a finding are from where the verdict would be right.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityDistribution {
     /// In longest edges of the triangle.
@@ -264,7 +264,7 @@ pub struct SeverityDistribution {
 
 /// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Distribution {
     /// How many.
@@ -284,7 +284,7 @@ pub struct Distribution {
 
 /// A case that shows a finding.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Example {
     /// The id or the name.
@@ -299,18 +299,18 @@ pub struct Example {
 
 /// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityPart {
     /// In the plane, from where the line meets it to the triangle's boundary.
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub in_space: f64,
     /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
@@ -323,7 +323,7 @@ fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Er
 
 /// What the triangles of groups did together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AcrossPart {
     /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
@@ -348,7 +348,7 @@ pub struct AcrossPart {
 
 /// A polygon kernel's answers about whole polygons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonPart {
     /// Of the polygons that must be hit.
@@ -363,7 +363,7 @@ pub struct PolygonPart {
 
 /// Where and how a record was made.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// `hairline 0.1.0`.
