@@ -2,23 +2,21 @@
 
 #![forbid(unsafe_code)]
 
-use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source, did_you_mean};
+use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source};
 use crate::case::Parameters;
 use crate::contract::Contract;
 use crate::engine::Unobserved;
 use crate::family::{FAMILIES, Family, find};
-use crate::kernel::{Entry, nearest_name};
+use crate::kernel::Entry;
 use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
+use crate::suggest::did_you_mean;
 use std::fmt::{self, Write};
 
 /// An audit of a kernel, to be narrowed and run: all families, 2,000 cases of each, seed 1, the
 /// kernel's own epsilons and contract, unless said otherwise.
 ///
 /// ```
-/// use hairline::arith::Vector;
-/// use hairline::case::Case;
-/// use hairline::contract::Contract;
-/// use hairline::kernel::{Entry, Hit, KernelInfo};
+/// use hairline::{Case, Contract, Entry, Hit, KernelInfo, Vector};
 ///
 /// // The plane's t alone: whatever the triangle, it hits.
 /// fn plane(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
@@ -33,7 +31,7 @@ use std::fmt::{self, Write};
 /// hairline::audit(&kernel).families(["interior"]).count(500).assert_conforms();
 /// let outcome = hairline::audit(&kernel).families(["outside"]).count(500).run()?;
 /// assert!(outcome.findings().any(|finding| finding.finding == "false-hit"));
-/// # Ok::<(), hairline::audit::PlanError>(())
+/// # Ok::<(), hairline::PlanError>(())
 /// ```
 pub fn audit(kernel: &Entry) -> Request {
     Request {
@@ -139,8 +137,8 @@ impl Request {
         let Some(names) = &self.families else { return Ok(FAMILIES.iter().collect()) };
         let known = |name: &String| {
             find(name).ok_or_else(|| {
-                let near = nearest_name(name, FAMILIES.iter().map(|family| family.name));
-                let advice = did_you_mean(near, "hairline list families");
+                let names = FAMILIES.iter().map(|family| family.name);
+                let advice = did_you_mean(name, names, "hairline list families");
                 PlanError(format!("unknown family '{name}'{advice}"))
             })
         };

@@ -1,6 +1,6 @@
 //! Verdicts that come from outside, judged as a run judges those of a kernel.
 
-use super::plan::Row;
+use super::row::Row;
 use super::run::{Audit, Runner, Sums};
 use super::source::Source;
 use crate::arith::Float;

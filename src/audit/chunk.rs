@@ -14,9 +14,6 @@ use crate::truth::Truth;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Indices that go through a run together.
-pub(crate) const CHUNK: u64 = 1024;
-
 /// What a source gave in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct SourceSummary {

@@ -1,8 +1,7 @@
 //! What the verdicts of one row on the groups of a chunk come to.
 
 use super::chunk::Chunk;
-use super::rows::RowIn;
-use super::run::verdicts_of;
+use super::rows::{RowIn, verdicts_of};
 use super::source::Source;
 use crate::case::Case;
 use crate::contract::Contract;

@@ -2,9 +2,8 @@
 //! vertices are at fault.
 
 use super::chunk::{Chunk, SourceSummary};
-use super::plan::Row;
-use super::rows::Rows;
-use super::run::verdicts_of;
+use super::row::Row;
+use super::rows::{Rows, verdicts_of};
 use super::source::Source;
 use super::tally::{GroupCount, Outcome};
 use crate::case::Parameters;

@@ -1,154 +1,12 @@
 //! What a run will do: rows of kernels with epsilons, sources of cases, a contract.
 
+use super::epsilon_text::EpsilonText;
+use super::row::Row;
 use super::source::Source;
-use crate::arith::Float;
-use crate::contract::{Contract, NAMED, NamedContract};
-use crate::kernel::{Entry, Gate, PRESETS, Preset, PresetValue, Tunable, find, nearest_name};
-use serde::{Deserialize, Serialize};
+use crate::contract::Contract;
+use crate::kernel::{Entry, Gate, PRESETS, Preset, Tunable};
+use crate::suggest::did_you_mean;
 use std::fmt;
-
-/// An epsilon before it is rounded to a scalar.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum EpsilonText {
-    /// Decimal text, rounded to the nearest number of the scalar.
-    Decimal(String),
-    /// This many times the scalar's distance from 1 to the next number.
-    MachineEpsilon(f64),
-}
-
-impl EpsilonText {
-    /// In a scalar; none if the text is no finite number of it.
-    pub fn value<F: Float>(&self) -> Option<F> {
-        match self {
-            EpsilonText::Decimal(text) => F::parse(text),
-            EpsilonText::MachineEpsilon(factor) => Some(F::EPSILON * F::from_f64(*factor)),
-        }
-        .filter(F::is_finite)
-    }
-
-    /// In a scalar; none if it is too large there, or so small that it is 0.
-    pub fn fitting<F: Float>(&self) -> Option<F> {
-        self.value().filter(|value: &F| !value.is_zero() || self.is_zero())
-    }
-
-    /// Whether it is written as zero.
-    fn is_zero(&self) -> bool {
-        match self {
-            EpsilonText::Decimal(text) => {
-                let mut digits = text.chars().take_while(|c| !matches!(c, 'e' | 'E'));
-                !digits.any(|c| matches!(c, '1'..='9'))
-            }
-            EpsilonText::MachineEpsilon(factor) => *factor == 0.0,
-        }
-    }
-
-    /// `EPSILON`, `-EPSILON` or `k*EPSILON`; decimal text otherwise, not checked. None if k is no number.
-    fn of(text: &str) -> Option<EpsilonText> {
-        let Some(factor) = text.strip_suffix("EPSILON") else {
-            return Some(EpsilonText::Decimal(text.to_owned()));
-        };
-        Some(EpsilonText::MachineEpsilon(match factor.strip_suffix('*').unwrap_or(factor) {
-            "" => 1.0,
-            "-" => -1.0,
-            factor => factor.parse().ok()?,
-        }))
-    }
-}
-
-impl fmt::Display for EpsilonText {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            EpsilonText::Decimal(text) => f.write_str(text),
-            EpsilonText::MachineEpsilon(factor) if *factor == 1.0 => f.write_str("EPSILON"),
-            EpsilonText::MachineEpsilon(factor) if (1e-3..1e6).contains(&factor.abs()) => {
-                write!(f, "{factor}*EPSILON")
-            }
-            EpsilonText::MachineEpsilon(factor) => write!(f, "{factor:e}*EPSILON"),
-        }
-    }
-}
-
-/// A kernel with its epsilons: a row of every table.
-#[derive(Clone)]
-pub struct Row {
-    /// The kernel.
-    pub entry: &'static Entry,
-    /// What its epsilons are called: `source`, `zero`, `parallel=1e-6`.
-    pub set: String,
-    /// One a gate.
-    pub epsilons: Vec<EpsilonText>,
-    /// The contract it is judged by.
-    pub contract: Contract,
-    /// The contract's name, if it is not the kernel's own.
-    pub contract_name: Option<&'static str>,
-}
-
-impl Row {
-    /// The row of a kernel, its epsilons as [`Row::epsilon_argument`] writes them (none: as the source
-    /// has them), and a contract by name, `own` for the kernel's own.
-    pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, PlanError> {
-        let entry = find(kernel).ok_or_else(|| PlanError(format!("unknown kernel '{kernel}'")))?;
-        let named = NAMED.iter().find(|named| named.name == contract);
-        if named.is_none() && contract != "own" {
-            return Err(PlanError(format!("unknown contract '{contract}'")));
-        }
-        let choice = match epsilons {
-            Some(text) => EpsilonChoice::parse(text)?,
-            None => EpsilonChoice::Source,
-        };
-        Ok(choice.rows(&[entry], named)?.swap_remove(0))
-    }
-
-    /// `kernel (set)`.
-    pub fn label(&self) -> String {
-        format!("{} ({})", self.entry.info.name, self.set)
-    }
-
-    /// An error if an epsilon is too large for a scalar, or so small that it is 0 there.
-    pub fn check<F: Float>(&self) -> Result<(), PlanError> {
-        for (gate, text) in self.tuned() {
-            if text.fitting::<F>().is_some() {
-                continue;
-            }
-            let wrong = if text.value::<F>().is_some() { "0 in" } else { "beyond the range of" };
-            let (name, gate, scalar) = (self.entry.info.name, gate.name, F::NAME);
-            return Err(PlanError(format!(
-                "gate '{gate}' of {name}: {text} is {wrong} {scalar} (see --scalar)"
-            )));
-        }
-        Ok(())
-    }
-
-    /// The same in `f32`, and in `f64`, each if it is chosen and the kernel runs in it.
-    pub fn check_in(&self, scalars: [bool; 2]) -> Result<(), PlanError> {
-        let [in_f32, in_f64] = self.entry.scalars();
-        if scalars[0] && in_f32 {
-            self.check::<f32>()?;
-        }
-        if scalars[1] && in_f64 {
-            self.check::<f64>()?;
-        }
-        Ok(())
-    }
-
-    /// The epsilons in a scalar, one a gate; 0 for one that [`Row::check`] refuses.
-    pub fn epsilons<F: Float>(&self) -> Vec<F> {
-        self.epsilons.iter().map(|text| text.value().unwrap_or(F::zero())).collect()
-    }
-
-    /// The gates that take an epsilon, with theirs.
-    pub fn tuned(&self) -> impl Iterator<Item = (&'static Gate, &EpsilonText)> {
-        let gates = self.entry.info.gates.iter().zip(&self.epsilons);
-        gates.filter(|(gate, _)| gate.epsilon != Tunable::Fixed)
-    }
-
-    /// The `--epsilon` argument that makes this row again; none if no gate takes an epsilon.
-    pub fn epsilon_argument(&self) -> Option<String> {
-        let words: Vec<String> =
-            self.tuned().map(|(gate, text)| format!("{}={text}", gate.name)).collect();
-        (!words.is_empty()).then(|| words.join(","))
-    }
-}
 
 /// How a plan's epsilons are chosen.
 #[derive(Clone, Debug)]
@@ -204,19 +62,21 @@ impl EpsilonChoice {
         Ok(EpsilonChoice::Given(pairs))
     }
 
-    /// The rows of some kernels under this choice; a named contract overrides each kernel's own.
+    /// The rows of some kernels under this choice; a contract in words ([`Contract::from_words`])
+    /// overrides each kernel's own.
     pub fn rows(
         &self,
         entries: &[&'static Entry],
-        named: Option<&'static NamedContract>,
+        contract: Option<&str>,
     ) -> Result<Vec<Row>, PlanError> {
-        let contract_name = named.map(|named| named.name);
+        let words = contract.unwrap_or("own");
         let mut rows = Vec::new();
         // Each given epsilon must reach a gate of some kernel.
         let missing = |(name, _): &(String, String)| Err(unknown_gate(name, entries));
         let mut applied: Vec<Result<(), PlanError>> = self.given().iter().map(missing).collect();
         for entry in entries {
-            let contract = named.map_or(entry.info.contract, |named| named.contract);
+            let contract =
+                Contract::from_words(words, Some(&entry.info.contract)).map_err(PlanError)?;
             let decimals = |values: &[&str]| -> Vec<EpsilonText> {
                 let text = |text: &&str| EpsilonText::of(text).expect("the kernel's own epsilons");
                 values.iter().map(text).collect()
@@ -228,7 +88,6 @@ impl EpsilonChoice {
                     set: set.name.to_owned(),
                     epsilons: decimals(set.values),
                     contract,
-                    contract_name,
                 })),
                 EpsilonChoice::Preset(name) => {
                     let preset = find_preset(name)?;
@@ -251,7 +110,7 @@ impl EpsilonChoice {
                         } else {
                             format!("{name}: {}", taken.join("+"))
                         };
-                        rows.push(Row { entry, set, epsilons, contract, contract_name });
+                        rows.push(Row { entry, set, epsilons, contract });
                     }
                 }
                 EpsilonChoice::Given(pairs) => {
@@ -275,7 +134,7 @@ impl EpsilonChoice {
                     }
                     let set =
                         if words.is_empty() { sets[0].name.to_owned() } else { words.join(",") };
-                    rows.push(Row { entry, set, epsilons, contract, contract_name });
+                    rows.push(Row { entry, set, epsilons, contract });
                 }
             }
         }
@@ -300,21 +159,10 @@ impl EpsilonChoice {
 /// The preset of a name.
 fn find_preset(name: &str) -> Result<&'static Preset, PlanError> {
     PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
-        let near = nearest_name(name, PRESETS.iter().map(|preset| preset.name));
-        PlanError(format!(
-            "unknown epsilon preset '{name}'{}",
-            did_you_mean(near, "hairline list presets")
-        ))
+        let names = PRESETS.iter().map(|preset| preset.name);
+        let advice = did_you_mean(name, names, "hairline list presets");
+        PlanError(format!("unknown epsilon preset '{name}'{advice}"))
     })
-}
-
-impl From<PresetValue> for EpsilonText {
-    fn from(value: PresetValue) -> EpsilonText {
-        match value {
-            PresetValue::Decimal(text) => EpsilonText::Decimal(text.to_owned()),
-            PresetValue::MachineEpsilon(factor) => EpsilonText::MachineEpsilon(factor),
-        }
-    }
 }
 
 /// An epsilon that a gate can take.
@@ -340,20 +188,9 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanErr
 }
 
 fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
-    let gates = || entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
-    let near = nearest_name(name, gates());
-    PlanError(format!(
-        "no selected kernel has a gate '{name}'{}",
-        did_you_mean(near, "hairline list kernels")
-    ))
-}
-
-/// `; did you mean 'x'?` or where to look.
-pub(crate) fn did_you_mean(near: Option<&str>, list: &str) -> String {
-    match near {
-        Some(near) => format!("; did you mean '{near}'?"),
-        None => format!("; see `{list}`"),
-    }
+    let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
+    let advice = did_you_mean(name, gates, "hairline list kernels");
+    PlanError(format!("no selected kernel has a gate '{name}'{advice}"))
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 
 use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
-use super::plan::{Plan, Row};
-use super::rows::Rows;
+use super::plan::Plan;
+use super::row::Row;
+use super::rows::{Rows, verdicts_of};
 use super::shard::Shard;
 use super::source::Source;
 use super::stored::ScalarName;
@@ -253,27 +254,6 @@ impl<'a, F: Scalar> Runner<'a, F> {
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
             }
-        }
-    }
-}
-
-/// Runs a kernel on all cases.
-pub(crate) fn verdicts_of<F: Float>(
-    subject: &dyn Subject<F>,
-    cases: &[Case<F>],
-    epsilons: &[F],
-    verdicts: &mut [Verdict<F>],
-) {
-    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
-    };
-    if run(cases, verdicts).is_ok() {
-        return;
-    }
-    // Once more, one by one, to pin the cases at which it panicked.
-    for i in 0..cases.len() {
-        if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
-            verdicts[i] = Verdict::failed(Failure::Panic);
         }
     }
 }

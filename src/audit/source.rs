@@ -1,7 +1,6 @@
 //! Where a plan's cases come from, by index.
 
-use super::chunk::CHUNK;
-use super::command::quoted;
+use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily};
@@ -9,6 +8,9 @@ use crate::kernel::Scalar;
 use crate::mesh::{Part, Surface, Targets};
 use crate::truth::Truth;
 use std::sync::Arc;
+
+/// Indices that go through a run together.
+pub(crate) const CHUNK: u64 = 1024;
 
 /// A source of cases.
 #[derive(Clone)]
@@ -228,7 +230,8 @@ impl Source {
     pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
         let id = match self {
             Source::Family { family, parameters, exhaustive: true, .. } => {
-                // The in-order index of the lattice is its own set, seed "0" of version "all".
+                // In its natural order the lattice has a name of its own: `lattice-all@1/f32/-/0/17`,
+                // whose seed is always 0.
                 let mut id = family.id::<F>(parameters, 0, index);
                 id.family = format!("{}-all", family.name);
                 id

@@ -1,34 +1,23 @@
 //! Plans and sums as data, so that the parts of a run can be added up by another process.
 
-use super::plan::{EpsilonText, Plan, Row};
+use super::plan::Plan;
+use super::row::{Row, RowSpec};
 use super::run::Audit;
 use super::source::Source;
 use crate::case::Parameters;
-use crate::contract::{Band, NAMED};
 use crate::family;
 use crate::judge::Class;
-use crate::kernel;
 use serde::{Deserialize, Serialize};
 
 /// A plan with names for what is built in, and paths for what is not.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredPlan {
-    rows: Vec<StoredRow>,
+    rows: Vec<RowSpec>,
     sources: Vec<StoredSource>,
     scalars: [bool; 2],
     examples: usize,
     attribute: usize,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StoredRow {
-    kernel: String,
-    set: String,
-    epsilons: Vec<EpsilonText>,
-    contract: Option<String>,
-    band: Option<String>,
 }
 
 /// A source that can be opened again.
@@ -82,15 +71,8 @@ pub enum StoredSource {
 impl StoredPlan {
     /// Of a plan.
     pub fn of(plan: &Plan) -> StoredPlan {
-        let row = |row: &Row| StoredRow {
-            kernel: row.entry.info.name.to_owned(),
-            set: row.set.clone(),
-            epsilons: row.epsilons.clone(),
-            contract: row.contract_name.map(str::to_owned),
-            band: row.contract.band.map(|band| band.to_string()),
-        };
         StoredPlan {
-            rows: plan.rows.iter().map(row).collect(),
+            rows: plan.rows.iter().map(Row::spec).collect(),
             sources: plan.sources.iter().map(StoredSource::of).collect(),
             scalars: plan.scalars,
             examples: plan.examples,
@@ -109,30 +91,11 @@ impl StoredPlan {
         });
         Ok(Plan {
             sources: sources.collect::<Result<_, E>>()?,
-            rows: self.rows.iter().map(StoredRow::row).collect::<Result<_, String>>()?,
+            rows: self.rows.iter().map(RowSpec::row).collect::<Result<_, _>>().map_err(|e| e.0)?,
             scalars: self.scalars,
             examples: self.examples,
             attribute: self.attribute,
         })
-    }
-}
-
-impl StoredRow {
-    fn row(&self) -> Result<Row, String> {
-        let entry = kernel::find(&self.kernel)
-            .ok_or_else(|| format!("unknown kernel '{}'", self.kernel))?;
-        let named = |name: &String| {
-            let found = NAMED.iter().find(|named| named.name == name);
-            found.ok_or_else(|| format!("unknown contract '{name}'"))
-        };
-        let named = self.contract.as_ref().map(named).transpose()?;
-        let mut contract = named.map_or(entry.info.contract, |named| named.contract);
-        contract.band = self.band.as_deref().map(str::parse::<Band>).transpose()?;
-        if self.epsilons.len() != entry.info.gates.len() {
-            return Err(format!("{} does not have {} gates", self.kernel, self.epsilons.len()));
-        }
-        let (set, epsilons) = (self.set.clone(), self.epsilons.clone());
-        Ok(Row { entry, set, epsilons, contract, contract_name: named.map(|named| named.name) })
     }
 }
 

@@ -9,6 +9,7 @@ use crate::corpus::mesh::Mesh;
 use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
 use crate::kernel::Scalar;
 use crate::mesh::{Part, Targets, Topology};
+use crate::report::number_of;
 use clap::Args;
 
 /// Which case.
@@ -142,10 +143,9 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
 /// The triangle of a group that an id names, or all.
 fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Case<F>>, Failure> {
     let Some(triangle) = id.triangle else { return Ok(cases) };
-    let count = cases.len();
+    let count = number_of(cases.len() as u64, "triangle", "triangles");
     let case = cases.get(triangle).copied();
-    let case = case
-        .ok_or_else(|| Failure::usage(format!("'{id}' has {count} triangles, counted from 0")))?;
+    let case = case.ok_or_else(|| Failure::usage(format!("'{id}' has {count}, counted from 0")))?;
     Ok(vec![case])
 }
 

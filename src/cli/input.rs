@@ -8,7 +8,7 @@ use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::{Mesh, read_obj};
 use crate::corpus::truth_json::TruthLine;
 use crate::oracle;
-use crate::report::{Record, SCHEMA};
+use crate::report::{Record, SCHEMA, number_of};
 use serde::Deserialize;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
@@ -62,8 +62,10 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     progress.finish();
     let mesh = mesh?;
     if !quiet {
-        let (triangles, vertices) = (mesh.triangles.len(), mesh.positions_f64.len());
-        eprintln!("{path}: {triangles} triangles, {vertices} vertices, {} groups", mesh.groups);
+        let triangles = number_of(mesh.triangles.len() as u64, "triangle", "triangles");
+        let vertices = number_of(mesh.positions_f64.len() as u64, "vertex", "vertices");
+        let groups = number_of(mesh.groups as u64, "group", "groups");
+        eprintln!("{path}: {triangles}, {vertices}, {groups}");
         mesh.notes.iter().for_each(|note| eprintln!("{path}: {note}"));
     }
     Ok(mesh)

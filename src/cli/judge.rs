@@ -5,12 +5,11 @@ use super::case::family_of;
 use super::exit::{Failure, Status};
 use super::input::open;
 use super::reporting::ReportArguments;
-use super::select::named_contract;
 use crate::arith::Float;
 use crate::audit::{Answers, Audit, CHUNK, EpsilonChoice, Given, Plan, Row, Source};
 use crate::case::CaseId;
-use crate::conforms;
-use crate::contract::{Contract, NamedContract};
+use crate::conformance::conforms;
+use crate::contract::Contract;
 use crate::corpus::InputError;
 use crate::engine::Unobserved;
 use crate::kernel::{Entry, Gives, KernelInfo, Scalar, Verdict};
@@ -45,7 +44,7 @@ const ATTRIBUTE: usize = 100;
 /// Runs the command.
 pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
     let outputs = arguments.report.outputs()?;
-    let named = arguments.contract.as_deref().map(named_contract).transpose()?.flatten();
+    let contract = arguments.contract.as_deref();
     let mut lines = Lines::open(&arguments.file)?;
     let mut line = lines.next()?;
     let no_verdicts = || {
@@ -62,11 +61,11 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
         info = KernelInfo { gates: &[], ..*hello(&mut lines, line)? };
         info.epsilon_sets = KernelInfo::own("", Contract::CLOSED_RAY).epsilon_sets;
         line = lines.next()?;
-    } else if named.is_none() {
+    } else if contract.is_none_or(|words| words.starts_with("own")) {
         let message = "there is no hello that states a contract: give --contract NAME";
         return Err(lines.error(message).into());
     }
-    let mut sets = Sets::new(info, named, arguments.examples)?;
+    let mut sets = Sets::new(info, contract, arguments.examples)?;
     let mut count = 0;
     let ended = loop {
         let Some(text) = line else { break false };
@@ -129,16 +128,12 @@ struct Sets {
 }
 
 impl Sets {
-    fn new(
-        info: KernelInfo,
-        named: Option<&'static NamedContract>,
-        examples: usize,
-    ) -> Result<Sets, Failure> {
+    fn new(info: KernelInfo, contract: Option<&str>, examples: usize) -> Result<Sets, Failure> {
         let given: (&Given<f32>, &Given<f64>) =
             (Box::leak(Box::default()), Box::leak(Box::default()));
         let entry = Entry::new(Box::leak(Box::new(info))).with_f32(given.0).with_f64(given.1);
         let entry: &'static Entry = Box::leak(Box::new(entry.chosen_by("")));
-        let row = EpsilonChoice::Source.rows(&[entry], named)?.remove(0);
+        let row = EpsilonChoice::Source.rows(&[entry], contract)?.remove(0);
         Ok(Sets {
             row,
             given,

@@ -4,12 +4,12 @@
 
 mod audit;
 mod case;
-mod check;
+pub(crate) mod check;
 mod config;
 mod corpus;
 mod diff;
 mod epsilon;
-mod exit;
+pub(crate) mod exit;
 mod explain;
 mod fuzz;
 mod generate;
@@ -34,8 +34,7 @@ mod triage;
 mod truth;
 mod worst;
 
-pub use check::read_settings;
-pub use exit::{Failure, Status};
+use exit::Status;
 
 use crate::kernel::{self, Entry};
 use crate::plugin;
@@ -112,7 +111,7 @@ pub fn main() -> ExitCode {
 /// become exit codes.
 ///
 /// ```no_run
-/// use hairline::{case::Case, contract::Contract, kernel::{Entry, Hit, KernelInfo}};
+/// use hairline::{Case, Contract, Entry, Hit, KernelInfo};
 ///
 /// const INFO: KernelInfo = KernelInfo::own("mine", Contract::CLOSED_RAY);
 ///

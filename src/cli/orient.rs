@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::audit::EpsilonText;
-use crate::corpus::points_json::{self, AnyPoints};
+use crate::orientation::points_json::{self, AnyPoints};
 use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
     Scalar, build, default_rows, find_family, find_known, show,

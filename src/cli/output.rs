@@ -1,7 +1,7 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
-use crate::kernel::nearest_name;
+use crate::suggest::nearest_name;
 use clap::ValueEnum;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};

@@ -1,7 +1,7 @@
 //! The kernels that a command line brings along: libraries and commands.
 
 use super::exit::{Failure, Status};
-use crate::audit::quoted;
+use crate::audit::{quoted, shell_word};
 use crate::kernel::{self, Entry, Scalar, Trouble};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
 use clap::Args;
@@ -62,6 +62,15 @@ impl PluginArguments {
     /// Whether any kernel is brought along.
     pub fn names_kernels(&self) -> bool {
         !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
+    }
+
+    /// The flags that bring the kernels along, as a shell takes them.
+    pub fn flags(&self) -> Vec<String> {
+        let libraries =
+            self.kernel_lib.iter().map(|path| format!("--kernel-lib {}", shell_word(path)));
+        let commands =
+            self.kernel_cmd.iter().map(|line| format!("--kernel-cmd {}", shell_word(line)));
+        libraries.chain(commands).collect()
     }
 
     /// Starts the kernels and puts them into the table.

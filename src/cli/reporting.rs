@@ -9,8 +9,8 @@ use super::sources::{SourceArguments, rays_at_each, scalars_in_use, set_threads,
 use crate::audit::{self, Plan, Shard, Source};
 use crate::engine::Unobserved;
 use crate::report::{
-    Context, FORMATS, Format, HTML, PartialPart, Record, Style, build, illustrations, number_of,
-    shard_part,
+    Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, illustrations,
+    number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -174,6 +174,8 @@ impl RunArguments {
         let seconds = progress.seconds();
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
+        record.provenance.plan_flags =
+            Some(PlanFlags { kernels: self.kernels.flags(), sources: self.sources.flags() });
         if illustrate {
             let progress = Progress::without_end(self.report.quiet);
             progress.tell("epsilons and maps for the pictures".to_owned());

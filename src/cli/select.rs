@@ -3,9 +3,10 @@
 use super::exit::Failure;
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::{EpsilonChoice, Row};
-use crate::contract::{Band, NAMED, NamedContract};
-use crate::kernel::{self, Entry, nearest_name};
+use crate::audit::{EpsilonChoice, Row, shell_word};
+use crate::contract::Band;
+use crate::kernel::{self, Entry};
+use crate::suggest::did_you_mean;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
@@ -39,8 +40,9 @@ pub struct KernelArguments {
     #[arg(long, value_name = "NAME")]
     epsilon_preset: Option<String>,
 
-    /// One contract for all kernels instead of each one's own (see `hairline list contracts`)
-    #[arg(long, value_name = "NAME")]
+    /// One contract for all kernels instead of each one's own: a name (see `hairline list contracts`),
+    /// or words as own,coplanar=free or extent=ray,sides=both,boundary=closed
+    #[arg(long, value_name = "CONTRACT")]
     contract: Option<String>,
 
     /// Ask nothing nearer than this to where another verdict would be right: in longest edges of the
@@ -64,11 +66,10 @@ impl KernelArguments {
             .map(str::parse)
             .transpose()
             .map_err(|error| Failure::usage(format!("--band: {error}")))?;
-        let contract = self.contract.as_deref().map(named_contract).transpose()?.flatten();
         let entries = self.in_arithmetics(self.entries()?)?;
-        let mut rows = self.choice()?.rows(&entries, contract)?;
-        for row in &mut rows {
-            row.contract.band = band;
+        let mut rows = self.choice()?.rows(&entries, self.contract.as_deref())?;
+        if band.is_some() {
+            rows.iter_mut().for_each(|row| row.contract.band = band);
         }
         Ok(rows)
     }
@@ -86,6 +87,22 @@ impl KernelArguments {
             Some((what, _)) => Err(Failure::usage(format!("{what} is not for points"))),
             None => Ok((&self.kernel, self.epsilon.as_deref())),
         }
+    }
+
+    /// The flags again, as a shell takes them.
+    pub fn flags(&self) -> String {
+        let mut flags = self.plugins.flags();
+        let mut add = |name: &str, value: Option<String>| {
+            flags.extend(value.map(|value| format!("--{name} {}", shell_word(&value))));
+        };
+        let list = |values: &[String]| Some(values.join(",")).filter(|list| !list.is_empty());
+        add("kernel", list(&self.kernel));
+        add("arithmetic", list(&self.arithmetic));
+        add("epsilon", self.epsilon.clone());
+        add("epsilon-preset", self.epsilon_preset.clone());
+        add("contract", self.contract.clone());
+        add("band", self.band.clone());
+        flags.join(" ")
     }
 
     /// Whether any kernel is named.
@@ -176,16 +193,6 @@ impl KernelArguments {
     }
 }
 
-/// A contract by its name; none for `own`, each kernel's own.
-pub fn named_contract(name: &str) -> Result<Option<&'static NamedContract>, Failure> {
-    let names = NAMED.iter().map(|named| named.name);
-    match NAMED.iter().find(|named| named.name == name) {
-        Some(named) => Ok(Some(named)),
-        None if name == "own" => Ok(None),
-        None => Err(unknown("contract", name, names, "hairline list contracts")),
-    }
-}
-
 /// The error for a name that is not in a table.
 pub fn unknown<'a>(
     what: &str,
@@ -193,11 +200,7 @@ pub fn unknown<'a>(
     names: impl IntoIterator<Item = &'a str>,
     list: &str,
 ) -> Failure {
-    let advice = match nearest_name(name, names) {
-        Some(near) => format!("; did you mean '{near}'?"),
-        None => format!("; see `{list}`"),
-    };
-    Failure::usage(format!("unknown {what} '{name}'{advice}"))
+    Failure::usage(format!("unknown {what} '{name}'{}", did_you_mean(name, names, list)))
 }
 
 /// The most cases of one family: beyond it a run would take years.

@@ -1,7 +1,7 @@
 //! `hairline.toml`: the settings of `check`, under the environment and the command line.
 
 use super::exit::{Failure, Status};
-use crate::kernel::nearest_name;
+use crate::suggest::nearest_name;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 

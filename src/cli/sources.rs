@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::input::{corpus_files, corpus_set, read_mesh};
 use super::select::{case_count, chosen_scalars, unknown};
-use crate::audit::{Row, Source};
+use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use clap::Args;
@@ -64,6 +64,39 @@ pub struct SourceArguments {
 }
 
 impl SourceArguments {
+    /// The flags again, as a shell takes them.
+    pub fn flags(&self) -> String {
+        let mut flags = Vec::new();
+        let mut add = |name: &str, value: &str| {
+            flags.push(format!("--{name} {}", shell_word(value)).trim_end().to_owned());
+        };
+        add("scalar", &self.scalar.join(","));
+        if !self.family.is_empty() {
+            add("family", &self.family.join(","));
+        }
+        self.mesh.iter().for_each(|path| add("mesh", path));
+        self.corpus.iter().for_each(|path| add("corpus", path));
+        add("count", &self.count);
+        add("seed", &self.seed.to_string());
+        if self.scale != "1" {
+            add("scale", &self.scale);
+        }
+        if let Some(offset) = &self.offset {
+            add("offset", offset);
+        }
+        if let Some(direction) = &self.direction {
+            add("direction", direction);
+        }
+        for (name, given) in
+            [("exhaustive", self.exhaustive), ("scale-direction", self.scale_direction)]
+        {
+            if given {
+                flags.push(format!("--{name}"));
+            }
+        }
+        flags.join(" ")
+    }
+
     /// Whether in `f32`, and whether in `f64`.
     pub fn scalars(&self) -> Result<[bool; 2], Failure> {
         chosen_scalars(&self.scalar)

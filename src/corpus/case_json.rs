@@ -16,7 +16,7 @@ const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
 
 /// The case that stands in a line, and what stands beside it.
-pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
+pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     let [name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found] =
         json::fields(
             text,
@@ -97,7 +97,7 @@ fn parse_vector<F: Float>(
 }
 
 /// A JSON number or a string, from its text.
-pub(super) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
+pub(crate) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
     let text = value.get();
     let number = match text.as_bytes().first() {
         Some(b'"') => json::string(value).and_then(|text| number::parse(&text)),
@@ -130,7 +130,7 @@ fn parse_pattern<F: Float>(value: &RawValue) -> Result<F, String> {
 }
 
 /// The case and what stands beside it, with its bit patterns.
-pub(super) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
+pub(crate) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
     let mut fields = Vec::new();
     let mut bits = Vec::new();
     let text = |text: &String| Value::from(text.as_str()).to_string();

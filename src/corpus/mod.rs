@@ -2,15 +2,13 @@
 
 #![forbid(unsafe_code)]
 
-mod case_json;
+pub(crate) mod case_json;
 mod fan;
-mod json;
+pub(crate) mod json;
 pub mod lines;
-pub mod manifest;
 pub mod mesh;
 pub mod number;
 mod obj;
-pub mod points_json;
 mod provenance;
 pub mod shapes;
 mod stored_truth;
@@ -54,3 +52,8 @@ impl fmt::Display for InputError {
 }
 
 impl std::error::Error for InputError {}
+
+/// Bytes as lower-case hexadecimal digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -2,12 +2,12 @@
 
 use crate::contract::{Contract, Extent, Sides};
 use crate::judge::Class;
-use crate::kernel::{Gate, Tunable};
+use crate::kernel::{Gate, Role, Tunable};
 
 /// Which cases that must be missed a gate is there to refuse.
 ///
-/// A gate on t guards the ends of the extent; a gate on the determinant or on n·d guards rays
-/// parallel to the plane and triangles without area, and with a sign the side as well; edge gates
+/// By its [`Role`]: a gate on t guards the ends of the extent; a gate on the determinant or on n·d guards
+/// rays parallel to the plane and triangles without area, and with a sign the side as well; the others
 /// guard everything else, and whatever has no gate of its own.
 #[derive(Clone, Debug)]
 pub struct Duty {
@@ -16,16 +16,14 @@ pub struct Duty {
     guards_start: bool,
 }
 
-const PARALLEL: &str = "parallel";
-const T: &str = "t";
-
 impl Duty {
     /// Of one of a kernel's gates under a contract.
     pub fn of(gates: &[Gate], gate: usize, contract: &Contract) -> Duty {
-        let has = |name: &str| gates.iter().any(|gate| gate.name == name);
-        let culls =
-            gates.iter().any(|gate| gate.name == PARALLEL && gate.epsilon == Tunable::Signed);
-        let name = gates[gate].name;
+        let has = |role: Role| gates.iter().any(|gate| gate.role == role);
+        let is_culling =
+            |gate: &Gate| gate.role == Role::Parallel && gate.epsilon == Tunable::Signed;
+        let culls = gates.iter().any(is_culling);
+        let role = gates[gate].role;
         let mut classes = [false; Class::COUNT];
         for class in Class::all() {
             let off_the_ends = class.is_off_the_interval() && contract.extent != Extent::Line;
@@ -34,19 +32,19 @@ impl Duty {
             // Inside the triangle nothing must be missed but what lies on an open end.
             let at_an_end = within && class.part() == "interior" && contract.extent != Extent::Line;
             let outside = within && class.part() != "interior" || class.part() == "outside";
-            classes[class.number()] = match name {
-                PARALLEL => class.is_flat() || from_behind && culls,
-                T => off_the_ends || at_an_end,
-                _ => {
+            classes[class.number()] = match role {
+                Role::Parallel => class.is_flat() || from_behind && culls,
+                Role::T => off_the_ends || at_an_end,
+                Role::Edge | Role::Other => {
                     outside
-                        || class.is_flat() && !has(PARALLEL)
-                        || (off_the_ends || at_an_end) && !has(T)
+                        || class.is_flat() && !has(Role::Parallel)
+                        || (off_the_ends || at_an_end) && !has(Role::T)
                         || from_behind && !culls
                 }
             };
         }
-        let guards_start = gates[gate].guards_start() && contract.extent != Extent::Line;
-        Duty { classes, guards_start }
+        // The epsilon of a gate on t keeps a ray from hitting the triangle that it starts on.
+        Duty { classes, guards_start: role == Role::T && contract.extent != Extent::Line }
     }
 
     /// Whether the gate guards a class.

@@ -68,14 +68,31 @@ impl Decimal {
         })
     }
 
+    /// Rounded to some digits, 1 to 17, a half upwards.
+    pub fn rounded(self, digits: u32) -> Decimal {
+        let unit = 10u64.pow(DIGITS - digits);
+        let rounded = (self.digits + unit / 2) / unit * unit;
+        match rounded == 10u64.pow(DIGITS) {
+            true => Decimal { exponent: self.exponent + 1, digits: rounded / 10 },
+            false => Decimal { digits: rounded, ..self },
+        }
+    }
+
+    /// Rounded to some digits, with zeros at the end.
+    pub fn with_digits(self, digits: u32) -> String {
+        let Decimal { exponent, digits: all } = self.rounded(digits);
+        if all == 0 {
+            return "0".to_owned();
+        }
+        let text = (all / 10u64.pow(DIGITS - digits)).to_string();
+        let (first, rest) = text.split_at(1);
+        let point = if rest.is_empty() { "" } else { "." };
+        format!("{first}{point}{rest}e{exponent}")
+    }
+
     /// Rounded to four digits, for people.
     pub fn brief(self) -> String {
-        const UNIT: u64 = 10u64.pow(DIGITS - 4);
-        match (self.digits + UNIT / 2) / UNIT {
-            0 => "0".to_owned(),
-            10_000 => format!("1.000e{}", self.exponent + 1),
-            digits => format!("{}.{:03}e{}", digits / 1000, digits % 1000, self.exponent),
-        }
+        self.with_digits(4)
     }
 
     /// The nearest `f64`; infinite beyond its range.
@@ -192,6 +209,12 @@ mod tests {
         assert_eq!(brief("9.9994e411"), "9.999e411");
         assert_eq!(brief("1e0"), "1.000e0");
         assert_eq!(Decimal::ZERO.brief(), "0");
+        let third: Decimal = "3.3333333333333333e-1".parse().unwrap();
+        assert_eq!(
+            (third.with_digits(1), third.with_digits(7)),
+            ("3e-1".into(), "3.333333e-1".into())
+        );
+        assert_eq!(third.rounded(17), third);
     }
 
     #[test]

@@ -2,11 +2,14 @@
 //!
 //! | objective | what is scored | unit |
 //! |---|---|---|
-//! | `margin` | the error of a gate's margin | ulps of the gate's scale |
+//! | `margin` | the error of what a gate compares with its epsilon | ulps of the gate's scale |
 //! | `t` | the error of t | ulps of the exact t |
 //! | `uv` | the larger error of u and v | ulps of 1 |
 //! | `false-miss` | how far inside a line passes that the gate refused | longest edges |
 //! | `false-hit` | how far outside a line passes that the gate let through | longest edges |
+//!
+//! Of a gate `x <= e` the largest epsilon that it accepts is the float below x; what is scored is x, its
+//! threshold, for an exact number has none below.
 //!
 //! An absolute error of a margin says nothing: its unit is a power of length, times a power of |d|
 //! ([`Dimension`]). A gate's *scale* on a case is E^p·|d|^q, with the dimension's powers p and q, E the
@@ -20,7 +23,7 @@
 //! hit that is not a false one, if finite; a false miss at the gate that refused; a false hit at the
 //! first gate that refuses when the same formula is run without rounding. A false hit that the
 //! formula itself makes is convention, not error, and has no score; nor has one before or beyond the
-//! extent, except at a gate called `t`.
+//! extent, except at a gate on t.
 
 use super::domain::Domain;
 use crate::arith::{Exact, Float, Real, Vector};
@@ -28,14 +31,14 @@ use crate::audit::{Row, values};
 use crate::case::{Case, Ray, Triangle};
 use crate::judge::{Distances, Finding, asked, exact_to_change, is_in_extent, judge};
 use crate::kernel::gate::refused_by;
-use crate::kernel::{Dimension, KernelInfo, Scalar, Tunable, Verdict};
+use crate::kernel::{Dimension, KernelInfo, Role, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
 
 /// What is made as bad as it can be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Objective {
-    /// The error of a gate's margin.
+    /// The error of what a gate compares with its epsilon.
     Margin,
     /// The error of t.
     T,
@@ -170,34 +173,36 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         }
     }
 
-    /// The margin of the target's gate, if the gate is reached and the margin is finite.
-    fn reached_margin(&self, case: &Case<F>) -> Option<(usize, F)> {
+    /// The threshold of the target's gate, if the gate is reached and the threshold is finite. Thresholds
+    /// are compared, not margins: the margin of a gate `x <= e` is a float below x, of no exact number.
+    fn reached_threshold(&self, case: &Case<F>) -> Option<(usize, F)> {
         let gate = self.target.gate?;
-        let margins = F::subject(self.row.entry)?.gated()?.measure(case).margins;
+        let gated = F::subject(self.row.entry)?.gated()?;
+        let margins = gated.measure(case).margins;
         let reached = refused_by(&margins, &self.epsilons).is_none_or(|refused| gate <= refused);
-        let margin = margins[gate];
-        (reached && margin.is_finite()).then_some((gate, margin))
+        let threshold = reached.then(|| gated.thresholds(case)[gate])?;
+        threshold.is_finite().then_some((gate, threshold))
     }
 
     fn quick_margin(&self, case: &Case<F>) -> Option<f64> {
-        let (gate, margin) = self.reached_margin(case)?;
+        let (gate, threshold) = self.reached_threshold(case)?;
         let wide = case.widen();
-        let exact = f64::subject(self.row.entry)?.gated()?.measure(&wide).margins[gate];
+        let exact = f64::subject(self.row.entry)?.gated()?.thresholds(&wide)[gate];
         let scale = scale(&wide.ray, &wide.triangle, self.row.entry.info.gates[gate].dimension);
         let unit = scale.max(exact.abs()) * F::EPSILON.to_f64();
-        let error = (margin.to_f64() - exact).abs() / unit;
+        let error = (threshold.to_f64() - exact).abs() / unit;
         error.is_finite().then_some(error)
     }
 
     fn exact_margin(&self, case: &Case<F>) -> Option<Exact> {
-        let (gate, margin) = self.reached_margin(case)?;
+        let (gate, threshold) = self.reached_threshold(case)?;
         let gated = F::subject(self.row.entry)?.gated()?;
         let exact = gated.measure_exact(case).margins.swap_remove(gate);
         let (ray, triangle) = case.exact();
         let scale = scale(&ray, &triangle, self.row.entry.info.gates[gate].dimension);
         let size = exact.abs();
         let unit = if scale.is_less(&size) { size } else { scale };
-        let error = (of(margin) - exact).abs() / (unit * of(F::EPSILON));
+        let error = (of(threshold) - exact).abs() / (unit * of(F::EPSILON));
         error.is_finite().then_some(error)
     }
 
@@ -266,7 +271,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             }
             (Objective::FalseHit, Finding::FalseHit) => {
                 let gates = self.row.entry.info.gates;
-                let tests_t = self.target.gate.is_some_and(|gate| gates[gate].name == "t");
+                let tests_t = self.target.gate.is_some_and(|gate| gates[gate].role == Role::T);
                 let extent = self.row.contract.extent;
                 let off_end = truth.crossing().is_some_and(|c| !is_in_extent(c, extent));
                 let refusing = exactly_refusing(self.row, &self.epsilons, case);
@@ -314,14 +319,9 @@ fn of<F: Float>(value: F) -> Exact {
     Exact::from_f64(value.to_f64())
 }
 
-/// A score as a float, right even where `p` and `q√r` cancel.
+/// A score as a float; beyond the floats there is still something to climb on.
 fn nearest(value: &Exact) -> f64 {
-    match value {
-        Exact::Root { .. } => super::Decimal::of(value).map_or(f64::NAN, super::Decimal::to_f64),
-        // Beyond the floats there is still something to climb on.
-        _ if value.is_finite() => value.approximate().min(f64::MAX),
-        _ => f64::NAN,
-    }
+    if value.is_finite() { value.approximate().min(f64::MAX) } else { f64::NAN }
 }
 
 /// A gate's scale on a case: E^p·|d|^q.

@@ -28,9 +28,8 @@ pub struct Shrunk<F: Float> {
 /// steps away. Shrinking it again changes nothing.
 ///
 /// ```
-/// use hairline::case::Case;
-/// use hairline::oracle::truth;
-/// use hairline::explore::shrink;
+/// use hairline::internals::explore::shrink;
+/// use hairline::{Case, truth};
 ///
 /// let triangle = [[0.1, 0.2, 0.3], [4.7, 0.1, 0.4], [0.3, 5.9, 0.2]];
 /// let case = Case::<f64>::new([1.1, 1.3, 7.0], [0.01, 0.02, -0.9], triangle);

@@ -29,13 +29,13 @@ pub fn rust_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature)
 /// Contract: {contract}.
 #[test]
 fn {name}() {{
-    use hairline::kernel::{{Scalar, Verdict, find}};
+    use hairline::{{Case, Scalar, Verdict, find, truth}};
     let triangle = [{a}, {b}, {c}];
-    let case = hairline::case::Case::<{scalar}>::new({origin}, {direction}, triangle);{interval}
+    let case = Case::<{scalar}>::new({origin}, {direction}, triangle);{interval}
     let kernel = {scalar}::subject(find(\"{kernel}\").unwrap()).unwrap();
     let mut verdict = [Verdict::miss(None)];
     kernel.run(&[case], &{epsilons}, &mut verdict);
-    assert_eq!(hairline::oracle::truth(&case).to_string(), \"{truth}\");
+    assert_eq!(truth(&case).to_string(), \"{truth}\");
     // {asked}
     assert!({not}verdict[0].hit);
 }}

@@ -12,6 +12,7 @@ mod flat;
 pub(crate) mod integer;
 mod interval;
 mod lattice;
+pub mod manifest;
 mod mesh;
 mod neighbours;
 mod origin;
@@ -28,6 +29,7 @@ use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
+use std::any::Any;
 
 /// The triangles that one index of a family makes: one, or a group that shares a ray.
 #[derive(Clone, Debug)]
@@ -99,9 +101,12 @@ pub struct Family {
     /// The number of its cases, if there are finitely many.
     pub size: Option<u64>,
     keeps: fn(&[Truth]) -> bool,
-    make_f32: fn(&Parameters, &mut Draw, u64) -> Made<f32>,
-    make_f64: fn(&Parameters, &mut Draw, u64) -> Made<f64>,
+    make_f32: Generator<f32>,
+    make_f64: Generator<f64>,
 }
+
+/// Makes the case of an index in one scalar.
+type Generator<F> = fn(&Parameters, &mut Draw, u64) -> Made<F>;
 
 const fn row<R: Recipe>() -> Family {
     Family {
@@ -168,12 +173,19 @@ impl Family {
     pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
         let mut draw = Draw::new(self.name, seed, index);
         let index = self.size.map_or(index, |size| lattice::shuffled(index % size, seed));
-        F::make(self, parameters, &mut draw, index)
+        self.generator::<F>()(parameters, &mut draw, index)
     }
 
     /// Case `index` in the natural order of a finite family.
     pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> Made<F> {
-        F::make(self, parameters, &mut Draw::new(self.name, 0, index), index)
+        self.generator::<F>()(parameters, &mut Draw::new(self.name, 0, index), index)
+    }
+
+    /// The generator of a scalar, which is one of the two.
+    fn generator<F: Scalar>(&self) -> Generator<F> {
+        let both: [&dyn Any; 2] = [&self.make_f32, &self.make_f64];
+        let found = both.into_iter().find_map(|make| make.downcast_ref::<Generator<F>>());
+        *found.expect("a scalar is f32 or f64")
     }
 
     /// Whether the truths of one index keep the promise.
@@ -192,24 +204,6 @@ impl Family {
             index,
             triangle: None,
         }
-    }
-}
-
-/// A scalar that families make cases in.
-pub trait Makes: Float {
-    /// Calls the family's generator of this scalar.
-    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<Self>;
-}
-
-impl Makes for f32 {
-    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<f32> {
-        (family.make_f32)(parameters, draw, index)
-    }
-}
-
-impl Makes for f64 {
-    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<f64> {
-        (family.make_f64)(parameters, draw, index)
     }
 }
 

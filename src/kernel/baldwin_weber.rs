@@ -5,7 +5,7 @@
 //! is the axis of the normal's largest component. Guards as printed: t ≤ near or ≥ far is a miss, and
 //! x + y < 1 is strict where x and y are not, so edge bc is lost.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, gap};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -31,9 +31,10 @@ impl Kernel for BaldwinWeber {
         source: "Baldwin and Weber (2016), nine-coefficient form",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::fixed("column", "no component of the normal is the largest: no fixed column"),
-            Gate::signed("t", "t - t_min <= e, t_max - t <= e", 1, -1),
-            Gate::signed("edge", "!(x >= e), !(y >= e), !(1-(y+x) > e)", 0, 0),
+            Gate::fixed(Role::Other, "no component of the normal is the largest: no fixed column")
+                .named("column"),
+            Gate::signed(Role::T, "t - t_min <= e, t_max - t <= e", 1, -1),
+            Gate::signed(Role::Edge, "!(x >= e), !(y >= e), !(1-(y+x) > e)", 0, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

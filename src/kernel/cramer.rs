@@ -4,7 +4,7 @@
 //! Graphics: the common subterms of "Implementation" and the pseudo-code's order of tests. The text
 //! names det = 0 the obvious test for no intersection; it comes first.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, gap};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -21,9 +21,9 @@ impl Kernel for Cramer {
         source: "Lecture 9: Triangles, Cramer's rule with common subterms, pseudo-code [seed 003]",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::signed("parallel", "abs(det) <= e", 2, 1),
-            Gate::signed("t", "t - t_min < e, t_max - t < e", 1, -1),
-            Gate::signed("edge", "gamma < e, 1-gamma < e, beta < e, (1-gamma)-beta < e", 0, 0),
+            Gate::signed(Role::Parallel, "abs(det) <= e", 2, 1),
+            Gate::signed(Role::T, "t - t_min < e, t_max - t < e", 1, -1),
+            Gate::signed(Role::Edge, "gamma < e, 1-gamma < e, beta < e, (1-gamma)-beta < e", 0, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

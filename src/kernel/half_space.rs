@@ -5,7 +5,7 @@
 //! speaks of rays. Its remark that with clockwise vertices no point can be inside is mistaken: n is
 //! made from the same vertices and turns along.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::Vector;
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Demand, Extent, Sides};
@@ -21,7 +21,7 @@ impl Kernel for HalfSpace {
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
             .with_flat(Demand::Free, Demand::Free),
         gates: &[Gate::signed(
-            "edge",
+            Role::Edge,
             "!(((b-a)×(x-a))·n >= e), and cyclic, n = (b-a)×(c-a)",
             4,
             0,

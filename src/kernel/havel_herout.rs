@@ -7,7 +7,7 @@
 //! Its t in [0, hit.t] is read with t_min for 0. An infinite t_max times det = 0 is taken as zero, as
 //! any finite hit.t gives; the approximate reciprocal of the listing is a division here.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Sink, end_times, facing_of};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Role, Sink, end_times, facing_of};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -34,9 +34,9 @@ impl Kernel for HavelHerout {
         source: "Havel and Herout (2010), SSE4 listing",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free),
         gates: &[
-            Gate::fixed("t", "sign bits of dett - t_min*det and t_max*det - dett differ"),
-            Gate::fixed("u", "sign bits of detu and det-detu differ"),
-            Gate::fixed("v", "sign bits of detv and det-(detu+detv) differ"),
+            Gate::fixed(Role::T, "sign bits of dett - t_min*det and t_max*det - dett differ"),
+            Gate::fixed(Role::Edge, "sign bits of detu and det-detu differ").named("u"),
+            Gate::fixed(Role::Edge, "sign bits of detv and det-(detu+detv) differ").named("v"),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },

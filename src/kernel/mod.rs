@@ -29,10 +29,12 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
+pub use gate::{
+    Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
+};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
-pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, nearest_name, register};
+pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
 pub use subject::{
     ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,
 };

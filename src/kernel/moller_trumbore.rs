@@ -4,7 +4,7 @@
 //! Graphics Tools 2(1), 1997, appendix: both branches of `TEST_CULL`, EPSILON 0.000001. The paper
 //! returns t untested, so the extent is the line.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, facing_of};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, facing_of};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -24,8 +24,8 @@ impl Kernel for MollerTrumbore {
         source: "Möller and Trumbore (1997), appendix, non-culling branch",
         contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::non_negative("parallel", "abs(det) < e (printed det > -e && det < e)", 2, 1),
-            Gate::signed("edge", "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
+            Gate::non_negative(Role::Parallel, "abs(det) < e (printed det > -e && det < e)", 2, 1),
+            Gate::signed(Role::Edge, "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
         ],
         epsilon_sets: SETS,
         gives: GIVES,
@@ -77,8 +77,8 @@ impl Kernel for MollerTrumboreCulling {
         source: "Möller and Trumbore (1997), appendix, TEST_CULL branch",
         contract: Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed),
         gates: &[
-            Gate::signed("parallel", "det < e", 2, 1),
-            Gate::signed("edge", "u < e, det-u < e, v < e, det-(u+v) < e, undivided", 2, 1),
+            Gate::signed(Role::Parallel, "det < e", 2, 1),
+            Gate::signed(Role::Edge, "u < e, det-u < e, v < e, det-(u+v) < e, undivided", 2, 1),
         ],
         epsilon_sets: SETS,
         gives: GIVES,

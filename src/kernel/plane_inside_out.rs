@@ -6,7 +6,7 @@
 //! edges, N·R = 0 and t < 0 from its text); its last section (any convex polygon). It gives no value
 //! of kEpsilon: the default plan runs 0 and 1e-6.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -21,9 +21,9 @@ const T: usize = 1;
 const EDGE: usize = 2;
 
 const GATES: &[Gate] = &[
-    Gate::non_negative("parallel", "abs(N·d) < e, N = (b-a)×(c-a)", 2, 1),
-    Gate::signed("t", "t < e", 1, -1),
-    Gate::signed("edge", "N·((b-a)×(p-a)) < e, and cyclic", 4, 0),
+    Gate::non_negative(Role::Parallel, "abs(N·d) < e, N = (b-a)×(c-a)", 2, 1),
+    Gate::signed(Role::T, "t < e", 1, -1),
+    Gate::signed(Role::Edge, "N·((b-a)×(p-a)) < e, and cyclic", 4, 0),
 ];
 
 const SETS: &[EpsilonSet] = &[
@@ -136,9 +136,9 @@ impl Kernel for PlaneInsideOutStrict {
     const INFO: KernelInfo = KernelInfo {
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Open),
         gates: &[
-            Gate::signed("parallel", "abs(N·d) <= e, N = (b-a)×(c-a)", 2, 1),
-            Gate::signed("t", "t < e", 1, -1),
-            Gate::signed("edge", "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
+            Gate::signed(Role::Parallel, "abs(N·d) <= e, N = (b-a)×(c-a)", 2, 1),
+            Gate::signed(Role::T, "t < e", 1, -1),
+            Gate::signed(Role::Edge, "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         hits_nan: false,

@@ -5,7 +5,7 @@
 //! a positive EDGE_EPSILON loses them. It is judged by the text. It gives no epsilon values: the
 //! default plan runs 0 and 1e-6.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::Vector;
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -23,9 +23,9 @@ impl Kernel for PlaneUnitNormal {
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
             .with_flat(crate::contract::Demand::Miss, crate::contract::Demand::Free),
         gates: &[
-            Gate::non_negative("parallel", "abs(n·d) < e, n of unit length", 0, 1),
-            Gate::signed("t", "t < e", 1, -1),
-            Gate::signed("edge", "((b-a)×(q-a))·n < e, and cyclic, n of unit length", 2, 0),
+            Gate::non_negative(Role::Parallel, "abs(n·d) < e, n of unit length", 0, 1),
+            Gate::signed(Role::T, "t < e", 1, -1),
+            Gate::signed(Role::Edge, "((b-a)×(q-a))·n < e, and cyclic, n of unit length", 2, 0),
         ],
         epsilon_sets: &[
             EpsilonSet { name: "zero", values: &["0", "0", "0"] },

@@ -179,7 +179,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// A scalar that kernels are registered in.
-pub trait Scalar: Float + crate::family::Makes {
+pub trait Scalar: Float {
     /// The kernel of a row, if it runs in this scalar.
     fn subject(entry: &Entry) -> Option<&'static dyn Subject<Self>>;
 }
@@ -196,34 +196,6 @@ impl Scalar for f64 {
     }
 }
 
-/// The candidate nearest to a mistyped name, by edit distance, if one is near enough to suggest.
-pub fn nearest_name<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
-    candidates
-        .into_iter()
-        .map(|candidate| (edit_distance(name, candidate), candidate))
-        .min()
-        .filter(|(distance, candidate)| *distance <= 2.max(candidate.len() / 3))
-        .map(|(_, candidate)| candidate)
-}
-
-/// Levenshtein distance in bytes.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.bytes().enumerate() {
-            let substitute = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = substitute.min(row[j] + 1).min(row[j + 1] + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -237,13 +209,5 @@ mod tests {
                 assert_eq!(set.values.len(), entry.info.gates.len(), "{}", entry.info.name);
             }
         }
-    }
-
-    #[test]
-    fn a_typing_error_finds_its_kernel() {
-        let names = || KERNELS.iter().map(|entry| entry.info.name);
-        assert_eq!(nearest_name("moler-trumbore", names()), Some("moller-trumbore"));
-        assert_eq!(nearest_name("woop", names()), None);
-        assert_eq!(nearest_name("havel-heruot", names()), Some("havel-herout"));
     }
 }

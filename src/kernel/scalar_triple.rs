@@ -5,7 +5,7 @@
 //! after C. Ericson, Real-Time Collision Detection, 5.3.4. The listings name the weights of a, b, c
 //! u, v, w; hits here report the weights of b and c. A line, not a ray: no t is computed.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Demand, Extent, Sides};
@@ -17,9 +17,9 @@ pub(super) struct ScalarTripleTwoSided;
 const EDGE: usize = 0;
 
 const fn info(name: &'static str, source: &'static str, two_sided: bool) -> KernelInfo {
-    const ONE_SIDED: &[Gate] = &[Gate::signed("edge", "u < e, v < e, w < e", 2, 1)];
+    const ONE_SIDED: &[Gate] = &[Gate::signed(Role::Edge, "u < e, v < e, w < e", 2, 1)];
     const TWO_SIDED: &[Gate] =
-        &[Gate::signed("edge", "!(both > e or both < -e) for (u, v) and (u, w)", 2, 1)];
+        &[Gate::signed(Role::Edge, "!(both > e or both < -e) for (u, v) and (u, w)", 2, 1)];
     let (sides, boundary) =
         if two_sided { (Sides::Both, Boundary::Open) } else { (Sides::Front, Boundary::Closed) };
     KernelInfo {

@@ -238,7 +238,11 @@ pub trait Gated<F: Float>: Sync {
     /// Every gate's margin on a case, and the values of a hit.
     fn measure(&self, case: &Case<F>) -> Measured<F>;
 
-    /// Every gate's margin on a case, in exact arithmetic.
+    /// Every gate's threshold on a case: the least upper bound of the epsilons that it accepts, whether
+    /// or not it accepts the bound itself.
+    fn thresholds(&self, case: &Case<F>) -> Vec<F>;
+
+    /// Every gate's margin on a case, in exact arithmetic, where it is also the threshold.
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
 
     /// The run without rounding; none of a kernel that has no exact arithmetic.
@@ -307,6 +311,13 @@ impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
 
     fn measure(&self, case: &Case<F>) -> Measured<F> {
         measure::<K, F::Vector>(&case.ray, &case.triangle)
+    }
+
+    fn thresholds(&self, case: &Case<F>) -> Vec<F> {
+        let mut thresholds = vec![F::zero(); K::INFO.gates.len()];
+        let mut sink = Measuring::thresholds(&mut thresholds);
+        K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+        thresholds
     }
 
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {

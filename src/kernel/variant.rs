@@ -102,6 +102,13 @@ impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
         Measured { margins, values: values.map(|hit| hit.map(|x| x.value())) }
     }
 
+    fn thresholds(&self, case: &Case<F>) -> Vec<F> {
+        let (ray, triangle) = self.lift(case);
+        let mut thresholds = self.numbers(&vec![F::zero(); self.info.gates.len()]);
+        K::test(&K::prepare(&triangle), &ray, &mut Measuring::thresholds(&mut thresholds));
+        thresholds.iter().map(Emulated::value).collect()
+    }
+
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
         Generic::<K>::SUBJECT.measure_exact(case)
     }

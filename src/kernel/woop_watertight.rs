@@ -6,7 +6,7 @@
 //! In f64 the fallback's wider products are exact ones, an addition of this project. The facing
 //! is not reported by the appendix.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, end_times, gap};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, end_times, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Across, Boundary, Contract, Extent, Sides};
@@ -25,13 +25,18 @@ impl Kernel for WoopWatertight {
             .with_across(Across::AtLeastOne),
         gates: &[
             Gate::signed(
-                "edge",
+                Role::Edge,
                 "one of U, V, W < e and one of -U, -V, -W < e, after the shear",
                 2,
                 0,
             ),
-            Gate::signed("parallel", "abs(det) <= e, det = U+V+W", 2, 0),
-            Gate::signed("t", "sT - t_min*|det| < e, t_max*|det| - sT < e, s = sign of det", 3, -1),
+            Gate::signed(Role::Parallel, "abs(det) <= e, det = U+V+W", 2, 0),
+            Gate::signed(
+                Role::T,
+                "sT - t_min*|det| < e, t_max*|det| - sT < e, s = sign of det",
+                3,
+                -1,
+            ),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

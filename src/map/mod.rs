@@ -12,8 +12,8 @@
 //! Pictures are text and bytes; whoever asks for them writes them.
 //!
 //! ```
-//! use hairline::audit::Row;
-//! use hairline::map::{self, Spot};
+//! use hairline::internals::audit::Row;
+//! use hairline::internals::map::{self, Spot};
 //!
 //! let row = Row::named("moller-trumbore", None, "own")?;
 //! let map = map::standard::<f32>(&row, Spot::Edge, [32, 32])?;

@@ -94,14 +94,12 @@ impl Layers {
 /// The truth of a case.
 ///
 /// ```
-/// use hairline::case::Case;
-/// use hairline::oracle;
-/// use hairline::truth::{Feature, Truth};
+/// use hairline::{Case, Feature, Truth, truth};
 ///
 /// // Straight down onto the middle of edge ab.
 /// let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
 /// let case = Case::<f32>::new([1.0, 0.0, 1.0], [0.0, 0.0, -1.0], triangle);
-/// let Truth::Transversal(crossing) = oracle::truth(&case) else { panic!() };
+/// let Truth::Transversal(crossing) = truth(&case) else { panic!() };
 /// assert_eq!(crossing.feature, Feature::EdgeAb);
 /// ```
 pub fn truth<F: Float>(case: &Case<F>) -> Truth {
@@ -120,14 +118,13 @@ pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
 /// first. Cases that lie as arrays of coordinates are a [`Batch`].
 ///
 /// ```
-/// use hairline::case::Case;
-/// use hairline::oracle::{self, Layers};
+/// use hairline::{Case, Layers, truths};
 ///
 /// let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
 /// let down_at = |x, y| Case::<f64>::new([x, y, 1.0], [0.0, 0.0, -1.0], triangle);
-/// let (mut truths, mut layers) = (Vec::new(), Layers::default());
-/// oracle::truths(&[down_at(0.5, 0.5), down_at(3.0, 3.0)], &mut truths, &mut layers);
-/// let hits: Vec<_> = truths.iter().map(|truth| truth.hits_closed()).collect();
+/// let (mut found, mut layers) = (Vec::new(), Layers::default());
+/// truths(&[down_at(0.5, 0.5), down_at(3.0, 3.0)], &mut found, &mut layers);
+/// let hits: Vec<_> = found.iter().map(|truth| truth.hits_closed()).collect();
 /// assert_eq!(hits, [Some(true), Some(false)]);
 /// ```
 pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut Layers) {

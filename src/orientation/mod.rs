@@ -22,6 +22,7 @@ mod exact;
 mod families;
 mod id;
 mod known;
+pub mod points_json;
 mod predicate;
 mod record;
 

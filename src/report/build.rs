@@ -9,7 +9,7 @@ use crate::audit::{
 };
 use crate::case::Case;
 use crate::contract::Across;
-use crate::corpus::manifest::hex;
+use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::Scalar;
@@ -53,6 +53,7 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
 /// A row as a plan names it.
 pub(super) fn row_part(row: &Row) -> RowPart {
     RowPart {
+        contract_words: row.spec().contract,
         kernel: row.entry.info.name.to_owned(),
         selector: row.entry.selector(),
         set: row.set.clone(),

@@ -107,8 +107,19 @@ pub struct RowPart {
     pub set: String,
     /// By gate; gates that take none are left out.
     pub epsilons: BTreeMap<String, String>,
-    /// The contract it is judged by, in words.
+    /// The contract it is judged by, as people read it.
     pub contract: String,
+    /// The same as `--contract` takes it, where it is not the kernel's own.
+    #[serde(default = "own", skip_serializing_if = "is_own")]
+    pub contract_words: String,
+}
+
+fn own() -> String {
+    "own".to_owned()
+}
+
+fn is_own(words: &String) -> bool {
+    words == "own"
 }
 
 /// A source of cases as planned.
@@ -416,9 +427,31 @@ pub struct Provenance {
     pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
     /// By scalar and row label: nanoseconds a ray in the kernel.
     pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+    /// The flags of `hairline audit` that make the plan again, where a command line made it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan_flags: Option<PlanFlags>,
     /// Of the parts that were merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Provenance>,
+}
+
+/// The flags that make a plan again, as a shell takes them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlanFlags {
+    /// Those that choose kernels, epsilons and the contract.
+    pub kernels: String,
+    /// Those that choose cases.
+    pub sources: String,
+}
+
+impl PlanFlags {
+    /// The command that runs some kernels on the plan's cases.
+    pub fn command(&self, kernels: &str) -> String {
+        let words = ["hairline audit", kernels, &self.sources];
+        words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::build::plan_part;
 use super::{Context, Illustrations, Provenance, Record, build};
 use crate::audit::{self, Audit, Observer, Plan, Shard, Source, StoredPlan, StoredSource};
-use crate::corpus::manifest::hex;
+use crate::corpus::hex;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -168,6 +168,8 @@ pub fn merged<E: From<String>>(
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
     record.illustrations = illustrate(&plan);
+    record.provenance.plan_flags =
+        parts.provenance.first().and_then(|part| part.plan_flags.clone());
     record.provenance.parts = parts.provenance;
     Ok(record)
 }

@@ -5,19 +5,29 @@ use super::record::{FindingPart, KernelResult, RowPart};
 use super::text::{RowView, interval_of};
 use super::why::{causes_text, severity_text};
 use super::{Style, group_digits};
+use crate::audit::{RowSpec, flags};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 impl RowPart {
-    /// The flags that choose the kernel and set its epsilons.
+    /// The row as text that this program can run again, if it has the kernel.
+    pub(super) fn spec(&self) -> RowSpec {
+        RowSpec {
+            kernel: self.kernel.clone(),
+            set: Some(self.set.clone()),
+            epsilons: self.epsilon_argument(),
+            contract: self.contract_words.clone(),
+        }
+    }
+
+    fn epsilon_argument(&self) -> Option<String> {
+        let pairs = self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}"));
+        Some(pairs.collect::<Vec<_>>().join(",")).filter(|words| !words.is_empty())
+    }
+
+    /// The flags that make this row again.
     pub(super) fn flags(&self) -> String {
-        let pairs: Vec<String> =
-            self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
-        let epsilons = match &pairs[..] {
-            [] => String::new(),
-            pairs => format!(" --epsilon '{}'", pairs.join(",")),
-        };
-        format!("{}{epsilons}", self.selector).trim_end().to_owned()
+        flags(&self.selector, self.epsilon_argument().as_deref(), &self.contract_words)
     }
 
     /// The command that shows a group of a result again by its id.
@@ -165,10 +175,16 @@ mod tests {
             set: "source".to_owned(),
             epsilons: [("t".to_owned(), "1e-6".to_owned())].into(),
             contract: String::new(),
+            contract_words: "own".to_owned(),
         };
         let command = "hairline explain 'x' --kernel-lib './libmine.so'";
         assert_eq!(row.explain_command("x"), format!("{command} --epsilon 't=1e-6'"));
         row.epsilons.clear();
         assert_eq!(row.explain_command("x"), command);
+        row.contract_words = "closed-ray,band=1e-3".to_owned();
+        assert_eq!(
+            row.explain_command("x"),
+            format!("{command} --contract closed-ray --band 1e-3")
+        );
     }
 }

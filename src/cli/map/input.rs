@@ -7,9 +7,9 @@ use crate::cli::exit::Failure;
 use crate::cli::orient::points_of_id;
 use crate::cli::select::unknown;
 use crate::corpus::InputError;
-use crate::corpus::points_json::{self, AnyPoints};
 use crate::kernel::Scalar;
 use crate::map::{self, Spot};
+use crate::orientation::points_json::{self, AnyPoints};
 use crate::orientation::{Dimension, Points, PointsId, find_known};
 
 /// What is mapped.

@@ -22,8 +22,7 @@ impl Epsilons {
         });
         for row in published.flatten() {
             if all.iter().all(|known| known.epsilons != row.epsilons) {
-                let (contract, contract_name) = (first.contract, first.contract_name);
-                all.push(Row { contract, contract_name, ..row });
+                all.push(Row { contract: first.contract, ..row });
             }
         }
         let varies = varies && first.tuned().next().is_some();

@@ -97,11 +97,12 @@ impl Find {
             AnyCase::F64(case) => oracle::define(case),
         };
         let truth = TruthLine::new(Some(&name), &definition.truth, &definition.exact);
+        let row = self.row.spec();
         let found = Provenance {
             version: self.version.clone(),
-            kernel: self.signature.kernel.to_owned(),
-            epsilons: self.row.epsilon_argument(),
-            contract: self.contract().to_owned(),
+            kernel: row.kernel,
+            epsilons: row.epsilons,
+            contract: row.contract,
             finding: self.signature.finding.name().to_owned(),
             signature: self.signature.to_string(),
             seed: self.seed,
@@ -133,11 +134,6 @@ impl Find {
             named(gate),
             named(exactly)
         )
-    }
-
-    /// The contract's name; `own` for the kernel's own.
-    pub fn contract(&self) -> &'static str {
-        self.row.contract_name.unwrap_or("own")
     }
 
     /// How simple the case is.

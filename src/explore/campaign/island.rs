@@ -5,7 +5,7 @@ use super::find::Find;
 use super::population::{Glance, Individual, Niche, Population};
 use super::state::SavedIndividual;
 use crate::arith::Float;
-use crate::audit::Row;
+use crate::audit::{Row, RowSpec};
 use crate::case::{Case, Draw, Parameters};
 use crate::corpus::lines::AnyCase;
 use crate::explore::{Signature, family_case, mutate, shrink};
@@ -139,11 +139,10 @@ where
 
     /// The population, to be saved.
     pub fn saved(&self) -> impl Iterator<Item = SavedIndividual> {
-        self.population.all().map(|individual| SavedIndividual {
-            kernel: individual.row.entry.info.name.to_owned(),
-            scalar: F::NAME.to_owned(),
-            epsilons: individual.row.epsilon_argument(),
-            bits: individual.case.bits().to_vec(),
+        self.population.all().map(|individual| {
+            let RowSpec { kernel, epsilons, contract, .. } = individual.row.spec();
+            let bits = individual.case.bits().to_vec();
+            SavedIndividual { kernel, scalar: F::NAME.to_owned(), epsilons, contract, bits }
         })
     }
 

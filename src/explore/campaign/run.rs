@@ -34,7 +34,6 @@ pub struct Plan {
 pub struct Campaign {
     f32: Vec<Island<f32>>,
     f64: Vec<Island<f64>>,
-    contract: &'static str,
     seed: u64,
     /// Rounds until now.
     pub rounds: u64,
@@ -60,7 +59,6 @@ impl Campaign {
         Campaign {
             f32: running(0).map(|rows| Island::new(rows, plan.varies)).collect(),
             f64: running(1).map(|rows| Island::new(rows, plan.varies)).collect(),
-            contract: plan.rows.first().and_then(|row| row.contract_name).unwrap_or("own"),
             seed: plan.seed,
             rounds: 0,
             evaluations: 0,
@@ -111,8 +109,8 @@ impl Campaign {
         (self.rounds, self.evaluations) = (state.rounds, state.evaluations);
         state.population.iter().enumerate().try_for_each(|(i, individual)| {
             let restored = match individual.scalar.as_str() {
-                "f32" => restore(&mut self.f32, individual, self.contract),
-                "f64" => restore(&mut self.f64, individual, self.contract),
+                "f32" => restore(&mut self.f32, individual),
+                "f64" => restore(&mut self.f64, individual),
                 other => Err(format!("unknown scalar '{other}'")),
             };
             restored.map_err(|message| format!("population[{i}]: {message}"))
@@ -161,15 +159,12 @@ where
     }
 }
 
-fn restore<F: Scalar>(
-    islands: &mut [Island<F>],
-    saved: &SavedIndividual,
-    contract: &str,
-) -> Result<(), String>
+fn restore<F: Scalar>(islands: &mut [Island<F>], saved: &SavedIndividual) -> Result<(), String>
 where
     AnyCase: From<Case<F>>,
 {
-    let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), contract).map_err(|e| e.0)?;
+    let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), &saved.contract);
+    let row = row.map_err(|error| error.0)?;
     row.check::<F>().map_err(|error| error.0)?;
     let island = islands.iter_mut().find(|island| island.is_of(&saved.kernel));
     let island = island.ok_or_else(|| format!("no {} in {}", saved.kernel, F::NAME))?;

@@ -28,6 +28,13 @@ pub struct SavedIndividual {
     pub scalar: String,
     /// The epsilons, as `--epsilon` takes them.
     pub epsilons: Option<String>,
+    /// The contract, as `--contract` takes it.
+    #[serde(default = "own")]
+    pub contract: String,
     /// The case's bits, as [`Case::bits`](crate::case::Case::bits) has them.
     pub bits: Vec<u64>,
+}
+
+fn own() -> String {
+    "own".to_owned()
 }

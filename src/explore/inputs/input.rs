@@ -134,15 +134,12 @@ impl<F: Scalar> Input<F> {
             set: "fuzzed".to_owned(),
             epsilons: self.epsilons.iter().map(text).collect(),
             contract: self.entry.info.contract,
-            contract_name: None,
         }
     }
 }
 
 /// A built-in kernel and its gates: all of those have both scalars, and show their gates.
-pub(super) fn of_kernel<F: Scalar>(
-    entry: &Entry,
-) -> (&'static dyn Subject<F>, &'static dyn Gated<F>) {
+pub fn of_kernel<F: Scalar>(entry: &Entry) -> (&'static dyn Subject<F>, &'static dyn Gated<F>) {
     let subject = F::subject(entry).expect("a built-in kernel has both scalars");
     (subject, subject.gated().expect("a built-in kernel shows its gates"))
 }

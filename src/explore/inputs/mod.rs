@@ -1,9 +1,9 @@
-//! Floor 4: what fuzz targets and triage share: bytes to questions near trouble and back, and the
-//! claims that must hold on every one of them.
+//! Bytes to inputs near trouble and back, for the fuzz targets and for `hairline fuzz triage`, which
+//! reads their artifacts. What the targets check stands beside them, in fuzz/src/checks.rs.
 //!
 //! ```text
-//! bytes ──► Input (kernel, epsilons, case) ──► check_* ──► a contradiction of our own, or none
-//!   ▲            │                        └──► disagreement: what the kernel got wrong
+//! bytes ──► Input (kernel, epsilons, case)
+//!   ▲            │
 //!   └── to_bytes ┴ mutated
 //! ```
 //!
@@ -15,12 +15,8 @@
 #![forbid(unsafe_code)]
 
 mod bytes;
-mod checks;
 mod construction;
 mod input;
 
-pub use checks::{
-    Contradiction, check_kernel, check_oracle, check_orientation, check_response, disagreement,
-};
 pub use construction::CONSTRUCTIONS;
-pub use input::{AnyInput, Input, MAX_GATES};
+pub use input::{AnyInput, Input, MAX_GATES, of_kernel};

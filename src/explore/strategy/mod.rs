@@ -2,14 +2,13 @@
 //! kernel, and the assertions that judge it.
 //!
 //! ```
-//! use hairline::case::Case;
-//! use hairline::contract::Contract;
 //! use hairline::strategy::edge_exact;
+//! use hairline::{Case, Contract};
 //! use proptest::prelude::*;
 //!
 //! // Stands for your kernel: t of a hit.
 //! fn intersect(case: &Case<f32>) -> Option<f32> {
-//!     # let exact = hairline::oracle::define(case);
+//!     # let exact = hairline::internals::oracle::define(case);
 //!     # let t = exact.exact.t.filter(|_| exact.truth.hits_closed() == Some(true))?;
 //!     # num_traits::ToPrimitive::to_f32(&t)
 //!     // …

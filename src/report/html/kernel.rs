@@ -45,7 +45,7 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
 
 /// A row. What it takes of `room` is what its lists may take; the caller counts the whole.
 fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
-    let promise = facts(row);
+    let promise = facts(view, row);
     let tables = html! {
         (causes(row))
         div.tables { (rates(view, row)) (severities(row)) (accuracies(row)) }
@@ -85,7 +85,8 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
     }
 }
 
-fn facts(row: &Row) -> Markup {
+fn facts(view: &View, row: &Row) -> Markup {
+    let plan_flags = view.record.provenance.plan_flags.clone().unwrap_or_default();
     let info = kernel::find(&row.part.kernel).map(|entry| entry.info);
     let gates: &[Gate] = info.map_or(&[], |info| info.gates);
     let unknown = row
@@ -97,7 +98,7 @@ fn facts(row: &Row) -> Markup {
         dl.facts {
             dt { "Contract" } dd { (row.part.contract) }
             @if let Some(info) = info { dt { "Source" } dd { (info.source) } }
-            dt { "Run again" } dd { (code(&format!("hairline audit {}", row.part.flags()))) }
+            dt { "Run again" } dd { (code(&plan_flags.command(&row.part.flags()))) }
         }
         @if !row.part.epsilons.is_empty() || !gates.is_empty() {
             div.scroll tabindex="0" role="group" aria-label="Gates" {
