@@ -9,17 +9,14 @@ use super::shard::Shard;
 use super::source::Source;
 use super::stored::ScalarName;
 use super::tally::{ClassCount, Tally};
-use crate::arith::Float;
-use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{self, Class, Expectations, Finding, GroupTruth, owes_groups_alike};
-use crate::kernel::{Failure, Scalar, Subject, Verdict};
+use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// One kernel row on one source in one scalar.
