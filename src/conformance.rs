@@ -7,7 +7,7 @@ use crate::case::Parameters;
 use crate::contract::Contract;
 use crate::engine::Unobserved;
 use crate::family::{FAMILIES, Family, find};
-use crate::kernel::Entry;
+use crate::kernel::{Entry, kept};
 use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
 use crate::suggest::did_you_mean;
 use std::fmt::{self, Write};
@@ -35,7 +35,7 @@ use std::fmt::{self, Write};
 /// ```
 pub fn audit(kernel: &Entry) -> Request {
     Request {
-        entry: Box::leak(Box::new(*kernel)),
+        entry: kept(kernel),
         families: None,
         count: 2000,
         seed: 1,
@@ -233,4 +233,30 @@ fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
         writeln!(text, "    hairline explain '{}'\n        {}", example.case, example.bits)?;
     }
     Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::kernel::{Hit, KERNELS, KernelInfo};
+
+    #[test]
+    fn an_entry_is_kept_once_however_often_it_is_audited() {
+        const INFO: KernelInfo = KernelInfo::own("kept-once", Contract::CLOSED_RAY);
+        static OWN: &KernelInfo = &INFO;
+        let always = |_: &Case<f64>, _: &[f64]| Some(Hit::at(1.0));
+        let never = |_: &Case<f64>, _: &[f64]| None;
+        let [always, never] = [Entry::new(OWN).f64(always), Entry::new(OWN).f64(never)];
+        let kept = |entry: &Entry| std::ptr::from_ref(audit(entry).entry);
+        assert_eq!(kept(&always), kept(&always.clone()));
+        assert_eq!(kept(&KERNELS[3]), std::ptr::from_ref(&KERNELS[3]));
+        // The same name with other code is another kernel.
+        assert_ne!(kept(&always), kept(&never));
+        let hits = |entry: &Entry| {
+            let outcome = audit(entry).families(["behind"]).count(20).run().unwrap();
+            outcome.findings().any(|finding| finding.finding == "false-hit")
+        };
+        assert_eq!([hits(&always), hits(&never)], [true, false]);
+    }
 }

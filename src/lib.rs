@@ -54,6 +54,8 @@ mod report;
 
 mod conformance;
 #[cfg(feature = "cli")]
+mod descriptors;
+#[cfg(feature = "cli")]
 mod expect;
 #[cfg(feature = "cli")]
 mod plugin;

@@ -85,16 +85,21 @@ impl CorpusSet {
 }
 
 impl Source {
-    /// The name in tables.
+    /// The name in tables: one line, whatever a file is called.
     pub fn name(&self) -> String {
-        match self {
+        let name = match self {
             Source::Family { family, .. } => family.name.to_owned(),
             Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
             Source::MeshPart { surface, part, .. } => {
                 format!("{}:{}", part.family(), surface.file_name())
             }
             Source::Corpus(set) => format!("corpus:{}", set.file),
-        }
+        };
+        let shown = |c: char| match c.is_control() {
+            true => c.escape_default().to_string(),
+            false => c.to_string(),
+        };
+        name.chars().map(shown).collect()
     }
 
     /// The number of indices in a scalar.

@@ -21,7 +21,7 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let outputs = arguments.run.report.outputs()?;
     let plan = arguments.run.plan(arguments.attribute)?;
     let record = arguments.run.execute(&plan, outputs.illustrate())?;
-    outputs.write(&record)?;
     self_check(&record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }

@@ -65,13 +65,13 @@ impl<F: Scalar> Group<F> {
 impl CaseArguments {
     /// The cases, or why there are none.
     pub fn cases(&self) -> Result<Cases, Failure> {
+        if let Some(path) = &self.corpus {
+            return self.stored(path);
+        }
         if self.case.trim_start().starts_with('{') {
             let stored = lines::read(self.case.as_bytes(), "argument").next();
             let missing = || Failure::usage("the argument holds no case".to_owned());
-            return Ok(stored_cases(stored.ok_or_else(missing)??));
-        }
-        if let Some(path) = &self.corpus {
-            return self.stored(path);
+            return Ok(stored_cases(&stored.ok_or_else(missing)??));
         }
         let id: CaseId = self.case.parse().map_err(|error| {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
@@ -84,21 +84,33 @@ impl CaseArguments {
     }
 
     fn stored(&self, path: &str) -> Result<Cases, Failure> {
-        let mut names = Vec::new();
+        let (mut names, mut found) = (Vec::new(), Vec::new());
         for file in corpus_files(path)? {
             for stored in read_corpus(&file)? {
-                if name_of(&stored) == self.case {
-                    return Ok(stored_cases(stored));
-                }
                 names.push(name_of(&stored));
+                if names.last() == Some(&self.case) {
+                    found.push((format!("{file}:{}", stored.line), stored));
+                }
             }
         }
-        let names = names.iter().map(String::as_str);
-        Err(unknown("case", &self.case, names, &format!("hairline truth {path}")))
+        if let [(_, stored)] = &found[..] {
+            return Ok(stored_cases(stored));
+        }
+        if found.is_empty() {
+            let names = names.iter().map(String::as_str);
+            return Err(unknown("case", &self.case, names, &format!("hairline truth {path}")));
+        }
+        let places: Vec<&str> = found.iter().map(|(place, _)| place.as_str()).collect();
+        Err(Failure::usage(format!(
+            "{} cases are called '{}': {}; name the file with --corpus",
+            found.len(),
+            self.case,
+            places.join(", ")
+        )))
     }
 }
 
-fn stored_cases(stored: StoredCase) -> Cases {
+fn stored_cases(stored: &StoredCase) -> Cases {
     match stored.case {
         AnyCase::F32(case) => Cases::F32(Group::alone(vec![case], Grouping::Single)),
         AnyCase::F64(case) => Cases::F64(Group::alone(vec![case], Grouping::Single)),

@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::github;
 use super::input::{read_record, read_text};
-use super::output::write_file;
+use super::output::write_result;
 use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
@@ -213,9 +213,9 @@ fn blessed(
             error.outside_the_plan
         ))
     })?;
-    write_file(Path::new(file), |out| out.write_all(text.as_bytes()))
-        .map_err(|error| Failure::of_file(file, &error))?;
-    Ok(expect::read(&text, file)?)
+    let expectations = expect::read(&text, file)?;
+    write_result(file, |out| out.write_all(text.as_bytes()))?;
+    Ok(expectations)
 }
 
 impl CheckArguments {

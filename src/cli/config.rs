@@ -1,10 +1,10 @@
 //! `hairline config` and `hairline schema`: what the files that check reads and writes look like.
 
 use super::exit::{Failure, Status};
+use super::output::write_result;
 use super::settings;
 use crate::report::Record;
 use clap::Args;
-use std::io::Write;
 
 /// What to print.
 #[derive(Args)]
@@ -16,14 +16,15 @@ pub struct ConfigArguments {
 
 /// Runs `config`.
 pub fn run(_: &ConfigArguments) -> Result<Status, Failure> {
-    std::io::stdout().write_all(settings::default_file().as_bytes())?;
+    write_result("-", |out| out.write_all(settings::default_file().as_bytes()))?;
     Ok(Status::Success)
 }
 
 /// Runs `schema`.
 pub fn schema() -> Result<Status, Failure> {
-    let schema = schemars::schema_for!(Record);
-    let text = serde_json::to_string_pretty(&schema).map_err(std::io::Error::from)?;
-    writeln!(std::io::stdout(), "{text}")?;
+    write_result("-", |out| {
+        serde_json::to_writer_pretty(&mut *out, &schemars::schema_for!(Record))?;
+        writeln!(out)
+    })?;
     Ok(Status::Success)
 }

@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::input::{corpus_files, open, read_corpus};
-use super::output::{write_file, write_result};
+use super::output::write_result;
 use super::select::unknown;
 use crate::case::Parameters;
 use crate::corpus::InputError;
@@ -72,15 +72,19 @@ pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
             let names = FAMILIES.iter().map(|family| family.name);
             let family = find(name)
                 .ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
-            write_result(output, |out| match scalar.as_str() {
-                "f32" => write_family::<f32>(out, family, *seed, *count, AnyCase::F32),
-                "f64" => write_family::<f64>(out, family, *seed, *count, AnyCase::F64),
-                other => Err(io::Error::new(io::ErrorKind::InvalidInput, other.to_owned())),
-            })
-            .map_err(|failure| match scalar.as_str() {
-                "f32" | "f64" => failure,
-                other => Failure::usage(format!("unknown scalar '{other}': there are f32 and f64")),
-            })?;
+            let (seed, count) = (*seed, *count);
+            match scalar.as_str() {
+                "f32" => write_result(output, |out| {
+                    write_family::<f32>(out, family, seed, count, AnyCase::F32)
+                })?,
+                "f64" => write_result(output, |out| {
+                    write_family::<f64>(out, family, seed, count, AnyCase::F64)
+                })?,
+                other => {
+                    let message = format!("unknown scalar '{other}': there are f32 and f64");
+                    return Err(Failure::usage(message));
+                }
+            }
             Ok(Status::Success)
         }
         CorpusCommand::Generate { path, .. } => generate(Path::new(path)),
@@ -151,7 +155,14 @@ fn verify(path: &str) -> Result<Status, Failure> {
         nothing &= lines.is_empty();
         let folder = manifest_path.parent().unwrap_or(Path::new("."));
         for (number, line) in &lines {
-            manifest::verify(line, |mesh| fs::read(folder.join("meshes").join(mesh)))
+            let mesh = match line {
+                ManifestLine::Set(_) => Vec::new(),
+                ManifestLine::Mesh(line) => {
+                    let path = folder.join("meshes").join(&line.mesh);
+                    fs::read(&path).map_err(|error| Failure::of_path(&path, &error))?
+                }
+            };
+            manifest::verify(line, &mesh)
                 .map_err(|message| InputError::at(&name, *number, message))?;
         }
         let meshes = lines.iter().filter(|(_, line)| matches!(line, ManifestLine::Mesh(_))).count();
@@ -185,24 +196,19 @@ fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
 }
 
 fn generate(folder: &Path) -> Result<Status, Failure> {
-    let failed =
-        |path: &Path, error: io::Error| Failure::of_file(&path.display().to_string(), &error);
     let meshes = folder.join("meshes");
-    fs::create_dir_all(&meshes).map_err(|error| failed(&meshes, error))?;
+    fs::create_dir_all(&meshes).map_err(|error| Failure::of_path(&meshes, &error))?;
     for (name, _, text) in manifest::meshes() {
-        let path = meshes.join(name);
-        write_file(&path, |out| out.write_all(text.as_bytes()))
-            .map_err(|error| failed(&path, error))?;
+        write_result(meshes.join(name), |out| out.write_all(text.as_bytes()))?;
     }
     let path = folder.join(MANIFEST);
     let lines = manifest::current();
-    write_file(&path, |out| {
+    write_result(&path, |out| {
         lines.iter().try_for_each(|line| {
             serde_json::to_writer(&mut *out, line)?;
             writeln!(out)
         })
-    })
-    .map_err(|error| failed(&path, error))?;
+    })?;
     eprintln!("{}: {} lines; meshes in {}", path.display(), lines.len(), meshes.display());
     Ok(Status::Success)
 }

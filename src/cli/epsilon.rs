@@ -1,7 +1,7 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
@@ -90,7 +90,7 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
     // What is wrong with the flags shows before the first study runs.
     let sources = &sources;
-    let mut studies: Vec<Box<dyn Fn(&Progress) -> StudyParts + '_>> = Vec::new();
+    let mut studies: Vec<Planned<'_>> = Vec::new();
     for row in &rows {
         let in_scalar = row.entry.scalars();
         if scalars[0] && in_scalar[0] {
@@ -106,15 +106,18 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let all = studies.iter().map(|study| study(&progress)).collect::<Result<Vec<_>, _>>()?;
     progress.finish();
     let record = record(sources, all, threads, progress.seconds());
-    for (format, path) in outputs {
+    write_results(outputs, |format, _, out| {
         let style = Style { color: ColorChoice::Never.enabled(false), details: false };
-        write_result(path, |out| (format.write)(&record, style, out))?;
-    }
+        (format.write)(&record, style, out)
+    })?;
     Ok(Status::Success)
 }
 
 /// What a study of one row in one scalar adds to the record.
 type StudyParts = Result<(Vec<GatePart>, Option<MapPart>), Failure>;
+
+/// A study that is still to be run.
+type Planned<'a> = Box<dyn Fn(&Progress) -> StudyParts + 'a>;
 
 fn run_study<F: Scalar>(
     plan: &StudyPlan<'_, F>,

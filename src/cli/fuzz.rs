@@ -8,14 +8,14 @@ pub use directory::{CAMPAIGN, FINDS, read_begun, read_finds};
 pub use summary::explain_command;
 
 use super::exit::{Failure, Status};
-use super::output::write_result;
+use super::output::{standard_output, write_result};
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars};
 use super::sources::{scalars_in_use, set_threads};
 use crate::explore::campaign::{Campaign, Find, Plan, State};
 use clap::Args;
 use directory::{Begun, Directory};
-use std::io::{self, Write};
+use std::io::Write;
 use summary::{Counters, write_summary};
 
 /// The seconds between two savings of counters and population, at least and at most: a session that
@@ -206,7 +206,7 @@ impl Session {
         finds.iter_mut().for_each(|find| find.seconds = Some(seconds));
         self.directory.append(&finds)?;
         if print {
-            let mut out = io::stdout().lock();
+            let mut out = standard_output()?;
             finds.iter().try_for_each(|find| writeln!(out, "{}", find.name()))?;
             out.flush()?;
         }

@@ -5,7 +5,7 @@ mod summary;
 
 use super::exit::{Failure, Status};
 use super::orient::check_epsilon;
-use super::output::{paired_outputs, write_result};
+use super::output::{paired_outputs, write_results};
 use super::select::{KernelArguments, unknown};
 use super::sources::set_threads;
 use crate::arith::Float;
@@ -125,15 +125,18 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         Input::PointsF32(points, point) => arguments.of_points(&points, point)?,
         Input::PointsF64(points, point) => arguments.of_points(&points, point)?,
     };
-    for (format, path) in &outputs {
-        let bytes = match (**format, &picture.map) {
+    let quiet = arguments.quiet || wants("text");
+    let mut pictures = Vec::new();
+    for (format, path) in outputs {
+        let bytes = match (*format, &picture.map) {
             ("png", Some(map)) => map::png(map, arguments.dots(map))?,
             ("svg", _) => picture.svg.clone().into_bytes(),
             _ => picture.summary.clone().into_bytes(),
         };
-        write_result(path, |out| out.write_all(&bytes))?;
+        pictures.push((bytes, path));
     }
-    if !arguments.quiet && !wants("text") {
+    write_results(pictures, |bytes, _, out| out.write_all(&bytes))?;
+    if !quiet {
         // A summary that nobody reads is no error.
         let _ = io::stderr().write_all(picture.summary.as_bytes());
     }

@@ -43,8 +43,8 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let record =
         merged(parts, illustrate, &progress, |source, scalars| open(source, scalars, quiet))
             .map_err(|Unmergeable(failure)| failure)?;
-    outputs.write(&record)?;
     self_check(&record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }
 

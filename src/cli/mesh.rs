@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::input::read_mesh;
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars};
@@ -73,7 +73,7 @@ pub struct MeshArguments {
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
-    let outputs =
+    let mut outputs =
         paired_outputs(MESH_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
     if arguments.kernels.has_band() {
         let message = "--band: across triangles a band means nothing: every ray is near an edge";
@@ -96,12 +96,16 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     plugins::check()?;
     let context = Context { seconds: progress.seconds(), threads };
     let report = build(&surface, &plan, &found, &context);
-    for (format, path) in outputs {
-        let color = arguments.color.enabled(path == "-");
-        let style = Style { color, details: arguments.details };
-        write_result(path, |out| (format.write)(&report, style, out))?;
+    let nothing = found.iter().all(|found| found.cases == 0);
+    if nothing {
+        // It is printed why, but no file becomes a report of nothing.
+        outputs.retain(|(_, path)| *path == "-");
     }
-    if found.iter().all(|found| found.cases == 0) {
+    write_results(outputs, |format, path, out| {
+        let color = arguments.color.enabled(path == "-");
+        (format.write)(&report, Style { color, details: arguments.details }, out)
+    })?;
+    if nothing {
         let message = format!(
             "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
             arguments.file

@@ -2,6 +2,14 @@
 
 #![forbid(unsafe_code)]
 
+/// Prints to standard error. Unlike the standard library's it does not panic if nobody can read it.
+macro_rules! eprintln {
+    ($($words:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($words)*);
+    }};
+}
+
 mod audit;
 mod case;
 pub(crate) mod check;
@@ -34,7 +42,7 @@ mod triage;
 mod truth;
 mod worst;
 
-use exit::Status;
+use exit::{Failure, Status};
 
 use crate::kernel::{self, Entry};
 use crate::plugin;
@@ -131,10 +139,13 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
+            if error.use_stderr() {
+                let _ = error.print();
+                return Status::Usage.into();
+            }
             // Help and version are no errors.
-            let code = if error.use_stderr() { Status::Usage } else { Status::Success };
-            let _ = error.print();
-            return code.into();
+            let printed = output::standard_output().map(drop).and_then(|()| Ok(error.print()?));
+            return printed.map_or_else(ended, |()| Status::Success.into());
         }
     };
     let outcome = match arguments.command {
@@ -166,11 +177,14 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     // What went wrong in a kernel of the user's own goes before what was made of its verdicts.
     match plugins::check().and(outcome) {
         Ok(status) => status.into(),
-        Err(failure) => {
-            if let Some(message) = failure.message() {
-                eprintln!("hairline: {message}");
-            }
-            failure.status().into()
-        }
+        Err(failure) => ended(failure),
     }
+}
+
+/// Says why a command stops.
+fn ended(failure: Failure) -> ExitCode {
+    if let Some(message) = failure.message() {
+        eprintln!("hairline: {message}");
+    }
+    failure.status().into()
 }

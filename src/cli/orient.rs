@@ -122,11 +122,12 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
     let sums = orientation::run(&plan, &progress);
     progress.finish();
     let record = build(&plan, &sums, progress.seconds(), rayon::current_num_threads());
+    self_check(&record)?;
     write_result(&arguments.output, |out| match arguments.format {
         OutputFormat::Text => text::write(&record, out),
         OutputFormat::Json => write_json(&record, out),
     })?;
-    self_check(&record)
+    Ok(Status::Success)
 }
 
 fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
@@ -135,9 +136,9 @@ fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// A family that breaks its own promise is a fault of this tool.
-fn self_check(record: &Record) -> Result<Status, Failure> {
+fn self_check(record: &Record) -> Result<(), Failure> {
     match record.result.sets.iter().find(|set| set.promise_broken > 0) {
-        None => Ok(Status::Success),
+        None => Ok(()),
         Some(set) => {
             let first = set.first_broken.as_deref().unwrap_or("-");
             let message =

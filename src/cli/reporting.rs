@@ -1,7 +1,7 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -83,11 +83,10 @@ impl Outputs<'_> {
 
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
-        for (format, path) in &self.pairs {
-            let style = Style { color: self.color.enabled(*path == "-"), details: self.details };
-            write_result(path, |out| (format.write)(record, style, out))?;
-        }
-        Ok(())
+        write_results(self.pairs.clone(), |format, path, out| {
+            let style = Style { color: self.color.enabled(path == "-"), details: self.details };
+            (format.write)(record, style, out)
+        })
     }
 }
 

@@ -112,8 +112,11 @@ where
         "minimum  local: no single simplification keeps the finding, of {SIMPLIFICATIONS}"
     )?;
     writeln!(out, "\nJSON, a line of a corpus file\n\n{}", corpus_line(&shrunk.case, signature))?;
-    writeln!(out, "\nRust\n\n{}", rust_snippet(row, &shrunk.case, signature))?;
-    write!(out, "C\n\n{}", c_snippet(row, &shrunk.case, signature))
+    // The snippet finds its kernel in the library, where only built-in ones are.
+    if row.entry.is_built_in() {
+        write!(out, "\nRust\n\n{}", rust_snippet(row, &shrunk.case, signature))?;
+    }
+    write!(out, "\nC\n\n{}", c_snippet(row, &shrunk.case, signature))
 }
 
 fn corpus_line<F: Scalar>(case: &Case<F>, signature: &Signature) -> String

@@ -7,6 +7,9 @@ use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use clap::Args;
+use std::collections::HashSet;
+use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The flags that choose cases.
@@ -133,8 +136,12 @@ impl SourceArguments {
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
             sources.push(Source::Mesh { family, parameters: parameters.clone(), seed, count });
         }
+        let mut seen = HashSet::new();
         for path in &self.corpus {
             for file in corpus_files(path)? {
+                if !seen.insert(fs::canonicalize(&file).unwrap_or_else(|_| PathBuf::from(&file))) {
+                    return Err(Failure::usage(format!("--corpus: '{file}' is given twice")));
+                }
                 sources.push(Source::Corpus(corpus_set(&file)?));
             }
         }

@@ -5,7 +5,7 @@ mod inputs;
 use super::exit::{Failure, Status};
 use super::fuzz::{explain_command, refuse_band};
 use super::input::corpus_files;
-use super::output::{write_file, write_result};
+use super::output::write_result;
 use super::select::KernelArguments;
 use super::sources::set_threads;
 use crate::audit::Attribution;
@@ -177,10 +177,9 @@ fn write_finds<'a>(folder: &str, finds: impl Iterator<Item = &'a Find>) -> Resul
     for (kernel, mut finds) in kernels {
         finds.sort_by_cached_key(|find| (find.name(), line_of(find)));
         let path = format!("{folder}/{kernel}.jsonl");
-        let write = |out: &mut dyn Write| {
+        write_result(path, |out| {
             finds.iter().try_for_each(|find| writeln!(out, "{}", line_of(find)))
-        };
-        write_file(Path::new(&path), write).map_err(|error| Failure::of_file(&path, &error))?;
+        })?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::input::open;
-use super::output::{write_file, write_result};
+use super::output::write_result;
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars, unknown};
 use super::sources::{scalars_in_use, set_threads};
@@ -12,8 +12,8 @@ use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
 use crate::kernel::Scalar;
 use clap::Args;
+use std::fs;
 use std::io::{self, BufReader, Write};
-use std::path::Path;
 
 /// The goals that are searched together, between looks at the clock.
 const GOALS_AT_ONCE: usize = 16;
@@ -89,7 +89,9 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
     // What is known is read first: a wrong table is found out before the search, not after.
     let mut known = match arguments.update.as_deref() {
-        Some(path) if Path::new(path).exists() => read_table(path)?,
+        Some(path) if fs::exists(path).map_err(|error| Failure::of_file(path, &error))? => {
+            read_table(path)?
+        }
         _ => Table::default(),
     };
     let found = search(arguments, &goals);
@@ -99,8 +101,7 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
     };
     let updates: Vec<(Update, &Entry)> =
         found.entries().map(|entry| (known.merge(entry.clone()), entry)).collect();
-    write_file(Path::new(path), |out| known.write(out))
-        .map_err(|error| Failure::of_file(path, &error))?;
+    write_result(path, |out| known.write(out))?;
     let count = |wanted| updates.iter().filter(|(update, _)| *update == wanted).count();
     let (added, raised, kept) = (count(Update::Added), count(Update::Raised), count(Update::Kept));
     eprintln!("{path}: {added} added, {raised} raised, {kept} stay as they were");

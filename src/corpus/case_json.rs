@@ -15,6 +15,9 @@ const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 /// The fields of `bits`.
 const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
 
+/// The most bytes of a name: commands repeat it.
+const LONGEST_NAME: usize = 1000;
+
 /// The case that stands in a line, and what stands beside it.
 pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     let [name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found] =
@@ -50,8 +53,10 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     };
     let truth = truth.map(|truth| StoredTruth::parse(truth.get())).transpose();
     let found = found.map(|found| Provenance::parse(found.get())).transpose();
+    let name = text("name", name)?;
+    name.as_deref().map_or(Ok(()), check_name).map_err(|message| format!("name: {message}"))?;
     Ok(StoredCase {
-        name: text("name", name)?,
+        name,
         case,
         truth: truth.map_err(|message| format!("truth: {message}"))?,
         line,
@@ -59,6 +64,19 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         url: text("url", url)?,
         found: found.map_err(|message| format!("found: {message}"))?,
     })
+}
+
+/// An error if `hairline explain` does not take a name, or if it breaks a line of a report.
+fn check_name(name: &str) -> Result<(), String> {
+    let wrong = match name.chars().next() {
+        None => "it is empty".to_owned(),
+        Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),
+        Some('-') => "it begins with '-', as a flag does".to_owned(),
+        _ if name.contains(char::is_control) => "it has a control character".to_owned(),
+        _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
+        _ => return Ok(()),
+    };
+    Err(format!("{} cannot name a case: {wrong}", json::quoted(name)))
 }
 
 fn parse_case<F: Float>(

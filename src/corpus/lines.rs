@@ -3,13 +3,13 @@
 #![forbid(unsafe_code)]
 
 pub use super::stored_truth::{Stored, StoredContact, StoredTruth};
+use super::text_lines::TextLines;
 use super::{InputError, Provenance, case_json};
 use crate::case::Case;
-use std::io::{self, BufRead, Read};
-use std::iter;
+use std::io::BufRead;
 
 /// The most bytes of a line.
-const LONGEST_LINE: usize = 1 << 20;
+pub(crate) const LONGEST_LINE: usize = 1 << 20;
 
 /// A case in the scalar that it was written for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,54 +67,14 @@ pub struct StoredCase {
 /// A line that is no case, is longer than 1 MiB or is not UTF-8 is an error, and the next line is
 /// read as if nothing had happened. When reading itself fails, that error is the last item.
 pub fn read<R: BufRead>(
-    mut reader: R,
+    reader: R,
     file: &str,
 ) -> impl Iterator<Item = Result<StoredCase, InputError>> + use<R> {
     let file = file.to_owned();
-    let (mut number, mut failed) = (0, false);
-    let mut bytes = Vec::new();
-    iter::from_fn(move || {
-        loop {
-            if failed {
-                return None;
-            }
-            number += 1;
-            let item = match read_line(&mut reader, &mut bytes) {
-                Ok(false) => return None,
-                Ok(true) if bytes.trim_ascii().is_empty() => continue,
-                Ok(true) => parse_line(&bytes, number),
-                Err(error) => {
-                    failed = true;
-                    Err(format!("cannot read: {error}"))
-                }
-            };
-            return Some(item.map_err(|message| InputError::at(&file, number, message)));
-        }
+    TextLines::new(reader, &file, LONGEST_LINE).map(move |line| {
+        let (number, text) = line?;
+        case_json::parse(&text, number).map_err(|message| InputError::at(&file, number, message))
     })
-}
-
-/// The next line without its end; false if there is none. Of a line that is too long the beginning,
-/// one byte more than is allowed.
-fn read_line(reader: &mut impl BufRead, bytes: &mut Vec<u8>) -> io::Result<bool> {
-    bytes.clear();
-    if reader.by_ref().take(LONGEST_LINE as u64 + 1).read_until(b'\n', bytes)? == 0 {
-        return Ok(false);
-    }
-    if bytes.last() == Some(&b'\n') {
-        bytes.pop();
-    } else if bytes.len() > LONGEST_LINE {
-        reader.skip_until(b'\n')?;
-    }
-    Ok(true)
-}
-
-fn parse_line(bytes: &[u8], line: usize) -> Result<StoredCase, String> {
-    if bytes.len() > LONGEST_LINE {
-        return Err(format!("the line has more than {LONGEST_LINE} bytes"));
-    }
-    let text = str::from_utf8(bytes)
-        .map_err(|error| format!("not UTF-8 at byte {}", error.valid_up_to() + 1))?;
-    case_json::parse(text, line)
 }
 
 /// A case as one line without its end, with its bit patterns. [`read`] gives the same case back,
@@ -130,6 +90,7 @@ pub fn write_case(stored: &StoredCase) -> String {
 mod tests {
     use super::*;
     use std::collections::HashSet;
+    use std::io::{self, Read};
 
     const CASE: &str =
         r#""origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0]"#;
@@ -163,7 +124,7 @@ mod tests {
             errors,
             [
                 "cases.jsonl:3: expected an object, found # no",
-                "cases.jsonl:5: the line has more than 1048576 bytes",
+                "cases.jsonl:5: a line of more than 1048576 bytes",
                 "cases.jsonl:6: not UTF-8 at byte 1",
                 "cases.jsonl:8: EOF while parsing an object at column 1",
             ]

@@ -152,7 +152,7 @@ fn models_by_tobj(source: &Source, name: &str) -> Result<Vec<tobj::Model>, Input
             let read = &source.text[..source.text.len() - unread.len()];
             let faces = read.split(|byte| *byte == b'\n').filter(|l| l.starts_with(b"f")).count();
             let line = source.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
-            Err(InputError { file: name.to_owned(), line, message: format!("tobj: {error}") })
+            Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
         }
     }
 }

@@ -12,12 +12,13 @@ mod obj;
 mod provenance;
 pub mod shapes;
 mod stored_truth;
+pub mod text_lines;
 pub mod truth_json;
 
 pub(crate) use fan::{is_without_area, winds_once};
 pub use provenance::Provenance;
 
-use std::fmt;
+use std::{fmt, io};
 
 /// What is wrong with an input, and where.
 #[derive(Debug)]
@@ -28,17 +29,25 @@ pub struct InputError {
     pub line: Option<usize>,
     /// What was found and what was expected, in one line.
     pub message: String,
+    /// Whether reading failed, whatever the data are.
+    pub unreadable: bool,
 }
 
 impl InputError {
     /// With a line number.
     pub fn at(file: &str, line: usize, message: impl Into<String>) -> InputError {
-        InputError { file: file.to_owned(), line: Some(line), message: message.into() }
+        InputError { line: Some(line), ..InputError::of(file, message) }
     }
 
     /// About the file as a whole.
     pub fn of(file: &str, message: impl Into<String>) -> InputError {
-        InputError { file: file.to_owned(), line: None, message: message.into() }
+        InputError { file: file.to_owned(), line: None, message: message.into(), unreadable: false }
+    }
+
+    /// An error of reading itself, at a line if it is known.
+    pub fn reading(file: &str, line: Option<usize>, error: &io::Error) -> InputError {
+        let unread = InputError::of(file, format!("cannot read: {error}"));
+        InputError { line, unreadable: true, ..unread }
     }
 }
 

@@ -276,7 +276,7 @@ impl<'a, R: BufRead> Lines<'a, R> {
         let read = (&mut self.reader)
             .take(room as u64)
             .read_until(b'\n', &mut self.raw)
-            .map_err(|error| InputError::of(self.name, error.to_string()))?;
+            .map_err(|error| InputError::reading(self.name, Some(self.number + 1), &error))?;
         if read == 0 {
             return Ok(false);
         }

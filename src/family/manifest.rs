@@ -3,13 +3,15 @@
 
 use super::{FAMILIES, Family};
 use crate::case::Parameters;
+use crate::corpus::lines::LONGEST_LINE;
 use crate::corpus::mesh::write_obj;
 use crate::corpus::shapes::{self, POLYGONS_OBJ};
+use crate::corpus::text_lines::TextLines;
 use crate::corpus::{InputError, hex};
 use crate::kernel::Scalar;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use std::io::{self, BufRead};
+use std::io::BufRead;
 
 /// A line of a manifest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -117,11 +119,8 @@ fn digest_of(bytes: &[u8]) -> String {
 /// The lines of a manifest. Blank lines are skipped.
 pub fn read(reader: impl BufRead, file: &str) -> Result<Vec<(usize, ManifestLine)>, InputError> {
     let mut lines = Vec::new();
-    for (number, line) in (1..).zip(reader.lines()) {
-        let line = line.map_err(|error| InputError::at(file, number, error.to_string()))?;
-        if line.trim().is_empty() {
-            continue;
-        }
+    for line in TextLines::new(reader, file, LONGEST_LINE) {
+        let (number, line) = line?;
         let parsed = serde_json::from_str(&line).map_err(|_| {
             let sets = "family, version, scalar, parameters, seed, count, digest";
             let expected = format!("expected {{{sets}}} or {{mesh, about, digest}}");
@@ -132,18 +131,11 @@ pub fn read(reader: impl BufRead, file: &str) -> Result<Vec<(usize, ManifestLine
     Ok(lines)
 }
 
-/// Makes a line's set again, or digests the mesh that `mesh_bytes` reads, and compares.
-pub fn verify(
-    line: &ManifestLine,
-    mesh_bytes: impl FnOnce(&str) -> io::Result<Vec<u8>>,
-) -> Result<(), String> {
+/// Makes a line's set again, or digests the bytes of its mesh, and compares.
+pub fn verify(line: &ManifestLine, mesh: &[u8]) -> Result<(), String> {
     let (stored, found) = match line {
         ManifestLine::Set(line) => (&line.digest, digest_again(line)?),
-        ManifestLine::Mesh(line) => {
-            let bytes =
-                mesh_bytes(&line.mesh).map_err(|error| format!("{}: {error}", line.mesh))?;
-            (&line.digest, digest_of(&bytes))
-        }
+        ManifestLine::Mesh(line) => (&line.digest, digest_of(mesh)),
     };
     if *stored == found {
         Ok(())

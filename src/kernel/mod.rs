@@ -34,6 +34,7 @@ pub use gate::{
 };
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
 pub use subject::{
     ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,

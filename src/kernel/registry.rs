@@ -3,7 +3,8 @@
 use super::own::{Own, Test};
 use super::{Generic, Kernel, KernelInfo, Subject};
 use crate::arith::{Arithmetic, Float};
-use std::sync::{PoisonError, RwLock};
+use std::ptr;
+use std::sync::{Mutex, PoisonError, RwLock};
 
 /// A row: a kernel in one or both scalars.
 #[derive(Clone, Copy)]
@@ -60,6 +61,27 @@ impl Entry {
     /// Whether it runs in `f32`, and in `f64`.
     pub const fn scalars(&self) -> [bool; 2] {
         [self.f32.is_some(), self.f64.is_some()]
+    }
+
+    /// Whether a program has it without adding it, in whatever arithmetic.
+    pub fn is_built_in(&self) -> bool {
+        let name = self.info.name;
+        let base = name_and_arithmetic(name).map_or(name, |(base, _)| base);
+        KERNELS.iter().any(|entry| entry.info.name == base)
+    }
+
+    /// Whether it is the same kernel with the same code.
+    fn is(&self, other: &Entry) -> bool {
+        // Subjects without size share their address, so that their methods count too; methods that are
+        // in two places make the same kernel two, which is no harm.
+        #[allow(ambiguous_wide_pointer_comparisons)]
+        fn same<T: ?Sized>(a: Option<&T>, b: Option<&T>) -> bool {
+            a.map(ptr::from_ref) == b.map(ptr::from_ref)
+        }
+        ptr::eq(self.info, other.info)
+            && self.flag == other.flag
+            && same(self.f32, other.f32)
+            && same(self.f64, other.f64)
     }
 
     /// The flag that chooses it on a command line.
@@ -141,6 +163,20 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
 fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
     let (kernel, arithmetic) = name.rsplit_once('+')?;
     Some((kernel, arithmetic.parse().ok().filter(|found| *found != Arithmetic::IEEE)?))
+}
+
+/// Entries that live as long as the process without being in the table.
+static KEPT: Mutex<Vec<&'static Entry>> = Mutex::new(Vec::new());
+
+/// The entry for the rest of the process: of the same one always the same.
+pub(crate) fn kept(entry: &Entry) -> &'static Entry {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = all().into_iter().chain(kept.iter().copied()).find(|e| e.is(entry)) {
+        return known;
+    }
+    let entry = Box::leak(Box::new(*entry));
+    kept.push(entry);
+    entry
 }
 
 /// Adds a kernel for the rest of the process; every command then knows its name. An error if the

@@ -2,7 +2,7 @@
 //! answers batches in the binary encoding. It is a process of its own so that the library may crash,
 //! hang, exit or write where it must not.
 //!
-//! The only file of the project with unsafe code: it calls C.
+//! Its unsafe code calls C.
 
 #![allow(unsafe_code)]
 

@@ -186,9 +186,9 @@ fn write_scalar(
             out,
             "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {:>6} {time:>6.1}",
             share_column(&misses, style),
-            row.worst_family(|result| &result.total.false_misses),
+            fitted(row.worst_family(|result| &result.total.false_misses), 16),
             share_column(&hits, style),
-            row.worst_family(|result| &result.total.false_hits),
+            fitted(row.worst_family(|result| &result.total.false_hits), 16),
             short_count(bad.count),
             short_count(row.hits_on_invalid()),
             if cracks.of == 0 { "-".to_owned() } else { short_count(cracks.count) },
@@ -266,6 +266,14 @@ fn write_exact_shares(
         )?;
     }
     Ok(())
+}
+
+/// A source's name in so many columns: of a long one the end, which is a file's name.
+fn fitted(name: &str, columns: usize) -> String {
+    match name.chars().count().saturating_sub(columns) {
+        0 => name.to_owned(),
+        more => std::iter::once('…').chain(name.chars().skip(more + 1)).collect(),
+    }
 }
 
 /// ` (20.3% [20.0%, 20.6%])`; nothing of nothing.

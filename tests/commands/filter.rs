@@ -154,7 +154,7 @@ fn what_is_missing_twice_out_of_order_or_no_verdict_is_an_error_with_its_line() 
         (all.replace("fan@1", "fun@1"), "-:1: unknown family 'fun'; did you mean 'fan'?"),
         (all.replace("/f32/", "/f16/"), "-:1: unknown scalar 'f16'"),
         (all.replace("end ", "end 1"), "after "),
-        ("x".repeat(70_000), "-:1: a line of more than 65,536 bytes"),
+        ("x".repeat(70_000), "-:1: a line of more than 65536 bytes"),
     ] {
         let needs_hello = message.contains("no hello");
         let arguments: &[&str] =

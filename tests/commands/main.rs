@@ -11,6 +11,7 @@ mod formats;
 mod found;
 mod fuzz;
 mod html;
+mod io;
 mod json_schema;
 mod map_command;
 mod mesh;

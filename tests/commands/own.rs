@@ -230,12 +230,12 @@ impl Kernel for NoPentagons {
 fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
     let kernel = Entry::of::<NoPentagons>();
     let outcome = hairline::audit(&kernel).families(["polygon"]).count(300).run().unwrap();
-    let family = hairline::family::find("polygon").unwrap();
+    let family = hairline::internals::family::find("polygon").unwrap();
     // A pentagon is a fan of three triangles.
     let made = (0..300).map(|i| family.make::<f32>(&Parameters::default(), 1, i).cases().len());
     let pentagons: Vec<usize> = (0..).zip(made).filter(|(_, n)| *n == 3).map(|(i, _)| i).collect();
     assert!(pentagons.len() > 10);
-    let found = hairline::report::disagreements(&outcome.record.result);
+    let found = hairline::internals::report::disagreements(&outcome.record.result);
     let panics = found.iter().find(|found| {
         let key = &found.key;
         (key.scalar.as_str(), key.class.as_str(), key.finding.as_str())

@@ -25,6 +25,9 @@ impl MapArguments {
     /// The case or the points.
     pub(super) fn input(&self) -> Result<Input, Failure> {
         let Some(text) = &self.case else { return self.standard() };
+        if self.corpus.is_some() {
+            return self.case(text);
+        }
         let text = text.trim();
         if text.starts_with('{') && points_json::is_points(text) {
             let points = points_json::parse(text)
@@ -34,7 +37,7 @@ impl MapArguments {
                 AnyPoints::F64(points) => Input::PointsF64(points, points.dimension().number()),
             });
         }
-        if let (Some(known), None) = (find_known(text), &self.corpus) {
+        if let Some(known) = find_known(text) {
             let points = known.points();
             return Ok(Input::PointsF64(points, points.dimension().number()));
         }
@@ -50,6 +53,10 @@ impl MapArguments {
                 other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
             };
         }
+        self.case(text)
+    }
+
+    fn case(&self, text: &str) -> Result<Input, Failure> {
         let case = CaseArguments {
             case: text.to_owned(),
             mesh: self.mesh.clone(),

@@ -3,13 +3,13 @@
 use crate::audit::Row;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::fuzz::{CAMPAIGN, FINDS, read_begun, read_finds};
+use crate::cli::input::files_under;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::campaign::Find;
 use crate::explore::inputs::AnyInput;
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Targets whose bytes are a kernel, its epsilons and a case.
 const WITH_INPUTS: [&str; 4] = ["kernels", "pinned", "response", "oracle"];
@@ -19,33 +19,34 @@ const WITHOUT_CASES: [&str; 3] = ["mesh", "orientation", "settings"];
 
 /// Adds what the rows get wrong in a file or folder.
 pub fn read_path(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Failure> {
-    if !fs::metadata(path).map_err(|error| of_path(path, &error))?.is_dir() {
-        return read_file(path, rows, finds);
-    }
-    if path.join(CAMPAIGN).exists() {
-        return read_campaign(path, finds);
-    }
-    let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
-    let entries = entries.map_err(|error| of_path(path, &error))?;
-    let mut inside: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
-    inside.sort();
-    inside.iter().try_for_each(|path| read_path(path, rows, finds))
+    fs::metadata(path).map_err(|error| Failure::of_path(path, &error))?;
+    let is_campaign = |path: &Path| path.join(CAMPAIGN).exists();
+    files_under(path, is_campaign)?.iter().try_for_each(|path| match is_campaign(path) {
+        true => read_campaign(path, finds),
+        false => read_file(path, rows, finds),
+    })
 }
 
 /// The finds of a campaign, also while it runs: a last line that is not whole yet is left out.
 fn read_campaign(directory: &Path, finds: &mut Vec<Find>) -> Result<(), Failure> {
     read_begun(directory)?;
-    read_finds_file(&directory.join(FINDS), finds)
+    let (name, mut bytes) = read_bytes(&directory.join(FINDS))?;
+    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+    if whole < bytes.len() {
+        eprintln!("{name}: the last line is cut short and left out");
+    }
+    bytes.truncate(whole);
+    add_finds(&bytes, &name, finds)
 }
 
 /// A file of finds.
 pub fn read_finds_file(path: &Path, finds: &mut Vec<Find>) -> Result<(), Failure> {
     let (name, bytes) = read_bytes(path)?;
-    let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
-    if whole < bytes.len() {
-        eprintln!("{name}: the last line is cut short and left out");
-    }
-    finds.extend(read_finds(&bytes[..whole], &name)?.into_iter().map(|find| named(find, &name)));
+    add_finds(&bytes, &name, finds)
+}
+
+fn add_finds(text: &[u8], file: &str, finds: &mut Vec<Find>) -> Result<(), Failure> {
+    finds.extend(read_finds(text, file)?.into_iter().map(|find| named(find, file)));
     Ok(())
 }
 
@@ -113,10 +114,6 @@ fn named(find: Find, file: &str) -> Find {
 }
 
 fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Failure> {
-    let bytes = fs::read(path).map_err(|error| of_path(path, &error))?;
+    let bytes = fs::read(path).map_err(|error| Failure::of_path(path, &error))?;
     Ok((path.display().to_string(), bytes))
-}
-
-fn of_path(path: &Path, error: &io::Error) -> Failure {
-    Failure::of_file(&path.display().to_string(), error)
 }
