@@ -1,8 +1,8 @@
 //! Some indices of a source together: their cases, truths and groups.
 
+use super::digest::Place;
 use super::source::Source;
 use super::stored::ScalarName;
-use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::Observer;

@@ -14,6 +14,7 @@ mod causes;
 mod chunk;
 mod digest;
 mod epsilon_text;
+mod group_count;
 mod groups;
 mod histogram;
 mod interval;
@@ -38,8 +39,9 @@ pub use by_finding::ByFinding;
 pub use causes::Causes;
 pub(crate) use chunk::Chunk;
 pub use chunk::SourceSummary;
-pub use digest::Digest;
+pub use digest::{Digest, Place};
 pub use epsilon_text::EpsilonText;
+pub use group_count::GroupCount;
 pub use histogram::Histogram;
 pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
 pub(crate) use judging::polygon_verdict;
@@ -53,6 +55,4 @@ pub use shard::Shard;
 pub(crate) use source::CHUNK;
 pub use source::{CorpusSet, Source};
 pub use stored::{StoredPlan, StoredSource};
-pub use tally::{
-    ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Severities, Tally,
-};
+pub use tally::{ClassCount, Examples, PolygonCount, SelfHits, Severities, Tally};
