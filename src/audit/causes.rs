@@ -1,9 +1,10 @@
 //! The causes of findings, counted: of the first findings by index, of each class.
 
 use super::attribution::{Attribution, attribute};
+use super::digest::Place;
 use super::rows::RowIn;
 use super::source::Source;
-use super::tally::{Place, Tally};
+use super::tally::Tally;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding, asked};
