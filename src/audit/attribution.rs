@@ -1,8 +1,8 @@
 //! Why a kernel was wrong: its convention, its epsilon, rounding, or the range of its numbers.
 //!
 //! The same source runs in exact arithmetic, with the given epsilons and with none. A float run in
-//! which no operation rounded is its own exact run: there zeros keep their signs, on which some
-//! sources decide, where exact arithmetic has one zero.
+//! which no operation rounded is its own exact run. This matters because floats have two zeros, and some
+//! sources decide on the sign of one; exact arithmetic has a single zero.
 
 use crate::arith::Float;
 use crate::case::Case;

@@ -1,7 +1,7 @@
 //! Meshes from OBJ files: triangles of `f32` and of `f64` positions, each nearest to the text.
 //!
 //! The file's text is read here, so that errors carry their line and numbers keep their digits;
-//! tobj then sorts faces into groups and polygons, on vertices that hold nothing but their index.
+//! tobj then sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
 use super::obj::{self, LIMITS, Limits, Notes, Source};
 use super::shapes::Shape;

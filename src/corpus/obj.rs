@@ -1,6 +1,6 @@
 //! The lines of an OBJ file: numbers from their text, indices checked, everything with its line.
 //!
-//! What is left for tobj is a text of faces and groups that holds absolute indices only.
+//! tobj then reads a text of faces and groups with absolute indices only.
 
 use super::InputError;
 use super::mesh::Note;

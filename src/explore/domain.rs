@@ -1,5 +1,5 @@
-//! The two sets of cases that are searched, apart: overflow and underflow win every search that may
-//! use them.
+//! The two sets of cases that are searched. They are kept apart because overflow and underflow win every
+//! search that may use them.
 
 use crate::arith::{Exact, Float, Real, Vector, scale_by_power_of_two};
 use crate::case::{Case, Ray, Triangle};

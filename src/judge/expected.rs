@@ -1,4 +1,4 @@
-//! What is asked of many cases, ready to be compared with the verdicts of many kernels.
+//! The obligations of many cases, ready to be compared with the verdicts of many kernels.
 
 use super::{Class, Kind, Obligation, asked, obligation};
 use crate::arith::Float;

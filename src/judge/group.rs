@@ -1,4 +1,4 @@
-//! What a contract asks of the triangles of a group together, and of a polygon as a whole.
+//! What a contract demands of the triangles of a group together, and of a polygon as a whole.
 
 use super::distance::{is_polygon_within, is_within};
 use super::{Obligation, obligation, promises_direction};

@@ -9,7 +9,7 @@
 //! Case, Row ──► drawing: the triangle, the ray, where they meet and where the kernel says so
 //! ```
 //!
-//! Pictures are text and bytes; whoever asks for them writes them.
+//! Pictures are returned as text and bytes; the caller writes them.
 //!
 //! ```
 //! use hairline::internals::audit::Row;

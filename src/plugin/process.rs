@@ -1,5 +1,5 @@
-//! A kernel in processes of its own, as a [`Subject`]: one process a thread, each asked in batches;
-//! what a process dies of is pinned case by case.
+//! A kernel in processes of its own, as a [`Subject`]: one process a thread, which receives batches. If a
+//! batch ends its process the cases run again one by one, to find the one that does it.
 
 #![forbid(unsafe_code)]
 

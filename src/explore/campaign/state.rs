@@ -1,4 +1,4 @@
-//! What a campaign saves now and then: counters and population. The kinds are in its finds.
+//! What a campaign saves now and then: counters and population. It reads the known kinds from its finds.
 
 use serde::{Deserialize, Serialize};
 

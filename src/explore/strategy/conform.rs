@@ -1,4 +1,4 @@
-//! A kernel of the user's held to a contract, case by case.
+//! Judges a user's kernel by a contract, case by case.
 
 use crate::arith::Float;
 use crate::case::Case;
