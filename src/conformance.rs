@@ -2,9 +2,10 @@
 
 #![forbid(unsafe_code)]
 
-use crate::audit::{self, EpsilonChoice, Observer, Plan, PlanError, Source};
+use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source};
 use crate::case::Parameters;
 use crate::contract::Contract;
+use crate::engine::Unobserved;
 use crate::family::{FAMILIES, Family, find};
 use crate::kernel::{Entry, kept};
 use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
@@ -232,17 +233,6 @@ fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
         writeln!(text, "    hairline explain '{}'\n        {}", example.case, example.bits)?;
     }
     Ok(text)
-}
-
-/// Watches nothing and times nothing.
-pub(crate) struct Unobserved;
-
-impl Observer for Unobserved {
-    fn advance(&self, _: u64) {}
-
-    fn now(&self) -> u64 {
-        0
-    }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 
 mod class;
 mod distance;
+mod elsewhere;
 mod expected;
 mod group;
 #[cfg(test)]
@@ -14,6 +15,7 @@ pub(crate) use class::Kind;
 pub use distance::{
     Distances, Squares, exact_to_change, nearest_on_segment, square, ulp_of_points,
 };
+pub use elsewhere::may_be_elsewhere;
 pub(crate) use expected::{Expectations, Kinds, ask_all, suspects};
 pub(crate) use group::owes_groups_alike;
 pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};

@@ -28,6 +28,7 @@
 
 // The floors, from the ground up: each module uses only those above it in this list.
 mod arith;
+mod engine;
 
 mod case;
 mod contract;

@@ -2,7 +2,7 @@
 //! each other. A kernel's own disagreements are told apart from these.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::{CorpusSet, Observer, Source};
+use hairline::internals::audit::{CorpusSet, Source, Unobserved};
 use hairline::internals::case::{Case, Draw};
 use hairline::internals::corpus::lines::AnyCase;
 use hairline::internals::epsilon::{Axis, Question, Request, run, tunable_gates};
@@ -139,15 +139,6 @@ pub fn disagreement<F: Scalar>(input: &Input<F>) -> Option<Signature> {
     Signature::of(&input.row(), &input.case)
 }
 
-struct Silent;
-
-impl Observer for Silent {
-    fn advance(&self, _: u64) {}
-    fn now(&self) -> u64 {
-        0
-    }
-}
-
 /// The response of a kernel on a case and some of its neighbours says, gate by gate, how often it is
 /// wrong when it is run: at the given epsilon, at each case's margin and beside it. Any axis does; to
 /// make one takes longer than the check.
@@ -164,7 +155,7 @@ where
     let sources = [Source::Corpus(stored(&cases))];
     let gates = tunable_gates(entry.info.gates);
     let request = Request { row: &row, gated, gates: &gates, axis, exact: true, relative: false };
-    for response in &run(&request, &sources, &Silent)[0].gates {
+    for response in &run(&request, &sources, &Unobserved)[0].gates {
         let gate = response.gate;
         let margin = |case: &Case<F>| gated.measure(case).margins[gate];
         let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());

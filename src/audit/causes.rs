@@ -1,7 +1,7 @@
 //! Counts the causes of the first findings of each class, by index.
 
 use super::attribution::{Attribution, attribute};
-use super::run::RunnerRow;
+use super::rows::RowIn;
 use super::source::Source;
 use super::tally::{Place, Tally};
 use crate::contract::Contract;
@@ -50,7 +50,7 @@ impl Causes {
 /// The causes of the findings whose places a tally keeps, `most` of each class and finding.
 pub(super) fn causes<F: Scalar>(
     source: &Source,
-    row: &RunnerRow<F>,
+    row: &RowIn<F>,
     contract: &Contract,
     tally: &Tally,
     most: usize,

@@ -1,11 +1,11 @@
 //! Some indices of a source together: their cases, truths and groups.
 
-use super::run::Observer;
 use super::source::Source;
 use super::stored::ScalarName;
 use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
+use crate::engine::Observer;
 use crate::family::Grouping;
 use crate::judge::{self, Class, Expectations, GroupTruth, Kinds, Obligation, group_obligation};
 use crate::kernel::Scalar;

@@ -3,7 +3,9 @@
 use super::accuracy::Errors;
 use super::chunk::Chunk;
 use super::digest::Digest;
-use super::run::{Asked, RunnerRow};
+use super::rows::RowIn;
+use super::run::Asked;
+use super::source::Source;
 use super::tally::Tally;
 use crate::case::Case;
 use crate::contract::Contract;
@@ -34,11 +36,11 @@ impl Known {
     }
 }
 
-impl<F: Scalar> RunnerRow<F> {
+impl<F: Scalar> RowIn<F> {
     /// Judges the verdicts; only `suspects` can show a finding ([`judge::suspects`]).
     pub fn judge(
         &self,
-        chunk: &Chunk<F>,
+        (source, chunk): (&Source, &Chunk<F>),
         (contract, asked): (&Contract, &Asked),
         (verdicts, suspects): (&[Verdict<F>], &[usize]),
         known: &mut [Option<Known>],
@@ -79,14 +81,8 @@ impl<F: Scalar> RunnerRow<F> {
             tally.self_hits.rays += verdicts.len() as u64;
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
-        for ((index, range), truth) in chunk.groups().zip(asked.groups.iter()) {
-            let verdicts = &verdicts[range];
-            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
-                continue;
-            }
-            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-            tally.group(index, *truth, hits);
-        }
+        let groups = (contract, &asked.groups[..]);
+        self.judge_groups(source, chunk, groups, verdicts).flatten().for_each(|g| tally.group(&g));
     }
 
     /// Measures the values of right hits on a sample.

@@ -48,6 +48,19 @@ pub enum StoredSource {
         /// How many indices.
         count: u64,
     },
+    /// Groups at the edges or vertices of a mesh.
+    MeshPart {
+        /// The mesh's file.
+        path: String,
+        /// `mesh-edges` or `mesh-vertices`.
+        part: String,
+        /// As in case ids.
+        parameters: String,
+        /// The seed of the set.
+        seed: u64,
+        /// Rays at each edge or vertex.
+        directions: u64,
+    },
     /// Stored cases.
     Corpus {
         /// Their file.
@@ -67,14 +80,14 @@ impl StoredPlan {
         }
     }
 
-    /// The plan again; `open` reads meshes and corpora.
+    /// The plan again; `open` reads meshes, in the scalars of the run, and corpora.
     pub fn plan<E: From<String>>(
         &self,
-        mut open: impl FnMut(&StoredSource) -> Result<Source, E>,
+        mut open: impl FnMut(&StoredSource, [bool; 2]) -> Result<Source, E>,
     ) -> Result<Plan, E> {
         let sources = self.sources.iter().map(|source| match source.family()? {
             Some(source) => Ok(source),
-            None => open(source),
+            None => open(source, self.scalars),
         });
         Ok(Plan {
             sources: sources.collect::<Result<_, E>>()?,
@@ -104,6 +117,15 @@ impl StoredSource {
                 seed: *seed,
                 count: *count,
             },
+            Source::MeshPart { surface, part, parameters, seed, directions } => {
+                StoredSource::MeshPart {
+                    path: surface.path().to_owned(),
+                    part: part.family().to_owned(),
+                    parameters: parameters.to_string(),
+                    seed: *seed,
+                    directions: *directions,
+                }
+            }
             Source::Corpus(set) => StoredSource::Corpus { file: set.file.clone() },
         }
     }

@@ -3,6 +3,7 @@
 use super::accuracy::Accuracy;
 use super::by_finding::ByFinding;
 use super::digest::Digest;
+use super::groups::Judged;
 use super::histogram::Histogram;
 use crate::judge::{Class, Finding, GroupTruth, Obligation};
 use serde::{Deserialize, Serialize};
@@ -146,59 +147,111 @@ pub struct GroupCount {
     pub odd_folds: u64,
     /// Of these, those without a hit where the exact line has two.
     pub missed_folds: u64,
+    /// Crossings with an even number of hits: there the parity is wrong.
+    pub even: u64,
+    /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
+    pub elsewhere: u64,
     /// The first cracks, by index.
     pub first_cracks: Vec<u64>,
     /// The first doubles, by index.
     pub first_doubles: Vec<u64>,
+    /// The first folds of wrong parity, by index.
+    pub first_odd_folds: Vec<u64>,
+    /// The first crossings whose hit may be elsewhere, by index.
+    pub first_elsewhere: Vec<u64>,
     /// Of all cracks.
     pub crack_digest: Digest,
     /// Of all doubles.
     pub double_digest: Digest,
+    /// Of all folds of wrong parity.
+    pub odd_fold_digest: Digest,
+}
+
+/// What a group of triangles shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The number of hits is right, or the contract asks nothing.
+    Right,
+    /// A crossing without a hit.
+    Crack,
+    /// A crossing without a hit, which a neighbour may have.
+    Elsewhere,
+    /// A crossing with two hits or more.
+    Double,
+    /// A fold of wrong parity.
+    OddFold,
+}
+
+impl Outcome {
+    fn of(group: &Judged) -> Outcome {
+        match (group.truth, group.hits) {
+            (GroupTruth::Crossing, 0) if group.elsewhere => Outcome::Elsewhere,
+            (GroupTruth::Crossing, 0) => Outcome::Crack,
+            (GroupTruth::Crossing, 2..) => Outcome::Double,
+            (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) != odd => Outcome::OddFold,
+            _ => Outcome::Right,
+        }
+    }
 }
 
 impl GroupCount {
-    /// Counts a group.
-    pub(crate) fn add(&mut self, index: u64, truth: GroupTruth, hits: usize, limit: usize) {
-        let note = |list: &mut Vec<u64>| {
-            if list.len() < limit {
-                list.push(index)
-            }
-        };
+    /// Counts a group; returns what it shows.
+    pub(super) fn add(&mut self, group: &Judged, limit: usize) -> Outcome {
+        let Judged { index, truth, hits, .. } = *group;
+        let outcome = Outcome::of(group);
         match truth {
             GroupTruth::Free => {}
             GroupTruth::Crossing => {
                 self.crossings += 1;
-                if hits == 0 {
-                    self.cracks += 1;
-                    self.crack_digest.add(Place { index, triangle: 0 });
-                    note(&mut self.first_cracks);
-                } else if hits > 1 {
-                    self.doubles += 1;
-                    self.double_digest.add(Place { index, triangle: 0 });
-                    note(&mut self.first_doubles);
-                }
+                let is_even = hits.is_multiple_of(2) && outcome != Outcome::Elsewhere;
+                self.even += u64::from(is_even);
             }
             GroupTruth::Fold { odd } => {
                 self.folds += 1;
-                self.odd_folds += u64::from((hits % 2 == 1) != odd);
                 self.missed_folds += u64::from(hits == 0 && !odd);
             }
         }
+        let (count, first, digest) = match outcome {
+            Outcome::Right => return outcome,
+            Outcome::Crack => {
+                (&mut self.cracks, &mut self.first_cracks, Some(&mut self.crack_digest))
+            }
+            Outcome::Elsewhere => (&mut self.elsewhere, &mut self.first_elsewhere, None),
+            Outcome::Double => {
+                (&mut self.doubles, &mut self.first_doubles, Some(&mut self.double_digest))
+            }
+            Outcome::OddFold => {
+                (&mut self.odd_folds, &mut self.first_odd_folds, Some(&mut self.odd_fold_digest))
+            }
+        };
+        *count += 1;
+        if first.len() < limit {
+            first.push(index);
+        }
+        if let Some(digest) = digest {
+            digest.add(Place { index, triangle: 0 });
+        }
+        outcome
     }
 
     /// Adds another count.
-    pub(crate) fn merge(&mut self, other: GroupCount, limit: usize) {
+    pub(super) fn merge(&mut self, other: GroupCount, limit: usize) {
         self.crossings += other.crossings;
         self.cracks += other.cracks;
         self.doubles += other.doubles;
         self.folds += other.folds;
         self.odd_folds += other.odd_folds;
         self.missed_folds += other.missed_folds;
+        self.even += other.even;
+        self.elsewhere += other.elsewhere;
         self.crack_digest.merge(other.crack_digest);
         self.double_digest.merge(other.double_digest);
+        self.odd_fold_digest.merge(other.odd_fold_digest);
         for (list, more) in [
             (&mut self.first_cracks, other.first_cracks),
             (&mut self.first_doubles, other.first_doubles),
+            (&mut self.first_odd_folds, other.first_odd_folds),
+            (&mut self.first_elsewhere, other.first_elsewhere),
         ] {
             list.extend(more);
             list.sort_unstable();
@@ -353,8 +406,8 @@ impl Tally {
     }
 
     /// Counts a group.
-    pub fn group(&mut self, index: u64, truth: GroupTruth, hits: usize) {
-        self.groups.add(index, truth, hits, self.group_limit);
+    pub(super) fn group(&mut self, group: &Judged) {
+        self.groups.add(group, self.group_limit);
     }
 
     /// Counts a whole polygon: what the contract asks of it, whether it was hit, and what that shows.
@@ -402,7 +455,8 @@ mod tests {
                 let severity = Some(((index * 7 % 11) as f64, 2.0));
                 tally.find(class, Finding::FalseMiss, (place, Digest::of(place)), severity);
             }
-            tally.group(index, GroupTruth::Crossing, (index % 4) as usize);
+            let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
+            tally.group(&Judged { index, cases: 0..2, truth, hits, elsewhere: index % 8 == 4 });
         };
         let mut whole = Tally::new(5, 0);
         (0..100).for_each(|index| event(&mut whole, index));

@@ -168,15 +168,14 @@ fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Grou
         return Err(Failure::Message(Status::BadInput, message));
     }
     let topology = Topology::of::<F>(mesh);
-    let targets = Targets::new::<F>(mesh, &topology, id.seed, id.parameters.unit_direction);
+    let targets = Targets::new(mesh, &topology, &id.parameters, id.seed);
     if targets.count(part) == 0 {
         let message = format!("'{id}': the mesh has no edge or vertex that is asked about");
         return Err(Failure::Message(Status::BadInput, message));
     }
     let mut cases = Vec::new();
     targets.make(part, id.index, &mut cases);
-    let (target, _) = targets.place(part, id.index);
-    let neighbours = targets.neighbours(part, target, &cases[0]);
+    let neighbours = targets.neighbours(part, id.index);
     Ok(Group { cases: chosen_triangle(id, cases)?, grouping: part.grouping(), neighbours })
 }
 

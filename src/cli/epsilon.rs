@@ -90,7 +90,7 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
     // What is wrong with the flags shows before the first study runs.
     let sources = &sources;
-    let mut studies: Vec<Box<dyn Fn(&Progress) -> StudyParts + '_>> = Vec::new();
+    let mut studies: Vec<Planned<'_>> = Vec::new();
     for row in &rows {
         let in_scalar = row.entry.scalars();
         if scalars[0] && in_scalar[0] {
@@ -115,6 +115,9 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
 
 /// What a study of one row in one scalar adds to the record.
 type StudyParts = Result<(Vec<GatePart>, Option<MapPart>), Failure>;
+
+/// A study that is still to be run.
+type Planned<'a> = Box<dyn Fn(&Progress) -> StudyParts + 'a>;
 
 fn run_study<F: Scalar>(
     plan: &StudyPlan<'_, F>,

@@ -13,11 +13,10 @@ use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::Decimal;
 use crate::family::Grouping;
 use crate::judge::{
-    Finding, GroupTruth, Obligation, asked, group_obligation, judge, polygon_obligation,
-    polygon_truth,
+    Finding, GroupTruth, Obligation, asked, group_obligation, judge, may_be_elsewhere,
+    polygon_obligation, polygon_truth,
 };
 use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
-use crate::mesh::may_be_elsewhere;
 use crate::oracle;
 use crate::report::epsilon::shortest;
 use crate::truth::{Feature, Truth};

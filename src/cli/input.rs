@@ -77,14 +77,16 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
 /// The corpus files of a path: itself, or the `.jsonl` files of a folder and its subfolders, in the
 /// order of their names. Manifests are no cases.
 pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
-    let root = Path::new(path);
-    let is_folder = || fs::metadata(root).map(|metadata| metadata.is_dir());
-    if path == "-" || !is_folder().map_err(|error| Failure::of_path(root, &error))? {
-        // So that a command line with the name does not take it for a flag.
-        let dot = if path.starts_with('-') && path != "-" { "./" } else { "" };
-        return Ok(vec![format!("{dot}{path}")]);
+    // The commands that repeat the name must not take it for a flag.
+    let path = match path {
+        "-" => return Ok(vec![path.to_owned()]),
+        flag if flag.starts_with('-') => format!("./{flag}"),
+        path => path.to_owned(),
+    };
+    if !fs::metadata(&path).map_err(|error| Failure::of_file(&path, &error))?.is_dir() {
+        return Ok(vec![path]);
     }
-    let mut files = files_under(root, |_| false)?;
+    let mut files = files_under(Path::new(&path), |_| false)?;
     files.retain(|file| {
         file.extension().is_some_and(|extension| extension == "jsonl")
             && file.file_name().is_some_and(|name| name != super::corpus::MANIFEST)

@@ -5,9 +5,10 @@ use super::input::{corpus_set, read_mesh, read_record};
 use super::progress::Progress;
 use super::reporting::{ReportArguments, self_check};
 use crate::audit::{Plan, Source, StoredSource};
-use crate::conformance::Unobserved;
 use crate::corpus::InputError;
+use crate::engine::Unobserved;
 use crate::family::MeshFamily;
+use crate::mesh::{Part, Surface};
 use crate::report::{illustrations, mergeable, merged};
 use clap::Args;
 use std::sync::Arc;
@@ -39,8 +40,9 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let quiet = arguments.report.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrations(plan, &Unobserved));
-    let record = merged(parts, illustrate, &progress, |source| open(source, quiet))
-        .map_err(|Unmergeable(failure)| failure)?;
+    let record =
+        merged(parts, illustrate, &progress, |source, scalars| open(source, scalars, quiet))
+            .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;
     outputs.write(&record)?;
     Ok(Status::Success)
@@ -61,12 +63,23 @@ impl From<Failure> for Unmergeable {
     }
 }
 
-fn open(source: &StoredSource, quiet: bool) -> Result<Source, Unmergeable> {
+fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source, Unmergeable> {
     match source {
         StoredSource::Mesh { path, parameters, seed, count } => {
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
             let parameters = parameters.parse()?;
             Ok(Source::Mesh { family, parameters, seed: *seed, count: *count })
+        }
+        StoredSource::MeshPart { path, part, parameters, seed, directions } => {
+            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+            let unknown = || format!("unknown part of a mesh '{part}'");
+            Ok(Source::MeshPart {
+                surface: Arc::new(Surface::new(family, scalars)),
+                part: Part::of_family(part).ok_or_else(unknown)?,
+                parameters: parameters.parse()?,
+                seed: *seed,
+                directions: *directions,
+            })
         }
         StoredSource::Corpus { file } => Ok(Source::Corpus(corpus_set(file)?)),
         StoredSource::Family { family, .. } => {

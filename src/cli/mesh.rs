@@ -6,13 +6,15 @@ use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::{KernelArguments, chosen_scalars};
-use super::sources::{scalars_in_use, set_threads};
-use crate::corpus::mesh::Mesh;
+use super::sources::{rays_at_each, scalars_in_use, set_threads};
+use crate::audit::mesh::{self, Found, Plan};
+use crate::family::MeshFamily;
 use crate::kernel::Scalar;
-use crate::mesh::{self, Found, Part, Plan, Targets, Topology};
+use crate::mesh::{Part, Surface};
 use crate::report::mesh::{MESH_FORMATS, build};
 use crate::report::{Context, Style, number_of};
 use clap::Args;
+use std::sync::Arc;
 
 /// Which mesh and kernels, and how to report it.
 #[derive(Args)]
@@ -69,9 +71,6 @@ pub struct MeshArguments {
     quiet: bool,
 }
 
-/// The most rays at an edge: their number fits what counts them, for every kernel.
-const MOST_DIRECTIONS: u64 = 65_536;
-
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let mut outputs =
@@ -83,19 +82,20 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
-    let mesh = read_mesh(&arguments.file, arguments.quiet)?;
+    let family = MeshFamily::new(read_mesh(&arguments.file, arguments.quiet)?, &arguments.file);
+    let surface = Arc::new(Surface::new(Arc::new(family), scalars));
     let progress = Progress::new(0, "rays", arguments.quiet);
     let mut found = Vec::new();
     if scalars[0] {
-        found.push(arguments.run_scalar::<f32>(&mesh, &plan, &progress));
+        found.push(arguments.run_scalar::<f32>(&surface, &plan, &progress));
     }
     if scalars[1] {
-        found.push(arguments.run_scalar::<f64>(&mesh, &plan, &progress));
+        found.push(arguments.run_scalar::<f64>(&surface, &plan, &progress));
     }
     progress.finish();
     plugins::check()?;
     let context = Context { seconds: progress.seconds(), threads };
-    let report = build(&mesh, &arguments.file, &plan, &found, &context);
+    let report = build(&surface, &plan, &found, &context);
     let nothing = found.iter().all(|found| found.cases == 0);
     if nothing {
         // It is printed why, but no file becomes a report of nothing.
@@ -125,27 +125,27 @@ impl MeshArguments {
                 return Err(Failure::usage(message));
             }
         };
-        let directions = self.directions.parse().ok();
-        let directions = directions.filter(|n| (1..=MOST_DIRECTIONS).contains(n));
-        let directions = directions.ok_or_else(|| {
-            let text = &self.directions;
-            let message = format!("--directions: '{text}' is not a number from 1 to 65536");
-            Failure::usage(message)
-        })?;
+        let directions = rays_at_each(&self.directions)?;
         let (seed, examples) = (self.seed, self.examples);
         Ok(Plan { rows: self.kernels.rows()?, directions, seed, unit_direction, examples })
     }
 
-    fn run_scalar<F: Scalar>(&self, mesh: &Mesh, plan: &Plan, progress: &Progress) -> Found {
-        let topology = Topology::of::<F>(mesh);
-        let targets = Targets::new::<F>(mesh, &topology, plan.seed, plan.unit_direction);
-        let rays = Part::ALL.map(|part| targets.count(part) * plan.directions).iter().sum();
+    fn run_scalar<F: Scalar>(
+        &self,
+        surface: &Arc<Surface>,
+        plan: &Plan,
+        progress: &Progress,
+    ) -> Found {
+        let parameters = plan.parameters();
+        let targets = surface.targets::<F>(&parameters, plan.seed);
+        let count = |part| targets.as_ref().map_or(0, |targets| targets.count(part));
+        let rays: u64 = Part::ALL.map(|part| count(part) * plan.directions).iter().sum();
         progress.add_total(rays);
         if !self.quiet {
             let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();
             let rows = number_of(rows as u64, "kernel row", "kernel rows");
             eprintln!("{rows} on {rays} rays in {}", F::NAME);
         }
-        mesh::run::<F>(mesh, topology, plan, progress)
+        mesh::run::<F>(surface, plan, progress)
     }
 }

@@ -5,9 +5,9 @@ use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
-use crate::audit::{self, Plan, Shard};
-use crate::conformance::Unobserved;
+use super::sources::{SourceArguments, rays_at_each, scalars_in_use, set_threads, total_indices};
+use crate::audit::{self, Plan, Shard, Source};
+use crate::engine::Unobserved;
 use crate::report::{
     Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, illustrations,
     number_of, shard_part,
@@ -99,6 +99,10 @@ pub struct RunArguments {
     #[command(flatten)]
     sources: SourceArguments,
 
+    /// Rays at each edge and vertex of a mesh, 1 to 65536; any four are exact and near, grazing and not
+    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
+    directions: String,
+
     /// How many examples of each class of finding to keep
     #[arg(long, default_value_t = 3, value_name = "N")]
     examples: usize,
@@ -120,7 +124,13 @@ impl RunArguments {
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
+        let directions = rays_at_each(&self.directions)?;
         let sources = self.sources.sources(self.report.quiet, |_| true)?;
+        let with_parts = |source: Source| {
+            let parts = source.mesh_parts(directions, scalars);
+            std::iter::once(source).chain(parts)
+        };
+        let sources = sources.into_iter().flat_map(with_parts).collect();
         Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
     }
 

@@ -82,6 +82,7 @@ const SETTINGS: &[Setting] = &[
         "Replace directions by unit vectors",
     ),
     setting("mesh", Kind::Files, "# mesh = [\"model.obj\"]", "Rays at meshes"),
+    setting("directions", Kind::Text, "directions = 8", "Rays at each edge and vertex of a mesh"),
     setting("corpus", Kind::Files, "# corpus = [\"cases.jsonl\"]", "Stored cases"),
     setting("examples", Kind::Text, "examples = 3", "Examples of each class of finding to keep"),
     setting(

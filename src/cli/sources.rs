@@ -220,6 +220,17 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
     }
 }
 
+/// The most rays at an edge: their number fits what counts them, for every kernel.
+const MOST_DIRECTIONS: u64 = 65_536;
+
+/// The rays at each edge and vertex of a mesh, as `--directions` has them.
+pub fn rays_at_each(text: &str) -> Result<u64, Failure> {
+    let directions = text.parse().ok().filter(|n| (1..=MOST_DIRECTIONS).contains(n));
+    directions.ok_or_else(|| {
+        Failure::usage(format!("--directions: '{text}' is not a number from 1 to 65536"))
+    })
+}
+
 /// Sets the number of threads, all cores if none is given; returns how many there are.
 pub fn set_threads(threads: Option<usize>) -> Result<usize, Failure> {
     if let Some(threads) = threads {

@@ -1,10 +1,10 @@
 //! Two epsilons of a kernel at once.
 
 use super::run::Request;
-use crate::audit::{CHUNK, Chunk, Observer, Source, SourceSummary};
+use crate::audit::{CHUNK, Chunk, Source, SourceSummary};
+use crate::engine::{self, Merge, Observer};
 use crate::judge::Obligation;
 use crate::kernel::Scalar;
-use rayon::prelude::*;
 
 /// False misses and false hits for every pair of some epsilons of two gates.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,11 +31,10 @@ struct Counts {
     must_miss: Vec<u64>,
 }
 
-impl Counts {
-    fn merged(mut self, other: Counts) -> Counts {
+impl Merge for Counts {
+    fn merge(&mut self, other: Counts) {
         let sums = self.must_hit.iter_mut().chain(&mut self.must_miss);
         sums.zip(other.must_hit.into_iter().chain(other.must_miss)).for_each(|(a, b)| *a += b);
-        self
     }
 }
 
@@ -52,17 +51,12 @@ pub fn map<F: Scalar>(
     let empty = || Counts { width, must_hit: vec![0; cells], must_miss: vec![0; cells] };
     let mut counts = empty();
     for (number, source) in sources.iter().enumerate() {
-        let count = source.count::<F>();
-        let chunks = (0..count.div_ceil(CHUNK)).into_par_iter();
-        let sums = chunks.fold(empty, |mut counts, chunk| {
-            let indices = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
+        let add = |counts: &mut Counts, indices| {
             let mut summary = SourceSummary::new(number, F::NAME);
             let chunk = Chunk::<F>::make(source, indices, observer, &mut summary);
-            add(request, gates, &epsilons, &chunk, &mut counts);
-            observer.advance(chunk.cases.len() as u64);
-            counts
-        });
-        counts = counts.merged(sums.reduce(empty, Counts::merged));
+            add(request, gates, &epsilons, &chunk, counts);
+        };
+        counts.merge(engine::sum(0..source.count::<F>(), CHUNK, observer, empty, add));
     }
     finished(gates, epsilons, &counts)
 }

@@ -5,11 +5,11 @@ use super::curve::{Curve, Lane, Question};
 use super::duty::Duty;
 use super::relative::Scales;
 use crate::arith::Float;
-use crate::audit::{CHUNK, Chunk, Observer, Place, Row, Source, SourceSummary};
+use crate::audit::{CHUNK, Chunk, Place, Row, Source, SourceSummary};
+use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Gate, Gated, Scalar, Tunable};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// A kernel whose response is asked for.
@@ -123,17 +123,14 @@ impl<'a, F: Scalar> Pass<'a, F> {
     }
 
     fn over(&self, number: usize, source: &Source) -> SourceResponse<F> {
-        let count = source.count::<F>();
-        let (chunks, threads) = (count.div_ceil(CHUNK), rayon::current_num_threads() as u64);
         // A few large sums: a lane in f64 has 268,000 cells.
-        let sums = (0..threads).into_par_iter().map(|first| {
-            let mut sums = self.empty(number);
-            for chunk in (first..chunks).step_by(threads as usize) {
-                self.add(source, chunk * CHUNK..count.min((chunk + 1) * CHUNK), &mut sums);
-            }
-            sums
-        });
-        let sums = sums.reduce_with(Sums::merged).unwrap_or_else(|| self.empty(number));
+        let sums = engine::sum(
+            0..source.count::<F>(),
+            CHUNK,
+            self.observer,
+            || self.empty(number),
+            |sums: &mut Sums<F>, indices| self.add(source, indices, sums),
+        );
         let gates = sums.gates.into_iter().zip(self.request.gates);
         let responses = gates.map(|(sums, gate)| Response {
             gate: *gate,
@@ -174,7 +171,6 @@ impl<'a, F: Scalar> Pass<'a, F> {
             self.add_cases(&chunk, &obligations, &sums.margins, gate, scales, gate_sums);
             add_groups(&chunk, &groups, self.request.axis, gate_sums);
         }
-        self.observer.advance(chunk.cases.len() as u64);
     }
 
     fn add_cases(
@@ -251,8 +247,8 @@ fn add_groups<F: Scalar>(
     }
 }
 
-impl<F: Scalar> Sums<F> {
-    fn merged(mut self, other: Sums<F>) -> Sums<F> {
+impl<F: Scalar> Merge for Sums<F> {
+    fn merge(&mut self, other: Sums<F>) {
         self.summary.merge(&other.summary);
         for (sums, more) in self.gates.iter_mut().zip(other.gates) {
             for (lane, more) in sums.lanes.iter_mut().zip(more.lanes) {
@@ -262,6 +258,5 @@ impl<F: Scalar> Sums<F> {
                 *count += more;
             }
         }
-        self
     }
 }

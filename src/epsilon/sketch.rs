@@ -51,29 +51,34 @@ pub fn sketch<F: Scalar>(
 pub fn few(sources: &[Source], most: u64) -> Vec<Source> {
     let spans = |source: &&Source| match source {
         Source::Family { family, .. } => SPANNING.contains(&family.name),
-        Source::Mesh { .. } | Source::Corpus(_) => false,
+        Source::Mesh { .. } | Source::MeshPart { .. } | Source::Corpus(_) => false,
     };
-    let few = |source: &Source| match source {
-        Source::Family { family, parameters, seed, count, exhaustive } => Source::Family {
-            family,
-            parameters: parameters.clone(),
-            seed: *seed,
-            // In its natural order the beginning of a whole set is no picture of it.
-            count: if *exhaustive { most } else { (*count).min(most) },
-            exhaustive: false,
-        },
-        Source::Mesh { family, parameters, seed, count } => Source::Mesh {
-            family: family.clone(),
-            parameters: parameters.clone(),
-            seed: *seed,
-            count: (*count).min(most),
-        },
-        Source::Corpus(set) => Source::Corpus(CorpusSet {
-            file: set.file.clone(),
-            f32: set.f32.iter().take(most as usize).cloned().collect(),
-            f64: set.f64.iter().take(most as usize).cloned().collect(),
-        }),
+    let few = |source: &Source| {
+        Some(match source {
+            Source::Family { family, parameters, seed, count, exhaustive } => Source::Family {
+                family,
+                parameters: parameters.clone(),
+                seed: *seed,
+                // In its natural order the beginning of a whole set is no picture of it.
+                count: if *exhaustive { most } else { (*count).min(most) },
+                exhaustive: false,
+            },
+            Source::Mesh { family, parameters, seed, count } => Source::Mesh {
+                family: family.clone(),
+                parameters: parameters.clone(),
+                seed: *seed,
+                count: (*count).min(most),
+            },
+            Source::Corpus(set) => Source::Corpus(CorpusSet {
+                file: set.file.clone(),
+                f32: set.f32.iter().take(most as usize).cloned().collect(),
+                f64: set.f64.iter().take(most as usize).cloned().collect(),
+            }),
+            // A crack there is one only if no neighbour has the hit, which margins do not tell.
+            Source::MeshPart { .. } => return None,
+        })
     };
-    let chosen: Vec<Source> = sources.iter().filter(|source| !spans(source)).map(few).collect();
-    if chosen.is_empty() { sources.iter().map(few).collect() } else { chosen }
+    let chosen: Vec<Source> =
+        sources.iter().filter(|source| !spans(source)).filter_map(few).collect();
+    if chosen.is_empty() { sources.iter().filter_map(few).collect() } else { chosen }
 }

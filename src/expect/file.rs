@@ -132,7 +132,8 @@ impl Reader<'_> {
         let finding = spanned.get_ref();
         let families: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
         let family = finding.family.get_ref();
-        if !family.starts_with("mesh:") && !family.starts_with("corpus:") {
+        let files = ["mesh:", "mesh-edges:", "mesh-vertices:", "corpus:"];
+        if !files.iter().any(|kind| family.starts_with(kind)) {
             self.check("family", &finding.family, &families)?;
         }
         let mut classes: Vec<String> = Class::all().map(Class::name).collect();

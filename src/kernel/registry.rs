@@ -4,7 +4,7 @@ use super::own::{Own, Test};
 use super::{Generic, Kernel, KernelInfo, Subject};
 use crate::arith::{Arithmetic, Float};
 use std::ptr;
-use std::sync::{PoisonError, RwLock};
+use std::sync::{Mutex, PoisonError, RwLock};
 
 /// A row: a kernel in one or both scalars.
 #[derive(Clone, Copy)]
@@ -166,11 +166,11 @@ fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
 }
 
 /// Entries that live as long as the process without being in the table.
-static KEPT: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
+static KEPT: Mutex<Vec<&'static Entry>> = Mutex::new(Vec::new());
 
 /// The entry for the rest of the process: of the same one always the same.
 pub(crate) fn kept(entry: &Entry) -> &'static Entry {
-    let mut kept = KEPT.write().unwrap_or_else(PoisonError::into_inner);
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = all().into_iter().chain(kept.iter().copied()).find(|e| e.is(entry)) {
         return known;
     }

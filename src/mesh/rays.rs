@@ -37,6 +37,25 @@ impl Part {
         Part::ALL.into_iter().find(|part| part.family() == name)
     }
 
+    /// The id of an index; it holds the mesh's digest.
+    pub(super) fn id<F: Float>(
+        self,
+        mesh: &Mesh,
+        parameters: &Parameters,
+        seed: u64,
+        index: u64,
+    ) -> CaseId {
+        CaseId {
+            family: self.family().to_owned(),
+            version: VERSION,
+            scalar: F::NAME.to_owned(),
+            parameters: Parameters { mesh: Some(mesh.digest.clone()), ..parameters.clone() },
+            seed,
+            index,
+            triangle: None,
+        }
+    }
+
     /// How the triangles of one index belong together.
     pub fn grouping(self) -> Grouping {
         match self {
@@ -66,33 +85,19 @@ impl Aim {
 pub struct Targets<'m> {
     mesh: &'m Mesh,
     topology: &'m Topology,
-    parameters: Parameters,
+    parameters: &'m Parameters,
     seed: u64,
-    /// The largest extent of the mesh along an axis.
-    extent: f64,
 }
 
 impl<'m> Targets<'m> {
-    /// Of a mesh and its topology in the scalar `F`. Directions are used as they are made, or
-    /// replaced by their rounded unit vectors.
-    pub fn new<F: Float>(
+    /// Of a mesh and its topology in a scalar.
+    pub fn new(
         mesh: &'m Mesh,
         topology: &'m Topology,
+        parameters: &'m Parameters,
         seed: u64,
-        unit_direction: bool,
     ) -> Targets<'m> {
-        let parameters =
-            Parameters { unit_direction, mesh: Some(mesh.digest.clone()), ..Parameters::default() };
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for edge in &topology.shared {
-            for end in edge.ends {
-                let position = mesh.position::<F>(end).map(F::to_f64);
-                low = std::array::from_fn(|i| low[i].min(position[i]));
-                high = std::array::from_fn(|i| high[i].max(position[i]));
-            }
-        }
-        let extent = (0..3).fold(0.0, |m: f64, i| m.max(high[i] - low[i]));
-        Targets { mesh, topology, parameters, seed, extent }
+        Targets { mesh, topology, parameters, seed }
     }
 
     /// How many targets there are.
@@ -107,19 +112,6 @@ impl<'m> Targets<'m> {
     pub fn place(&self, part: Part, index: u64) -> (usize, u64) {
         let count = self.count(part);
         ((index % count) as usize, index / count)
-    }
-
-    /// The id of an index; it holds the mesh's digest.
-    pub fn id<F: Float>(&self, part: Part, index: u64) -> CaseId {
-        CaseId {
-            family: part.family().to_owned(),
-            version: VERSION,
-            scalar: F::NAME.to_owned(),
-            parameters: self.parameters.clone(),
-            seed: self.seed,
-            index,
-            triangle: None,
-        }
     }
 
     /// Whether an id is of the version that [`Targets::make`] makes.
@@ -148,68 +140,46 @@ impl<'m> Targets<'m> {
         self.mesh.position::<F>(vertex).map(F::to_f64)
     }
 
-    /// The points around the centre of a fan, in their order.
-    pub fn ring<F: Float>(&self, fan: usize) -> Vec<[f64; 3]> {
-        let (centre, faces) = self.topology.fans.get(fan);
-        let next = |face: &u32| {
-            let corners = self.mesh.triangles[*face as usize]
-                .map(|vertex| self.topology.points[vertex as usize]);
-            let at = corners.iter().position(|point| *point == centre).unwrap_or(0);
-            self.position::<F>(corners[(at + 1) % 3])
-        };
-        faces.iter().map(next).collect()
-    }
-
     /// Adds the cases of an index: one ray, and each triangle around its target.
     pub fn make<F: Float>(&self, part: Part, index: u64, cases: &mut Vec<Case<F>>) {
+        let (target, _) = self.place(part, index);
+        self.add_faces(part, index, self.faces(part, target), cases);
+    }
+
+    /// The ray of an index with the triangles that share a point with one around its target; none if they
+    /// are too many ([`super::MOST_AROUND`]).
+    pub fn neighbours<F: Float>(&self, part: Part, index: u64) -> Option<Vec<Case<F>>> {
+        let group = self.faces(part, self.place(part, index).0);
+        let faces = neighbours::around(self.topology, &self.mesh.triangles, group)?;
+        let mut cases = Vec::with_capacity(faces.len());
+        self.add_faces(part, index, &faces, &mut cases);
+        Some(cases)
+    }
+
+    /// Adds the ray of an index with each of some faces.
+    fn add_faces<F: Float>(&self, part: Part, index: u64, faces: &[u32], cases: &mut Vec<Case<F>>) {
+        let (origin, direction) = self.ray(part, index);
+        cases.extend(faces.iter().map(|face| {
+            let mut case = Case::new(origin, direction, self.mesh.vertices(*face as usize));
+            family::apply(self.parameters, &mut case);
+            case
+        }));
+    }
+
+    /// The ray of an index, before the parameters.
+    fn ray<F: Float>(&self, part: Part, index: u64) -> ([F; 3], [F; 3]) {
         let (target, number) = self.place(part, index);
         let mut draw = Draw::new(part.family(), self.seed, index);
         let faces = self.faces(part, target);
-        let (first, last) = match part {
-            Part::Edges => {
-                let [p, q] = self.topology.shared[target].ends;
-                (self.mesh.position::<F>(p), self.mesh.position::<F>(q))
-            }
-            Part::Vertices => {
-                let centre = self.mesh.position::<F>(self.topology.fans.get(target).0);
-                (centre, centre)
-            }
-        };
-        let aim = Aim::of(number);
-        let about = self.mesh.vertices::<F>(faces[draw.below(faces.len())] as usize);
-        let (origin, direction) = self.ray(&mut draw, aim, [first, last], about);
-        let start = cases.len();
-        cases.extend(
-            faces
-                .iter()
-                .map(|face| Case::new(origin, direction, self.mesh.vertices::<F>(*face as usize))),
-        );
-        for case in &mut cases[start..] {
-            family::apply(&self.parameters, case);
-        }
-    }
-
-    /// The cases of a ray, given by one of its cases, with the triangles that share a point with one
-    /// around its target; none if they are too many ([`super::MOST_AROUND`]).
-    pub fn neighbours<F: Float>(
-        &self,
-        part: Part,
-        target: usize,
-        case: &Case<F>,
-    ) -> Option<Vec<Case<F>>> {
-        let group = self.faces(part, target);
-        let faces = neighbours::around(self.topology, &self.mesh.triangles, group)?;
-        let (origin, direction) = (case.ray.origin.into(), case.ray.direction.into());
-        let of = |face: &u32| Case {
-            ray: case.ray,
-            ..Case::new(origin, direction, self.mesh.vertices::<F>(*face as usize))
-        };
-        Some(faces.iter().map(of).collect())
+        let points = self.points(part, target);
+        let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));
+        let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);
+        self.ray_at(&mut draw, Aim::of(number), ends, about)
     }
 
     /// A ray at the segment between two points (or at one point, given twice), which belongs to a
     /// triangle: from about the triangle's size away, or from about that of the mesh.
-    fn ray<F: Float>(
+    fn ray_at<F: Float>(
         &self,
         draw: &mut Draw,
         aim: Aim,
@@ -222,7 +192,7 @@ impl<'m> Targets<'m> {
         });
         let toward = if aim.grazing { grazing_direction(draw, wide) } else { any_direction(draw) };
         let distance = if draw.coin() {
-            self.extent * (0.5 + 1.5 * draw.unit())
+            self.topology.extent * (0.5 + 1.5 * draw.unit())
         } else {
             size * (1.0 + 7.0 * draw.unit())
         };

@@ -67,7 +67,7 @@ pub struct SharedEdge {
 }
 
 /// A mesh in one scalar.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
     /// For each vertex of the file the first vertex with the same coordinates.
     pub points: Vec<u32>,
@@ -87,6 +87,8 @@ pub struct Topology {
     pub fans: Fans,
     /// The faces at each point.
     pub incidence: Incidence,
+    /// The largest extent of the shared edges along an axis.
+    pub extent: f64,
 }
 
 impl Topology {
@@ -108,6 +110,7 @@ impl Topology {
         let (edges, shared) = edges(&corners, &kinds);
         let takes_part = |face: usize| kinds[face] != FaceKind::Collapsed;
         let incidence = Incidence::of(points.len(), &corners, takes_part);
+        let extent = extent_of::<F>(mesh, &shared);
         let mut topology = Topology {
             points,
             used_points: 0,
@@ -118,6 +121,7 @@ impl Topology {
             shared,
             fans: Fans::default(),
             incidence,
+            extent,
         };
         topology.add_vertices(&corners, &kinds);
         topology
@@ -164,6 +168,17 @@ impl Topology {
             }
         }
     }
+}
+
+/// The largest extent of some edges along an axis.
+fn extent_of<F: Float>(mesh: &Mesh, edges: &[SharedEdge]) -> f64 {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for end in edges.iter().flat_map(|edge| edge.ends) {
+        let position = mesh.position::<F>(end).map(F::to_f64);
+        low = std::array::from_fn(|i| low[i].min(position[i]));
+        high = std::array::from_fn(|i| high[i].max(position[i]));
+    }
+    (0..3).fold(0.0, |m: f64, i| m.max(high[i] - low[i]))
 }
 
 /// For each vertex the first with equal coordinates.

@@ -244,6 +244,7 @@ pub(super) fn promised(row: &Row) -> &'static str {
 
 fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
     let sample = source.is_sample();
+    let elsewhere = matches!(source, Source::MeshPart { .. });
     let ids = |indices: &[u64]| indices.iter().map(|i| source.id::<F>(*i, None)).collect();
     AcrossPart {
         promised: promised(row).to_owned(),
@@ -253,8 +254,12 @@ fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> Ac
         missed_folds: rate(groups.missed_folds, groups.folds, sample),
         first_cracks: ids(&groups.first_cracks),
         first_doubles: ids(&groups.first_doubles),
+        first_odd_folds: ids(&groups.first_odd_folds),
         crack_digest: groups.crack_digest.to_string(),
         double_digest: groups.double_digest.to_string(),
+        odd_fold_digest: groups.odd_fold_digest.to_string(),
+        file: source.file_flag(),
+        elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
     }
 }
 

@@ -18,7 +18,7 @@ pub struct Key {
     pub family: String,
     /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
     pub class: String,
-    /// `false-miss`, …, `crack`, `double`, `polygon-false-miss`, `polygon-false-hit`.
+    /// `false-miss`, …, `crack`, `double`, `odd-fold`, `polygon-false-miss`, `polygon-false-hit`.
     pub finding: String,
 }
 
@@ -34,6 +34,7 @@ pub const FINDING_KINDS: &[(&str, &str)] = &[
     ("double", "Two triangles of a group report one crossing"),
     ("polygon-false-miss", "The contract asks for a hit of the whole polygon, and it is missed"),
     ("polygon-false-hit", "The contract asks for a miss of the whole polygon, and it is hit"),
+    ("odd-fold", "Over a folded edge the number of hits on its two triangles has the wrong parity"),
 ];
 
 impl Key {
@@ -91,7 +92,7 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
         let groups = across(part).into_iter().map(|found| ("group", found));
         let polygons = polygons(part).into_iter().map(|found| ("polygon", found));
         for (class, (finding, rate, digest, first)) in groups.chain(polygons) {
-            let example = row.zip(first.first()).map(|(row, id)| group_example(row, id));
+            let example = row.zip(first.first()).map(|(row, id)| group_example(row, part, id));
             let key = Key::of(part, class, finding);
             all.push(Disagreement { key, rate, digest, example });
         }
@@ -110,10 +111,12 @@ fn across(part: &KernelResult) -> Vec<Together<'_>> {
         ("crack", &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
     let doubles: Together =
         ("double", &across.doubles, &across.double_digest, across.first_doubles.as_slice());
+    let folds: Together =
+        ("odd-fold", &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised.as_str() {
         "nothing" => Vec::new(),
         "at-least-one" => vec![cracks],
-        _ => vec![cracks, doubles],
+        _ => vec![cracks, doubles, folds],
     }
 }
 
@@ -166,11 +169,11 @@ pub(super) fn kinds_of(part: &KernelResult) -> Vec<&str> {
 }
 
 /// A group by its id: its bits are those of several triangles, and are left to the command.
-fn group_example(row: &RowPart, id: &str) -> Example {
+fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
     Example {
         case: id.to_owned(),
         bits: String::new(),
         severity: None,
-        command: row.explain_command(id),
+        command: row.explain_group(result, id),
     }
 }

@@ -6,11 +6,14 @@
 #![forbid(unsafe_code)]
 
 mod build;
+mod close_up;
+mod columns;
 mod compare;
 mod conformance;
 mod disagreement;
 mod distribution;
 pub mod epsilon;
+mod extremes;
 #[cfg(feature = "cli")]
 mod html;
 #[cfg(feature = "cli")]
@@ -21,8 +24,10 @@ mod jsonl;
 mod junit;
 mod markdown;
 pub mod mesh;
+mod pool;
 mod record;
 mod sarif;
+mod screen;
 mod shard;
 mod text;
 mod verdict;
@@ -50,7 +55,7 @@ use std::io::{self, Write};
 pub struct Style {
     /// Whether to use terminal colours.
     pub color: bool,
-    /// Whether to list every class of finding of every kernel.
+    /// Whether to print everything: the tables by scalar, and every class of finding of every kernel.
     pub details: bool,
 }
 

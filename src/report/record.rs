@@ -353,8 +353,20 @@ pub struct AcrossPart {
     pub first_doubles: Vec<String>,
     /// Of the set of all cracks.
     pub crack_digest: String,
+    /// Ids of the first folds of wrong parity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_odd_folds: Vec<String>,
     /// Of the set of all doubles.
     pub double_digest: String,
+    /// Of the set of all folds of wrong parity.
+    #[serde(default)]
+    pub odd_fold_digest: String,
+    /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elsewhere: Option<Rate>,
+    /// The flag that names the file from which an id makes its group, as `--mesh 'model.obj'`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
 }
 
 /// What a kernel that takes polygons did with whole ones.

@@ -143,7 +143,7 @@ pub fn merged<E: From<String>>(
     parts: Mergeable,
     illustrate: impl FnOnce(&Plan) -> Option<Illustrations>,
     observer: &dyn Observer,
-    open: impl FnMut(&StoredSource) -> Result<Source, E>,
+    open: impl FnMut(&StoredSource, [bool; 2]) -> Result<Source, E>,
 ) -> Result<Record, E> {
     let complete = parts.missing().next().is_none();
     let plan = parts.plan.plan(open)?;

@@ -309,3 +309,54 @@ fn this_repositorys_own_expectations_are_of_its_default_plan() {
     // Few cases: the plan is another, so rates are compared. CI compares the whole plan case by case.
     ends(root, &["check", "-q", "--count", "200", "--family", "tiny,edge-exact"], 0);
 }
+
+#[test]
+fn a_band_frees_polygons_and_groups_as_it_frees_cases() {
+    let folder = scratch("check-band");
+    let with = |arguments: &str, code: i32| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        ends(&folder, &arguments, code)
+    };
+    // Every ray through the inside passes within a longest edge of the outline.
+    let polygons = "check --quiet --kernel convex-polygon --epsilon parallel=1000 \
+                    --family polygon --scalar f32 -n 2000";
+    let (out, _) = with(polygons, 1);
+    assert!(out.contains("polygon: polygon-false-miss of polygon: "), "{out}");
+    with(&format!("{polygons} --band 1"), 0);
+    // Within a thousandth of a longest edge hardly any lattice ray passes that is not on the outline.
+    with(&format!("{polygons} --band 1e-3"), 1);
+    let groups = "audit --quiet --kernel moller-trumbore --epsilon edge=0.1 --scalar f32 \
+                  --family shared-edge,fan -n 500 --format json -o";
+    let crossings = |band: &str| -> Vec<u64> {
+        with(&format!("{groups} record.json{band}"), 0);
+        let record: serde_json::Value =
+            serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
+        let results = record["result"]["results"].as_array().unwrap();
+        results.iter().map(|part| part["across"]["cracks"]["of"].as_u64().unwrap()).collect()
+    };
+    assert!(crossings("").iter().all(|of| 100 < *of));
+    assert_eq!(crossings(" --band 1"), [0, 0]);
+}
+
+#[test]
+fn a_polygons_finding_has_a_command_that_shows_the_polygon_as_a_whole() {
+    let folder = scratch("check-polygon");
+    let run = "audit --quiet --kernel convex-polygon --epsilon parallel=1000 --family polygon \
+               --scalar f32 -n 50 --details --format text,html -o text -o html";
+    ends(&folder, &run.split_whitespace().collect::<Vec<_>>(), 0);
+    let text = fs::read_to_string(folder.join("text")).unwrap();
+    let mut lines = text.lines().skip_while(|line| !line.contains("polygon-false-miss: "));
+    assert!(lines.next().is_some_and(|line| line.ends_with(" whole polygons")), "{text}");
+    let command = lines.next().unwrap().trim();
+    let words: Vec<String> = command.split(' ').map(|word| word.replace('\'', "")).collect();
+    assert_eq!(words[..2], ["hairline", "explain"]);
+    let words: Vec<&str> = words[1..].iter().map(String::as_str).collect();
+    let (shown, _) = ends(&folder, &words, 0);
+    let whole = shown.lines().find(|line| line.contains(" corners as a whole: ")).expect(&shown);
+    assert!(whole.ends_with(" as a whole: miss; its contract asks a hit: FALSE-MISS"), "{whole}");
+    let html = fs::read_to_string(folder.join("html")).unwrap();
+    assert!(
+        html.contains("polygon-false-miss") && html.contains(&words[1].to_owned()),
+        "{command}"
+    );
+}

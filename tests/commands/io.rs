@@ -132,7 +132,7 @@ fn a_name_that_no_command_could_repeat_is_refused() {
         ("{x", "'{x' cannot name a case: it begins with '{', as a case that is written as JSON"),
         ("a\nb", "'a\\nb' cannot name a case: it has a control character"),
         ("a\0", "cannot name a case: it has a control character"),
-        (&"x".repeat(1001), "cannot name a case: it has more than 1000 bytes"),
+        ("x".repeat(1001).as_str(), "cannot name a case: it has more than 1000 bytes"),
     ] {
         fs::write(folder.join("a.jsonl"), unnamed() + &case(name, "f32")).unwrap();
         let (_, error) = ends(&folder, &["audit", "--corpus", "a.jsonl"], 65);
@@ -173,7 +173,7 @@ fn the_printed_command_shows_the_very_case() {
 fn a_name_breaks_no_column() {
     let folder = scratch("io-columns");
     let long = format!("{}.jsonl", "long".repeat(20));
-    for file in ["a\tb\nc.jsonl", &long] {
+    for file in ["a\tb\nc.jsonl", long.as_str()] {
         fs::write(folder.join(file), case("x", "f32")).unwrap();
         let plan = ["audit", "--corpus", file, "--kernel", "moller-trumbore", "--scalar", "f32"];
         let (table, _) = ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9"]].concat(), 0);
@@ -371,7 +371,9 @@ fn a_file_is_replaced_where_it_is_and_as_it_is() {
     symlink("far/real", folder.join("link")).unwrap();
     symlink("far/new", folder.join("hanging")).unwrap();
     let long = "x".repeat(250);
-    for (output, file) in [("link", "far/real"), ("hanging", "far/new"), (&long, &long)] {
+    for (output, file) in
+        [("link", "far/real"), ("hanging", "far/new"), (long.as_str(), long.as_str())]
+    {
         let plan = ["corpus", "generate", "--family", "tiny", "-n", "3", "-o", output];
         ends(&folder, &plan, 0);
         assert_eq!(fs::read_to_string(folder.join(file)).unwrap().lines().count(), 3);

@@ -266,3 +266,91 @@ fn ids_of_other_meshes_versions_and_triangles_are_refused() {
     assert!(explain(&id("7").replace("@1", "@2"), 65).1.contains("another version"));
     assert!(explain(&id("7").replace(digest, "0123456789abcdef"), 65).1.contains("digest"));
 }
+
+/// The parts of a record about one source, by kernel.
+fn across(record: &Value, family: &str) -> Vec<(String, Value)> {
+    let results = record["result"]["results"].as_array().unwrap();
+    let of_family = results.iter().filter(|part| part["family"] == family);
+    of_family.map(|part| (part["kernel"].to_string(), part["across"].clone())).collect()
+}
+
+#[test]
+fn an_audit_with_a_mesh_counts_what_the_mesh_audit_counts() {
+    let folder = scratch("mesh-audit");
+    for name in ["torus", "icosphere", "far", "heightfield", "needles", "polygons"] {
+        let file = model(name);
+        let flags = ["--kernel", "moller-trumbore,woop-watertight,plucker", "--directions", "4"];
+        let flags = [&flags[..], &["--scalar", "f32"]].concat();
+        let of_mesh = record(&folder, &[&[file.as_str()], &flags[..]].concat());
+        let run = ["audit", "--quiet", "-n", "10", "--format", "json", "--mesh", &file];
+        let (out, _) = ends(&folder, &[&run[..], &flags[..]].concat(), 0);
+        let of_audit: Value = serde_json::from_str(&out).unwrap();
+        for part in ["edges", "vertices"] {
+            let counted = across(&of_audit, &format!("mesh-{part}:{name}.obj"));
+            let rows = of_mesh["result"]["scalars"][0]["results"].as_array().unwrap();
+            assert_eq!(counted.len(), rows.len());
+            for (row, (kernel, counted)) in rows.iter().zip(&counted) {
+                assert_eq!(row["kernel"].to_string(), *kernel);
+                for kind in ["cracks", "doubles", "odd_folds", "missed_folds", "elsewhere"] {
+                    let (expected, found) = (&row[part]["total"][kind], &counted[kind]);
+                    assert!(expected["count"].is_u64());
+                    assert_eq!(expected, found, "{name} {part} {kernel} {kind}");
+                }
+            }
+            let total = |kind: &str| -> u64 {
+                counted.iter().map(|(_, counted)| counted[kind]["count"].as_u64().unwrap()).sum()
+            };
+            assert!(name == "polygons" || 0 < total("cracks"), "{name} {part}");
+        }
+    }
+}
+
+#[test]
+fn parts_of_an_audit_with_a_mesh_merge_to_the_bytes_of_the_whole() {
+    let folder = scratch("mesh-shards");
+    let run = |file: &str, more: &[&str]| {
+        let mesh = model("icosphere");
+        let run = ["audit", "--quiet", "--mesh", &mesh, "-n", "50", "--directions", "3"];
+        let how = ["--kernel", "moller-trumbore,plucker", "--format", "json", "-o", file];
+        ends(&folder, &[&run[..], &how[..], more].concat(), 0);
+    };
+    run("whole.json", &["--threads", "2"]);
+    for shard in ["0/3", "1/3", "2/3"] {
+        run(&format!("{}.json", &shard[..1]), &["--shard", shard]);
+    }
+    let merge = ["merge", "--quiet", "0.json", "2.json", "1.json", "--format", "json", "-o"];
+    ends(&folder, &[&merge[..], &["merged.json"]].concat(), 0);
+    let result = |file: &str| result_bytes(&folder.join(file));
+    assert_eq!(result("merged.json"), result("whole.json"));
+    assert!(result("whole.json").contains("mesh-vertices:icosphere.obj"));
+}
+
+#[test]
+fn a_check_with_a_mesh_is_red_when_an_epsilon_makes_cracks() {
+    let folder = scratch("mesh-check");
+    fs::copy(model("torus"), folder.join("torus.obj")).unwrap();
+    let settings = "kernel = [\"woop-watertight\"]\nscalar = \"f32\"\nfamily = [\"interior\"]\n\
+                    count = 100\nmesh = [\"torus.obj\"]\ndirections = 2\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    ends(&folder, &["check", "--quiet", "--bless"], 0);
+    ends(&folder, &["check", "--quiet"], 0);
+    let formats = ["--format", "text,junit,sarif,markdown,html,json"];
+    let files = ["text", "junit", "sarif", "markdown", "html", "json"];
+    let outputs: Vec<&str> = files.iter().flat_map(|file| ["-o", *file]).collect();
+    let check = ["check", "--quiet", "--epsilon", "edge=1e-3"];
+    ends(&folder, &[&check[..], &formats[..], &outputs[..]].concat(), 1);
+    for file in files {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(text.contains("crack") && text.contains("mesh-edges:torus.obj"), "{file}");
+    }
+    // The command of a crack shows it.
+    let text = fs::read_to_string(folder.join("text")).unwrap();
+    let mut lines =
+        text.lines().skip_while(|line| !line.contains("mesh-edges:torus.obj: crack of"));
+    assert!(lines.next().is_some(), "{text}");
+    let command = lines.find(|line| line.contains("hairline explain")).unwrap();
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
+    let (shown, _) = ends(&folder, &words, 0);
+    assert!(shown.trim_end().ends_with("one hit is right: CRACK"), "{shown}");
+}

@@ -195,6 +195,60 @@ fn a_promise_across_triangles_is_part_of_the_contract() {
     assert!(outcome.to_string().contains("fan (own): crack in "), "{outcome}");
 }
 
+/// Signed volumes that panic on every polygon of five corners.
+struct NoPentagons;
+
+impl Kernel for NoPentagons {
+    const INFO: KernelInfo =
+        KernelInfo { name: "no-pentagons", polygons: true, ..<Volumes as Kernel>::INFO };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    fn test<V: Vector, S: Sink<V::Real>>(
+        triangle: &Triangle<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        Volumes::test(triangle, ray, sink)
+    }
+
+    fn test_polygon<V: Vector, S: Sink<V::Real>>(
+        vertices: &[V],
+        _: &Ray<V>,
+        _: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        assert_ne!(vertices.len(), 5);
+        None
+    }
+}
+
+#[test]
+fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
+    let kernel = Entry::of::<NoPentagons>();
+    let outcome = hairline::audit(&kernel).families(["polygon"]).count(300).run().unwrap();
+    let family = hairline::internals::family::find("polygon").unwrap();
+    // A pentagon is a fan of three triangles.
+    let made = (0..300).map(|i| family.make::<f32>(&Parameters::default(), 1, i).cases().len());
+    let pentagons: Vec<usize> = (0..).zip(made).filter(|(_, n)| *n == 3).map(|(i, _)| i).collect();
+    assert!(pentagons.len() > 10);
+    let found = hairline::internals::report::disagreements(&outcome.record.result);
+    let panics = found.iter().find(|found| {
+        let key = &found.key;
+        (key.scalar.as_str(), key.class.as_str(), key.finding.as_str())
+            == ("f32", "polygon", "panic")
+    });
+    let panics = panics.expect("panics on polygons");
+    assert_eq!((panics.rate.count, panics.rate.of), (pentagons.len() as u64, 300));
+    let example = panics.example.as_ref().expect("a place");
+    assert_eq!(example.case, format!("polygon@1/f32/-/1/{}", pentagons[0]));
+    assert!(example.command.starts_with(&format!("hairline explain '{}'", example.case)));
+    assert!(outcome.to_string().contains("panic"), "{outcome}");
+}
+
 #[test]
 fn names_and_epsilons_that_there_are_none_of_are_errors() {
     let kernel = Entry::of::<Volumes>();
@@ -228,7 +282,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     assert!(code == Some(2) && error.contains("did you mean 'bounding-box'?"), "{error}");
     let kernels = "mine,bounding-box,cramer";
     let (code, table, _) =
-        run(&["audit", "--kernel", kernels, "-n", "300", "--family", "interior"]);
+        run(&["audit", "--details", "--kernel", kernels, "-n", "300", "--family", "interior"]);
     assert_eq!(code, Some(0));
     // Each in its own scalar: mine in f32, the box in f64, the built-in one in both.
     let count = |label: &str| table.lines().filter(|line| line.starts_with(label)).count();

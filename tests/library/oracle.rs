@@ -1,6 +1,7 @@
 //! The oracle against integer arithmetic, its definition, and laws that any truth obeys.
 
 use hairline::internals::arith::scale_by_power_of_two;
+use hairline::internals::audit::Unobserved;
 use hairline::internals::case::{Case, Parameters};
 use hairline::internals::family::{FAMILIES, find};
 use hairline::internals::oracle::{Layer, define, truth};
@@ -13,15 +14,15 @@ use proptest::prelude::*;
 
 #[test]
 fn every_lattice_case_agrees_with_integer_arithmetic() {
-    let check = selfcheck::lattice(&|_| {});
+    let check = selfcheck::lattice(&Unobserved);
     assert!(check.cases == 14_348_907, "{}", check.cases);
     assert_eq!((check.differences, check.first), (0, None));
 }
 
 #[test]
 fn cases_over_the_whole_range_agree_with_the_definition() {
-    let narrow = selfcheck::whole_range::<f32>(Definition, 7, 1000, &|_| {});
-    let wide = selfcheck::whole_range::<f64>(Definition, 7, 1000, &|_| {});
+    let narrow = selfcheck::whole_range::<f32>(Definition, 7, 1000, &Unobserved);
+    let wide = selfcheck::whole_range::<f64>(Definition, 7, 1000, &Unobserved);
     assert_eq!((narrow.differences, narrow.first), (0, None));
     assert_eq!((wide.differences, wide.first), (0, None));
     // Every layer had its turn.
@@ -41,8 +42,8 @@ fn families_agree_with_the_definition_and_with_integers_at_the_intervals_ends_to
     for row in FAMILIES {
         for (reference, indices) in [(Definition, 200), (Integers, 2000)] {
             for check in [
-                selfcheck::family::<f32>(row, reference, 3, indices, &|_| {}),
-                selfcheck::family::<f64>(row, reference, 3, indices, &|_| {}),
+                selfcheck::family::<f32>(row, reference, 3, indices, &Unobserved),
+                selfcheck::family::<f64>(row, reference, 3, indices, &Unobserved),
             ] {
                 assert_eq!((check.differences, check.first), (0, None), "{}", row.name);
             }

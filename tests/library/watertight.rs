@@ -2,30 +2,24 @@
 //! the definition in rationals; known facts; threads.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::{EpsilonChoice, Observer, Row, exact_severity};
-use hairline::internals::case::{Case, Draw};
+use hairline::internals::audit::mesh::{CLASSES, Found, Plan, run};
+use hairline::internals::audit::{EpsilonChoice, Row, Unobserved, exact_severity};
+use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::contract::{Extent, NAMED};
 use hairline::internals::corpus::mesh::{Mesh, read_obj, write_obj};
 use hairline::internals::corpus::shapes;
+use hairline::internals::family::MeshFamily;
+use hairline::internals::judge::may_be_elsewhere;
 use hairline::internals::kernel::{Entry, Scalar, Verdict, find};
 use hairline::internals::mesh::{
-    Aim, CLASSES, EdgeKind, FaceKind, Found, MOST_AROUND, Part, Plan, Targets, Topology,
-    VertexKind, may_be_elsewhere, run,
+    Aim, EdgeKind, FaceKind, MOST_AROUND, Part, Surface, Targets, Topology, VertexKind,
 };
 use hairline::internals::truth::{Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-
-struct Silent;
-
-impl Observer for Silent {
-    fn advance(&self, _: u64) {}
-    fn now(&self) -> u64 {
-        0
-    }
-}
+use std::sync::Arc;
 
 fn read(text: &str) -> Mesh {
     read_obj(text.as_bytes(), "test.obj", &mut |_| {}).unwrap()
@@ -325,8 +319,13 @@ fn plan(rows: Vec<Row>, directions: u64) -> Plan {
     Plan { rows, directions, seed: 1, unit_direction: false, examples: 5 }
 }
 
+fn surface(mesh: &Mesh) -> Arc<Surface> {
+    let family = MeshFamily::new(mesh.clone(), "test.obj");
+    Arc::new(Surface::new(Arc::new(family), [true, true]))
+}
+
 fn found<F: Scalar>(mesh: &Mesh, plan: &Plan) -> Found {
-    run::<F>(mesh, Topology::of::<F>(mesh), plan, &Silent)
+    run::<F>(&surface(mesh), plan, &Unobserved)
 }
 
 /// Cracks and doubles of crossings, wrong folds, in all classes: of one part.
@@ -334,7 +333,7 @@ fn sums(found: &Found, row: usize, part: Part) -> [u64; 5] {
     let classes = &found.rows[row].tallies[part as usize].classes;
     let mut sums = [0; 5];
     for class in classes {
-        let groups = &class.groups;
+        let groups = class;
         let counts =
             [groups.crossings, groups.cracks, groups.doubles, groups.folds, groups.odd_folds];
         sums = std::array::from_fn(|i| sums[i] + counts[i]);
@@ -356,7 +355,7 @@ fn woop_leaves_no_crack_and_others_do() {
         }
         assert_eq!(found.rows[0].cracked, [0, 0]);
         assert!(sums(&found, 1, Part::Edges)[1] > 0, "{name}");
-        let first = &found.rows[1].tallies[0].classes[0].groups.first_cracks;
+        let first = &found.rows[1].tallies[0].classes[0].first_cracks;
         assert!(first.windows(2).all(|pair| pair[0] < pair[1]));
     }
 }
@@ -365,11 +364,12 @@ fn woop_leaves_no_crack_and_others_do() {
 fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
     let mesh = shape("heightfield");
     let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 8));
-    let targets = Targets::new::<f32>(&mesh, &found.topology, 1, false);
+    let (topology, parameters) = (Topology::of::<f32>(&mesh), Parameters::default());
+    let targets = Targets::new(&mesh, &topology, &parameters, 1);
     let mut elsewhere = 0;
     for part in Part::ALL {
         for class in &found.rows[0].tallies[part as usize].classes {
-            assert_eq!(class.groups.cracks, 0);
+            assert_eq!(class.cracks, 0);
             elsewhere += class.elsewhere;
             for index in &class.first_elsewhere {
                 let mut cases = Vec::new();
@@ -443,7 +443,7 @@ fn nearly_all_rays_that_should_be_exact_are_so() {
     for (part, tally) in Part::ALL.into_iter().zip(&found.rows[0].tallies) {
         let of = |class: &str| {
             let class = &tally.classes[CLASSES.iter().position(|name| *name == class).unwrap()];
-            class.groups.crossings + class.groups.folds
+            class.crossings + class.folds
         };
         // Grazing rays are often over folds, which ask nothing of fans.
         assert!(of("exact") * 10 > of("near") * 9, "{part:?}: {}, {}", of("exact"), of("near"));
@@ -570,7 +570,8 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
         let plan = plan(rows, directions);
         let found = found::<F>(&mesh, &plan);
         let topology = Topology::of::<F>(&mesh);
-        let targets = Targets::new::<F>(&mesh, &topology, 1, false);
+        let parameters = Parameters::default();
+        let targets = Targets::new(&mesh, &topology, &parameters, 1);
         for part in Part::ALL {
             let mut expected = [0; 5];
             let mut cracked = BTreeSet::new();
@@ -621,7 +622,7 @@ fn counts_are_those_of_a_direct_evaluation_in_rationals() {
 fn essence(found: &Found) -> impl PartialEq + std::fmt::Debug + use<> {
     let rows: Vec<_> =
         found.rows.iter().map(|row| (row.row, row.tallies.clone(), row.cracked)).collect();
-    (found.topology.clone(), rows, found.offences.clone(), found.cases)
+    (rows, found.offences.clone(), found.cases)
 }
 
 #[test]
@@ -643,7 +644,7 @@ fn rays_of_fewer_directions_are_the_first_of_more() {
     let mesh = shape("far");
     let first = |directions| {
         let found = found::<f32>(&mesh, &plan(row("moller-trumbore"), directions));
-        found.rows[0].tallies[0].classes[0].groups.first_cracks.clone()
+        found.rows[0].tallies[0].classes[0].first_cracks.clone()
     };
     assert_eq!(first(4), first(8));
     let aims: BTreeMap<(bool, bool), u64> =
@@ -668,10 +669,11 @@ fn fan_around(times: usize) -> Mesh {
 #[test]
 fn nothing_is_asked_at_the_centre_of_a_fan_that_goes_around_twice() {
     let at_centre = |times| {
-        let found = found::<f32>(&fan_around(times), &plan(row("woop-watertight"), 400));
-        assert_eq!(found.topology.vertices_of(VertexKind::Closed), 1);
+        let mesh = fan_around(times);
+        let found = found::<f32>(&mesh, &plan(row("woop-watertight"), 400));
+        assert_eq!(Topology::of::<f32>(&mesh).vertices_of(VertexKind::Closed), 1);
         let tally = &found.rows[0].tallies[Part::Vertices as usize];
-        tally.classes[0].groups.crossings
+        tally.classes[0].crossings
     };
     assert!(at_centre(1) > 50);
     assert_eq!(at_centre(2), 0);

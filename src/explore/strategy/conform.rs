@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::contract::{Across, Contract};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::family::Grouping;
-use crate::judge::{Finding, GroupTruth, asked, group_truth, judge};
+use crate::judge::{Finding, GroupTruth, asked, group_obligation, judge};
 use crate::kernel::{Gives, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
@@ -65,7 +65,8 @@ where
     }
     let (truths, answers) = (cases.each_ref().map(oracle::truth), cases.each_ref().map(kernel));
     let hits = answers.iter().flatten().count();
-    let finding = match (group_truth(&truths, contract, Grouping::SharedEdge), contract.across) {
+    let owed = group_obligation(cases, &truths, contract, Grouping::SharedEdge);
+    let finding = match (owed, contract.across) {
         (GroupTruth::Crossing, Across::AtLeastOne | Across::ExactlyOne) if hits == 0 => "crack",
         (GroupTruth::Crossing, Across::ExactlyOne) if hits == 2 => "double",
         _ => return Ok(()),

@@ -141,12 +141,13 @@ fn example(name: &str, example: &Example) -> Markup {
     }
 }
 
-/// Cracks, doubles and findings on whole polygons that occurred, with the ids of the first.
+/// Cracks, doubles, folds and findings on whole polygons that occurred, with the ids of the first.
 fn grouped(result: &KernelResult) -> impl Iterator<Item = (&str, &Rate, &[String])> {
     let across = result.across.iter().flat_map(|across| {
         [
             ("crack", &across.cracks, across.first_cracks.as_slice()),
             ("double", &across.doubles, across.first_doubles.as_slice()),
+            ("odd-fold", &across.odd_folds, across.first_odd_folds.as_slice()),
         ]
     });
     let polygons = polygons(result).into_iter().map(|(kind, rate, _, first)| (kind, rate, first));
@@ -160,14 +161,14 @@ fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[S
             h5 { (kind) }
             p {
                 (share(rate)) ", " (counts(rate))
-                @if matches!(kind, "crack" | "double") {
-                    " crossings; across triangles the contract promises " (promised)
-                } @else {
-                    " polygons"
+                @match kind {
+                    "crack" | "double" => { " crossings; across triangles the contract promises " (promised) }
+                    "odd-fold" => { " folds; across triangles the contract promises " (promised) }
+                    _ => " polygons"
                 }
             }
             @for id in ids {
-                p.example { (code(&row.explain_command(id))) }
+                p.example { (code(&row.explain_group(result, id))) }
             }
         }
     }

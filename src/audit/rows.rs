@@ -1,0 +1,42 @@
+//! The rows of a plan in one scalar: kernels, epsilons and contracts looked up once.
+
+use super::row::Row;
+use crate::contract::Contract;
+use crate::kernel::{KernelInfo, Scalar, Subject};
+
+/// The rows whose kernels run in a scalar.
+pub(super) struct Rows<F: 'static> {
+    /// In the order of the plan.
+    pub each: Vec<RowIn<F>>,
+    /// Their contracts, each once.
+    pub contracts: Vec<Contract>,
+}
+
+/// A row in one scalar.
+pub(super) struct RowIn<F: 'static> {
+    /// The row's place in the plan.
+    pub number: usize,
+    pub subject: &'static dyn Subject<F>,
+    pub info: &'static KernelInfo,
+    pub epsilons: Vec<F>,
+    /// Which of the contracts.
+    pub contract: usize,
+}
+
+impl<F: Scalar> Rows<F> {
+    pub fn new(rows: &[Row]) -> Rows<F> {
+        let mut contracts: Vec<Contract> = Vec::new();
+        let resolve = |(number, row): (usize, &Row)| {
+            let subject = F::subject(row.entry)?;
+            let known = contracts.iter().position(|contract| *contract == row.contract);
+            let contract = known.unwrap_or_else(|| {
+                contracts.push(row.contract);
+                contracts.len() - 1
+            });
+            let info = row.entry.info;
+            Some(RowIn { number, subject, info, epsilons: row.epsilons(), contract })
+        };
+        let each = rows.iter().enumerate().filter_map(resolve).collect();
+        Rows { each, contracts }
+    }
+}
