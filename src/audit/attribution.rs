@@ -56,8 +56,8 @@ impl Attribution {
     }
 }
 
-/// Why a kernel's verdict on a case is not what was asked; none if it is, and where the kernel has no
-/// exact arithmetic to tell.
+/// Why a kernel's verdict on a case differs from its obligation; none if it does not, or if the kernel
+/// does not run in exact arithmetic.
 pub fn attribute<F: Float>(
     subject: &dyn Subject<F>,
     case: &Case<F>,

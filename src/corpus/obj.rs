@@ -7,7 +7,7 @@ use super::mesh::Note;
 use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
-/// How much is read before a file is refused.
+/// How much is read before a file is an error.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     /// Bytes in a line, with what is joined to it by backslashes.

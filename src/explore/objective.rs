@@ -292,8 +292,8 @@ pub(crate) fn exactly_refusing<F: Scalar>(
     run.passed.iter().position(|passes| !passes)
 }
 
-/// What is true, what the kernel said, and what `judge` makes of the two. Cases are judged one by
-/// one: nothing is asked of a ray that respawned.
+/// The truth, the kernel's verdict, and what `judge` makes of the two. Cases are judged one by one:
+/// nothing is demanded of a secondary ray on the triangle that it starts on.
 pub(crate) fn verdict_and_finding<F: Scalar>(
     row: &Row,
     epsilons: &[F],

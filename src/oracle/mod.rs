@@ -33,7 +33,7 @@ use serde::{Deserialize, Serialize};
 /// A layer of the oracle, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// Input that asks no question: NaN, infinities, a zero direction, an impossible interval.
+    /// Invalid input: NaN, infinities, a zero direction, an impossible interval.
     Invalid,
     /// The floating-point filter, all signs at once.
     Filter,
