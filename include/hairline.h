@@ -58,7 +58,7 @@ typedef struct {
 typedef struct {
     const char *name;     /* one word: `--epsilon NAME=VALUE` sets it */
     const char *value;    /* its usual value, in decimal, as "1e-6" */
-    const char *refuses;  /* the comparison, as "abs(det) < e"; NULL if not told. A gate that is not named
+    const char *refuses;  /* the comparison, as "abs(det) < e"; NULL if unknown. A gate that is not named
                            * parallel, t or edge may begin with its role: "role=t tau < e" */
     int32_t length;       /* the dimension of what is compared: the power of length ... */
     int32_t direction;    /* ... and of the direction's length. det is 2, 1; t is 1, -1; u is 0, 0 */
