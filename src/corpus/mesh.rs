@@ -1,7 +1,7 @@
 //! Meshes from OBJ files: triangles of `f32` and of `f64` positions, each nearest to the text.
 //!
 //! The file's text is read here, so that errors carry their line and numbers keep their digits;
-//! tobj then sorts faces into groups and polygons, on vertices that hold nothing but their index.
+//! tobj then sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
 use super::obj::{self, LIMITS, Limits, Notes, Source};
 use super::shapes::Shape;
@@ -29,7 +29,7 @@ pub struct Mesh {
     pub lines: Vec<u32>,
     /// The number of different names of groups and objects (`g`, `o`) that hold triangles.
     pub groups: usize,
-    /// What a reader should be told, at most one note of each kind.
+    /// Notes for the user, at most one of each kind.
     pub notes: Vec<Note>,
     /// The first 16 hexadecimal digits of the SHA-256 of the bits of all `f64` positions, all `f32`
     /// positions and all triangles' indices, little-endian.
@@ -55,13 +55,13 @@ impl fmt::Display for Note {
 }
 
 impl Mesh {
-    /// The corners of a triangle in the scalar asked for, from the positions of that scalar.
+    /// The corners of a triangle in the scalar `F`, from the positions of that scalar.
     /// Panics if there is no such triangle.
     pub fn vertices<F: Float>(&self, triangle: usize) -> [[F; 3]; 3] {
         self.triangles[triangle].map(|vertex| self.position(vertex))
     }
 
-    /// A vertex's position in the scalar asked for. Panics if there is no such vertex.
+    /// A vertex's position in the scalar `F`. Panics if there is no such vertex.
     pub fn position<F: Float>(&self, vertex: u32) -> [F; 3] {
         if F::DIGITS == f32::MANTISSA_DIGITS {
             self.positions_f32[vertex as usize].map(|x| F::from_f64(f64::from(x)))

@@ -1,4 +1,4 @@
-//! What stands beside a case that shows a finding: which kernel shows what, and where it was found.
+//! The provenance of a finding, stored beside its case: the kernel, the finding, and where it came from.
 
 #![forbid(unsafe_code)]
 

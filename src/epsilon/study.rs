@@ -1,5 +1,5 @@
-//! Everything that is asked about a kernel's epsilons: the responses, what follows from them, and
-//! what the epsilons worth weighing cost when the kernel is run with them.
+//! A study of a kernel's epsilons: the responses, what follows from them, and what the most interesting
+//! epsilons cost when the kernel is run with them.
 
 use super::advice::{Trade, candidates, decades, total};
 use super::axis::Axis;

@@ -1,7 +1,8 @@
 //! Floor 5: expectations, the known disagreements of a project, and how a run compares with them.
 //!
-//! A file holds only what is not the default: no finding at all. What is in it and no longer happens
-//! is stale, so that the file shrinks as kernels get better, and never hides that they got worse.
+//! By default no finding is expected, and a file lists the exceptions. An entry that no longer occurs is
+//! stale, and that fails too. So the file shrinks as kernels get better, and never hides that they got
+//! worse.
 
 #![forbid(unsafe_code)]
 

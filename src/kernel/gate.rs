@@ -1,8 +1,8 @@
 //! Gates, their margins, and the sinks that receive them.
 //!
-//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon
-//! can only refuse more. Its *margin* on a case is the largest representable epsilon at which it
-//! accepts, so one evaluation gives the verdict at every epsilon.
+//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon can
+//! only reject more. Its *margin* on a case is the largest representable epsilon at which it accepts, so
+//! one evaluation gives the verdict at every epsilon.
 
 use crate::arith::Real;
 

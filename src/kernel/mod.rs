@@ -1,10 +1,9 @@
-//! Floor 2: what is claimed. The kernel trait, gates and margins, the registry, one algorithm a
-//! file.
+//! Floor 2: the kernels. The trait, gates and margins, the registry, and one algorithm a file.
 //!
 //! Architecture invariant: nothing here knows the oracle.
 //!
-//! Every kernel that is written for every arithmetic also runs as other machines would compute it, under
-//! its name, a `+` and the arithmetic's: `moller-trumbore+fma`.
+//! A kernel that is written for every arithmetic also runs as other machines would compute it, under a
+//! name such as `moller-trumbore+fma`.
 //!
 //! To add a kernel: write its file, and give it a row in `registry.rs`. A program of your own adds
 //! its kernels with [`Entry`] and `hairline::cli::main_with`.

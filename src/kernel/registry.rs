@@ -119,7 +119,7 @@ pub fn all() -> Vec<&'static Entry> {
     KERNELS.iter().chain(added.iter().copied()).collect()
 }
 
-/// The kernels in other arithmetics that were asked for.
+/// The kernels in other arithmetics that have been requested by name so far.
 static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
 
 /// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none of a kernel
