@@ -32,6 +32,7 @@ pub mod arith;
 
 pub mod case;
 pub mod contract;
+mod plot;
 mod suggest;
 pub mod truth;
 
