@@ -13,8 +13,8 @@ use std::io::{self, Write};
 /// Characters in a line, where words can be wrapped.
 const WIDTH: usize = 119;
 
-/// Of no more rows than this, counted in each scalar, the screen shows each by itself.
-const MOST_CLOSE_UPS: usize = 4;
+/// Of no more rows than this the screen shows each by itself.
+const MOST_CLOSE_UPS: usize = 2;
 
 /// One row in one scalar.
 pub(super) struct Line<'a> {
@@ -59,7 +59,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
             writeln!(out, "{scalar}: {ALL_INVALID}")?;
         }
     }
-    if lines.len() <= MOST_CLOSE_UPS {
+    if record.result.plan.rows.len() <= MOST_CLOSE_UPS {
         close_up::write(record, &columns, &lines, style, out)?;
     } else {
         write_cell_legend(&columns, &lines, out)?;
