@@ -97,17 +97,19 @@ impl<F: Float> Case<F> {
 
     /// The case in another arithmetic, number by number.
     pub fn lift<R: Real>(&self, number: impl Fn(F) -> R) -> (Ray<Triple<R>>, Triangle<Triple<R>>) {
-        let [origin, direction, a, b, c] = self.vectors().map(|v| {
-            let [x, y, z] = v.map(&number);
-            Triple::new(x, y, z)
-        });
-        let [t_min, t_max] = [self.ray.t_min, self.ray.t_max].map(&number);
-        (Ray { origin, direction, t_min, t_max }, Triangle { a, b, c })
+        let vectors = self.vectors();
+        let triple = |i: usize| {
+            let [x, y, z] = vectors[i];
+            Triple::new(number(x), number(y), number(z))
+        };
+        let (t_min, t_max) = (number(self.ray.t_min), number(self.ray.t_max));
+        let ray = Ray { origin: triple(0), direction: triple(1), t_min, t_max };
+        (ray, Triangle { a: triple(2), b: triple(3), c: triple(4) })
     }
 
     /// The case in exact numbers.
     pub fn exact(&self) -> (Ray<ExactVector>, Triangle<ExactVector>) {
-        self.lift(|x| Exact::from_f64(x.to_f64()))
+        self.widen().lift(Exact::from_f64)
     }
 
     /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.

@@ -38,6 +38,7 @@ mod truth;
 mod corpus;
 mod family;
 mod kernel;
+mod mesh;
 mod oracle;
 
 mod judge;
@@ -46,7 +47,6 @@ mod audit;
 mod epsilon;
 mod explore;
 mod map;
-mod mesh;
 mod orientation;
 mod selfcheck;
 

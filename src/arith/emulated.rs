@@ -82,18 +82,18 @@ impl<F: Float> Emulated<F> {
         Emulated { value: operation.run(arithmetic), factors, arithmetic }
     }
 
-    #[inline]
+    #[inline(never)]
     fn plus(&self, other: &Self) -> Self {
         Emulated::made(self.sum(other), self.arithmetic.and(other.arithmetic))
     }
 
-    #[inline]
+    #[inline(never)]
     fn product(&self, other: &Self) -> Self {
         let operation = Operation::Product(self.value, other.value);
         Emulated::made(operation, self.arithmetic.and(other.arithmetic))
     }
 
-    #[inline]
+    #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
         let operation = Operation::Quotient(self.value, other.value);
         Emulated::made(operation, self.arithmetic.and(other.arithmetic))

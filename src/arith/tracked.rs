@@ -99,6 +99,7 @@ impl<F: Float> Tracked<F> {
         Tracked { number, raised, before: earlier }
     }
 
+    #[inline(never)]
     fn sum(&self, other: &Self) -> Self {
         let earlier = match (self.number.is_product(), other.number.is_product()) {
             (true, _) => self.before | other.raised,
@@ -108,11 +109,13 @@ impl<F: Float> Tracked<F> {
         Tracked::made(self.number.sum(&other.number), self.arithmetic_with(other), earlier)
     }
 
+    #[inline(never)]
     fn product(&self, other: &Self) -> Self {
         let operation = Operation::Product(self.value(), other.value());
         Tracked::made(operation, self.arithmetic_with(other), self.raised | other.raised)
     }
 
+    #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
         let operation = Operation::Quotient(self.value(), other.value());
         Tracked::made(operation, self.arithmetic_with(other), self.raised | other.raised)

@@ -1,9 +1,10 @@
 //! Counts the causes of the first findings of each class, by index.
 
 use super::attribution::{Attribution, attribute};
+use super::digest::Place;
 use super::rows::RowIn;
 use super::source::Source;
-use super::tally::{Place, Tally};
+use super::tally::Tally;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding, asked};

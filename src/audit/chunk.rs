@@ -1,8 +1,8 @@
 //! Some indices of a source together: their cases, truths and groups.
 
+use super::digest::Place;
 use super::source::Source;
 use super::stored::ScalarName;
-use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::Observer;
@@ -13,9 +13,6 @@ use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-
-/// Indices that go through a run together.
-pub(crate) const CHUNK: u64 = 1024;
 
 /// What a source gave in one scalar.
 #[derive(Clone, Serialize, Deserialize)]

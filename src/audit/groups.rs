@@ -1,8 +1,8 @@
 //! What the verdicts of one row on the groups of a chunk come to.
 
 use super::chunk::Chunk;
-use super::rows::RowIn;
-use super::run::verdicts_of;
+use super::group_count::Judged;
+use super::rows::{RowIn, verdicts_of};
 use super::source::Source;
 use crate::case::Case;
 use crate::contract::Contract;
@@ -10,19 +10,6 @@ use crate::judge::{GroupTruth, may_be_elsewhere};
 use crate::kernel::{Scalar, Verdict};
 use crate::oracle::{self, Layers};
 use crate::truth::Facing;
-use std::ops::Range;
-
-/// A group that a kernel gave all verdicts on.
-pub(crate) struct Judged {
-    pub index: u64,
-    pub cases: Range<usize>,
-    /// What the contract asks of it.
-    pub truth: GroupTruth,
-    /// How many of its triangles are hit.
-    pub hits: usize,
-    /// Whether it has none, and rounding may have moved the hit to a neighbour.
-    pub elsewhere: bool,
-}
 
 /// Neighbours of crossings without a hit that go through together, about.
 const NEIGHBOURS: usize = 4096;

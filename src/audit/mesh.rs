@@ -2,11 +2,10 @@
 //! vertices are at fault.
 
 use super::chunk::{Chunk, SourceSummary};
+use super::group_count::{GroupCount, Outcome};
 use super::row::Row;
-use super::rows::Rows;
-use super::run::verdicts_of;
+use super::rows::{Rows, verdicts_of};
 use super::source::Source;
-use super::tally::{GroupCount, Outcome};
 use crate::case::Parameters;
 use crate::contract::Across;
 use crate::engine::{self, Merge, Observer};

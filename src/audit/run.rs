@@ -4,22 +4,19 @@ use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
 use super::plan::Plan;
 use super::row::Row;
-use super::rows::Rows;
+use super::rows::{Rows, verdicts_of};
 use super::shard::Shard;
 use super::source::Source;
 use super::stored::ScalarName;
 use super::tally::{ClassCount, Tally};
-use crate::arith::Float;
-use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{self, Class, Expectations, Finding, GroupTruth, owes_groups_alike};
-use crate::kernel::{Failure, Scalar, Subject, Verdict};
+use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// One kernel row on one source in one scalar.
@@ -254,27 +251,6 @@ impl<'a, F: Scalar> Runner<'a, F> {
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
             }
-        }
-    }
-}
-
-/// Runs a kernel on all cases.
-pub(crate) fn verdicts_of<F: Float>(
-    subject: &dyn Subject<F>,
-    cases: &[Case<F>],
-    epsilons: &[F],
-    verdicts: &mut [Verdict<F>],
-) {
-    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
-    };
-    if run(cases, verdicts).is_ok() {
-        return;
-    }
-    // Once more, one by one, to pin the cases at which it panicked.
-    for i in 0..cases.len() {
-        if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
-            verdicts[i] = Verdict::failed(Failure::Panic);
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Where a plan's cases come from, by index.
 
-use super::chunk::CHUNK;
 use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
@@ -9,6 +8,9 @@ use crate::kernel::Scalar;
 use crate::mesh::{Part, Surface, Targets};
 use crate::truth::Truth;
 use std::sync::Arc;
+
+/// Indices that go through a run together.
+pub(crate) const CHUNK: u64 = 1024;
 
 /// A source of cases.
 #[derive(Clone)]

@@ -134,6 +134,15 @@ impl RunArguments {
         Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
     }
 
+    /// The flags that choose the cases again.
+    fn source_flags(&self) -> String {
+        let flags = self.sources.flags();
+        match self.directions.as_str() {
+            "8" => flags,
+            directions => format!("{flags} --directions {directions}"),
+        }
+    }
+
     /// Runs a plan, or the part of it that `--shard` names, and makes its record, illustrated if asked.
     pub fn execute(&self, plan: &Plan, illustrate: bool) -> Result<Record, Failure> {
         let shard: Option<Shard> = self
@@ -174,7 +183,7 @@ impl RunArguments {
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
         record.provenance.plan_flags =
-            Some(PlanFlags { kernels: self.kernels.flags(), sources: self.sources.flags() });
+            Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
         if illustrate {
             let progress = Progress::without_end(self.report.quiet);
             progress.tell("epsilons and maps for the pictures".to_owned());

@@ -1,7 +1,7 @@
 //! Two epsilons of a kernel at once.
 
 use super::run::Request;
-use crate::audit::{CHUNK, Chunk, Source, SourceSummary};
+use crate::audit::{Chunk, Source, SourceSummary};
 use crate::engine::{self, Merge, Observer};
 use crate::judge::Obligation;
 use crate::kernel::Scalar;
@@ -56,7 +56,7 @@ pub fn map<F: Scalar>(
             let chunk = Chunk::<F>::make(source, indices, observer, &mut summary);
             add(request, gates, &epsilons, &chunk, counts);
         };
-        counts.merge(engine::sum(0..source.count::<F>(), CHUNK, observer, empty, add));
+        counts.merge(engine::sum(0..source.count::<F>(), source.chunk(), observer, empty, add));
     }
     finished(gates, epsilons, &counts)
 }

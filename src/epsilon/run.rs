@@ -5,7 +5,7 @@ use super::curve::{Curve, Lane, Question};
 use super::duty::Duty;
 use super::relative::Scales;
 use crate::arith::Float;
-use crate::audit::{CHUNK, Chunk, Place, Row, Source, SourceSummary};
+use crate::audit::{Chunk, Place, Row, Source, SourceSummary};
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation};
@@ -126,7 +126,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
         // A few large sums: a lane in f64 has 268,000 cells.
         let sums = engine::sum(
             0..source.count::<F>(),
-            CHUNK,
+            source.chunk(),
             self.observer,
             || self.empty(number),
             |sums: &mut Sums<F>, indices| self.add(source, indices, sums),

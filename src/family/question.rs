@@ -43,9 +43,9 @@ impl Question {
     pub fn about(self) -> &'static str {
         match self {
             Question::Inside | Question::Edges | Question::Vertices => "",
-            Question::Flat => "ray in or near the plane, no area",
-            Question::Ends => "near the start or end of a ray",
-            Question::Grid => "axis-parallel, small integers",
+            Question::Flat => "in or near the plane",
+            Question::Ends => "start or end of the ray",
+            Question::Grid => "small integers",
             Question::Sizes => "tiny, huge, far, thin",
             Question::Range => "extreme exponents",
             Question::Invalid => "NaN, infinities",

@@ -32,8 +32,8 @@ pub(super) fn write(
         write_line(columns, line, style, out)?;
     }
     write_wrapped(
-        "Shares of the cases that must be hit, and that must be missed, with 95 % intervals; far off: wrong by more \
-         than 1/1000 of the triangle's longest edge, of all cases.",
+        "Shares of the cases that must be hit, and that must be missed, with 95 % intervals, on cases chosen to be \
+         hard; far off: wrong by over 1/1000 of the triangle's longest edge.",
         out,
     )?;
     write_wrapped(&column_legend(columns, &[]), out)
@@ -64,7 +64,12 @@ fn write_line(
     writeln!(
         out,
         "{bold}{:<first$} {:>20}  {:<18} {:>20}  {:<18} {:>10}{plain}",
-        line.scalar, "false misses, %", "mostly by", "false hits, %", "mostly by", "far off, %"
+        line.scalar,
+        "false misses, %",
+        "cause of most",
+        "false hits, %",
+        "cause of most",
+        "far off, %"
     )?;
     for (column, cell) in columns.iter().zip(&line.cells) {
         if cell.of == 0 {
@@ -77,7 +82,11 @@ fn write_line(
             ("false-hit", |total| &total.false_hits),
         ] {
             let pool = Pool::of(results.iter().map(|result| rate(&result.total)));
-            write!(out, " {}  {:<18}", share_column(pool.rate(), style), cause(&results, kind))?;
+            let share = match column.complete {
+                true => format!("{:>20}", count_of(pool.counts())),
+                false => share_column(pool.rate(), style),
+            };
+            write!(out, " {share}  {:<18}", cause(&results, kind))?;
         }
         let far: u64 = results.iter().map(|r| far(r, "false-miss") + far(r, "false-hit")).sum();
         writeln!(out, " {:>10}", short_percent([far, cell.of]))?;
@@ -102,15 +111,21 @@ fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
     };
     let [misses, hits] = [polygons(|part| &part.false_misses), polygons(|part| &part.false_hits)];
     if 0 < misses[1] + hits[1] {
-        let of = |[count, of]: [u64; 2]| format!("{} of {}", group_digits(count), group_digits(of));
-        writeln!(out, "  whole polygons: false misses {}, false hits {}", of(misses), of(hits))?;
+        let [misses, hits] = [misses, hits].map(count_of);
+        writeln!(out, "  whole polygons: false misses {misses}, false hits {hits}")?;
     }
     let bad = line.row.total(|result| Some(&result.total.bad_values)).counts();
     if 0 < bad[0] {
-        let [count, of] = bad.map(group_digits);
-        writeln!(out, "  bad values: {count} of {of} other hits, not finite or of the wrong side")?;
+        let bad = count_of(bad);
+        writeln!(out, "  bad values: {bad} other hits, not finite or of the wrong side")?;
     }
     Ok(())
+}
+
+/// `3 of 57`.
+fn count_of(rate: [u64; 2]) -> String {
+    let [count, of] = rate.map(group_digits);
+    format!("{count} of {of}")
 }
 
 /// The cause of most findings of a kind: `epsilon 93%`.

@@ -59,8 +59,7 @@ impl Column {
         match self.topic {
             Topic::Families(Question::Grid) if self.complete => "every case of the lattice",
             Topic::Families(question) => question.about(),
-            Topic::Mesh => "",
-            Topic::Stored => "wrong verdicts of how many stored cases",
+            Topic::Mesh | Topic::Stored => "",
         }
     }
 

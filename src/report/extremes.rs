@@ -33,9 +33,11 @@ pub(super) fn write(
     if broken.is_none() && worst.is_empty() {
         return Ok(());
     }
+    let is_all = columns.iter().all(|column| column.is_ordinary());
+    let place = if is_all { "" } else { " in ordinary sizes" };
     writeln!(
         out,
-        "{bold}Worst in ordinary sizes{plain}, in longest edges of the triangle, of different causes and kernels:"
+        "{bold}Worst{plain}{place}, in longest edges of the triangle, of different causes and kernels:"
     )?;
     let commands = broken.into_iter().map(|(line, (text, command))| {
         (format!("{}, {}: {text}", line.label(), line.scalar), command)
@@ -104,7 +106,10 @@ fn chosen(mut all: Vec<Extreme>, most: usize) -> Vec<Extreme> {
             all.iter().position(|one| chosen.iter().all(|other| differs(one, other)))
         };
         let cause = |a: &Extreme, b: &Extreme| group(a.cause) != group(b.cause);
-        let kernel = |a: &Extreme, b: &Extreme| a.line.row.part.kernel != b.line.row.part.kernel;
+        let kernel = |a: &Extreme, b: &Extreme| {
+            let is_other = a.line.row.part.kernel != b.line.row.part.kernel;
+            is_other && a.part.worst.case != b.part.worst.case
+        };
         let kind = |a: &Extreme, b: &Extreme| a.part.finding != b.part.finding;
         let next = is_new(&|a, b| cause(a, b) && kernel(a, b))
             .or_else(|| is_new(&cause))
@@ -133,7 +138,10 @@ impl Extreme<'_> {
         let touches =
             ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
         let what = match (is_hit, self.distance.1) {
-            (true, true) => format!("a hit, {distance} edges off the end of the ray"),
+            (true, true) if class.ends_with("/before") => {
+                format!("a hit {distance} edges behind the start of the ray")
+            }
+            (true, true) => format!("a hit {distance} edges beyond the end of the ray"),
             (true, false) if touches => "a hit on the side that must be missed".to_owned(),
             (true, false) => format!("a hit, but the ray passes {distance} edges away"),
             (false, true) => format!("a miss, but the ray ends {distance} edges behind the hit"),

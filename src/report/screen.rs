@@ -5,6 +5,8 @@ use super::columns::{Across, Cell, Column, short_percent};
 use super::record::*;
 use super::text::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::{Style, close_up, extremes, group_digits, number_of, rate_between};
+use crate::family;
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
@@ -78,17 +80,35 @@ fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
     let (result, provenance) = (&record.result, &record.provenance);
     let cases = |scalar: &String| {
         let sources = result.sources.iter().filter(|source| source.scalar == *scalar);
-        format!("{} {scalar} cases", group_digits(sources.map(|source| source.cases).sum()))
+        sources.map(|source| source.cases).sum::<u64>()
     };
+    // Usually as many in each scalar.
+    let mut counts: Vec<(u64, Vec<&str>)> = Vec::new();
+    for scalar in &result.plan.scalars {
+        match counts.last_mut() {
+            Some((count, names)) if *count == cases(scalar) => names.push(scalar),
+            _ => counts.push((cases(scalar), vec![scalar])),
+        }
+    }
+    let counts = counts.iter().map(|(count, names)| {
+        format!("{} in {}", number_of(*count, "case", "cases"), names.join(" and in "))
+    });
+    let sources = &result.plan.sources;
+    let is_family = |source: &PlannedSource| family::find(&source.family).is_some();
+    let (one, many) = match sources.iter().all(is_family) {
+        true => ("family", "families"),
+        false => ("source of cases", "sources of cases"),
+    };
+    let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
     writeln!(
         out,
-        "{}: {} on {}, {}, {:.1} s, {}, plan {}",
+        "{}: {} ({}) on {}, {}, {:.1} s, plan {}",
         provenance.tool,
         number_of(result.plan.rows.len() as u64, "row", "rows"),
-        number_of(result.plan.sources.len() as u64, "family", "families"),
-        result.plan.scalars.iter().map(cases).collect::<Vec<_>>().join(" and "),
+        number_of(kernels.len() as u64, "kernel", "kernels"),
+        number_of(sources.len() as u64, one, many),
+        counts.collect::<Vec<_>>().join(", "),
         provenance.seconds,
-        number_of(provenance.threads as u64, "thread", "threads"),
         result.plan.hash,
     )
 }
@@ -103,11 +123,14 @@ struct Standing {
 }
 
 fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standing> {
+    // Stored cases stay out of a sample.
+    let all_complete = columns.iter().all(|column| column.complete);
     let of_row = |part: &RowPart| {
         let lines = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
         let cells: Vec<Cell> = lines
             .flat_map(|line| columns.iter().zip(&line.cells))
-            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.of)
+            .filter(|(column, _)| column.is_ordinary() && column.complete == all_complete)
+            .filter(|(_, cell)| 0 < cell.of)
             .map(|(_, cell)| *cell)
             .collect();
         let shares = cells.iter().map(|cell| cell.wrong as f64 / cell.of as f64);
@@ -159,25 +182,33 @@ fn write_answer(
             }
         ),
         all => {
-            let by_share = |a: &&Standing, b: &&Standing| a.share.total_cmp(&b.share);
-            let (least, most) = (all.iter().min_by(by_share), all.iter().max_by(by_share));
-            let (least, most) = (least.expect("rows"), most.expect("rows"));
-            let far = |a: &&Standing, b: &&Standing| a.far.cmp(&b.far);
-            let (near, far) = (all.iter().min_by(far), all.iter().max_by(far));
-            let (near, far) = (near.expect("rows"), far.expect("rows"));
+            // Of equals the first.
+            let first = |order: fn(&Standing, &Standing) -> Ordering| {
+                all.iter().min_by(|a, b| order(a, b)).expect("several rows")
+            };
+            let least = first(|a, b| a.share.total_cmp(&b.share));
+            let most = first(|a, b| b.share.total_cmp(&a.share));
+            let [near, far] = [first(|a, b| a.far.cmp(&b.far)), first(|a, b| b.far.cmp(&a.far))];
+            let several = columns.iter().filter(|column| column.is_ordinary()).count();
+            let mean = if 1 < several { ", on average over these columns" } else { "" };
+            let far = match far.far {
+                0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
+                most => format!(
+                    "Wrong by over 1/1000 of the longest edge, least: {}, {} times; most: {}, {}.",
+                    near.label,
+                    group_digits(near.far),
+                    far.label,
+                    group_digits(most),
+                ),
+            };
             format!(
-                "{} of {} rows were right on every case{place}. Wrong least, on average over these columns: {}, \
-                 {} %; most: {}, {} %. Wrong by over 1/1000 of the longest edge, least: {}, {} times; most: {}, {}.",
+                "{} of {} rows were right on every case{place}. Wrong least{mean}: {}, {} %; most: {}, {} %. {far}",
                 all.iter().filter(|row| row.wrong == 0).count(),
                 all.len(),
                 least.label,
                 percent(least.share),
                 most.label,
                 percent(most.share),
-                near.label,
-                group_digits(near.far),
-                far.label,
-                group_digits(far.far),
             )
         }
     };
@@ -205,9 +236,13 @@ fn write_cell_legend(columns: &[Column], lines: &[Line], out: &mut dyn Write) ->
         0.0 => String::new(),
         wide => format!(" (95 % intervals: ±{:.1} at most)", wide * 100.0 + 0.05),
     };
+    let free = lines.iter().flat_map(|line| &line.cells).any(|cell| cell.of == 0);
+    let free = if free { "; - nothing demanded" } else { "" };
+    let stored = columns.iter().any(|column| column.complete);
+    let stored = if stored { "; of whole sets: wrong/all" } else { "" };
     let text = format!(
         "Cells: % of wrong verdicts, false misses and false hits, by {contract}, on cases chosen to be \
-         hard{within}; * over 0.1 % are wrong by over 1/1000 of the longest edge; - nothing demanded."
+         hard{within}; * over 0.1 % are wrong by over 1/1000 of the longest edge{stored}{free}."
     );
     write_wrapped(&text, out)
 }
@@ -248,32 +283,36 @@ fn write_table(
             let groups = if has_groups { " cracks doubles  promised" } else { "" };
             writeln!(out, "{groups}{plain}")?;
         }
-        write!(out, "{:<first$}", line.label())?;
-        for ((cell, text), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
-            let text = format!("{text:>width$}");
+        let mut text = format!("{:<first$}", line.label());
+        for ((cell, share), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
+            let share = format!("{share:>width$}");
             let color = if cell.of == 0 { "" } else { colour(style, cell.wrong) };
-            write!(out, " {}", painted(&text, color))?;
+            text.push(' ');
+            text.push_str(&painted(&share, color));
         }
         if has_groups {
-            write_across(line.across.as_ref(), style, out)?;
+            text.push_str(&across_text(line.across.as_ref(), style));
         }
-        writeln!(out)?;
+        writeln!(out, "{}", text.trim_end())?;
     }
     Ok(())
 }
 
 /// Cracks and doubles, and what is promised of them.
-fn write_across(across: Option<&Across>, style: Style, out: &mut dyn Write) -> io::Result<()> {
-    let Some(across) = across else { return write!(out, " {:>6} {:>7}  -", "-", "-") };
-    let rates = [across.cracks, across.doubles].into_iter().zip(across.rules_out());
-    for ((rate, ruled_out), width) in rates.zip([6, 7]) {
-        let text = format!("{:>width$}", short_percent(rate));
+fn across_text(across: Option<&Across>, style: Style) -> String {
+    let Some(across) = across else { return format!(" {:>6} {:>7}  -", "-", "-") };
+    let rate = |rate: [u64; 2], ruled_out: bool, width: usize| {
         let color = if ruled_out { colour(style, rate[0]) } else { "" };
-        write!(out, " {}", painted(&text, color))?;
-    }
-    let color =
-        if across.rules_out()[0] { colour(style, u64::from(across.is_broken())) } else { "" };
-    write!(out, "  {}", painted(&across.words(), color))
+        painted(&format!("{:>width$}", short_percent(rate)), color)
+    };
+    let [no_crack, no_double] = across.rules_out();
+    let color = if no_crack { colour(style, u64::from(across.is_broken())) } else { "" };
+    format!(
+        " {} {}  {}",
+        rate(across.cracks, no_crack, 6),
+        rate(across.doubles, no_double, 7),
+        painted(&across.words(), color)
+    )
 }
 
 /// Green for nothing wrong, red for something.
@@ -296,7 +335,8 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
         told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
     if lines.iter().any(|line| line.across.is_some()) {
         parts.push(
-            "cracks, doubles: % of rays through shared edges that hit none, or two".to_owned(),
+            "cracks, doubles: % of rays at shared edges with no hit, with two; promised: how many"
+                .to_owned(),
         );
     }
     parts.join("; ")
@@ -313,16 +353,20 @@ fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<(
     };
     let tuned = rows.iter().find(|row| !row.epsilons.is_empty());
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
-    let only = if is_alone { format!(" {}", first.selector) } else { String::new() };
+    // Many rows leave less room.
+    let (only, after) = match is_alone {
+        true => (format!(" {}", first.selector), "\n"),
+        false => (String::new(), "   "),
+    };
     if !is_alone {
         let one = tuned.unwrap_or(first);
-        write!(out, "{bold}One kernel:{plain} hairline audit {}   ", one.selector)?;
+        write!(out, "{bold}One kernel:{plain} hairline audit {}{after}", one.selector)?;
     }
     writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
     if let Some(tuned) = tuned {
-        write!(out, "{bold}Choose an epsilon:{plain} hairline epsilon {}   ", tuned.selector)?;
+        write!(out, "{bold}Choose an epsilon:{plain} hairline epsilon {}{after}", tuned.selector)?;
     }
-    writeln!(out, "{bold}Gate a CI:{plain} hairline check{only} --bless, then hairline check{only}")
+    writeln!(out, "{bold}Gate a CI:{plain} hairline check{only}, the first time with --bless")
 }
 
 /// Writes words in lines of [`WIDTH`] at most.
