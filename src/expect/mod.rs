@@ -25,7 +25,7 @@ pub const SCHEMA: &str = "hairline-expectations/1";
 pub struct Expectations {
     /// The hash of the plan whose counts they are.
     pub plan: String,
-    /// What is expected of each class of disagreement; none of all others.
+    /// The expectation for each class of disagreement. Every other class is expected not to occur.
     pub entries: BTreeMap<Key, Entry>,
 }
 
@@ -54,6 +54,6 @@ pub enum Amount {
         /// Of the set of cases.
         digest: Option<String>,
     },
-    /// At most this share, and not none.
+    /// At most this share, but more than zero.
     Rate(f64),
 }
