@@ -32,6 +32,7 @@ mod engine;
 
 mod case;
 mod contract;
+mod plot;
 mod suggest;
 mod truth;
 

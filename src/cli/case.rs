@@ -19,7 +19,7 @@ pub struct CaseArguments {
     #[arg(value_name = "CASE")]
     pub case: String,
 
-    /// The mesh that the case's id speaks of
+    /// The mesh that the case's id names
     #[arg(long, value_name = "FILE")]
     pub(super) mesh: Option<String>,
 

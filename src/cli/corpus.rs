@@ -30,7 +30,7 @@ pub struct CorpusArguments {
 
 #[derive(Subcommand)]
 enum CorpusCommand {
-    /// Check every stored truth, and make every set and mesh of the manifest again
+    /// Check every stored truth, and generate every set and mesh of the manifest again
     Verify {
         /// A folder of corpus files, or one of them
         #[arg(default_value = "corpora", value_name = "FILE|DIR")]
@@ -50,11 +50,11 @@ enum CorpusCommand {
         #[arg(long, default_value = "f32", value_name = "SCALAR")]
         scalar: String,
 
-        /// How many indices
+        /// How many cases, or groups of cases
         #[arg(long, short = 'n', default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
         count: u64,
 
-        /// Which random cases
+        /// Seed of the random cases
         #[arg(long, default_value_t = 1)]
         seed: u64,
 

@@ -21,27 +21,28 @@ pub struct EpsilonArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// A gate, or several separated by commas, each varied alone [default: all that take an epsilon]
+    /// A gate, or several separated by commas; each is varied alone [default: all that take an epsilon]
     #[arg(long, value_delimiter = ',', value_name = "GATE")]
     gate: Vec<String>,
 
-    /// Further epsilons to weigh, separated by commas
+    /// More epsilons to compare, separated by commas
     #[arg(long, value_delimiter = ',', value_name = "E", allow_hyphen_values = true)]
     at: Vec<String>,
 
-    /// Keep every margin: exact at every epsilon, with memory that grows with the cases
+    /// Keep every margin: exact at every epsilon, but memory grows with the number of cases
     #[arg(long)]
     exact: bool,
 
-    /// Multiply the epsilon by each case's own size, to the power of the gate's dimension
+    /// Let the epsilon follow each case: multiply it by the case's size, to the power of the gate's
+    /// dimension
     #[arg(long)]
     relative: bool,
 
-    /// Weigh two gates against each other (in text and JSON)
+    /// Compare two gates with each other: one table of both epsilons (text and JSON)
     #[arg(long)]
     map: bool,
 
-    /// Scales at which to look for the limits again, or `none`
+    /// Scales of the cases at which to look for the limits again, or `none`
     #[arg(
         long,
         value_delimiter = ',',
@@ -66,7 +67,7 @@ pub struct EpsilonArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// No progress, no notes
+    /// Print no progress and no notes
     #[arg(long, short)]
     quiet: bool,
 }

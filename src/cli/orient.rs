@@ -20,7 +20,7 @@ use std::io::{self, Write};
 /// What to run, and how to report it.
 #[derive(Args)]
 pub struct OrientArguments {
-    /// Points of the plane, of space, or both
+    /// Dimension of the points: 2, 3 or both
     #[arg(long, value_delimiter = ',', value_name = "2|3", default_value = "2,3")]
     dimension: Vec<String>,
 
@@ -28,7 +28,7 @@ pub struct OrientArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
     scalar: Vec<String>,
 
-    /// Epsilons of the plain determinants, a row for each: 0 where abs(det) <= E
+    /// Epsilons of the plain determinants, a row for each: the sign counts as 0 where abs(det) <= E
     #[arg(
         long,
         value_delimiter = ',',
@@ -38,7 +38,7 @@ pub struct OrientArguments {
     )]
     epsilon: Vec<String>,
 
-    /// Cases for each family
+    /// How many cases of each family
     #[arg(
         long,
         short = 'n',
@@ -48,12 +48,12 @@ pub struct OrientArguments {
     )]
     count: String,
 
-    /// Which random cases
+    /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
     /// Show one case again: an id, the name of a known case, or points as
-    /// {"scalar":"f64","points":[[x,y],...]}, three of the plane or four of space
+    /// {"scalar":"f64","points":[[x,y],...]}, three in the plane or four in space
     #[arg(long, value_name = "ID", conflicts_with_all = ["known", "dimension", "scalar", "count", "seed"])]
     case: Option<String>,
 
@@ -61,7 +61,7 @@ pub struct OrientArguments {
     #[arg(long, conflicts_with_all = ["dimension", "scalar", "count", "seed"])]
     known: bool,
 
-    /// How to write it
+    /// The format of the output
     #[arg(long, value_enum, default_value_t)]
     format: OutputFormat,
 
@@ -69,7 +69,7 @@ pub struct OrientArguments {
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: String,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }

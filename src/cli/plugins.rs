@@ -13,15 +13,15 @@ use std::time::Duration;
 #[derive(Args, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PluginArguments {
-    /// A shared library with the functions of include/hairline.h; may be repeated
+    /// A kernel in a shared library with the functions of include/hairline.h; may be repeated
     #[arg(long, value_name = "FILE", help_heading = "Kernels of your own")]
     kernel_lib: Vec<String>,
 
-    /// A command that answers cases over its pipes (docs/protocol.md); may be repeated
+    /// A kernel as a command that answers cases over its pipes (docs/protocol.md); may be repeated
     #[arg(long, value_name = "COMMAND", help_heading = "Kernels of your own")]
     kernel_cmd: Vec<String>,
 
-    /// How long such a kernel may be silent when an answer is due
+    /// How long to wait for an answer of such a kernel
     #[arg(
         long,
         value_name = "SECONDS",
@@ -30,8 +30,8 @@ pub struct PluginArguments {
     )]
     kernel_timeout: f64,
 
-    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; a
-    /// campaign goes on]
+    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; no limit in a
+    /// fuzz campaign]
     #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
     kernel_failures: Option<u64>,
 }

@@ -14,32 +14,40 @@ use crate::report::{
 };
 use clap::{Args, ValueEnum};
 
+/// Headings of the help: which cases and rows a run has, how they are judged, and what is written. The
+/// flags that matter most stand under none, and so come first.
+pub const RUNNING: &str = "What to run";
+/// Likewise.
+pub const JUDGING: &str = "How to judge";
+/// Likewise.
+pub const OUTPUT: &str = "Output";
+
 /// The flags that say how to report.
 #[derive(Args)]
 pub struct ReportArguments {
     /// text, json, jsonl, junit, sarif, markdown or html, or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
     format: Vec<String>,
 
     /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     output: Vec<String>,
 
-    /// Leave nothing out of the text: the worst finding of every class, all deviations
-    #[arg(long)]
+    /// Leave nothing out of the text: every class with its worst finding, every deviation
+    #[arg(long, help_heading = OUTPUT)]
     details: bool,
 
-    /// When to compute what the HTML report's pictures are drawn from, on a few cases of each source; auto:
-    /// for --format html
-    #[arg(long, value_enum, default_value_t)]
+    /// When to compute the data of the HTML report's pictures, on a few cases of each source; auto: for
+    /// --format html
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     illustrate: IllustrateChoice,
 
     /// When to colour the text
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     color: ColorChoice,
 
-    /// No progress, no notes
-    #[arg(long, short)]
+    /// Print no progress and no notes
+    #[arg(long, short, help_heading = OUTPUT)]
     pub quiet: bool,
 }
 
@@ -104,15 +112,15 @@ pub struct RunArguments {
     directions: String,
 
     /// How many examples of each class of finding to keep
-    #[arg(long, default_value_t = 3, value_name = "N")]
+    #[arg(long, default_value_t = 3, value_name = "N", help_heading = OUTPUT)]
     examples: usize,
 
-    /// Run part K of N only, counted from 0; `hairline merge` makes one record of all
-    #[arg(long, value_name = "K/N")]
+    /// Run only part K of N, counted from 0; `hairline merge` makes one record of all parts
+    #[arg(long, value_name = "K/N", help_heading = RUNNING)]
     shard: Option<String>,
 
     /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     threads: Option<usize>,
 
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `hairline shrink`: the simplest case with the same finding, to paste into a test.
+//! `hairline fuzz shrink`: the simplest case with the same finding, to paste into a test.
 
 use super::case::{CaseArguments, Cases};
 use super::exit::{Failure, Status};

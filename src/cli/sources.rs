@@ -2,6 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::input::{corpus_files, corpus_set, read_mesh};
+use super::reporting::RUNNING;
 use super::select::{case_count, chosen_scalars, unknown};
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
@@ -16,14 +17,14 @@ use std::sync::Arc;
 #[derive(Args)]
 pub struct SourceArguments {
     /// f32, f64 or both
-    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64", help_heading = RUNNING)]
     scalar: Vec<String>,
 
-    /// A case family, or several separated by commas [default: all, or none with --mesh or --corpus]
+    /// A family of cases, or several separated by commas [default: all, or none with --mesh or --corpus]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// Cases for each family
+    /// How many cases of each family
     #[arg(
         long,
         short = 'n',
@@ -33,36 +34,36 @@ pub struct SourceArguments {
     )]
     count: String,
 
-    /// Every case of the lattice family instead of a sample
-    #[arg(long)]
+    /// Run every case of the lattice family instead of a sample
+    #[arg(long, help_heading = RUNNING)]
     exhaustive: bool,
 
-    /// Which random cases
-    #[arg(long, default_value_t = 1)]
+    /// Seed of the random cases
+    #[arg(long, default_value_t = 1, help_heading = RUNNING)]
     seed: u64,
 
     /// Multiply all positions by a power of two, as 2^-10
-    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true)]
+    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true, help_heading = RUNNING)]
     scale: String,
 
-    /// Multiply the direction too
-    #[arg(long)]
+    /// Multiply directions by the scale too
+    #[arg(long, help_heading = RUNNING)]
     scale_direction: bool,
 
     /// Add a vector to all positions, as 1e6:0:0
-    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true, help_heading = RUNNING)]
     offset: Option<String>,
 
     /// `unit`: replace each direction by its rounded unit vector
-    #[arg(long, value_name = "unit")]
+    #[arg(long, value_name = "unit", help_heading = RUNNING)]
     direction: Option<String>,
 
-    /// Rays at the edges, vertices and faces of an OBJ file; may be repeated
+    /// Run rays at the edges, vertices and faces of an OBJ file; may be repeated
     #[arg(long, value_name = "FILE")]
     mesh: Vec<String>,
 
-    /// Stored cases: a JSON lines file, or a folder of them; may be repeated
-    #[arg(long, value_name = "FILE|DIR")]
+    /// Run stored cases: a JSON lines file, or a folder of them; may be repeated
+    #[arg(long, value_name = "FILE|DIR", help_heading = RUNNING)]
     corpus: Vec<String>,
 }
 
@@ -106,7 +107,7 @@ impl SourceArguments {
     }
 
     /// The sources, meshes and corpora read.
-    /// `usual` picks the families that are run if nothing is named.
+    /// `usual` picks the families that run if the flags name none.
     pub fn sources(
         &self,
         quiet: bool,

@@ -1,4 +1,4 @@
-//! `hairline worst`: searches for the worst cases, and the table of the worst known.
+//! `hairline fuzz worst`: searches for the worst cases, and the table of the worst known.
 
 use super::exit::{Failure, Status};
 use super::input::open;
@@ -20,6 +20,7 @@ const GOALS_AT_ONCE: usize = 16;
 
 /// What to search for, and how long.
 #[derive(Args)]
+#[command(mut_arg("band", |band| band.hide(true)))]
 pub struct WorstArguments {
     #[command(flatten)]
     kernels: KernelArguments,
@@ -36,7 +37,7 @@ pub struct WorstArguments {
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     objective: Vec<String>,
 
-    /// moderate (cases that nobody would call strange), any, or both separated by a comma
+    /// moderate (ordinary sizes and shapes), any, or both separated by a comma
     #[arg(long, value_delimiter = ',', default_value = "moderate,any", value_name = "NAME")]
     domain: Vec<String>,
 
@@ -44,15 +45,15 @@ pub struct WorstArguments {
     #[arg(long, short = 'n', default_value_t = 20_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     evaluations: u64,
 
-    /// Search again, each time with the next seed, until this many seconds have passed
+    /// Search again with the next seed until this many seconds have passed
     #[arg(long, value_name = "SECONDS")]
     time: Option<u64>,
 
-    /// Which random moves
+    /// Seed of the random moves
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
-    /// Take what is found into this table, if it is worse than what it knows
+    /// Add what is found to this table, where it is worse than what the table has
     #[arg(long, value_name = "FILE", conflicts_with_all = ["list", "contract"])]
     update: Option<String>,
 
@@ -60,7 +61,7 @@ pub struct WorstArguments {
     #[arg(long)]
     list: bool,
 
-    /// The table that --list prints [default: what was known when the program was built]
+    /// The table that --list prints [default: the one that the program was built with]
     #[arg(long, value_name = "FILE", requires = "list")]
     table: Option<String>,
 
@@ -68,7 +69,7 @@ pub struct WorstArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }
@@ -114,7 +115,8 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
 impl WorstArguments {
     /// The goals in `f32`, and in `f64`.
     fn goals(&self) -> Result<[Vec<Goal>; 2], Failure> {
-        let rows = self.kernels.rows()?;
+        let no_band = "the worst case is as far as possible from where the verdict would be right";
+        let rows = self.kernels.rows_without_band(no_band)?;
         let gates = || rows.iter().flat_map(|row| row.entry.info.gates).map(|gate| gate.name);
         if let Some(gate) = self.gate.as_deref().filter(|gate| !gates().any(|name| name == *gate)) {
             return Err(unknown("gate", gate, gates(), "hairline list kernels"));
@@ -122,13 +124,13 @@ impl WorstArguments {
         let names = || Objective::ALL.map(Objective::name).into_iter();
         for name in &self.objective {
             if !names().any(|known| known == name) {
-                return Err(unknown("objective", name, names(), "hairline worst --help"));
+                return Err(unknown("objective", name, names(), "hairline fuzz worst --help"));
             }
         }
         let domains = self.domain.iter().map(|name| {
             let names = Domain::ALL.map(Domain::name);
             Domain::find(name)
-                .ok_or_else(|| unknown("domain", name, names, "hairline worst --help"))
+                .ok_or_else(|| unknown("domain", name, names, "hairline fuzz worst --help"))
         });
         let domains: Vec<Domain> = domains.collect::<Result<_, _>>()?;
         let pairs = rows.iter().flat_map(|row| domains.iter().map(move |domain| (row, *domain)));

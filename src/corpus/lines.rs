@@ -57,7 +57,7 @@ pub struct StoredCase {
     pub why: Option<String>,
     /// Where it comes from.
     pub url: Option<String>,
-    /// Which kernel shows what on it, if it was found by a campaign or by `triage`.
+    /// Which kernel shows what on it, if it was found by a campaign or by `fuzz triage`.
     pub found: Option<Provenance>,
 }
 

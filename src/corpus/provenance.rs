@@ -19,7 +19,7 @@ pub struct Provenance {
     pub contract: String,
     /// The finding: `false-miss`.
     pub finding: String,
-    /// The signature, as `hairline shrink` prints it.
+    /// The signature, as `hairline fuzz shrink` prints it.
     pub signature: String,
     /// The seed of the campaign; none if it comes from elsewhere.
     pub seed: Option<u64>,

@@ -118,9 +118,10 @@ impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
     }
 
     fn thresholds(&self, case: &Case<F>) -> Vec<F> {
-        let (ray, triangle) = self.lift(case);
-        let mut thresholds = self.numbers(&vec![F::zero(); self.info.gates.len()]);
-        K::test(&K::prepare(&triangle), &ray, &mut Measuring::thresholds(&mut thresholds));
+        let (ray, triangle) = lift(case, self.arithmetic);
+        let mut thresholds = numbers(&vec![F::zero(); self.info.gates.len()], self.arithmetic);
+        let mut sink = Measuring::thresholds(&mut thresholds);
+        test::<F, K>(&ray, &triangle, &mut Either::Other(&mut sink));
         thresholds.iter().map(Emulated::value).collect()
     }
 

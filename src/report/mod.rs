@@ -50,6 +50,7 @@ pub use record::*;
 pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
 pub(crate) use text::interval_of;
 
+pub(crate) use crate::plot::group_digits;
 use std::io::{self, Write};
 
 /// How people-facing formats look.
@@ -83,19 +84,6 @@ pub const FORMATS: &[Format] = &[
     #[cfg(feature = "cli")]
     Format { name: HTML, write: html::write },
 ];
-
-/// Digits in groups of three.
-pub(crate) fn group_digits(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
 
 /// `3 findings`, `1 finding`.
 pub(crate) fn number_of(count: u64, one: &str, many: &str) -> String {

@@ -395,7 +395,7 @@ pub struct PolygonPart {
 
 /// A finding on whole polygons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonFinding {
     /// `bad-value`, `panic`, `crash`, `timeout`.
@@ -437,7 +437,7 @@ pub struct Provenance {
 
 /// The flags that make a plan again, as a shell takes them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanFlags {
     /// Those that choose kernels, epsilons and the contract.
