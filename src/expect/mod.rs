@@ -1,4 +1,4 @@
-//! Floor 5: expectations, the known disagreements of a project, and how a run compares with them.
+//! Floor 6: expectations, the known disagreements of a project, and how a run compares with them.
 //!
 //! By default no finding is expected, and a file lists the exceptions. An entry that no longer occurs is
 //! stale, and that fails too. So the file shrinks as kernels get better, and never hides that they got
