@@ -44,9 +44,10 @@ pub struct OrientArguments {
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
     /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
@@ -115,7 +116,7 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         rows,
         dimensions: arguments.dimensions()?,
         scalars,
-        count: case_count(&arguments.count)?,
+        count: arguments.count,
         seed: arguments.seed,
     };
     let progress = Progress::new(plan.cases(), "cases", arguments.quiet);

@@ -10,6 +10,7 @@ use crate::kernel::{self, Entry};
 use crate::suggest::did_you_mean;
 use clap::Args;
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 
 /// The flags that choose kernels, their epsilons and the contract.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -154,12 +155,7 @@ impl KernelArguments {
             text.parse().map_err(|error| Failure::usage(format!("--arithmetic: {error}")))
         };
         let arithmetics = self.arithmetic.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
-        if let Some(i) =
-            (1..arithmetics.len()).find(|&i| arithmetics[..i].contains(&arithmetics[i]))
-        {
-            let message = format!("--arithmetic: '{}' is given twice", arithmetics[i]);
-            return Err(Failure::usage(message));
-        }
+        refuse_twice("--arithmetic", &arithmetics)?;
         let is_other = |arithmetic: &Arithmetic| *arithmetic != Arithmetic::IEEE;
         let has_others =
             |entry: &'static Entry| kernel::in_arithmetic(entry, Arithmetic::FMA).is_some();
@@ -214,11 +210,18 @@ pub fn unknown<'a>(
 const MOST_CASES: u64 = 1_000_000_000_000;
 
 /// A number of cases.
-pub fn case_count(text: &str) -> Result<u64, Failure> {
+pub fn case_count(text: &str) -> Result<u64, &'static str> {
     let count = text.replace('_', "").parse().ok();
-    count.filter(|count| (1..=MOST_CASES).contains(count)).ok_or_else(|| {
-        Failure::usage(format!("--count: '{text}' is not a number of cases from 1 to 10^12"))
-    })
+    let count = count.filter(|count| (1..=MOST_CASES).contains(count));
+    count.ok_or("not a number of cases from 1 to 10^12")
+}
+
+/// An error if a flag names something twice.
+pub fn refuse_twice<T: PartialEq + Display>(flag: &str, named: &[T]) -> Result<(), Failure> {
+    match (1..named.len()).find(|&i| named[..i].contains(&named[i])) {
+        Some(i) => Err(Failure::usage(format!("{flag}: '{}' is given twice", named[i]))),
+        None => Ok(()),
+    }
 }
 
 /// Whether `f32`, and whether `f64`, is named.

@@ -123,15 +123,7 @@ fn corpus_line<F: Scalar>(case: &Case<F>, signature: &Signature) -> String
 where
     AnyCase: From<Case<F>>,
 {
-    let mut stored = StoredCase {
-        name: None,
-        case: AnyCase::from(*case),
-        truth: None,
-        line: 0,
-        why: Some(signature.to_string()),
-        url: None,
-        found: None,
-    };
+    let mut stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(*case) };
     stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
     write_case(&stored)
 }

@@ -281,15 +281,7 @@ fn relative_error(entry: &Entry) -> Option<f64> {
 
 /// A case as JSON without its bits: its numbers say the same.
 fn bare_line(case: &AnyCase) -> String {
-    let stored = StoredCase {
-        name: None,
-        case: *case,
-        truth: None,
-        line: 0,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     let line = write_case(&stored);
     match line.split_once(",\"bits\"") {
         Some((numbers, _)) => format!("{numbers}}}"),
