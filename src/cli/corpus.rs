@@ -1,9 +1,9 @@
 //! `hairline corpus`: verify or make the stored cases.
 
 use super::exit::{Failure, Status};
+use super::flags::unknown;
 use super::input::{corpus_files, open, read_corpus};
 use super::output::write_result;
-use super::select::unknown;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};

@@ -1,9 +1,10 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
 use super::exit::{Failure, Status};
+use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
-use super::select::{KernelArguments, refuse_twice};
+use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;

@@ -1,11 +1,12 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
 use super::exit::{Failure, Status};
+use super::flags::chosen_scalars;
 use super::input::read_mesh;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars};
+use super::select::KernelArguments;
 use super::sources::{rays_at_each, scalars_in_use, set_threads};
 use crate::audit::mesh::{self, Found, Plan};
 use crate::family::MeshFamily;

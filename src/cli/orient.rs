@@ -3,9 +3,9 @@
 mod text;
 
 use super::exit::{Failure, Status};
+use super::flags::{case_count, chosen_scalars, unknown};
 use super::output::write_result;
 use super::progress::Progress;
-use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::orientation::points_json::{self, AnyPoints};

@@ -1,8 +1,8 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
+use super::flags::refuse_twice;
 use super::plugins;
-use super::select::refuse_twice;
 use crate::descriptors;
 use crate::suggest::nearest_name;
 use clap::ValueEnum;

@@ -1,7 +1,7 @@
 //! The kernels that a command line brings along: libraries and commands.
 
 use super::exit::{Failure, Status};
-use super::select::refuse_twice;
+use super::flags::refuse_twice;
 use crate::audit::{quoted, shell_word};
 use crate::kernel::{self, Entry, Scalar, Trouble};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};

@@ -1,6 +1,7 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
+use super::flags::{JUDGING, OUTPUT, RUNNING};
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
@@ -13,14 +14,6 @@ use crate::report::{
     number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
-
-/// Headings of the help: which cases and rows a run has, how they are judged, and what is written. The
-/// flags that matter most stand under none, and so come first.
-pub const RUNNING: &str = "What to run";
-/// Likewise.
-pub const JUDGING: &str = "How to judge";
-/// Likewise.
-pub const OUTPUT: &str = "Output";
 
 /// The flags that say how to report.
 #[derive(Args)]

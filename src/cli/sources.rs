@@ -1,9 +1,8 @@
 //! Which cases a command line names, and on how many threads they run.
 
 use super::exit::{Failure, Status};
+use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_set, read_mesh};
-use super::reporting::RUNNING;
-use super::select::{case_count, chosen_scalars, refuse_twice, unknown};
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
