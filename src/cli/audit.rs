@@ -1,7 +1,8 @@
 //! `hairline audit`: kernels on families of cases, a mesh or a corpus.
 
 use super::exit::{Failure, Status};
-use super::reporting::{JUDGING, RunArguments, self_check};
+use super::flags::JUDGING;
+use super::reporting::{RunArguments, self_check};
 use clap::Args;
 
 /// What to run, and how to report it.

@@ -1,10 +1,11 @@
 //! `hairline check`: a run held to its expectations.
 
 use super::exit::{Failure, Status};
+use super::flags::JUDGING;
 use super::github;
 use super::input::{read_record, read_text};
 use super::output::write_result;
-use super::reporting::{JUDGING, RunArguments, self_check};
+use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;

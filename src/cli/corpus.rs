@@ -1,9 +1,9 @@
 //! `hairline corpus`: verify or make the stored cases.
 
 use super::exit::{Failure, Status};
+use super::flags::unknown;
 use super::input::{corpus_files, open, read_corpus};
 use super::output::write_result;
-use super::select::unknown;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
@@ -105,15 +105,8 @@ fn write_family<F: Scalar>(
         for (k, case) in made.cases().iter().enumerate() {
             let mut id = family.id::<F>(&parameters, seed, index);
             id.triangle = several.then_some(k);
-            let mut stored = StoredCase {
-                name: Some(id.to_string()),
-                case: wrap(*case),
-                truth: None,
-                line: 0,
-                why: None,
-                url: None,
-                found: None,
-            };
+            let mut stored =
+                StoredCase { name: Some(id.to_string()), ..StoredCase::of(wrap(*case)) };
             stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
             writeln!(out, "{}", write_case(&stored))?;
         }

@@ -1,6 +1,7 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
 use super::exit::{Failure, Status};
+use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -143,10 +144,7 @@ impl EpsilonArguments {
         if self.map && self.gate.len() != 2 {
             return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
         }
-        let twice = (1..self.gate.len()).find(|&i| self.gate[..i].contains(&self.gate[i]));
-        if let Some(i) = twice {
-            return Err(Failure::usage(format!("--gate: '{}' is given twice", self.gate[i])));
-        }
+        refuse_twice("--gate", &self.gate)?;
         let mut reasons = Vec::new();
         rows.retain(|row| self.gates(row).map_err(|reason| reasons.push(reason)).is_ok());
         match reasons.first() {

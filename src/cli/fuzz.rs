@@ -2,25 +2,22 @@
 
 mod directory;
 mod lock;
+mod shrink;
 mod summary;
-
-pub use directory::{CAMPAIGN, FINDS, read_begun, read_finds};
-pub use summary::explain_command;
+mod triage;
+mod worst;
 
 use super::exit::{Failure, Status};
+use super::flags::chosen_scalars;
 use super::output::{standard_output, write_result};
 use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars};
+use super::select::KernelArguments;
 use super::sources::{scalars_in_use, set_threads};
-use super::{shrink, triage, worst};
 use crate::explore::campaign::{Campaign, Find, Plan, State};
 use clap::{Args, Subcommand};
-use directory::{Begun, Directory};
+use directory::{Begun, CAMPAIGN, Directory, NO_BAND};
 use std::io::Write;
 use summary::{Counters, write_summary};
-
-/// Why neither a campaign nor triage takes a band.
-pub const NO_BAND: &str = "findings are kept and run again without one";
 
 /// The seconds between two savings of counters and population, at least and at most: a session that
 /// is killed early should not have been for nothing.

@@ -1,11 +1,12 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
 use super::exit::{Failure, Status};
+use super::flags::chosen_scalars;
 use super::input::read_mesh;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars};
+use super::select::KernelArguments;
 use super::sources::{rays_at_each, scalars_in_use, set_threads};
 use crate::audit::mesh::{self, Found, Plan};
 use crate::family::MeshFamily;
@@ -32,11 +33,11 @@ pub struct MeshArguments {
     scalar: Vec<String>,
 
     /// How many rays at each edge and vertex, from 1 to 65536: exact and near, grazing and not, in turn
-    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
-    directions: String,
+    #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each())]
+    directions: u64,
 
     /// `unit`: replace each direction by its rounded unit vector; few rays then meet an edge exactly
-    #[arg(long, value_name = "unit")]
+    #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true)]
     direction: Option<String>,
 
     /// Seed of the random rays
@@ -115,16 +116,8 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
 
 impl MeshArguments {
     fn plan(&self) -> Result<Plan, Failure> {
-        let unit_direction = match self.direction.as_deref() {
-            None => false,
-            Some("unit") => true,
-            Some(other) => {
-                let message = format!("--direction: unknown '{other}'; there is 'unit'");
-                return Err(Failure::usage(message));
-            }
-        };
-        let directions = rays_at_each(&self.directions)?;
-        let (seed, examples) = (self.seed, self.examples);
+        let unit_direction = self.direction.is_some();
+        let MeshArguments { directions, seed, examples, .. } = *self;
         let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
         Ok(Plan { rows, directions, seed, unit_direction, examples })
     }

@@ -18,6 +18,7 @@ mod diff;
 mod epsilon;
 pub(crate) mod exit;
 mod explain;
+mod flags;
 mod fuzz;
 mod generate;
 mod github;
@@ -35,11 +36,8 @@ mod reporting;
 mod select;
 mod selfcheck;
 mod settings;
-mod shrink;
 mod sources;
-mod triage;
 mod truth;
-mod worst;
 
 use exit::{Failure, Status};
 

@@ -3,9 +3,9 @@
 mod text;
 
 use super::exit::{Failure, Status};
+use super::flags::{case_count, chosen_scalars, unknown};
 use super::output::write_result;
 use super::progress::Progress;
-use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::orientation::points_json::{self, AnyPoints};
@@ -44,9 +44,10 @@ pub struct OrientArguments {
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
     /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
@@ -115,7 +116,7 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         rows,
         dimensions: arguments.dimensions()?,
         scalars,
-        count: case_count(&arguments.count)?,
+        count: arguments.count,
         seed: arguments.seed,
     };
     let progress = Progress::new(plan.cases(), "cases", arguments.quiet);

@@ -1,6 +1,7 @@
 //! The kernels that a command line brings along: libraries and commands.
 
 use super::exit::{Failure, Status};
+use super::flags::refuse_twice;
 use crate::audit::{quoted, shell_word};
 use crate::kernel::{self, Entry, Scalar, Trouble};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
@@ -86,12 +87,8 @@ impl PluginArguments {
             let flag = format!("--kernel-cmd {}", quoted(line));
             started(flag, |flag| register(line, load(program, limits, flag)))
         });
-        let twice = |flags: &[String]| (1..flags.len()).find(|&i| flags[..i].contains(&flags[i]));
-        for flags in [&self.kernel_lib, &self.kernel_cmd] {
-            if let Some(i) = twice(flags) {
-                return Err(Failure::usage(format!("the kernel '{}' is given twice", flags[i])));
-            }
-        }
+        refuse_twice("--kernel-lib", &self.kernel_lib)?;
+        refuse_twice("--kernel-cmd", &self.kernel_cmd)?;
         libraries.chain(commands).collect()
     }
 

@@ -1,6 +1,7 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
+use super::flags::{JUDGING, OUTPUT, RUNNING};
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
@@ -13,14 +14,6 @@ use crate::report::{
     number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
-
-/// Headings of the help: which cases and rows a run has, how they are judged, and what is written. The
-/// flags that matter most stand under none, and so come first.
-pub const RUNNING: &str = "What to run";
-/// Likewise.
-pub const JUDGING: &str = "How to judge";
-/// Likewise.
-pub const OUTPUT: &str = "Output";
 
 /// The flags that say how to report.
 #[derive(Args)]
@@ -107,9 +100,10 @@ pub struct RunArguments {
     #[command(flatten)]
     sources: SourceArguments,
 
-    /// Rays at each edge and vertex of a mesh, 1 to 65536; any four are exact and near, grazing and not
-    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
-    directions: String,
+    /// How many rays at each edge and vertex of a mesh, from 1 to 65536: exact and near, grazing and not,
+    /// in turn
+    #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each(), help_heading = RUNNING)]
+    directions: u64,
 
     /// How many examples of each class of finding to keep
     #[arg(long, default_value_t = 3, value_name = "N", help_heading = OUTPUT)]
@@ -132,10 +126,9 @@ impl RunArguments {
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
-        let directions = rays_at_each(&self.directions)?;
         let sources = self.sources.sources(self.report.quiet, |_| true)?;
         let with_parts = |source: Source| {
-            let parts = source.mesh_parts(directions, scalars);
+            let parts = source.mesh_parts(self.directions, scalars);
             std::iter::once(source).chain(parts)
         };
         let sources = sources.into_iter().flat_map(with_parts).collect();
@@ -145,8 +138,8 @@ impl RunArguments {
     /// The flags that choose the cases again.
     fn source_flags(&self) -> String {
         let flags = self.sources.flags();
-        match self.directions.as_str() {
-            "8" => flags,
+        match self.directions {
+            8 => flags,
             directions => format!("{flags} --directions {directions}"),
         }
     }

@@ -1,13 +1,12 @@
 //! Which kernels, contracts and epsilons a command line names.
 
 use super::exit::Failure;
+use super::flags::{JUDGING, RUNNING, refuse_twice, unknown};
 use super::plugins::PluginArguments;
-use super::reporting::{JUDGING, RUNNING};
 use crate::arith::Arithmetic;
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::contract::Band;
 use crate::kernel::{self, Entry};
-use crate::suggest::did_you_mean;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
@@ -154,12 +153,7 @@ impl KernelArguments {
             text.parse().map_err(|error| Failure::usage(format!("--arithmetic: {error}")))
         };
         let arithmetics = self.arithmetic.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
-        if let Some(i) =
-            (1..arithmetics.len()).find(|&i| arithmetics[..i].contains(&arithmetics[i]))
-        {
-            let message = format!("--arithmetic: '{}' is given twice", arithmetics[i]);
-            return Err(Failure::usage(message));
-        }
+        refuse_twice("--arithmetic", &arithmetics)?;
         let is_other = |arithmetic: &Arithmetic| *arithmetic != Arithmetic::IEEE;
         let has_others =
             |entry: &'static Entry| kernel::in_arithmetic(entry, Arithmetic::FMA).is_some();
@@ -198,41 +192,4 @@ impl KernelArguments {
         EpsilonChoice::parse(text)
             .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))
     }
-}
-
-/// The error for a name that is not in a table.
-pub fn unknown<'a>(
-    what: &str,
-    name: &str,
-    names: impl IntoIterator<Item = &'a str>,
-    list: &str,
-) -> Failure {
-    Failure::usage(format!("unknown {what} '{name}'{}", did_you_mean(name, names, list)))
-}
-
-/// The most cases of one family: beyond it a run would take years.
-const MOST_CASES: u64 = 1_000_000_000_000;
-
-/// A number of cases.
-pub fn case_count(text: &str) -> Result<u64, Failure> {
-    let count = text.replace('_', "").parse().ok();
-    count.filter(|count| (1..=MOST_CASES).contains(count)).ok_or_else(|| {
-        Failure::usage(format!("--count: '{text}' is not a number of cases from 1 to 10^12"))
-    })
-}
-
-/// Whether `f32`, and whether `f64`, is named.
-pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
-    let mut scalars = [false; 2];
-    for name in names {
-        match name.as_str() {
-            "f32" => scalars[0] = true,
-            "f64" => scalars[1] = true,
-            other => {
-                let message = format!("unknown scalar '{other}': there are f32 and f64");
-                return Err(Failure::usage(message));
-            }
-        }
-    }
-    Ok(scalars)
 }

@@ -1,13 +1,13 @@
 //! Which cases a command line names, and on how many threads they run.
 
 use super::exit::{Failure, Status};
+use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_set, read_mesh};
-use super::reporting::RUNNING;
-use super::select::{case_count, chosen_scalars, unknown};
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use clap::Args;
+use clap::builder::TypedValueParser;
 use std::collections::HashSet;
 use std::fs;
 use std::path::PathBuf;
@@ -30,9 +30,10 @@ pub struct SourceArguments {
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
     /// Run every case of the lattice family instead of a sample
     #[arg(long, help_heading = RUNNING)]
@@ -55,7 +56,7 @@ pub struct SourceArguments {
     offset: Option<String>,
 
     /// `unit`: replace each direction by its rounded unit vector
-    #[arg(long, value_name = "unit", help_heading = RUNNING)]
+    #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true, help_heading = RUNNING)]
     direction: Option<String>,
 
     /// Run rays at the edges, vertices and faces of an OBJ file; may be repeated
@@ -80,7 +81,7 @@ impl SourceArguments {
         }
         self.mesh.iter().for_each(|path| add("mesh", path));
         self.corpus.iter().for_each(|path| add("corpus", path));
-        add("count", &self.count);
+        add("count", &self.count.to_string());
         add("seed", &self.seed.to_string());
         if self.scale != "1" {
             add("scale", &self.scale);
@@ -113,7 +114,7 @@ impl SourceArguments {
         quiet: bool,
         usual: impl Fn(&Family) -> bool,
     ) -> Result<Vec<Source>, Failure> {
-        let (count, parameters, seed) = (case_count(&self.count)?, self.parameters()?, self.seed);
+        let (count, parameters, seed) = (self.count, self.parameters()?, self.seed);
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
@@ -158,11 +159,7 @@ impl SourceArguments {
                 FAMILIES.iter().filter(|family| usual(family)).collect()
             });
         }
-        if let Some(i) =
-            (1..self.family.len()).find(|&i| self.family[..i].contains(&self.family[i]))
-        {
-            return Err(Failure::usage(format!("--family: '{}' is given twice", self.family[i])));
-        }
+        refuse_twice("--family", &self.family)?;
         self.family
             .iter()
             .map(|name| {
@@ -173,22 +170,13 @@ impl SourceArguments {
     }
 
     fn parameters(&self) -> Result<Parameters, Failure> {
-        let unit_direction = match self.direction.as_deref() {
-            None => false,
-            Some("unit") => true,
-            Some(other) => {
-                return Err(Failure::usage(format!(
-                    "--direction: unknown '{other}'; there is 'unit'"
-                )));
-            }
-        };
         let offset = self.offset.as_deref().map_or(Ok([0.0; 3]), parse_offset);
         Ok(Parameters {
             scale: parse_power_of_two(&self.scale)
                 .map_err(|e| Failure::usage(format!("--scale: {e}")))?,
             scale_direction: self.scale_direction,
             offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
-            unit_direction,
+            unit_direction: self.direction.is_some(),
             mesh: None,
         })
     }
@@ -221,15 +209,12 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
     }
 }
 
-/// The most rays at an edge: their number fits what counts them, for every kernel.
+/// The most rays at an edge or vertex: their number fits what counts them, for every kernel.
 const MOST_DIRECTIONS: u64 = 65_536;
 
-/// The rays at each edge and vertex of a mesh, as `--directions` has them.
-pub fn rays_at_each(text: &str) -> Result<u64, Failure> {
-    let directions = text.parse().ok().filter(|n| (1..=MOST_DIRECTIONS).contains(n));
-    directions.ok_or_else(|| {
-        Failure::usage(format!("--directions: '{text}' is not a number from 1 to 65536"))
-    })
+/// Reads a number of rays at each edge and vertex.
+pub fn rays_at_each() -> impl TypedValueParser<Value = u64> {
+    clap::value_parser!(u64).range(1..=MOST_DIRECTIONS)
 }
 
 /// Sets the number of threads, all cores if none is given; returns how many there are.

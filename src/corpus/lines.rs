@@ -61,6 +61,14 @@ pub struct StoredCase {
     pub found: Option<Provenance>,
 }
 
+impl StoredCase {
+    /// A case with nothing beside it.
+    pub fn of(case: impl Into<AnyCase>) -> StoredCase {
+        let case = case.into();
+        StoredCase { name: None, case, truth: None, line: 0, why: None, url: None, found: None }
+    }
+}
+
 /// The cases of a corpus file, one after the other; blank lines are skipped. `file` is the name in
 /// errors.
 ///

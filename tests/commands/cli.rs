@@ -378,9 +378,6 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
         (&["audit", "--contract", "closed-rai"], "did you mean 'closed-ray'?"),
         (&["audit", "--format", "jsn"], "did you mean 'json'?"),
         (&["audit", "--scalar", "f16"], "unknown scalar 'f16'"),
-        (&["audit", "--count", "0"], "not a number of cases"),
-        (&["audit", "--count", "-5"], "not a number of cases"),
-        (&["audit", "--count", "99999999999999999999"], "not a number of cases"),
         (&["audit", "--scale", "3"], "write 2^k"),
         (&["audit", "--offset", "1:2"], "write x:y:z"),
         (&["audit", "--threads", "0"], "not from 1"),
@@ -396,6 +393,36 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
     assert_eq!(code(&hairline(&["audit", "--no-such-flag"])), 2);
     assert_eq!(code(&hairline(&[])), 2);
     assert_eq!(code(&hairline(&["--help"])), 0);
+    let help = |words: &[&str]| text(&hairline(&[words, &["--help"]].concat()).stdout);
+    // A band is listed where it means something.
+    for (words, listed) in [
+        (&["audit"][..], true),
+        (&["check"], true),
+        (&["epsilon"], true),
+        (&["mesh"], false),
+        (&["fuzz"], false),
+        (&["fuzz", "triage"], false),
+        (&["fuzz", "worst"], false),
+    ] {
+        let help = help(words);
+        assert!(help.contains("Usage: hairline"), "{help}");
+        assert_eq!(help.contains("--band"), listed, "{words:?}: {help}");
+    }
+    // The old names of commands still run them, and are not listed.
+    let all = help(&[]);
+    for (old, new) in [("config --print-default", "check config"), ("schema", "check schema")] {
+        let run = |words: &str| hairline(&words.split(' ').collect::<Vec<_>>()).stdout;
+        assert_eq!(run(old), run(new));
+    }
+    for old in ["triage", "shrink", "worst", "config", "schema"] {
+        assert!(!all.contains(&format!("\n  {old} ")), "{all}");
+        assert_eq!(code(&hairline(&[old, "--help"])), 0);
+    }
+    for count in ["0", "-5", "99999999999999999999"] {
+        let output = hairline(&["audit", "--count", count]);
+        let error = text(&output.stderr);
+        assert!(code(&output) == 2 && error.contains("not a number of cases from 1"), "{error}");
+    }
 }
 
 #[test]

@@ -202,7 +202,7 @@ fn links_lead_to_no_case_twice() {
     assert_eq!(sources.len(), 1, "{sources:?}");
     assert_eq!(sources[0]["family"], "corpus:c/sub/a.jsonl");
     // Nor does triage go round and round.
-    let plan = ["triage", "c", "-o", "found", "--kernel", "moller-trumbore"];
+    let plan = ["fuzz", "triage", "c", "-o", "found", "--kernel", "moller-trumbore"];
     let (out, _) = ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9"]].concat(), 0);
     assert!(out.starts_with("1 findings read; "), "{out}");
     // A link that leads nowhere is a file that cannot be read.
@@ -222,7 +222,7 @@ fn what_cannot_be_read_ends_with_74_and_what_is_wrong_with_65() {
         &["audit", "--mesh", "-"],
         &["explain", "x", "--corpus", "-"],
         &["corpus", "verify", "-"],
-        &["worst", "--list", "--table", "-"],
+        &["fuzz", "worst", "--list", "--table", "-"],
         &["diff", "-", "-"],
         &["check", "--record", "-"],
     ] {
@@ -299,8 +299,8 @@ fn no_failure_touches_an_output() {
             ],
             74,
         ),
-        (&["worst", "--update", "finds.jsonl", "--kernel", "cramer", "-n", "9"], 65),
-        (&["triage", "half.jsonl", "-o", "."], 65),
+        (&["fuzz", "worst", "--update", "finds.jsonl", "--kernel", "cramer", "-n", "9"], 65),
+        (&["fuzz", "triage", "half.jsonl", "-o", "."], 65),
         (&[&quick[..], &["-o", "."]].concat(), 74),
     ] {
         // /dev/full is Linux's.
@@ -337,7 +337,8 @@ fn what_a_kernel_spoilt_that_is_given_up_replaces_nothing() {
 #[test]
 fn the_rust_snippet_is_of_built_in_kernels() {
     let given = unnamed().replace(char::is_whitespace, "");
-    let shrink = |flags: &[&str]| ends(Path::new("."), &[&["shrink", &given], flags].concat(), 0).0;
+    let shrink =
+        |flags: &[&str]| ends(Path::new("."), &[&["fuzz", "shrink", &given], flags].concat(), 0).0;
     let fails = ["--epsilon", "parallel=1e9", "--kernel"];
     for kernel in ["moller-trumbore", "moller-trumbore+fma"] {
         let text = shrink(&[&fails[..], &[kernel]].concat());
@@ -352,7 +353,8 @@ fn the_rust_snippet_is_of_built_in_kernels() {
 fn a_missing_newline_loses_no_find() {
     let folder = scratch("io-newline");
     fs::write(folder.join("a.jsonl"), case("x", "f32")).unwrap();
-    let plan = ["triage", "a.jsonl", "-o", "found", "--kernel", "moller-trumbore", "--epsilon"];
+    let plan =
+        ["fuzz", "triage", "a.jsonl", "-o", "found", "--kernel", "moller-trumbore", "--epsilon"];
     ends(&folder, &[&plan[..], &["parallel=1e9"]].concat(), 0);
     let file = folder.join("found/moller-trumbore.jsonl");
     let whole = fs::read_to_string(&file).unwrap();
@@ -424,7 +426,7 @@ fn closed_streams_are_errors_and_readers_who_leave_are_not() {
     for line in [
         "truth a.jsonl",
         "list kernels",
-        "config --print-default",
+        "check config",
         "schema",
         "--help",
         "--version",

@@ -88,15 +88,7 @@ where
     AnyCase: From<Case<F>>,
 {
     let exact = oracle::define(case).exact.t.map_or(String::new(), |t| format!(", t = {t}"));
-    let stored = StoredCase {
-        name: None,
-        case: AnyCase::from(*case),
-        truth: None,
-        line: 0,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     let kernel = t.map_or("miss".to_owned(), |t| format!("hit, t = {t:e}"));
     format!(
         "truth    {truth}{exact}\nkernel   {kernel}\nbits     {}\nexplain  hairline explain '{}'",

@@ -1,13 +1,14 @@
 //! `hairline fuzz worst`: searches for the worst cases, and the table of the worst known.
 
-use super::exit::{Failure, Status};
-use super::input::open;
-use super::output::write_result;
-use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars, unknown};
-use super::sources::{scalars_in_use, set_threads};
 use crate::audit::{Observer, quoted};
 use crate::case::Case;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::flags::{chosen_scalars, unknown};
+use crate::cli::input::open;
+use crate::cli::output::write_result;
+use crate::cli::progress::Progress;
+use crate::cli::select::KernelArguments;
+use crate::cli::sources::{scalars_in_use, set_threads};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
 use crate::kernel::Scalar;
@@ -75,7 +76,7 @@ pub struct WorstArguments {
 }
 
 /// The table of the worst known, as it was when the program was built.
-const KNOWN: &[u8] = include_bytes!("../../corpora/worst.jsonl");
+const KNOWN: &[u8] = include_bytes!("../../../corpora/worst.jsonl");
 
 /// Runs the command.
 pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
@@ -281,15 +282,7 @@ fn relative_error(entry: &Entry) -> Option<f64> {
 
 /// A case as JSON without its bits: its numbers say the same.
 fn bare_line(case: &AnyCase) -> String {
-    let stored = StoredCase {
-        name: None,
-        case: *case,
-        truth: None,
-        line: 0,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     let line = write_case(&stored);
     match line.split_once(",\"bits\"") {
         Some((numbers, _)) => format!("{numbers}}}"),

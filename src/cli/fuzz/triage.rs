@@ -2,13 +2,14 @@
 
 mod inputs;
 
-use super::exit::{Failure, Status};
-use super::fuzz::{NO_BAND, explain_command};
-use super::input::corpus_files;
-use super::output::write_result;
-use super::select::KernelArguments;
-use super::sources::set_threads;
+use super::directory::NO_BAND;
+use super::summary::explain_command;
 use crate::audit::Attribution;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::input::corpus_files;
+use crate::cli::output::write_result;
+use crate::cli::select::KernelArguments;
+use crate::cli::sources::set_threads;
 use crate::corpus::lines::{self, AnyCase, write_case};
 use crate::explore::campaign::Find;
 use crate::explore::shrink_finding;
