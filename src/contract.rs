@@ -32,7 +32,7 @@ pub struct Contract {
     pub band: Option<Band>,
 }
 
-/// A distance to the boundary below which nothing is asked.
+/// A distance to the boundary below which nothing is demanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
     /// How far; above zero.
@@ -105,7 +105,7 @@ pub enum Boundary {
     Free,
 }
 
-/// What is asked of a kernel in a situation.
+/// What is demanded of a kernel in a situation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Demand {
     /// A miss.

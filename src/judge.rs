@@ -29,7 +29,7 @@ use num_rational::BigRational;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
-/// What a contract asks of a kernel on a case.
+/// What a contract demands of a kernel on a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obligation {
     /// A hit.
@@ -86,8 +86,8 @@ impl Finding {
     }
 }
 
-/// What the contract asks for this truth. `respawned` says that the ray starts at a kernel's own hit
-/// point on the triangle.
+/// What the contract demands for this truth. `respawned` says that the ray starts at a kernel's own
+/// rounded hit point on the triangle, as a secondary ray does.
 pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obligation {
     if contract.no_self_hit && respawned && *truth != Truth::Invalid {
         return Obligation::MustMiss;
@@ -103,8 +103,8 @@ pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obliga
     }
 }
 
-/// What the contract asks on a case: nothing where it promises nothing for the direction, and within
-/// its band.
+/// What the contract demands on a case: nothing if it promises nothing for the direction, and nothing
+/// within its band.
 pub fn asked<F: Float>(
     case: &Case<F>,
     truth: &Truth,
@@ -173,7 +173,7 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
     }
 }
 
-/// What is asked on a boundary.
+/// What is demanded on a boundary.
 fn at_rim(boundary: Boundary) -> Obligation {
     match boundary {
         Boundary::Closed => Obligation::MustHit,
@@ -238,7 +238,7 @@ impl Answer {
     }
 }
 
-/// Compares a verdict with what was asked. Values of hits on invalid input are not judged.
+/// Compares a verdict with the obligation. Values of hits on invalid input are not judged.
 #[inline]
 pub fn judge<F: Float>(
     obligation: Obligation,
@@ -252,7 +252,7 @@ pub fn judge<F: Float>(
     judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
 }
 
-/// Compares an answer with what was asked.
+/// Compares an answer with the obligation.
 #[inline]
 pub fn judge_answer(
     obligation: Obligation,

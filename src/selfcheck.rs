@@ -1,4 +1,4 @@
-//! Floor 4: the oracle held to its definition, and to integer arithmetic that shares nothing with it.
+//! Floor 4: compares the oracle with its definition, and with integer arithmetic that shares nothing with it.
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! The causes of findings, counted: of the first findings by index, of each class.
+//! Counts the causes of the first findings of each class, by index.
 
 use super::attribution::{Attribution, attribute};
 use super::digest::Place;

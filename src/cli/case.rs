@@ -1,8 +1,8 @@
 //! The case that a command line names: an id, the name of a stored case, or JSON.
 
 use super::exit::{Failure, Status};
+use super::flags::unknown;
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
-use super::select::unknown;
 use crate::case::{Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
@@ -19,7 +19,7 @@ pub struct CaseArguments {
     #[arg(value_name = "CASE")]
     pub case: String,
 
-    /// The mesh that the case's id speaks of
+    /// The mesh that the case's id names
     #[arg(long, value_name = "FILE")]
     pub(super) mesh: Option<String>,
 

@@ -1,9 +1,9 @@
 //! `hairline corpus`: verify or make the stored cases.
 
 use super::exit::{Failure, Status};
+use super::flags::unknown;
 use super::input::{corpus_files, open, read_corpus};
 use super::output::write_result;
-use super::select::unknown;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
@@ -30,7 +30,7 @@ pub struct CorpusArguments {
 
 #[derive(Subcommand)]
 enum CorpusCommand {
-    /// Check every stored truth, and make every set and mesh of the manifest again
+    /// Check every stored truth, and generate every set and mesh of the manifest again
     Verify {
         /// A folder of corpus files, or one of them
         #[arg(default_value = "corpora", value_name = "FILE|DIR")]
@@ -50,11 +50,11 @@ enum CorpusCommand {
         #[arg(long, default_value = "f32", value_name = "SCALAR")]
         scalar: String,
 
-        /// How many indices
+        /// How many cases, or groups of cases
         #[arg(long, short = 'n', default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
         count: u64,
 
-        /// Which random cases
+        /// Seed of the random cases
         #[arg(long, default_value_t = 1)]
         seed: u64,
 
@@ -105,15 +105,8 @@ fn write_family<F: Scalar>(
         for (k, case) in made.cases().iter().enumerate() {
             let mut id = family.id::<F>(&parameters, seed, index);
             id.triangle = several.then_some(k);
-            let mut stored = StoredCase {
-                name: Some(id.to_string()),
-                case: wrap(*case),
-                truth: None,
-                line: 0,
-                why: None,
-                url: None,
-                found: None,
-            };
+            let mut stored =
+                StoredCase { name: Some(id.to_string()), ..StoredCase::of(wrap(*case)) };
             stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
             writeln!(out, "{}", write_case(&stored))?;
         }

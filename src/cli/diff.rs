@@ -16,7 +16,7 @@ pub struct DiffArguments {
     /// The later record
     new: String,
 
-    /// How to write it
+    /// The format of the output
     #[arg(long, value_enum, default_value_t)]
     format: DiffFormat,
 

@@ -1,6 +1,7 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
 use super::exit::{Failure, Status};
+use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -21,27 +22,28 @@ pub struct EpsilonArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// A gate, or several separated by commas, each varied alone [default: all that take an epsilon]
+    /// A gate, or several separated by commas; each is varied alone [default: all that take an epsilon]
     #[arg(long, value_delimiter = ',', value_name = "GATE")]
     gate: Vec<String>,
 
-    /// Further epsilons to weigh, separated by commas
+    /// More epsilons to compare, separated by commas
     #[arg(long, value_delimiter = ',', value_name = "E", allow_hyphen_values = true)]
     at: Vec<String>,
 
-    /// Keep every margin: exact at every epsilon, with memory that grows with the cases
+    /// Keep every margin: exact at every epsilon, but memory grows with the number of cases
     #[arg(long)]
     exact: bool,
 
-    /// Multiply the epsilon by each case's own size, to the power of the gate's dimension
+    /// Let the epsilon follow each case: multiply it by the case's size, to the power of the gate's
+    /// dimension
     #[arg(long)]
     relative: bool,
 
-    /// Weigh two gates against each other (in text and JSON)
+    /// Compare two gates with each other: one table of both epsilons (text and JSON)
     #[arg(long)]
     map: bool,
 
-    /// Scales at which to look for the limits again, or `none`
+    /// Scales of the cases at which to look for the limits again, or `none`
     #[arg(
         long,
         value_delimiter = ',',
@@ -66,7 +68,7 @@ pub struct EpsilonArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// No progress, no notes
+    /// Print no progress and no notes
     #[arg(long, short)]
     quiet: bool,
 }
@@ -142,10 +144,7 @@ impl EpsilonArguments {
         if self.map && self.gate.len() != 2 {
             return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
         }
-        let twice = (1..self.gate.len()).find(|&i| self.gate[..i].contains(&self.gate[i]));
-        if let Some(i) = twice {
-            return Err(Failure::usage(format!("--gate: '{}' is given twice", self.gate[i])));
-        }
+        refuse_twice("--gate", &self.gate)?;
         let mut reasons = Vec::new();
         rows.retain(|row| self.gates(row).map_err(|reason| reasons.push(reason)).is_ok());
         match reasons.first() {

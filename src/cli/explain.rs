@@ -160,15 +160,7 @@ fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io:
     } else {
         AnyCase::F64(case.widen())
     };
-    let stored = StoredCase {
-        name: None,
-        case: kind,
-        truth: None,
-        line: 1,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(kind);
     let line = serde_json::to_string(&truth_line(&stored)).unwrap_or_default();
     writeln!(out, "    {line}")?;
     if let Some(severity) = exact_severity(case, Extent::Interval) {

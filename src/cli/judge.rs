@@ -26,8 +26,9 @@ pub struct JudgeArguments {
     #[arg(value_name = "FILE", default_value = "-")]
     file: String,
 
-    /// A contract instead of the hello's (see `hairline list contracts`); needed without a hello
-    #[arg(long, value_name = "NAME")]
+    /// A contract instead of the kernel's own (see `hairline list contracts`); needed if the kernel does not
+    /// announce one
+    #[arg(long, value_name = "CONTRACT")]
     contract: Option<String>,
 
     #[command(flatten)]

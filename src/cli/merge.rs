@@ -16,11 +16,11 @@ use std::sync::Arc;
 /// What to merge, and how to report.
 #[derive(Args)]
 pub struct MergeArguments {
-    /// Records that `--shard` with `--format json` wrote
+    /// The records that `--shard` with `--format json` wrote
     #[arg(required = true, value_name = "RECORD")]
     records: Vec<String>,
 
-    /// Go without missing shards; the result says which are in it
+    /// Merge without the shards that are missing; the record says which shards it has
     #[arg(long)]
     allow_partial: bool,
 

@@ -1,11 +1,12 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
 use super::exit::{Failure, Status};
+use super::flags::chosen_scalars;
 use super::input::read_mesh;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars};
+use super::select::KernelArguments;
 use super::sources::{rays_at_each, scalars_in_use, set_threads};
 use crate::audit::mesh::{self, Found, Plan};
 use crate::family::MeshFamily;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 
 /// Which mesh and kernels, and how to report it.
 #[derive(Args)]
+#[command(mut_arg("band", |band| band.hide(true)))]
 pub struct MeshArguments {
     /// An OBJ file; - is standard input
     #[arg(value_name = "FILE")]
@@ -30,15 +32,15 @@ pub struct MeshArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32")]
     scalar: Vec<String>,
 
-    /// Rays at each edge and vertex, 1 to 65536; any four are exact and near, grazing and not
-    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
-    directions: String,
+    /// How many rays at each edge and vertex, from 1 to 65536: exact and near, grazing and not, in turn
+    #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each())]
+    directions: u64,
 
-    /// `unit`: replace each direction by its rounded unit vector; few rays are then exact
-    #[arg(long, value_name = "unit")]
+    /// `unit`: replace each direction by its rounded unit vector; few rays then meet an edge exactly
+    #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true)]
     direction: Option<String>,
 
-    /// Which random rays
+    /// Seed of the random rays
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
@@ -50,7 +52,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// text, json, or ply and obj with the offending edges and vertices, or several separated by commas
+    /// text, json, ply or obj, or several separated by commas; ply and obj mark the edges and vertices
+    /// where rays slip through
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
     format: Vec<String>,
 
@@ -58,7 +61,7 @@ pub struct MeshArguments {
     #[arg(short, long, value_name = "FILE")]
     output: Vec<String>,
 
-    /// All examples in the text, of every kernel
+    /// Print all examples, of every kernel
     #[arg(long)]
     details: bool,
 
@@ -66,7 +69,7 @@ pub struct MeshArguments {
     #[arg(long, value_enum, default_value_t)]
     color: ColorChoice,
 
-    /// No progress, no notes
+    /// Print no progress and no notes
     #[arg(long, short)]
     quiet: bool,
 }
@@ -75,10 +78,6 @@ pub struct MeshArguments {
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let mut outputs =
         paired_outputs(MESH_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
-    if arguments.kernels.has_band() {
-        let message = "--band: across triangles a band means nothing: every ray is near an edge";
-        return Err(Failure::usage(message));
-    }
     let plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
@@ -117,17 +116,10 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
 
 impl MeshArguments {
     fn plan(&self) -> Result<Plan, Failure> {
-        let unit_direction = match self.direction.as_deref() {
-            None => false,
-            Some("unit") => true,
-            Some(other) => {
-                let message = format!("--direction: unknown '{other}'; there is 'unit'");
-                return Err(Failure::usage(message));
-            }
-        };
-        let directions = rays_at_each(&self.directions)?;
-        let (seed, examples) = (self.seed, self.examples);
-        Ok(Plan { rows: self.kernels.rows()?, directions, seed, unit_direction, examples })
+        let unit_direction = self.direction.is_some();
+        let MeshArguments { directions, seed, examples, .. } = *self;
+        let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
+        Ok(Plan { rows, directions, seed, unit_direction, examples })
     }
 
     fn run_scalar<F: Scalar>(

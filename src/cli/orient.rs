@@ -3,9 +3,9 @@
 mod text;
 
 use super::exit::{Failure, Status};
+use super::flags::{case_count, chosen_scalars, unknown};
 use super::output::write_result;
 use super::progress::Progress;
-use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::orientation::points_json::{self, AnyPoints};
@@ -20,7 +20,7 @@ use std::io::{self, Write};
 /// What to run, and how to report it.
 #[derive(Args)]
 pub struct OrientArguments {
-    /// Points of the plane, of space, or both
+    /// Dimension of the points: 2, 3 or both
     #[arg(long, value_delimiter = ',', value_name = "2|3", default_value = "2,3")]
     dimension: Vec<String>,
 
@@ -28,7 +28,7 @@ pub struct OrientArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
     scalar: Vec<String>,
 
-    /// Epsilons of the plain determinants, a row for each: 0 where abs(det) <= E
+    /// Epsilons of the plain determinants, a row for each: the sign counts as 0 where abs(det) <= E
     #[arg(
         long,
         value_delimiter = ',',
@@ -38,22 +38,23 @@ pub struct OrientArguments {
     )]
     epsilon: Vec<String>,
 
-    /// Cases for each family
+    /// How many cases of each family
     #[arg(
         long,
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
-    /// Which random cases
+    /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
     /// Show one case again: an id, the name of a known case, or points as
-    /// {"scalar":"f64","points":[[x,y],...]}, three of the plane or four of space
+    /// {"scalar":"f64","points":[[x,y],...]}, three in the plane or four in space
     #[arg(long, value_name = "ID", conflicts_with_all = ["known", "dimension", "scalar", "count", "seed"])]
     case: Option<String>,
 
@@ -61,7 +62,7 @@ pub struct OrientArguments {
     #[arg(long, conflicts_with_all = ["dimension", "scalar", "count", "seed"])]
     known: bool,
 
-    /// How to write it
+    /// The format of the output
     #[arg(long, value_enum, default_value_t)]
     format: OutputFormat,
 
@@ -69,7 +70,7 @@ pub struct OrientArguments {
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: String,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }
@@ -115,7 +116,7 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         rows,
         dimensions: arguments.dimensions()?,
         scalars,
-        count: case_count(&arguments.count)?,
+        count: arguments.count,
         seed: arguments.seed,
     };
     let progress = Progress::new(plan.cases(), "cases", arguments.quiet);

@@ -1,6 +1,7 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
+use super::flags::refuse_twice;
 use super::plugins;
 use crate::descriptors;
 use crate::suggest::nearest_name;
@@ -53,9 +54,7 @@ pub fn paired_outputs<'a, T>(
         })
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    if let Some(i) = (1..outputs.len()).find(|&i| outputs[..i].contains(&outputs[i])) {
-        return Err(Failure::usage(format!("-o {} is given twice", outputs[i])));
-    }
+    refuse_twice("-o", outputs)?;
     match (formats.len(), outputs.len()) {
         (1, 0) => Ok(vec![(formats[0], "-")]),
         (n, m) if n == m => {

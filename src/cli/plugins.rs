@@ -1,6 +1,7 @@
 //! The kernels that a command line brings along: libraries and commands.
 
 use super::exit::{Failure, Status};
+use super::flags::refuse_twice;
 use crate::audit::{quoted, shell_word};
 use crate::kernel::{self, Entry, Scalar, Trouble};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
@@ -13,15 +14,15 @@ use std::time::Duration;
 #[derive(Args, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PluginArguments {
-    /// A shared library with the functions of include/hairline.h; may be repeated
+    /// A kernel in a shared library with the functions of include/hairline.h; may be repeated
     #[arg(long, value_name = "FILE", help_heading = "Kernels of your own")]
     kernel_lib: Vec<String>,
 
-    /// A command that answers cases over its pipes (docs/protocol.md); may be repeated
+    /// A kernel as a command that answers cases over its pipes (docs/protocol.md); may be repeated
     #[arg(long, value_name = "COMMAND", help_heading = "Kernels of your own")]
     kernel_cmd: Vec<String>,
 
-    /// How long such a kernel may be silent when an answer is due
+    /// How long to wait for an answer of such a kernel
     #[arg(
         long,
         value_name = "SECONDS",
@@ -30,8 +31,8 @@ pub struct PluginArguments {
     )]
     kernel_timeout: f64,
 
-    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; a
-    /// campaign goes on]
+    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; no limit in a
+    /// fuzz campaign]
     #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
     kernel_failures: Option<u64>,
 }
@@ -86,12 +87,8 @@ impl PluginArguments {
             let flag = format!("--kernel-cmd {}", quoted(line));
             started(flag, |flag| register(line, load(program, limits, flag)))
         });
-        let twice = |flags: &[String]| (1..flags.len()).find(|&i| flags[..i].contains(&flags[i]));
-        for flags in [&self.kernel_lib, &self.kernel_cmd] {
-            if let Some(i) = twice(flags) {
-                return Err(Failure::usage(format!("the kernel '{}' is given twice", flags[i])));
-            }
-        }
+        refuse_twice("--kernel-lib", &self.kernel_lib)?;
+        refuse_twice("--kernel-cmd", &self.kernel_cmd)?;
         libraries.chain(commands).collect()
     }
 

@@ -1,6 +1,7 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
+use super::flags::{JUDGING, OUTPUT, RUNNING};
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
@@ -18,28 +19,28 @@ use clap::{Args, ValueEnum};
 #[derive(Args)]
 pub struct ReportArguments {
     /// text, json, jsonl, junit, sarif, markdown or html, or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
     format: Vec<String>,
 
     /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     output: Vec<String>,
 
-    /// Leave nothing out of the text: the worst finding of every class, all deviations
-    #[arg(long)]
+    /// Leave nothing out of the text: every class with its worst finding, every deviation
+    #[arg(long, help_heading = OUTPUT)]
     details: bool,
 
-    /// When to compute what the HTML report's pictures are drawn from, on a few cases of each source; auto:
-    /// for --format html
-    #[arg(long, value_enum, default_value_t)]
+    /// When to compute the data of the HTML report's pictures, on a few cases of each source; auto: for
+    /// --format html
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     illustrate: IllustrateChoice,
 
     /// When to colour the text
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     color: ColorChoice,
 
-    /// No progress, no notes
-    #[arg(long, short)]
+    /// Print no progress and no notes
+    #[arg(long, short, help_heading = OUTPUT)]
     pub quiet: bool,
 }
 
@@ -99,20 +100,21 @@ pub struct RunArguments {
     #[command(flatten)]
     sources: SourceArguments,
 
-    /// Rays at each edge and vertex of a mesh, 1 to 65536; any four are exact and near, grazing and not
-    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
-    directions: String,
+    /// How many rays at each edge and vertex of a mesh, from 1 to 65536: exact and near, grazing and not,
+    /// in turn
+    #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each(), help_heading = RUNNING)]
+    directions: u64,
 
     /// How many examples of each class of finding to keep
-    #[arg(long, default_value_t = 3, value_name = "N")]
+    #[arg(long, default_value_t = 3, value_name = "N", help_heading = OUTPUT)]
     examples: usize,
 
-    /// Run part K of N only, counted from 0; `hairline merge` makes one record of all
-    #[arg(long, value_name = "K/N")]
+    /// Run only part K of N, counted from 0; `hairline merge` makes one record of all parts
+    #[arg(long, value_name = "K/N", help_heading = RUNNING)]
     shard: Option<String>,
 
     /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     threads: Option<usize>,
 
     #[command(flatten)]
@@ -124,10 +126,9 @@ impl RunArguments {
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
-        let directions = rays_at_each(&self.directions)?;
         let sources = self.sources.sources(self.report.quiet, |_| true)?;
         let with_parts = |source: Source| {
-            let parts = source.mesh_parts(directions, scalars);
+            let parts = source.mesh_parts(self.directions, scalars);
             std::iter::once(source).chain(parts)
         };
         let sources = sources.into_iter().flat_map(with_parts).collect();
@@ -137,8 +138,8 @@ impl RunArguments {
     /// The flags that choose the cases again.
     fn source_flags(&self) -> String {
         let flags = self.sources.flags();
-        match self.directions.as_str() {
-            "8" => flags,
+        match self.directions {
+            8 => flags,
             directions => format!("{flags} --directions {directions}"),
         }
     }

@@ -12,16 +12,16 @@ use std::io::{self, Write};
 /// How much to check.
 #[derive(Args)]
 pub struct SelfcheckArguments {
-    /// Indices of each family in each scalar
+    /// How many indices of each family in each scalar to compare with the definition
     #[arg(long, short = 'n', default_value_t = 2000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     cases: u64,
 
-    /// Indices of all sets together that are held to a separate checker in integers besides; 52500000
-    /// make a hundred million cases, in minutes
+    /// How many indices of all sets together to compare with a separate checker in integers too; 52500000
+    /// are a hundred million cases and take minutes
     #[arg(long, default_value_t = 1_000_000, value_name = "N")]
     integers: u64,
 
-    /// Which random cases
+    /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
@@ -29,7 +29,7 @@ pub struct SelfcheckArguments {
     #[arg(long)]
     no_lattice: bool,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }

@@ -1,12 +1,13 @@
 //! Which cases a command line names, and on how many threads they run.
 
 use super::exit::{Failure, Status};
+use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_set, read_mesh};
-use super::select::{case_count, chosen_scalars, unknown};
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use clap::Args;
+use clap::builder::TypedValueParser;
 use std::collections::HashSet;
 use std::fs;
 use std::path::PathBuf;
@@ -16,53 +17,54 @@ use std::sync::Arc;
 #[derive(Args)]
 pub struct SourceArguments {
     /// f32, f64 or both
-    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64", help_heading = RUNNING)]
     scalar: Vec<String>,
 
-    /// A case family, or several separated by commas [default: all, or none with --mesh or --corpus]
+    /// A family of cases, or several separated by commas [default: all, or none with --mesh or --corpus]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// Cases for each family
+    /// How many cases of each family
     #[arg(
         long,
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
-    /// Every case of the lattice family instead of a sample
-    #[arg(long)]
+    /// Run every case of the lattice family instead of a sample
+    #[arg(long, help_heading = RUNNING)]
     exhaustive: bool,
 
-    /// Which random cases
-    #[arg(long, default_value_t = 1)]
+    /// Seed of the random cases
+    #[arg(long, default_value_t = 1, help_heading = RUNNING)]
     seed: u64,
 
     /// Multiply all positions by a power of two, as 2^-10
-    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true)]
+    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true, help_heading = RUNNING)]
     scale: String,
 
-    /// Multiply the direction too
-    #[arg(long)]
+    /// Multiply directions by the scale too
+    #[arg(long, help_heading = RUNNING)]
     scale_direction: bool,
 
     /// Add a vector to all positions, as 1e6:0:0
-    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true, help_heading = RUNNING)]
     offset: Option<String>,
 
     /// `unit`: replace each direction by its rounded unit vector
-    #[arg(long, value_name = "unit")]
+    #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true, help_heading = RUNNING)]
     direction: Option<String>,
 
-    /// Rays at the edges, vertices and faces of an OBJ file; may be repeated
+    /// Run rays at the edges, vertices and faces of an OBJ file; may be repeated
     #[arg(long, value_name = "FILE")]
     mesh: Vec<String>,
 
-    /// Stored cases: a JSON lines file, or a folder of them; may be repeated
-    #[arg(long, value_name = "FILE|DIR")]
+    /// Run stored cases: a JSON lines file, or a folder of them; may be repeated
+    #[arg(long, value_name = "FILE|DIR", help_heading = RUNNING)]
     corpus: Vec<String>,
 }
 
@@ -79,7 +81,7 @@ impl SourceArguments {
         }
         self.mesh.iter().for_each(|path| add("mesh", path));
         self.corpus.iter().for_each(|path| add("corpus", path));
-        add("count", &self.count);
+        add("count", &self.count.to_string());
         add("seed", &self.seed.to_string());
         if self.scale != "1" {
             add("scale", &self.scale);
@@ -106,13 +108,13 @@ impl SourceArguments {
     }
 
     /// The sources, meshes and corpora read.
-    /// `usual` picks the families that are run if nothing is named.
+    /// `usual` picks the families that run if the flags name none.
     pub fn sources(
         &self,
         quiet: bool,
         usual: impl Fn(&Family) -> bool,
     ) -> Result<Vec<Source>, Failure> {
-        let (count, parameters, seed) = (case_count(&self.count)?, self.parameters()?, self.seed);
+        let (count, parameters, seed) = (self.count, self.parameters()?, self.seed);
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
@@ -157,11 +159,7 @@ impl SourceArguments {
                 FAMILIES.iter().filter(|family| usual(family)).collect()
             });
         }
-        if let Some(i) =
-            (1..self.family.len()).find(|&i| self.family[..i].contains(&self.family[i]))
-        {
-            return Err(Failure::usage(format!("--family: '{}' is given twice", self.family[i])));
-        }
+        refuse_twice("--family", &self.family)?;
         self.family
             .iter()
             .map(|name| {
@@ -172,22 +170,13 @@ impl SourceArguments {
     }
 
     fn parameters(&self) -> Result<Parameters, Failure> {
-        let unit_direction = match self.direction.as_deref() {
-            None => false,
-            Some("unit") => true,
-            Some(other) => {
-                return Err(Failure::usage(format!(
-                    "--direction: unknown '{other}'; there is 'unit'"
-                )));
-            }
-        };
         let offset = self.offset.as_deref().map_or(Ok([0.0; 3]), parse_offset);
         Ok(Parameters {
             scale: parse_power_of_two(&self.scale)
                 .map_err(|e| Failure::usage(format!("--scale: {e}")))?,
             scale_direction: self.scale_direction,
             offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
-            unit_direction,
+            unit_direction: self.direction.is_some(),
             mesh: None,
         })
     }
@@ -220,15 +209,12 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
     }
 }
 
-/// The most rays at an edge: their number fits what counts them, for every kernel.
+/// The most rays at an edge or vertex: their number fits what counts them, for every kernel.
 const MOST_DIRECTIONS: u64 = 65_536;
 
-/// The rays at each edge and vertex of a mesh, as `--directions` has them.
-pub fn rays_at_each(text: &str) -> Result<u64, Failure> {
-    let directions = text.parse().ok().filter(|n| (1..=MOST_DIRECTIONS).contains(n));
-    directions.ok_or_else(|| {
-        Failure::usage(format!("--directions: '{text}' is not a number from 1 to 65536"))
-    })
+/// Reads a number of rays at each edge and vertex.
+pub fn rays_at_each() -> impl TypedValueParser<Value = u64> {
+    clap::value_parser!(u64).range(1..=MOST_DIRECTIONS)
 }
 
 /// Sets the number of threads, all cores if none is given; returns how many there are.

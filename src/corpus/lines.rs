@@ -57,15 +57,23 @@ pub struct StoredCase {
     pub why: Option<String>,
     /// Where it comes from.
     pub url: Option<String>,
-    /// Which kernel shows what on it, if it was found by a campaign or by `triage`.
+    /// Which kernel shows what on it, if it was found by a campaign or by `fuzz triage`.
     pub found: Option<Provenance>,
+}
+
+impl StoredCase {
+    /// A case with nothing beside it.
+    pub fn of(case: impl Into<AnyCase>) -> StoredCase {
+        let case = case.into();
+        StoredCase { name: None, case, truth: None, line: 0, why: None, url: None, found: None }
+    }
 }
 
 /// The cases of a corpus file, one after the other; blank lines are skipped. `file` is the name in
 /// errors.
 ///
-/// A line that is no case, is longer than 1 MiB or is not UTF-8 is an error, and the next line is
-/// read as if nothing had happened. When reading itself fails, that error is the last item.
+/// A line that is not a case, is longer than 1 MiB or is not UTF-8 is an error, and reading continues with
+/// the next line. If reading itself fails, that error is the last item.
 pub fn read<R: BufRead>(
     reader: R,
     file: &str,

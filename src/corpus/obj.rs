@@ -1,13 +1,13 @@
 //! The lines of an OBJ file: numbers from their text, indices checked, everything with its line.
 //!
-//! What is left for tobj is a text of faces and groups that holds absolute indices only.
+//! tobj then reads a text of faces and groups with absolute indices only.
 
 use super::InputError;
 use super::mesh::Note;
 use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
-/// How much is read before a file is refused.
+/// How much is read before a file is an error.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     /// Bytes in a line, with what is joined to it by backslashes.

@@ -1,4 +1,4 @@
-//! Which gate of a kernel is there to refuse which cases.
+//! Which cases each gate of a kernel is there to reject.
 
 use crate::contract::{Contract, Extent, Sides};
 use crate::judge::Class;

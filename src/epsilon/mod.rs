@@ -1,8 +1,8 @@
 //! Floor 4: what a kernel does at every epsilon.
 //!
 //! A gate accepts up to its margin, so the margins of one pass over the cases decide every epsilon.
-//! They are counted in cells; at the edges of the cells, at marks and at the decisive margins the
-//! counts are exact, in between they are bracketed.
+//! Margins are counted in cells. The counts are exact at the edges of the cells, at marks and at the
+//! decisive margins; between these they are bracketed.
 
 #![forbid(unsafe_code)]
 

@@ -1,5 +1,5 @@
-//! Everything that is asked about a kernel's epsilons: the responses, what follows from them, and
-//! what the epsilons worth weighing cost when the kernel is run with them.
+//! A study of a kernel's epsilons: the responses, what follows from them, and what the most interesting
+//! epsilons cost when the kernel is run with them.
 
 use super::advice::{Trade, candidates, decades, total};
 use super::axis::Axis;
@@ -196,7 +196,7 @@ pub fn own_false_hits(duty: &Duty, tally: &Tally) -> (u64, u64) {
     })
 }
 
-/// Holds the responses to what the audit counted.
+/// Compares the responses with what the audit counted.
 fn check<F: Scalar>(
     prices: &[Price<F>],
     duty: &Duty,

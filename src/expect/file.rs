@@ -1,5 +1,5 @@
-//! Reading a file of expectations, strictly: unknown names, duplicates and typing errors are refused
-//! with their line.
+//! Reads a file of expectations, strictly: an unknown name, a duplicate or a typing error is an error
+//! that names its line.
 
 use super::{Amount, Entry, Expectations, SCHEMA};
 use crate::corpus::InputError;

@@ -1,5 +1,5 @@
-//! The two sets of cases that are searched, apart: overflow and underflow win every search that may
-//! use them.
+//! The two sets of cases that are searched. They are kept apart because overflow and underflow win every
+//! search that may use them.
 
 use crate::arith::{Exact, Float, Real, Vector, scale_by_power_of_two};
 use crate::case::{Case, Ray, Triangle};
@@ -7,7 +7,7 @@ use crate::case::{Case, Ray, Triangle};
 /// Which cases count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Domain {
-    /// Cases that nobody would call strange:
+    /// Ordinary cases:
     /// - every coordinate zero or from 2^-20 to 2^20 in size, and the default interval;
     /// - the longest edge at least 2^-10 of the largest coordinate of a point (not far away);
     /// - the triangle's height over its longest edge at least 2^-6 of that edge (no sliver);

@@ -4,7 +4,7 @@
 //! fuzz targets ([`inputs`]) and strategies for proptest.
 //!
 //! Architecture invariant: everything is a function of its arguments. Seeds and counts decide, never
-//! a clock nor the number of threads.
+//! a clock or the number of threads.
 
 #![forbid(unsafe_code)]
 

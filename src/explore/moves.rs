@@ -1,8 +1,9 @@
-//! Random moves on cases: mutations that stay near trouble, each from its own stream of numbers.
+//! Random moves on cases: mutations that stay near the places where kernels break, each from its own
+//! stream of numbers.
 //!
 //! A move changes a number by a few ulps or a power of two, makes coordinates coincide, or puts the
-//! ray and the triangle into a position of their own: through a vertex, along an edge, in the plane.
-//! It rounds as it likes: the result is a case in its own right.
+//! ray and the triangle into a special position: through a vertex, along an edge, in the plane. A move
+//! may round, because its result is a case in its own right.
 
 use crate::arith::{Float, Vector, scale_by_power_of_two};
 use crate::case::{Case, Draw};

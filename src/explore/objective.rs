@@ -1,4 +1,4 @@
-//! What a search makes as bad as it can: errors of margins and values, and the severity of findings.
+//! What a search maximises: errors of margins and values, and the severity of findings.
 //!
 //! | objective | what is scored | unit |
 //! |---|---|---|
@@ -8,22 +8,22 @@
 //! | `false-miss` | how far inside a line passes that the gate refused | longest edges |
 //! | `false-hit` | how far outside a line passes that the gate let through | longest edges |
 //!
-//! Of a gate `x <= e` the largest epsilon that it accepts is the float below x; what is scored is x, its
-//! threshold, for an exact number has none below.
+//! The largest epsilon that a gate `x <= e` accepts is the float below x. The score uses x, the threshold,
+//! because an exact number has no next one below it.
 //!
-//! An absolute error of a margin says nothing: its unit is a power of length, times a power of |d|
-//! ([`Dimension`]). A gate's *scale* on a case is E^p·|d|^q, with the dimension's powers p and q, E the
+//! An absolute error of a margin means nothing by itself: its unit is a power of length, times a power of
+//! |d| ([`Dimension`]). A gate's *scale* on a case is E^p·|d|^q, with the dimension's powers p and q, E the
 //! largest difference between coordinates of the origin and the vertices on one axis, and |d| the
 //! largest component of the direction; an ulp of it is 2^-23 (`f32`) or 2^-52 (`f64`) of it. A kernel
 //! that takes differences first and divides by nothing stays at a few such ulps; products of
 //! absolute coordinates, and quotients of small numbers, do not. Of a margin larger than its scale,
 //! as u where the line passes far away, an ulp is 2^-23 (2^-52) of the exact margin.
 //!
-//! What counts: a margin if no gate before it refused and both margins are finite; t, u and v of a
-//! hit that is not a false one, if finite; a false miss at the gate that refused; a false hit at the
-//! first gate that refuses when the same formula is run without rounding. A false hit that the
-//! formula itself makes is convention, not error, and has no score; nor has one before or beyond the
-//! extent, except at a gate on t.
+//! What counts: a margin, if no gate before it rejected and both margins are finite; t, u and v of a hit
+//! that is not a false one, if they are finite; a false miss at the gate that rejected; a false hit at the
+//! first gate that rejects when the same formula runs without rounding. A false hit of the formula itself
+//! is convention, not error, and has no score. A false hit before or beyond the extent has a score only at
+//! a gate on t.
 
 use super::domain::Domain;
 use crate::arith::{Exact, Float, Real, Vector};
@@ -35,7 +35,7 @@ use crate::kernel::{Dimension, KernelInfo, Role, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
 
-/// What is made as bad as it can be.
+/// What a search maximises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Objective {
     /// The error of what a gate compares with its epsilon.
@@ -292,8 +292,8 @@ pub(crate) fn exactly_refusing<F: Scalar>(
     run.passed.iter().position(|passes| !passes)
 }
 
-/// What is true, what the kernel said, and what `judge` makes of the two. Cases are judged one by
-/// one: nothing is asked of a ray that respawned.
+/// The truth, the kernel's verdict, and what `judge` makes of the two. Cases are judged one by one:
+/// nothing is demanded of a secondary ray on the triangle that it starts on.
 pub(crate) fn verdict_and_finding<F: Scalar>(
     row: &Row,
     epsilons: &[F],

@@ -7,7 +7,7 @@ use crate::judge::{Class, Finding, asked};
 use crate::kernel::Scalar;
 use std::fmt;
 
-/// The kind of a finding: two findings with the same signature are one to whoever reads them.
+/// The kind of a finding: a reader needs to see only one of the findings with the same signature.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Signature {
     /// The kernel.
@@ -25,12 +25,12 @@ pub struct Signature {
     /// The first gate that refuses when the same formula is run without rounding; none if it hits, and
     /// of a kernel that does not show its gates.
     pub exactly: Option<&'static str>,
-    /// Why it happened; none where the kernel has no exact arithmetic to tell.
+    /// Why it happened; none if the kernel does not run in exact arithmetic.
     pub attribution: Option<Attribution>,
 }
 
 impl Signature {
-    /// What a row shows on a case; none if it is as it should be.
+    /// What a row shows on a case; none if its verdict is right.
     pub fn of<F: Scalar>(row: &Row, case: &Case<F>) -> Option<Signature> {
         let epsilons: Vec<F> = row.epsilons();
         let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);
@@ -50,8 +50,8 @@ impl Signature {
         })
     }
 
-    /// Whether a row shows this signature on a case. Most other cases are told apart by what costs
-    /// little, without exact arithmetic.
+    /// Whether a row shows this signature on a case. Cheap checks without exact arithmetic exclude most
+    /// other cases.
     pub fn is_shown<F: Scalar>(&self, row: &Row, case: &Case<F>) -> bool {
         let (truth, verdict, finding) = verdict_and_finding(row, &row.epsilons::<F>(), case);
         let gate = verdict.refused_by.map(|gate| row.entry.info.gates[usize::from(gate)].name);

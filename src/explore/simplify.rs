@@ -143,7 +143,7 @@ pub enum Change {
     LowestBitAdded,
 }
 
-/// What users are told is in the list.
+/// The list of simplifications, in words for users.
 pub const SIMPLIFICATIONS: &str = "default interval, a lattice case, an origin one axis before the plane, \
     a point moved to zero, scaling by powers of two, \
     turning about an axis, copied coordinates, fewer bits, smaller exponents, small integers (one \

@@ -17,12 +17,14 @@ mod mesh;
 mod neighbours;
 mod origin;
 mod polygon;
+mod question;
 mod range;
 mod shape;
 mod sizes;
 
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
+pub use question::Question;
 
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
@@ -96,6 +98,8 @@ pub struct Family {
     pub version: u32,
     /// About the truth of its cases, in one line.
     pub promise: &'static str,
+    /// The question that it belongs to.
+    pub question: Question,
     /// How the triangles of one index belong together.
     pub grouping: Grouping,
     /// The number of its cases, if there are finitely many.
@@ -108,11 +112,12 @@ pub struct Family {
 /// Makes the case of an index in one scalar.
 type Generator<F> = fn(&Parameters, &mut Draw, u64) -> Made<F>;
 
-const fn row<R: Recipe>() -> Family {
+const fn row<R: Recipe>(question: Question) -> Family {
     Family {
         name: R::NAME,
         version: R::VERSION,
         promise: R::PROMISE,
+        question,
         grouping: R::GROUPING,
         size: None,
         keeps: R::keeps,
@@ -133,34 +138,34 @@ fn made<R: Recipe, F: Scalar>(parameters: &Parameters, draw: &mut Draw, index: u
 
 /// Every family but the mesh, in the order of reports.
 pub static FAMILIES: &[Family] = &[
-    row::<control::Interior>(),
-    row::<control::Outside>(),
-    row::<boundary::EdgeExact>(),
-    row::<boundary::EdgeNear>(),
-    row::<boundary::VertexExact>(),
-    row::<boundary::VertexNear>(),
-    row::<flat::ParallelOff>(),
-    row::<flat::Coplanar>(),
-    row::<flat::Grazing>(),
-    row::<origin::OriginOn>(),
-    row::<origin::OriginNear>(),
-    row::<origin::Respawn>(),
-    row::<interval::Behind>(),
-    row::<interval::IntervalEnds>(),
-    row::<shape::Sliver>(),
-    row::<sizes::Tiny>(),
-    row::<sizes::Huge>(),
-    row::<sizes::Far>(),
-    row::<directions::DirectionLength>(),
-    row::<directions::AxisAligned>(),
-    row::<range::MixedScale>(),
-    row::<range::RangeEnds>(),
-    row::<shape::Degenerate>(),
-    row::<range::Invalid>(),
-    row::<neighbours::SharedEdge>(),
-    row::<neighbours::Fan>(),
-    row::<polygon::Polygon>(),
-    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>() },
+    row::<control::Interior>(Question::Inside),
+    row::<control::Outside>(Question::Inside),
+    row::<boundary::EdgeExact>(Question::Edges),
+    row::<boundary::EdgeNear>(Question::Edges),
+    row::<boundary::VertexExact>(Question::Vertices),
+    row::<boundary::VertexNear>(Question::Vertices),
+    row::<flat::ParallelOff>(Question::Flat),
+    row::<flat::Coplanar>(Question::Flat),
+    row::<flat::Grazing>(Question::Flat),
+    row::<origin::OriginOn>(Question::Ends),
+    row::<origin::OriginNear>(Question::Ends),
+    row::<origin::Respawn>(Question::Ends),
+    row::<interval::Behind>(Question::Ends),
+    row::<interval::IntervalEnds>(Question::Ends),
+    row::<shape::Sliver>(Question::Sizes),
+    row::<sizes::Tiny>(Question::Sizes),
+    row::<sizes::Huge>(Question::Sizes),
+    row::<sizes::Far>(Question::Sizes),
+    row::<directions::DirectionLength>(Question::Sizes),
+    row::<directions::AxisAligned>(Question::Grid),
+    row::<range::MixedScale>(Question::Range),
+    row::<range::RangeEnds>(Question::Range),
+    row::<shape::Degenerate>(Question::Flat),
+    row::<range::Invalid>(Question::Invalid),
+    row::<neighbours::SharedEdge>(Question::Edges),
+    row::<neighbours::Fan>(Question::Vertices),
+    row::<polygon::Polygon>(Question::Edges),
+    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },
 ];
 
 /// The family of a name.

@@ -1,4 +1,4 @@
-//! Whether a hit that a group on a mesh lacks may be among the triangles around it.
+//! Whether the missing hit of a group on a mesh may be a hit of a triangle around it.
 
 use super::{Distances, is_in_extent};
 use crate::arith::Float;
@@ -19,7 +19,8 @@ const NEAR: f64 = 1.0 / 1024.0;
 ///   of the hits is right. Of a kernel that culls, which reports none from the other side, one such
 ///   neighbour is enough.
 ///
-/// Any other neighbour that the line meets, as on the far side of a small mesh, excuses nothing. All
+/// A neighbour that is clearly crossed elsewhere, as on the far side of a small mesh, does not explain the
+/// missing hit. All
 /// triangles of the group face as said.
 pub fn may_be_elsewhere<F: Float>(
     facing: Facing,

@@ -1,4 +1,4 @@
-//! What a contract asks of the triangles of a group together, and of a polygon as a whole.
+//! What a contract demands of the triangles of a group together, and of a polygon as a whole.
 
 use super::distance::{is_polygon_within, is_within};
 use super::{Obligation, obligation, promises_direction};
@@ -10,7 +10,7 @@ use crate::family::Grouping;
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 use std::cmp::Ordering;
 
-/// What a contract asks of the triangles of a group together.
+/// What a contract demands of the triangles of a group together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroupTruth {
     /// All triangles face the ray alike, and the exact line passes through the inside of their union
@@ -27,12 +27,12 @@ pub enum GroupTruth {
     Free,
 }
 
-/// What a contract asks of the triangles of a group together: nothing where it promises nothing for the
+/// What a contract demands of the triangles of a group together: nothing if it promises nothing for the
 /// direction, and nothing within its band.
 ///
 /// How many triangles of a group report the ray follows from the verdict on each of them. So a band frees
 /// the group if it frees one of its triangles, that is if the line is nearer than the band to where that
-/// triangle's verdict would be another. A line exactly through a shared edge is: its distance is 0.
+/// triangle would need another verdict. A line exactly through a shared edge is: its distance is 0.
 pub fn group_obligation<F: Float>(
     cases: &[Case<F>],
     truths: &[Truth],
@@ -138,8 +138,8 @@ fn is_off_the_rim<'a>(
         || (grouping == Grouping::Fan && hits > 0 && hits == triangles)
 }
 
-/// What a contract asks on a planar convex polygon as a whole, given as its fan: nothing where it promises
-/// nothing for the direction, and nothing within its band.
+/// What a contract demands on a planar convex polygon as a whole, given as its fan: nothing if it
+/// promises nothing for the direction, and nothing within its band.
 ///
 /// A band frees a polygon by the polygon's own distances, as it frees a triangle: from the line to the
 /// outline, not to a diagonal, and along the line to an end of the extent. A longest edge is that of the

@@ -1,4 +1,4 @@
-//! What the judge asks and finds, by hand.
+//! Obligations and findings worked out by hand.
 
 use super::*;
 use crate::family::Grouping;

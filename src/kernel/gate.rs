@@ -1,8 +1,8 @@
 //! Gates, their margins, and the sinks that receive them.
 //!
-//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon
-//! can only refuse more. Its *margin* on a case is the largest representable epsilon at which it
-//! accepts, so one evaluation gives the verdict at every epsilon.
+//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon can
+//! only reject more. Its *margin* on a case is the largest representable epsilon at which it accepts, so
+//! one evaluation gives the verdict at every epsilon.
 
 use crate::arith::Real;
 
@@ -288,14 +288,19 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         refuse: Refuse,
         clauses: [[&R; N]; M],
     ) -> bool {
-        let smaller = |a: R, b: R| if b.is_less(&a) { b } else { a };
-        let larger = |a: R, b: R| if a.is_less(&b) { b } else { a };
-        let thresholds = self.thresholds;
-        let measure = |x: &R| if thresholds { refuse.threshold(x) } else { refuse.margin(x) };
-        let margin = clauses
-            .into_iter()
-            .map(|clause| clause.into_iter().map(measure).fold(R::infinity(), smaller))
-            .fold(-R::infinity(), larger);
+        let mut margin = -R::infinity();
+        for clause in &clauses {
+            let mut least = R::infinity();
+            for x in clause {
+                let found = if self.thresholds { refuse.threshold(*x) } else { refuse.margin(*x) };
+                if found.is_less(&least) {
+                    least = found;
+                }
+            }
+            if margin.is_less(&least) {
+                margin = least;
+            }
+        }
         self.record(gate, margin)
     }
 
@@ -319,7 +324,7 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
 #[derive(Clone, Debug)]
 pub struct Watching<'a, R> {
     epsilons: &'a [R],
-    /// Whether each gate passed; true where the kernel never asked.
+    /// Whether each gate passed; true if the kernel never compared.
     pub passed: Vec<bool>,
 }
 
@@ -358,5 +363,46 @@ impl<R: Real> Sink<R> for Watching<'_, R> {
 
     fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
         self.record(gate, accepts)
+    }
+}
+
+/// One of two sinks, chosen at run time: a kernel's code in a slow arithmetic is compiled once for both.
+#[derive(Debug)]
+pub(super) enum Either<A, B> {
+    One(A),
+    Other(B),
+}
+
+impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
+    #[inline(never)]
+    fn gate<const M: usize, const N: usize>(
+        &mut self,
+        gate: usize,
+        refuse: Refuse,
+        clauses: [[&R; N]; M],
+    ) -> bool {
+        match self {
+            Either::One(sink) => sink.gate(gate, refuse, clauses),
+            Either::Other(sink) => sink.gate(gate, refuse, clauses),
+        }
+    }
+
+    fn rounded(
+        &mut self,
+        gate: usize,
+        accepts: impl Fn(&R) -> bool,
+        exact: impl FnOnce() -> R,
+    ) -> bool {
+        match self {
+            Either::One(sink) => sink.rounded(gate, accepts, exact),
+            Either::Other(sink) => sink.rounded(gate, accepts, exact),
+        }
+    }
+
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+        match self {
+            Either::One(sink) => sink.fixed(gate, accepts),
+            Either::Other(sink) => sink.fixed(gate, accepts),
+        }
     }
 }

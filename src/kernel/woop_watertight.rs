@@ -1,10 +1,11 @@
 //! `woop-watertight`: shear the ray onto an axis, then three 2D edge functions.
 //!
 //! Source: S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", Journal of
-//! Computer Graphics Techniques 2(1), 2013, appendix A, without backface culling. The appendix tests
-//! t in [0, hit.t] undivided; the 0 is read as t_min here, which at t_min = 0 is the same comparison.
-//! In f64 the fallback's wider products are exact ones, an addition of this project. The facing
-//! is not reported by the appendix.
+//! Computer Graphics Techniques 2(1), 2013, <https://jcgt.org/published/0002/01/05/>, appendix A,
+//! without backface culling. The appendix tests t in [0, hit.t] before it divides. Here the 0 is t_min;
+//! at t_min = 0 the comparison is the same. The fallback computes in wider arithmetic: f32 in f64 as
+//! in the appendix, and f64 by exact products, which is an addition of this project. The appendix does
+//! not report which side was hit.
 
 use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, end_times, gap};
 use crate::arith::{Real, Vector};
@@ -20,7 +21,8 @@ const T: usize = 2;
 impl Kernel for WoopWatertight {
     const INFO: KernelInfo = KernelInfo {
         name: "woop-watertight",
-        source: "Woop, Benthin and Wald (2013), appendix A",
+        source: "S. Woop, C. Benthin and I. Wald, Watertight Ray/Triangle Intersection, 2013, \
+                 appendix A, https://jcgt.org/published/0002/01/05/",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free)
             .with_across(Across::AtLeastOne),
         gates: &[

@@ -2,15 +2,16 @@
 //! and near, each with the triangles around it, which are judged together: a crossing without a hit is a
 //! crack, one with two is a double, and the parity of hits is right or wrong.
 //!
-//! Only edges of two faces wound consistently and vertices inside one closed fan are asked about; what
-//! else a mesh has is recognised exactly and counted ([`Topology`]).
+//! Rays are sent only at edges of two consistently wound faces and at vertices inside one closed fan.
+//! Everything else in a mesh is recognised exactly and counted ([`Topology`]).
 //!
-//! The triangles around the edge or vertex are asked. Where triangles are needles a rounded ray may pass
-//! into a neighbour instead: so before a crossing without a hit is called a crack, all triangles that
-//! share a point with one of these are asked too, and if one reports a hit though the exact line does not
-//! meet it, or the ray may have passed beside a silhouette, the crossing is counted apart, as *elsewhere*
-//! ([`crate::judge::may_be_elsewhere`]). Beyond these neighbours the mesh is not asked, and if they are more than
-//! [`MOST_AROUND`], nor are they. A double stays one: it is two hits around the edge or vertex itself.
+//! A kernel runs on the triangles around the edge or vertex. If triangles are needles a rounded ray may
+//! pass into a neighbour instead. So before a crossing without a hit is called a crack, the kernel also
+//! runs on all triangles that share a point with one of these. The crossing counts as *elsewhere*
+//! ([`crate::judge::may_be_elsewhere`]) if one of them reports a hit although the exact line does not meet
+//! it, or if the ray may have passed beside a silhouette. Triangles farther away are not tested, nor are
+//! the neighbours if there are more than [`MOST_AROUND`]. A double needs no such test: it is two hits
+//! around the edge or vertex itself.
 
 #![forbid(unsafe_code)]
 

@@ -1,10 +1,10 @@
-//! The triangles around a group: those that share a point with one of its triangles. They are asked
-//! where no triangle of a group reports a crossing, before it is called a crack.
+//! The triangles around a group: those that share a point with one of its triangles. If no triangle of a
+//! group reports a crossing, a kernel runs on these before the crossing is called a crack.
 
 use super::topology::Topology;
 
-/// The most that the faces at the points of a group may be, each counted at each point: beyond, the
-/// neighbours are not asked. It bounds what a vertex of very many edges costs.
+/// The most faces at the points of a group, each counted at each point, for which the neighbours are
+/// tested. It bounds the cost of a vertex with very many edges.
 pub const MOST_AROUND: usize = 4096;
 
 /// The faces at each point of a mesh, collapsed ones left out.

@@ -1,6 +1,6 @@
 //! `mesh-edges`, `mesh-vertices`: rays at the edges and vertices of a mesh, each with the triangles
-//! around it, by index. Exact rays have the target on their line, where such floats were found; near
-//! ones are aimed at it by a program that rounds. The oracle tells which are what.
+//! around it, by index. Exact rays have the target on their line, if such floats were found; near rays are
+//! aimed at it by a program that rounds. The oracle says which are exact.
 
 use super::neighbours;
 use super::topology::Topology;

@@ -1,5 +1,5 @@
-//! What a mesh is, exactly: which faces, edges and vertices rays can be asked about, and which are
-//! open, non-manifold, inconsistently wound, duplicated or without area.
+//! What a mesh is, exactly: which faces, edges and vertices can be tested with rays, and which are open,
+//! non-manifold, inconsistently wound, duplicated or without area.
 //!
 //! Vertices are one point where their coordinates are equal in the scalar (-0 = +0), whatever their
 //! indices. Nothing is decided by a tolerance.
@@ -57,7 +57,7 @@ impl Noted {
     }
 }
 
-/// An edge that rays are asked about.
+/// An edge that is tested with rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SharedEdge {
     /// Its two points, the smaller index first.

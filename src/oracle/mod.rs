@@ -4,8 +4,8 @@
 //! same answer faster, in layers that each decide or hand on: a floating-point filter for all signs
 //! together; machine integers where the coordinates lie on a small grid; then, sign by sign,
 //! double-doubles with a bound, the adaptive predicate of the crate `robust` where its conditions
-//! hold, the determinant multiplied out, and integers of any size. A `f32` case is asked in `f64`, which
-//! holds it exactly. There is no range of exponents in which it fails.
+//! hold, the determinant multiplied out, and integers of any size. An `f32` case is decided in `f64`,
+//! which holds it exactly. It works over the whole range of exponents.
 //!
 //! Architecture invariant: nothing here knows a kernel, and no arithmetic is shared with them.
 
@@ -33,7 +33,7 @@ use serde::{Deserialize, Serialize};
 /// A layer of the oracle, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// Input that asks no question: NaN, infinities, a zero direction, an impossible interval.
+    /// Invalid input: NaN, infinities, a zero direction, an impossible interval.
     Invalid,
     /// The floating-point filter, all signs at once.
     Filter,

@@ -1,5 +1,5 @@
-//! A kernel in processes of its own, as a [`Subject`]: one process a thread, each asked in batches;
-//! what a process dies of is pinned case by case.
+//! A kernel in processes of its own, as a [`Subject`]: one process a thread, which receives batches. If a
+//! batch ends its process the cases run again one by one, to find the one that does it.
 
 #![forbid(unsafe_code)]
 
@@ -13,12 +13,12 @@ use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How much a process may try this program's patience.
+/// How much this program tolerates of a process.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// How long it may be silent when an answer is due.
     pub silence: Duration,
-    /// On how many cases it may crash or hang before no more are asked.
+    /// On how many cases it may crash or hang before the run ends.
     pub failures: u64,
 }
 
@@ -79,7 +79,7 @@ struct Process {
 
 #[derive(Default)]
 struct State {
-    /// Processes that nobody asks at the moment.
+    /// Processes that are idle at the moment.
     idle: Vec<Running>,
     /// Cases that killed a process.
     failures: u64,

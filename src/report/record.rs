@@ -14,7 +14,7 @@ pub const SCHEMA: &str = "hairline-record/1";
 
 /// Everything that a run found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// [`SCHEMA`].
@@ -36,7 +36,7 @@ pub struct Record {
 
 /// What was found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ResultPart {
     /// What was asked.
@@ -64,7 +64,7 @@ impl ResultPart {
 
 /// Distributions of one kernel row in one scalar, over all sources.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowTotal {
     /// `f32` or `f64`.
@@ -81,7 +81,7 @@ pub struct RowTotal {
 
 /// What was asked.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanPart {
     /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
@@ -96,7 +96,7 @@ pub struct PlanPart {
 
 /// A kernel with its epsilons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowPart {
     /// The kernel's name.
@@ -124,7 +124,7 @@ fn is_own(words: &String) -> bool {
 
 /// A source of cases as planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlannedSource {
     /// The name in tables.
@@ -137,7 +137,7 @@ pub struct PlannedSource {
 
 /// What a source gave in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SourcePart {
     /// `f32` or `f64`.
@@ -160,7 +160,7 @@ pub struct SourcePart {
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct KernelResult {
     /// `f32` or `f64`.
@@ -191,7 +191,7 @@ pub struct KernelResult {
 
 /// Counts and rates of findings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
     /// Cases.
@@ -216,7 +216,7 @@ pub struct Counts {
 
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rate {
     /// How many.
@@ -231,7 +231,7 @@ pub struct Rate {
 
 /// One finding in one class.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
     /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
@@ -252,7 +252,7 @@ pub struct FindingPart {
 
 /// Why findings happened, of the first by index.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CausesPart {
     /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
@@ -264,7 +264,7 @@ pub struct CausesPart {
 
 /// How far cases with a finding are from where the verdict would be right.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityDistribution {
     /// In longest edges of the triangle.
@@ -275,7 +275,7 @@ pub struct SeverityDistribution {
 
 /// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Distribution {
     /// How many.
@@ -295,7 +295,7 @@ pub struct Distribution {
 
 /// A case that shows a finding.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Example {
     /// The id or the name.
@@ -310,18 +310,18 @@ pub struct Example {
 
 /// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityPart {
     /// In the plane, from where the line meets it to the triangle's boundary.
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub in_space: f64,
     /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
@@ -334,7 +334,7 @@ fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Er
 
 /// What the triangles of groups did together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AcrossPart {
     /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
@@ -371,7 +371,7 @@ pub struct AcrossPart {
 
 /// What a kernel that takes polygons did with whole ones.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonPart {
     /// Of the polygons that must be hit, and have a verdict.
@@ -395,7 +395,7 @@ pub struct PolygonPart {
 
 /// A finding on whole polygons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonFinding {
     /// `bad-value`, `panic`, `crash`, `timeout`.
@@ -410,7 +410,7 @@ pub struct PolygonFinding {
 
 /// Where and how a record was made.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// `hairline 0.1.0`.
@@ -437,7 +437,7 @@ pub struct Provenance {
 
 /// The flags that make a plan again, as a shell takes them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanFlags {
     /// Those that choose kernels, epsilons and the contract.

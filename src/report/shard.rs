@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 /// Which parts of a plan a result is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PartialPart {
     /// How many parts there are.
@@ -20,7 +20,7 @@ pub struct PartialPart {
 
 /// What the record of a part holds beside its result, for `merge` of the same version alone.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ShardPart {
     /// The plan and the sums, as JSON of no stable form.

@@ -1,10 +1,12 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
+use super::columns::is_complete;
 use super::disagreement::polygons;
-use super::record::{FindingPart, KernelResult, RowPart};
+use super::pool::Pool;
+use super::record::{Counts, FindingPart, KernelResult, Rate, RowPart};
 use super::text::{RowView, interval_of};
 use super::why::{causes_text, severity_text};
-use super::{Style, group_digits};
+use super::{Style, group_digits, rate_between};
 use crate::audit::{RowSpec, flags};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -43,20 +45,19 @@ impl RowPart {
     }
 }
 
-/// For each row and finding the worst example of each class, or of all classes together.
+/// For each row and kind of finding the worst example, then that of each class.
 pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    let by_class = style.details || rows.len() <= 2;
-    let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
-    writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
+    writeln!(out, "\n{bold}Worst findings of each kind and of each class{plain}")?;
     for row in rows {
-        let mut worst: BTreeMap<(&str, &str), (u64, &FindingPart)> = BTreeMap::new();
+        // The empty class stands for all.
+        let mut worst: BTreeMap<(&str, &str), &FindingPart> = BTreeMap::new();
         for finding in row.results.iter().flat_map(|result| &result.findings) {
-            let class = if by_class { finding.class.as_str() } else { "" };
-            let entry = worst.entry((&finding.finding, class)).or_insert((0, finding));
-            entry.0 += finding.rate.count;
-            if severity(entry.1) < severity(finding) {
-                entry.1 = finding;
+            for class in ["", &finding.class] {
+                let entry = worst.entry((&finding.finding, class)).or_insert(finding);
+                if severity(entry) < severity(finding) {
+                    *entry = finding;
+                }
             }
         }
         let label = format!("{} ({})", row.part.kernel, row.part.set);
@@ -68,17 +69,22 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
             continue;
         }
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
-        for ((kind, class), (count, finding)) in &worst {
-            let of = row.trials(kind, class);
-            let sampled = finding.rate.interval.is_some();
-            let share = if sampled { interval_of(*count, of) } else { String::new() };
-            let (count, of) = (group_digits(*count), group_digits(of));
+        for ((kind, class), finding) in &worst {
+            let pool = row.found(kind, class);
+            let Rate { count, of, interval, .. } = pool.rate();
+            let share = interval.map_or(String::new(), |_| interval_of(*count, *of));
+            let (count, of) = (group_digits(*count), group_digits(*of));
+            let apart =
+                pool.apart().map_or(String::new(), |apart| format!(", stored cases {apart}"));
             let distance = describe_severity(finding);
             let (named, worst) = match *class {
                 "" => (String::new(), format!("{}, ", finding.class)),
                 class => (format!(" {class}"), String::new()),
             };
-            writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
+            writeln!(
+                out,
+                "    {kind}{named}: {count} of {of}{share}{apart}; worst {worst}{distance}"
+            )?;
             let severity = row.total.and_then(|total| total.severity.get(*kind));
             match severity {
                 Some(severity) if class.is_empty() => {
@@ -111,9 +117,30 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
     Ok(())
 }
 
+impl RowView<'_> {
+    /// The findings of a kind, of a class or of all.
+    fn found(&self, kind: &str, class: &str) -> Pool {
+        let of = |counts: &Counts| match kind {
+            "false-miss" => [counts.false_misses.count, counts.false_misses.of],
+            "false-hit" => [counts.false_hits.count, counts.false_hits.of],
+            "bad-value" => [counts.bad_values.count, counts.bad_values.of],
+            "panic" => [counts.panics, counts.cases],
+            "crash" => [counts.crashes, counts.cases],
+            _ => [counts.timeouts, counts.cases],
+        };
+        let rates = self.results.iter().filter_map(|result| {
+            let counts =
+                if class.is_empty() { &result.total } else { result.classes.get(class)? };
+            let [count, of] = of(counts);
+            Some(rate_between(count, of, !is_complete(self.sources, result)))
+        });
+        Pool::of(rates)
+    }
+}
+
 /// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
 /// before or beyond the extent it is.
-fn severity_of(finding: &FindingPart) -> (f64, bool) {
+pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
     let Some(severity) = &finding.worst.severity else { return (0.0, false) };
     let off_end = finding.class.ends_with("/before") || finding.class.ends_with("/beyond");
     match severity.along {

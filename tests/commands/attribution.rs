@@ -213,7 +213,7 @@ fn a_right_verdict_has_no_cause() {
 
 #[test]
 fn the_examples_of_the_documentation_replay() {
-    let text = std::fs::read_to_string("docs/attribution.md").unwrap();
+    let text = std::fs::read_to_string("docs/guide/attribution.md").unwrap();
     let mut lines = text.lines();
     let mut causes = Vec::new();
     while let Some(line) = lines.next() {

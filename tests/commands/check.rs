@@ -207,7 +207,10 @@ fn bad_settings_are_refused_with_their_line_or_variable() {
             "count = 5\nkernal = \"cramer\"\n",
             "hairline.toml:2: unknown setting 'kernal'; did you mean 'kernel'?",
         ),
-        ("count = 0\n", "hairline.toml:1: --count: '0' is not a number of cases"),
+        (
+            "count = 0\n",
+            "hairline.toml:1: invalid value '0' for '--count <N>': not a number of cases from 1 to",
+        ),
         ("\nseed = \"x\"\n", "hairline.toml:2: invalid value 'x' for '--seed <SEED>'"),
         (
             "count = 5\nkernel = \"cramr\"\n",
@@ -217,7 +220,12 @@ fn bad_settings_are_refused_with_their_line_or_variable() {
             "kernel = \"cramer\"\nepsilon = \"paralel=1\"\n",
             "hairline.toml:2: no selected kernel has a gate",
         ),
-        ("epsilon = \"edge=0\"\nepsilon-preset = \"bvh\"\n", "the argument '--epsilon"),
+        (
+            "epsilon = \"edge=0\"\nepsilon-preset = \"bvh\"\n",
+            "hairline.toml:2: epsilon-preset cannot be used with epsilon (hairline.toml:1)",
+        ),
+        ("\nband = \"wide\"\n", "hairline.toml:2: --band: 'wide' is not a band"),
+        ("contract = \"own,ends=x\"\n", "hairline.toml:1: "),
     ] {
         fs::write(folder.join("hairline.toml"), text).unwrap();
         let (_, error) = ends(&folder, &["check", "--quiet"], 2);
@@ -227,6 +235,26 @@ fn bad_settings_are_refused_with_their_line_or_variable() {
     let output = hairline_with(&folder, &["check"], &[("HAIRLINE_FAMILY", "tyni")]);
     let error = String::from_utf8(output.stderr).unwrap();
     assert_eq!(error, "hairline: HAIRLINE_FAMILY: unknown family 'tyni'; did you mean 'tiny'?\n");
+}
+
+#[test]
+fn the_contract_and_the_band_of_a_project_are_settings() {
+    let folder = scratch("check-band");
+    let settings = "kernel = \"moller-trumbore\"\nfamily = [\"edge-near\"]\nscalar = \"f32\"\ncount = 500\n\
+                    band = \"64ulps\"\ncontract = \"own,coplanar=free\"\n";
+    let contract = |text: &str, variables: &[(&str, &str)]| {
+        fs::write(folder.join("hairline.toml"), text).unwrap();
+        let output = hairline_with(&folder, &["check", "-q", "--format", "json"], variables);
+        let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let words = record["provenance"]["plan_flags"]["kernels"].as_str().unwrap().to_owned();
+        (words, output.status.code())
+    };
+    let (words, code) = contract(settings, &[]);
+    assert!(words.ends_with("--contract own,coplanar=free --band 64ulps"), "{words}");
+    assert_eq!(code, Some(0), "every false answer near an edge is within the band");
+    let (words, code) = contract(settings, &[("HAIRLINE_BAND", "1e-30")]);
+    assert!(words.ends_with("--contract own,coplanar=free --band 1e-30"), "{words}");
+    assert_eq!(code, Some(1));
 }
 
 #[test]

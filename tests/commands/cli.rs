@@ -105,6 +105,7 @@ fn the_text_table_names_the_kernel_the_place_the_cost_and_the_command() {
         "moller-trumbore",
         "--family",
         "tiny,edge-near",
+        "--details",
     ]);
     let table = text(&output.stdout);
     assert_eq!(code(&output), 0);
@@ -172,6 +173,12 @@ fn epsilons_and_presets_change_the_verdict() {
 fn a_table_of_nothing_says_why() {
     let plan = ["audit", "-n", "20", "--kernel", "cramer", "--threads", "1"];
     let far = [&plan[..], &["--family", "tiny,far", "--offset", "1e60:0:0"]].concat();
+    let screen = text(&hairline(&far).stdout);
+    assert!(
+        screen.contains("\nf32: All are invalid: ") && !screen.contains("f64: All"),
+        "{screen}"
+    );
+    let far = [&far[..], &["--details"]].concat();
     let table = text(&hairline(&far).stdout);
     let [f32, f64] = table.split_once("\nf64, 40 cases").map(<[&str; 2]>::from).unwrap();
     assert!(f32.contains("1 kernel row, 2 families, 1 thread, "), "{table}");
@@ -179,7 +186,8 @@ fn a_table_of_nothing_says_why() {
     assert!(!f64.contains("All are invalid"), "{table}");
     let folder = scratch("one-scalar");
     fs::write(folder.join("one.jsonl"), format!("{CASE}\n")).unwrap();
-    let table = hairline_in(&folder, &["audit", "--corpus", "one.jsonl", "--kernel", "cramer"], "");
+    let one = ["audit", "--corpus", "one.jsonl", "--kernel", "cramer", "--details"];
+    let table = hairline_in(&folder, &one, "");
     assert!(text(&table.stdout).contains("f32, 1 case for each kernel\nkernel"), "{table:?}");
     assert!(text(&table.stdout).ends_with("f64, 0 cases for each kernel\n"), "{table:?}");
 }
@@ -228,7 +236,7 @@ fn formats_go_to_their_outputs_whole() {
     ];
     let output = hairline_in(&folder, &arguments, "");
     assert_eq!((code(&output), text(&output.stdout)), (0, String::new()));
-    assert!(fs::read_to_string(folder.join("table.txt")).unwrap().contains("ns/ray"));
+    assert!(fs::read_to_string(folder.join("table.txt")).unwrap().contains("Worst findings"));
     let record: serde_json::Value =
         serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
     assert_eq!(record["result"]["plan"]["sources"][0]["family"], "tiny");
@@ -334,6 +342,7 @@ fn a_mesh_and_a_corpus_are_audited() {
         "corpora/curated.jsonl",
         "--kernel",
         "woop-watertight",
+        "--details",
     ];
     let output = hairline(&arguments);
     let table = text(&output.stdout);
@@ -369,9 +378,6 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
         (&["audit", "--contract", "closed-rai"], "did you mean 'closed-ray'?"),
         (&["audit", "--format", "jsn"], "did you mean 'json'?"),
         (&["audit", "--scalar", "f16"], "unknown scalar 'f16'"),
-        (&["audit", "--count", "0"], "not a number of cases"),
-        (&["audit", "--count", "-5"], "not a number of cases"),
-        (&["audit", "--count", "99999999999999999999"], "not a number of cases"),
         (&["audit", "--scale", "3"], "write 2^k"),
         (&["audit", "--offset", "1:2"], "write x:y:z"),
         (&["audit", "--threads", "0"], "not from 1"),
@@ -387,6 +393,36 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
     assert_eq!(code(&hairline(&["audit", "--no-such-flag"])), 2);
     assert_eq!(code(&hairline(&[])), 2);
     assert_eq!(code(&hairline(&["--help"])), 0);
+    let help = |words: &[&str]| text(&hairline(&[words, &["--help"]].concat()).stdout);
+    // A band is listed where it means something.
+    for (words, listed) in [
+        (&["audit"][..], true),
+        (&["check"], true),
+        (&["epsilon"], true),
+        (&["mesh"], false),
+        (&["fuzz"], false),
+        (&["fuzz", "triage"], false),
+        (&["fuzz", "worst"], false),
+    ] {
+        let help = help(words);
+        assert!(help.contains("Usage: hairline"), "{help}");
+        assert_eq!(help.contains("--band"), listed, "{words:?}: {help}");
+    }
+    // The old names of commands still run them, and are not listed.
+    let all = help(&[]);
+    for (old, new) in [("config --print-default", "check config"), ("schema", "check schema")] {
+        let run = |words: &str| hairline(&words.split(' ').collect::<Vec<_>>()).stdout;
+        assert_eq!(run(old), run(new));
+    }
+    for old in ["triage", "shrink", "worst", "config", "schema"] {
+        assert!(!all.contains(&format!("\n  {old} ")), "{all}");
+        assert_eq!(code(&hairline(&[old, "--help"])), 0);
+    }
+    for count in ["0", "-5", "99999999999999999999"] {
+        let output = hairline(&["audit", "--count", count]);
+        let error = text(&output.stderr);
+        assert!(code(&output) == 2 && error.contains("not a number of cases from 1"), "{error}");
+    }
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn answers(cases: &str, verdict: &str) -> String {
 }
 
 fn judged(contract: &str, answers: &str) -> (i32, String, String) {
-    let output = hairline(&["judge", "--contract", contract], answers);
+    let output = hairline(&["judge", "--details", "--contract", contract], answers);
     (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
 }
 
@@ -53,7 +53,8 @@ fn right_answers_are_0_and_wrong_ones_1_with_the_tables_of_an_audit() {
     // Who says that t is given has its errors measured.
     let f32 = generated(&["--family", "interior", "-n", "50", "--scalar", "f32"]);
     let hello = "hairline-kernel 1\nname mine\nscalars f32\ncontract closed-ray\ngives t\nready\n";
-    let output = hairline(&["judge"], &(hello.to_owned() + &answers(&f32, "hit t=1")));
+    let details = ["judge", "--details"];
+    let output = hairline(&details, &(hello.to_owned() + &answers(&f32, "hit t=1")));
     assert!(text(&output.stdout).contains("values in ulps: t half within"), "{output:?}");
     let (code, table, _) = judged("closed-ray", &answers(&interior, "miss"));
     assert_eq!(code, 1);

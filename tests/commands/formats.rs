@@ -51,12 +51,9 @@ fn written(name: &str) -> PathBuf {
 }
 
 #[test]
-fn the_committed_schema_is_that_of_the_program_and_records_obey_it() {
-    let (printed, _) = ends(root(), &["schema"], 0);
-    let file = root().join("docs/schema/record.json");
-    let committed = fs::read_to_string(&file).unwrap();
-    assert_eq!(committed, printed, "write it again: hairline schema > docs/schema/record.json");
-    let schema = read_json(file);
+fn records_obey_the_schema_that_the_program_prints() {
+    let (printed, _) = ends(root(), &["check", "schema"], 0);
+    let schema = serde_json::from_str(&printed).unwrap();
     let folder = written("formats-json");
     for name in ["audit.json", "check.json"] {
         let record = read_json(folder.join(name));

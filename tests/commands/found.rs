@@ -83,7 +83,8 @@ fn triage_keeps_one_small_find_of_each_kind() {
     fs::write(artifacts.join("crash-1"), broken).unwrap();
     let artifacts = artifacts.to_str().unwrap();
     let paths = [campaign, artifacts, "corpora/curated.jsonl"];
-    let arguments = [&["triage", "-o", output, "--kernel", "half-space"][..], &paths].concat();
+    let arguments =
+        [&["fuzz", "triage", "-o", output, "--kernel", "half-space"][..], &paths].concat();
     let report = expect(&hairline(&arguments), 0, "crash-1:2: ");
     let found = stored(Path::new(output));
     let names: BTreeSet<_> = found.iter().map(|case| case.name.clone()).collect();
@@ -108,7 +109,7 @@ fn triage_keeps_one_small_find_of_each_kind() {
     expect(&hairline(&["audit", "--corpus", output, "--kernel", "half-space"]), 0, "");
     let coarse = folder.join("coarse");
     let coarse = coarse.to_str().unwrap();
-    let arguments = ["triage", "-o", coarse, "--one-each", "cause", output];
+    let arguments = ["fuzz", "triage", "-o", coarse, "--one-each", "cause", output];
     expect(&hairline(&arguments), 0, "");
     assert!(stored(Path::new(coarse)).len() < found.len());
 }
@@ -118,7 +119,7 @@ fn what_cannot_be_triaged_is_said() {
     let folder = fresh("bad");
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
     let output = path("output");
-    let triage = |input: &str| hairline(&["triage", "-o", &output, input]);
+    let triage = |input: &str| hairline(&["fuzz", "triage", "-o", &output, input]);
     expect(&triage(&path("nowhere")), 74, "nowhere");
     fs::write(folder.join("notes.txt"), "hello").unwrap();
     expect(&triage(&path("notes.txt")), 65, "notes.txt: ");
@@ -140,7 +141,7 @@ fn what_cannot_be_triaged_is_said() {
     expect(&triage(&path("settings/crash")), 4, "the target settings holds no case; left out");
     let with = |more: &[&str]| {
         let right = path("right.jsonl");
-        hairline(&[&["triage", "-o", &output, "--kernel", "cramer", &right], more].concat())
+        hairline(&[&["fuzz", "triage", "-o", &output, "--kernel", "cramer", &right], more].concat())
     };
     expect(&with(&["--epsilon", "t=1e39"]), 2, "1e39 is beyond the range of f32");
     expect(&with(&["--band", "1e-3"]), 2, "run again without one");

@@ -101,7 +101,7 @@ fn a_campaign_goes_on_where_it_stopped() {
     expect(&begun, 0, "");
     let first = finds(&directory);
     assert!(text(&begun.stdout).contains("3000 evaluations"), "{begun:?}");
-    assert!(!directory.join("lock").exists());
+    assert_eq!(fs::read_to_string(directory.join("lock")).unwrap(), "", "nobody holds the lock");
     // The command that it prints takes a folder with a space in its name.
     let file = format!("--corpus '{}/finds.jsonl' ", directory.display());
     assert!(text(&begun.stdout).contains(&file), "{begun:?}");
@@ -116,7 +116,9 @@ fn a_campaign_goes_on_where_it_stopped() {
     let other = fuzz(&directory, &["--kernel", "plucker", "-n", "40000"]);
     expect(&other, 2, "begun with other kernels, epsilons or contract");
     expect(&fuzz(&directory, &["--seed", "5"]), 2, "begun with other seed");
-    expect(&fuzz(&directory, &["--band", "4ulps"]), 2, "run again without one");
+    for band in [["--band", "4ulps"], ["--contract", "own,band=4ulps"]] {
+        expect(&fuzz(&directory, &band), 2, "--band: findings are kept and run again without one");
+    }
     assert_eq!(finds(&directory), all);
 }
 
@@ -140,7 +142,8 @@ fn kills_lose_nothing_that_was_reported() {
         child.kill().unwrap();
         reported.extend(lines.map_while(Result::ok).filter(|line| line.starts_with("found:")));
         child.wait().unwrap();
-        assert!(directory.join("lock").exists(), "a killed process leaves its lock");
+        let holder = fs::read_to_string(directory.join("lock")).unwrap();
+        assert!(holder.starts_with(&format!("process {} on ", child.id())), "{holder}");
     }
     // A pipe may be cut within a name.
     let resumed = fuzz(&directory, &["--time", "0"]);

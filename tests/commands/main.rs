@@ -20,6 +20,7 @@ mod own;
 mod plugin;
 mod program;
 mod rows;
+mod screen;
 mod shards;
 mod shrink;
 mod variants;

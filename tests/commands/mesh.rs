@@ -194,10 +194,14 @@ fn bad_input_ends_with_its_exit_code() {
     };
     refused(&["missing.obj"], 74, "missing.obj");
     refused(&["."], 74, "directory");
-    refused(&["a.obj", "--directions", "0"], 2, "--directions: '0'");
-    refused(&["a.obj", "--directions", "-1"], 2, "--directions: '-1'");
-    refused(&["a.obj", "--direction", "up"], 2, "there is 'unit'");
-    refused(&["a.obj", "--band", "4ulps"], 2, "--band");
+    refused(
+        &["a.obj", "--directions", "0"],
+        2,
+        "'0' for '--directions <N>': 0 is not in 1..=65536",
+    );
+    refused(&["a.obj", "--directions", "-1"], 2, "'-1' for '--directions <N>'");
+    refused(&["a.obj", "--direction", "up"], 2, "[possible values: unit]");
+    refused(&["a.obj", "--band", "4ulps"], 2, "--band: every ray goes to an edge or a vertex");
     refused(&["a.obj", "--kernel", "moler-trumbore"], 2, "did you mean 'moller-trumbore'?");
     refused(&["a.obj", "--format", "stl"], 2, "unknown format 'stl'");
     refused(&["a.obj", "--format", "json,ply"], 2, "2 formats but 0 outputs");

@@ -282,7 +282,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     assert!(code == Some(2) && error.contains("did you mean 'bounding-box'?"), "{error}");
     let kernels = "mine,bounding-box,cramer";
     let (code, table, _) =
-        run(&["audit", "--kernel", kernels, "-n", "300", "--family", "interior"]);
+        run(&["audit", "--details", "--kernel", kernels, "-n", "300", "--family", "interior"]);
     assert_eq!(code, Some(0));
     // Each in its own scalar: mine in f32, the box in f64, the built-in one in both.
     let count = |label: &str| table.lines().filter(|line| line.starts_with(label)).count();

@@ -333,7 +333,11 @@ fn a_campaign_goes_on_however_often_a_kernel_crashes() {
 fn a_command_that_is_no_kernel_is_refused_with_what_was_found_and_expected() {
     let cases: &[(&str, i32, &str)] = &[
         ("no-such-program-anywhere", 74, "no-such-program-anywhere: it cannot be started: "),
-        ("sh -c 'x", 2, "--kernel-cmd 'sh -c 'x': it has no closing '"),
+        (
+            "sh -c 'x",
+            2,
+            "--kernel-cmd 'sh -c 'x': a quotation mark or a backslash in it is not closed",
+        ),
         ("true", 65, "true: before its hello was over it ended its process with exit code 0"),
         ("false", 65, "exit code 1"),
         ("sh -c 'kill -9 $$'", 65, "before its hello was over it died of signal 9 (SIGKILL)"),

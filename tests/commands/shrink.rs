@@ -232,7 +232,7 @@ fn text(bytes: &[u8]) -> String {
 #[test]
 fn the_command_prints_the_case_in_three_languages_and_shrinks_its_own_output_no_further() {
     let kernel = ["--kernel", "moller-trumbore"];
-    let first = hairline(&[&["shrink", "tiny@1/f32/-/1/2314"][..], &kernel].concat());
+    let first = hairline(&[&["fuzz", "shrink", "tiny@1/f32/-/1/2314"][..], &kernel].concat());
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
     let printed = text(&first.stdout);
     for expected in [
@@ -247,11 +247,11 @@ fn the_command_prints_the_case_in_three_languages_and_shrinks_its_own_output_no_
     let line = printed.lines().find(|line| line.starts_with('{')).unwrap();
     let explained = hairline(&[&["explain", line][..], &kernel].concat());
     assert!(text(&explained.stdout).contains("FALSE-MISS"));
-    let again = hairline(&[&["shrink", line][..], &kernel].concat());
+    let again = hairline(&[&["fuzz", "shrink", line][..], &kernel].concat());
     assert_eq!(again.status.code(), Some(0));
     let again = text(&again.stdout);
     assert!(again.contains("as simple as it was") && again.contains(line), "{again}");
-    let stored = ["shrink", "front-edge_ab-within", "--corpus", "corpora/curated.jsonl"];
+    let stored = ["fuzz", "shrink", "front-edge_ab-within", "--corpus", "corpora/curated.jsonl"];
     let two_sided = ["--kernel", "scalar-triple-two-sided", "--contract", "closed-line"];
     let named = hairline(&[&stored[..], &two_sided].concat());
     assert!(text(&named.stdout).contains("false-miss of edge/front/within"), "{named:?}");
@@ -261,23 +261,39 @@ fn the_command_prints_the_case_in_three_languages_and_shrinks_its_own_output_no_
 fn what_cannot_be_shrunk_is_refused_with_the_reason() {
     for (arguments, code, reason) in [
         (
-            &["shrink", "interior@1/f32/-/1/0", "--kernel", "cramer"][..],
+            &["fuzz", "shrink", "interior@1/f32/-/1/0", "--kernel", "cramer"][..],
             4,
             "cramer (source) does as",
         ),
-        (&["shrink", "interior@1/f32/-/1/0"], 4, "every chosen kernel does as"),
-        (&["shrink", "fan@1/f32/-/1/0", "--kernel", "cramer"], 2, "fan@1/f32/-/1/0.0"),
-        (&["shrink", "tiny@1/f32/-/1/2314"], 2, "choose one by --kernel and --epsilon"),
-        (&["shrink", "tiny@1/f32/-/1/2314", "--kernel", "crammer"], 2, "did you mean 'cramer'?"),
-        (&["shrink", "nonsense", "--kernel", "cramer"], 2, "is not a case id"),
+        (&["fuzz", "shrink", "interior@1/f32/-/1/0"], 4, "every chosen kernel does as"),
+        (&["fuzz", "shrink", "fan@1/f32/-/1/0", "--kernel", "cramer"], 2, "fan@1/f32/-/1/0.0"),
+        (&["fuzz", "shrink", "tiny@1/f32/-/1/2314"], 2, "choose one by --kernel and --epsilon"),
         (
-            &["shrink", "tiny@1/f32/-/1/2314", "--kernel", "cramer", "--epsilon", "t=1e-60"],
+            &["fuzz", "shrink", "tiny@1/f32/-/1/2314", "--kernel", "crammer"],
+            2,
+            "did you mean 'cramer'?",
+        ),
+        (&["fuzz", "shrink", "nonsense", "--kernel", "cramer"], 2, "is not a case id"),
+        (
+            &[
+                "fuzz",
+                "shrink",
+                "tiny@1/f32/-/1/2314",
+                "--kernel",
+                "cramer",
+                "--epsilon",
+                "t=1e-60",
+            ],
             2,
             "1e-60 is 0 in f32",
         ),
-        (&["shrink", "{\"scalar\":\"f32\"}", "--kernel", "cramer"], 65, "missing field 'origin'"),
-        (&["shrink", "tiny@9/f32/-/1/1", "--kernel", "cramer"], 65, "version 9"),
-        (&["shrink", "x", "--corpus", "no.jsonl", "--kernel", "cramer"], 74, "no.jsonl"),
+        (
+            &["fuzz", "shrink", "{\"scalar\":\"f32\"}", "--kernel", "cramer"],
+            65,
+            "missing field 'origin'",
+        ),
+        (&["fuzz", "shrink", "tiny@9/f32/-/1/1", "--kernel", "cramer"], 65, "version 9"),
+        (&["fuzz", "shrink", "x", "--corpus", "no.jsonl", "--kernel", "cramer"], 74, "no.jsonl"),
     ] {
         let output = hairline(arguments);
         let error = text(&output.stderr);

@@ -131,6 +131,7 @@ fn the_other_commands_take_a_variant_by_its_name() {
     let (out, _) = ends(
         &folder,
         &[
+            "fuzz",
             "shrink",
             "shared-edge@1/f32/-/1/69.0",
             "--kernel=woop-watertight+fma",

@@ -148,7 +148,7 @@ fn a_determinant_that_is_zero_exactly_has_no_error_where_zero_is_refused() {
     // Seen along its plane, at a size at which one float below zero is many ulps of the scale.
     let (o, x, y) = ([0.0; 3], [1e-30f32, 0.0, 0.0], [0.0, 1e-30, 0.0]);
     let case = Case::<f32>::new([0.0, 0.0, 1e-30], [1e-30, 0.0, 0.0], [o, x, y]);
-    for kernel in ["cramer", "convex-polygon", "plane-inside-out"] {
+    for kernel in ["cramer", "plane-inside-out-strict"] {
         let goal = goal(kernel, "margin:parallel", Domain::Any);
         assert_eq!(exact_score(&goal, &case), Some(Decimal::ZERO), "{kernel}");
         assert_eq!(goal.scorer::<f32>().quick(&case), 0.0, "{kernel}");
@@ -293,7 +293,7 @@ fn text(bytes: &[u8]) -> String {
 #[test]
 fn the_command_searches_updates_its_table_and_lists_it() {
     let folder = scratch("worst");
-    let arguments = ["worst", "--kernel", "woop-watertight", "--gate", "edge", "-n", "400"];
+    let arguments = ["fuzz", "worst", "--kernel", "woop-watertight", "--gate", "edge", "-n", "400"];
     let searched = hairline_in(&folder, &arguments);
     assert_eq!(searched.status.code(), Some(0), "{}", text(&searched.stderr));
     assert!(text(&searched.stderr).contains("evaluations/s"));
@@ -316,7 +316,7 @@ fn the_command_searches_updates_its_table_and_lists_it() {
     assert_eq!(fs::read_to_string(folder.join("known.jsonl")).unwrap(), known);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "nothing left beside it");
 
-    let listed = hairline_in(&folder, &["worst", "--list", "--table", "known.jsonl"]);
+    let listed = hairline_in(&folder, &["fuzz", "worst", "--list", "--table", "known.jsonl"]);
     let listed = text(&listed.stdout);
     assert_eq!(listed.matches("hairline explain 'worst:").count(), known.lines().count());
     let command = listed.lines().find(|line| line.contains("hairline explain")).unwrap();
@@ -324,7 +324,7 @@ fn the_command_searches_updates_its_table_and_lists_it() {
         command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
     assert_eq!(hairline_in(&folder, &words).status.code(), Some(0), "{words:?}");
     // Without a table, what the program knows, by numbers that need no file.
-    let known = hairline_in(&folder, &["worst", "--list", "--kernel", "cramer"]);
+    let known = hairline_in(&folder, &["fuzz", "worst", "--list", "--kernel", "cramer"]);
     let known = text(&known.stdout);
     let command = known.lines().find(|line| line.contains("hairline explain '{")).unwrap();
     let (case, rest) = command.split_once('\'').unwrap().1.split_once('\'').unwrap();
@@ -352,22 +352,25 @@ fn wrong_tables_and_flags_are_refused_before_any_search() {
         (line[..line.len() / 2].to_owned(), "t.jsonl:1: "),
     ] {
         fs::write(folder.join("t.jsonl"), &table).unwrap();
-        let output = hairline_in(&folder, &["worst", "--update", "t.jsonl"]);
+        let output = hairline_in(&folder, &["fuzz", "worst", "--update", "t.jsonl"]);
         let error = text(&output.stderr);
         assert_eq!(output.status.code(), Some(65), "{error}");
         assert!(error.contains(message), "{message}: {error}");
         assert_eq!(fs::read_to_string(folder.join("t.jsonl")).unwrap(), table, "left as it was");
     }
     for (arguments, code) in [
-        (&["worst", "--gate", "edgy"][..], 2),
-        (&["worst", "--objective", "margins"], 2),
-        (&["worst", "--domain", "all"], 2),
-        (&["worst", "--scalar", "f16"], 2),
-        (&["worst", "-n", "0"], 2),
-        (&["worst", "--list", "--update", "x"], 2),
-        (&["worst", "--update", "x", "--contract", "closed-ray"], 2),
-        (&["worst", "--kernel", "havel-herout", "--objective", "margin"], 4),
-        (&["worst", "--list", "--table", "missing.jsonl"], 74),
+        (&["fuzz", "worst", "--gate", "edgy"][..], 2),
+        (&["fuzz", "worst", "--objective", "margins"], 2),
+        (&["fuzz", "worst", "--domain", "all"], 2),
+        (&["fuzz", "worst", "--scalar", "f16"], 2),
+        (&["fuzz", "worst", "-n", "0"], 2),
+        (&["fuzz", "worst", "--list", "--update", "x"], 2),
+        (&["fuzz", "worst", "--update", "x", "--contract", "closed-ray"], 2),
+        (&["fuzz", "worst", "--contract", "own,band=4ulps"], 2),
+        // The old name of the command.
+        (&["worst", "--band", "4ulps"], 2),
+        (&["fuzz", "worst", "--kernel", "havel-herout", "--objective", "margin"], 4),
+        (&["fuzz", "worst", "--list", "--table", "missing.jsonl"], 74),
     ] {
         let output = hairline_in(&folder, arguments);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));

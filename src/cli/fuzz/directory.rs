@@ -31,6 +31,9 @@ pub const FINDS: &str = "finds.jsonl";
 
 const STATE: &str = "state.json";
 
+/// Why neither a campaign nor triage takes a band.
+pub const NO_BAND: &str = "findings are kept and run again without one";
+
 /// What a campaign was begun with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

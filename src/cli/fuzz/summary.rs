@@ -42,7 +42,11 @@ pub fn write_summary(
     if let Some(find) = finds.last() {
         writeln!(out, "The last one")?;
         writeln!(out, "    {}", find.signature)?;
-        writeln!(out, "    {}", explain_command(find, &format!("{path}/{}", super::FINDS)))?;
+        writeln!(
+            out,
+            "    {}",
+            explain_command(find, &format!("{path}/{}", super::directory::FINDS))
+        )?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! A find: a finding of a kind, on a case as simple as it was made, as a line of a corpus file.
+//! The example that a campaign keeps of one kind of finding: a simplified case, as a line of a corpus file.
 
 use crate::audit::{Attribution, Row};
 use crate::corpus::Provenance;
@@ -29,7 +29,7 @@ pub struct Find {
     pub from: Option<String>,
 }
 
-/// Why a stored case is no find.
+/// Why a stored case is not a finding of a campaign.
 #[derive(Debug, PartialEq)]
 pub enum FindError {
     /// It says nothing of a kernel.

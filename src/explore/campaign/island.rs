@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The cases that are tried to make a new find simpler.
 const EFFORT: usize = 400;
 
-/// Of the findings that look like known ones, one in so many is told apart exactly.
+/// One in so many of the findings that look like known ones is checked in exact arithmetic.
 const LOOK_CLOSER: usize = 12;
 
 /// The exponents of the powers of two that families are scaled by.
@@ -72,8 +72,8 @@ where
         proposals
     }
 
-    /// The niche of an individual. Exact arithmetic is asked of a finding that looks new, is the worst
-    /// of those that look alike, or is drawn; none for the rest.
+    /// The niche of an individual. Exact arithmetic runs only for a finding that looks new, that is the
+    /// worst of those that look alike, or that is drawn; the result is none for the rest.
     fn niche(
         &self,
         individual: &Individual<F>,

@@ -1,4 +1,4 @@
-//! What a campaign saves now and then: counters and population. The kinds are in its finds.
+//! What a campaign saves now and then: counters and population. It reads the known kinds from its finds.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ pub struct State {
     pub rounds: u64,
     /// Evaluations until now.
     pub evaluations: u64,
-    /// Seconds until now, as whoever has a clock counted them.
+    /// Seconds until now, as counted by the caller, who has a clock.
     pub seconds: f64,
     /// Sessions until now: how often the campaign was begun or resumed.
     pub sessions: u64,

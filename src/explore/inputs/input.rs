@@ -9,7 +9,7 @@ use crate::corpus::lines::AnyCase;
 use crate::explore::mutate;
 use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
 
-/// As many gates as a kernel may have for its epsilons to be told.
+/// The most gates whose epsilons an input can hold.
 pub const MAX_GATES: usize = 8;
 
 /// Bits of the first byte.

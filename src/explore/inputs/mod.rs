@@ -8,9 +8,9 @@
 //! ```
 //!
 //! Any bytes are an input. Short ones build a degenerate construction in small integers and nudge it by
-//! ulps, so that mutations of bytes stay near trouble; long ones give all numbers, so that any case has
-//! bytes and moves on cases ([`AnyInput::mutated`]) can be written back. The crate `arbitrary` reads bytes
-//! in the same spirit, but has no way back from a value to bytes.
+//! ulps, so mutations of bytes stay near the places where kernels break. Long ones give all numbers, so
+//! any case has bytes, and moves on cases ([`AnyInput::mutated`]) can be written back. The crate
+//! `arbitrary` reads bytes in the same way, but cannot turn a value into bytes.
 
 #![forbid(unsafe_code)]
 

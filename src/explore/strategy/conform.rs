@@ -1,4 +1,4 @@
-//! A kernel of the user's held to a contract, case by case.
+//! Judges a user's kernel by a contract, case by case.
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -28,7 +28,7 @@ impl fmt::Display for Disagreement {
 
 impl std::error::Error for Disagreement {}
 
-/// Whether a kernel, which gives t of a hit, does on a case what a contract asks. Values other than t
+/// Whether a kernel, which gives t of a hit, does on a case what a contract demands. Values other than t
 /// are not judged, t only for being finite.
 pub fn conforms<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
@@ -48,9 +48,9 @@ where
     Err(Disagreement { finding, text })
 }
 
-/// The same of two triangles on one edge and one ray, each alone and both together: where they face the
-/// ray alike and the line passes through the inside of their union, [`Across::AtLeastOne`] asks a hit
-/// of one of them, and [`Across::ExactlyOne`] that the other does not hit too. A contract with
+/// The same of two triangles on one edge and one ray, each alone and both together. If they face the ray
+/// alike and the line passes through the inside of their union, [`Across::AtLeastOne`] demands a hit of
+/// one of them, and [`Across::ExactlyOne`] that the other does not hit too. A contract with
 /// [`Boundary::Free`](crate::contract::Boundary::Free) leaves the edge to the two together.
 pub fn conforms_together<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
@@ -88,15 +88,7 @@ where
     AnyCase: From<Case<F>>,
 {
     let exact = oracle::define(case).exact.t.map_or(String::new(), |t| format!(", t = {t}"));
-    let stored = StoredCase {
-        name: None,
-        case: AnyCase::from(*case),
-        truth: None,
-        line: 0,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     let kernel = t.map_or("miss".to_owned(), |t| format!("hit, t = {t:e}"));
     format!(
         "truth    {truth}{exact}\nkernel   {kernel}\nbits     {}\nexplain  hairline explain '{}'",

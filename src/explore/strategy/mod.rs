@@ -19,7 +19,7 @@
 //! });
 //! ```
 //!
-//! A case shrinks by the same steps as `hairline shrink` takes, towards few bits and small integers, and
+//! A case shrinks by the same steps as `hairline fuzz shrink` takes, towards few bits and small integers, and
 //! every step keeps the promise of its strategy, which the oracle checks exactly: a case of
 //! [`edge_exact`] stays on an edge. Shrinking ends where no single step leads on, or at proptest's
 //! `max_shrink_iters`, whose default of a few thousand rarely matters.

@@ -14,7 +14,7 @@ pub struct Promise {
     shape: Shape,
 }
 
-/// What is asked of the numbers of a case beside its truth.
+/// What a strategy promises about the numbers of a case beside its truth.
 #[derive(Clone, Copy)]
 enum Shape {
     Any,

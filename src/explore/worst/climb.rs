@@ -1,4 +1,4 @@
-//! Hill climbing with restarts, in lanes that know nothing of each other.
+//! Hill climbing with restarts, in independent lanes.
 //!
 //! Each goal is climbed by a fixed number of lanes, each with its own stream of random numbers, its
 //! share of the evaluations and its own restarts; the best of the lanes is the result. So it depends

@@ -5,7 +5,7 @@ use super::findings::{self, Depth};
 use super::pictures;
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
-use super::words::{code, counts, percent, share};
+use super::words::{apart, code, counts, percent, share};
 use crate::kernel::{self, Gate, Tunable};
 use crate::report::record::*;
 use crate::report::why::{CauseShare, cause_shares, short};
@@ -68,7 +68,7 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
                         (scalar.scalar) " "
                         @for kind in Kind::ALL {
                             span class={ "key " (kind.finding()) } {
-                                (scalar.all(kind).rate.map_or("–".to_owned(), percent)) " " (kind.words())
+                                (scalar.all(kind).rate().rate.map_or("–".to_owned(), percent)) " " (kind.words())
                             } " "
                         }
                     }
@@ -144,7 +144,7 @@ fn rates(view: &View, row: &Row) -> Markup {
         ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
         ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
     ];
-    let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.sum(get).of);
+    let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.sum(get).counts()[1]);
     let failures: [(&str, Count); 3] = [
         ("panics", |counts| counts.panics),
         ("crashes", |counts| counts.crashes),
@@ -174,8 +174,8 @@ fn rates(view: &View, row: &Row) -> Markup {
                         @if asked(get) {
                             tr { th scope="row" { (name) }
                                 @for scalar in &row.scalars {
-                                    @let rate = scalar.sum(get);
-                                    td { (share(&rate)) small { (counts(&rate)) } }
+                                    @let sum = scalar.sum(get);
+                                    td { (share(sum.rate())) small { (counts(sum.rate())) (apart(&sum)) } }
                                 }
                             }
                         }

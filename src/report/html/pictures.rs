@@ -1,4 +1,4 @@
-//! What goes wrong, seen: maps float by float, and the worst witnesses drawn.
+//! Pictures of what goes wrong: maps float by float, and drawings of the worst witnesses.
 
 use super::room::Room;
 use super::view::{InScalar, Kind, Row};

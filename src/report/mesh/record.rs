@@ -66,7 +66,7 @@ pub struct ScalarPart {
     pub scalar: &'static str,
     /// What the mesh is in this scalar.
     pub topology: TopologyPart,
-    /// Rays at edges and at vertices: those asked, times the directions.
+    /// Rays at edges and at vertices: how many of each are tested, times the directions.
     pub rays: [u64; 2],
     /// Rays with the triangles that they were put to.
     pub cases: u64,
@@ -100,7 +100,7 @@ pub struct NotedPart {
     pub count: u64,
     /// The line of a face of the first.
     pub first_line: Option<u32>,
-    /// The first's points; infinities, which JSON has not, as null.
+    /// The first's points; infinities as null, because JSON has none.
     pub first_points: Vec<[f64; 3]>,
 }
 
@@ -124,7 +124,7 @@ pub struct MeshRowResult {
 pub struct MeshPartResult {
     /// How many of them some ray found a crack at.
     pub cracked: u64,
-    /// How many were asked about.
+    /// How many were tested.
     pub of: u64,
     /// All classes together.
     pub total: AcrossRates,

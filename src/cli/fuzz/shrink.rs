@@ -1,11 +1,12 @@
-//! `hairline shrink`: the simplest case with the same finding, to paste into a test.
+//! `hairline fuzz shrink`: the simplest case with the same finding, to paste into a test.
 
-use super::case::{CaseArguments, Cases};
-use super::exit::{Failure, Status};
-use super::output::write_result;
-use super::select::KernelArguments;
 use crate::audit::Row;
 use crate::case::Case;
+use crate::cli::case::{CaseArguments, Cases};
+use crate::cli::exit::{Failure, Status};
+use crate::cli::input::truth_line;
+use crate::cli::output::write_result;
+use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
 use crate::explore::{
     SIMPLIFICATIONS, Shrunk, Signature, Size, c_snippet, rust_snippet, shrink_finding,
@@ -123,15 +124,7 @@ fn corpus_line<F: Scalar>(case: &Case<F>, signature: &Signature) -> String
 where
     AnyCase: From<Case<F>>,
 {
-    let mut stored = StoredCase {
-        name: None,
-        case: AnyCase::from(*case),
-        truth: None,
-        line: 0,
-        why: Some(signature.to_string()),
-        url: None,
-        found: None,
-    };
-    stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
+    let mut stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(*case) };
+    stored.truth = Some(StoredTruth::from(&truth_line(&stored)));
     write_case(&stored)
 }

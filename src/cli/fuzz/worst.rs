@@ -1,13 +1,14 @@
-//! `hairline worst`: searches for the worst cases, and the table of the worst known.
+//! `hairline fuzz worst`: searches for the worst cases, and the table of the worst known.
 
-use super::exit::{Failure, Status};
-use super::input::open;
-use super::output::write_result;
-use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars, unknown};
-use super::sources::{scalars_in_use, set_threads};
 use crate::audit::{Observer, quoted};
 use crate::case::Case;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::flags::{chosen_scalars, unknown};
+use crate::cli::input::open;
+use crate::cli::output::write_result;
+use crate::cli::progress::Progress;
+use crate::cli::select::KernelArguments;
+use crate::cli::sources::{scalars_in_use, set_threads};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
 use crate::kernel::Scalar;
@@ -20,6 +21,7 @@ const GOALS_AT_ONCE: usize = 16;
 
 /// What to search for, and how long.
 #[derive(Args)]
+#[command(mut_arg("band", |band| band.hide(true)))]
 pub struct WorstArguments {
     #[command(flatten)]
     kernels: KernelArguments,
@@ -36,7 +38,7 @@ pub struct WorstArguments {
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     objective: Vec<String>,
 
-    /// moderate (cases that nobody would call strange), any, or both separated by a comma
+    /// moderate (ordinary sizes and shapes), any, or both separated by a comma
     #[arg(long, value_delimiter = ',', default_value = "moderate,any", value_name = "NAME")]
     domain: Vec<String>,
 
@@ -44,15 +46,15 @@ pub struct WorstArguments {
     #[arg(long, short = 'n', default_value_t = 20_000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     evaluations: u64,
 
-    /// Search again, each time with the next seed, until this many seconds have passed
+    /// Search again with the next seed until this many seconds have passed
     #[arg(long, value_name = "SECONDS")]
     time: Option<u64>,
 
-    /// Which random moves
+    /// Seed of the random moves
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
-    /// Take what is found into this table, if it is worse than what it knows
+    /// Add what is found to this table, where it is worse than what the table has
     #[arg(long, value_name = "FILE", conflicts_with_all = ["list", "contract"])]
     update: Option<String>,
 
@@ -60,7 +62,7 @@ pub struct WorstArguments {
     #[arg(long)]
     list: bool,
 
-    /// The table that --list prints [default: what was known when the program was built]
+    /// The table that --list prints [default: the one that the program was built with]
     #[arg(long, value_name = "FILE", requires = "list")]
     table: Option<String>,
 
@@ -68,13 +70,13 @@ pub struct WorstArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }
 
 /// The table of the worst known, as it was when the program was built.
-const KNOWN: &[u8] = include_bytes!("../../corpora/worst.jsonl");
+const KNOWN: &[u8] = include_bytes!("../../../corpora/worst.jsonl");
 
 /// Runs the command.
 pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
@@ -114,7 +116,8 @@ pub fn run(arguments: &WorstArguments) -> Result<Status, Failure> {
 impl WorstArguments {
     /// The goals in `f32`, and in `f64`.
     fn goals(&self) -> Result<[Vec<Goal>; 2], Failure> {
-        let rows = self.kernels.rows()?;
+        let no_band = "the worst case is as far as possible from where the verdict would be right";
+        let rows = self.kernels.rows_without_band(no_band)?;
         let gates = || rows.iter().flat_map(|row| row.entry.info.gates).map(|gate| gate.name);
         if let Some(gate) = self.gate.as_deref().filter(|gate| !gates().any(|name| name == *gate)) {
             return Err(unknown("gate", gate, gates(), "hairline list kernels"));
@@ -122,13 +125,13 @@ impl WorstArguments {
         let names = || Objective::ALL.map(Objective::name).into_iter();
         for name in &self.objective {
             if !names().any(|known| known == name) {
-                return Err(unknown("objective", name, names(), "hairline worst --help"));
+                return Err(unknown("objective", name, names(), "hairline fuzz worst --help"));
             }
         }
         let domains = self.domain.iter().map(|name| {
             let names = Domain::ALL.map(Domain::name);
             Domain::find(name)
-                .ok_or_else(|| unknown("domain", name, names, "hairline worst --help"))
+                .ok_or_else(|| unknown("domain", name, names, "hairline fuzz worst --help"))
         });
         let domains: Vec<Domain> = domains.collect::<Result<_, _>>()?;
         let pairs = rows.iter().flat_map(|row| domains.iter().map(move |domain| (row, *domain)));
@@ -279,15 +282,7 @@ fn relative_error(entry: &Entry) -> Option<f64> {
 
 /// A case as JSON without its bits: its numbers say the same.
 fn bare_line(case: &AnyCase) -> String {
-    let stored = StoredCase {
-        name: None,
-        case: *case,
-        truth: None,
-        line: 0,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     let line = write_case(&stored);
     match line.split_once(",\"bits\"") {
         Some((numbers, _)) => format!("{numbers}}}"),

@@ -1,14 +1,15 @@
-//! `hairline triage`: one small find of each kind, out of whatever found it.
+//! `hairline fuzz triage`: one small find of each kind, out of whatever found it.
 
 mod inputs;
 
-use super::exit::{Failure, Status};
-use super::fuzz::{explain_command, refuse_band};
-use super::input::corpus_files;
-use super::output::write_result;
-use super::select::KernelArguments;
-use super::sources::set_threads;
+use super::directory::NO_BAND;
+use super::summary::explain_command;
 use crate::audit::Attribution;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::input::corpus_files;
+use crate::cli::output::write_result;
+use crate::cli::select::KernelArguments;
+use crate::cli::sources::set_threads;
 use crate::corpus::lines::{self, AnyCase, write_case};
 use crate::explore::campaign::Find;
 use crate::explore::shrink_finding;
@@ -22,6 +23,7 @@ use std::path::Path;
 
 /// What to read, and where the finds go.
 #[derive(Args)]
+#[command(mut_arg("band", |band| band.hide(true)))]
 pub struct TriageArguments {
     /// Campaign directories, corpora (JSON lines), cargo-fuzz artifacts, or folders of them
     #[arg(value_name = "PATH", required = true)]
@@ -30,12 +32,12 @@ pub struct TriageArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// The folder of the finds, one file a kernel; what is there stays unless something simpler shows
-    /// the same
+    /// The folder to write to, one file a kernel; findings that are already there stay unless a simpler
+    /// case shows the same
     #[arg(long, short, value_name = "DIR", default_value = "corpora/found")]
     output: String,
 
-    /// What is kept once
+    /// How findings are told apart
     #[arg(long, value_enum, default_value_t = OneEach::Kind)]
     one_each: OneEach,
 
@@ -80,8 +82,7 @@ impl OneEach {
 /// Runs the command.
 pub fn run(arguments: &TriageArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
-    refuse_band(&arguments.kernels)?;
-    let rows = arguments.kernels.rows()?;
+    let rows = arguments.kernels.rows_without_band(NO_BAND)?;
     let mut read = Vec::new();
     for path in &arguments.paths {
         inputs::read_path(Path::new(path), &rows, &mut read)?;

@@ -2,7 +2,7 @@
 
 use crate::audit::Row;
 use crate::cli::exit::{Failure, Status};
-use crate::cli::fuzz::{CAMPAIGN, FINDS, read_begun, read_finds};
+use crate::cli::fuzz::directory::{CAMPAIGN, FINDS, read_begun, read_finds};
 use crate::cli::input::files_under;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};

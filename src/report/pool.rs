@@ -1,0 +1,68 @@
+//! Sums over sources. A random sample has an interval; stored cases, and all cases of a finite family,
+//! are the whole of what they are: they have counts, and are never added to a sample.
+
+use super::record::Rate;
+use super::{group_digits, rate_between};
+use std::borrow::Borrow;
+
+/// A sum over the sources that are random samples, and one over the others.
+#[derive(Clone, Debug)]
+pub(super) struct Pool {
+    sample: Rate,
+    complete: Rate,
+}
+
+impl Pool {
+    /// The sums of rates. A rate without an interval is of a complete set.
+    pub(super) fn of(rates: impl Iterator<Item = impl Borrow<Rate>>) -> Pool {
+        let mut sums = [(0, 0); 2];
+        for rate in rates {
+            let rate = rate.borrow();
+            let (count, of) = &mut sums[usize::from(rate.interval.is_none())];
+            (*count, *of) = (*count + rate.count, *of + rate.of);
+        }
+        let [sample, complete] = sums;
+        Pool {
+            sample: rate_between(sample.0, sample.1, true),
+            complete: rate_between(complete.0, complete.1, false),
+        }
+    }
+
+    /// Of the samples; where there is none, of the complete sets.
+    pub(super) fn rate(&self) -> &Rate {
+        if self.sample.of == 0 { &self.complete } else { &self.sample }
+    }
+
+    /// What [`Pool::rate`] leaves out: `3 of 57`.
+    pub(super) fn apart(&self) -> Option<String> {
+        let Rate { count, of, .. } = self.complete;
+        let both = 0 < of && 0 < self.sample.of;
+        both.then(|| format!("{} of {}", group_digits(count), group_digits(of)))
+    }
+
+    /// Of both, without an interval.
+    pub(super) fn counts(&self) -> [u64; 2] {
+        [self.sample.count + self.complete.count, self.sample.of + self.complete.of]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stored_cases_stay_out_of_a_samples_interval() {
+        let [sample, stored] = [rate_between(10, 500, true), rate_between(3, 57, false)];
+        let pool = Pool::of([&sample, &stored].into_iter());
+        assert_eq!((pool.rate().count, pool.rate().of), (10, 500));
+        assert_eq!(pool.rate().interval, sample.interval);
+        assert_eq!(pool.apart().as_deref(), Some("3 of 57"));
+        assert_eq!(pool.counts(), [13, 557]);
+        let pool = Pool::of(std::iter::once(&stored));
+        assert_eq!((pool.rate().count, pool.rate().of), (3, 57));
+        assert!(pool.rate().interval.is_none() && pool.apart().is_none());
+        // A sample without a trial has no interval either, and counts for nothing.
+        let none = rate_between(0, 0, true);
+        assert_eq!(Pool::of(std::iter::once(&none)).counts(), [0, 0]);
+    }
+}
