@@ -55,7 +55,7 @@ pub(crate) use rows::verdicts_of;
 pub use run::{Audit, Cell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity};
 pub use shard::Shard;
-pub(crate) use source::CHUNK;
+pub(crate) use source::{CHUNK, is_of_mesh};
 pub use source::{CorpusSet, Source};
 pub use stored::{StoredPlan, StoredSource};
 pub use tally::{ClassCount, Examples, PolygonCount, SelfHits, Severities, Tally};
