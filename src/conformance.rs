@@ -76,7 +76,7 @@ impl Request {
         self
     }
 
-    /// What the cases are put through: a scale, an offset, unit directions.
+    /// How the cases are transformed: a scale, an offset, unit directions.
     pub fn parameters(mut self, parameters: Parameters) -> Request {
         self.parameters = parameters;
         self
@@ -96,7 +96,7 @@ impl Request {
     }
 
     /// Runs it, in each scalar that the kernel runs in. An error names the family, gate or epsilon
-    /// that there is none of.
+    /// that does not exist.
     pub fn run(&self) -> Result<Outcome, PlanError> {
         let mut rows = self.epsilons.rows(&[self.entry], None)?;
         if let Some(contract) = self.contract {

@@ -1,5 +1,5 @@
-//! The truth about ray–triangle kernels: exact orientation predicates against floating-point tests
-//! with epsilons, on the cases where they break.
+//! Audits ray–triangle kernels: floating-point tests and their epsilons against exact predicates,
+//! on the cases where they break.
 //!
 //! ```text
 //! Case ──► Kernel ──► Verdict ─┐
@@ -21,7 +21,7 @@
 //!
 //! `cli::main_with` (feature `cli`) is the whole program with your kernels in it.
 //!
-//! DESIGN.md has the picture of the modules behind this; a test holds it to their `use` lines.
+//! DESIGN.md has the picture of the modules behind this; a test compares it with their `use` lines.
 
 // Some of the modules' items serve only this project's own tests, through `internals`.
 #![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]

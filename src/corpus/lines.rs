@@ -72,8 +72,8 @@ impl StoredCase {
 /// The cases of a corpus file, one after the other; blank lines are skipped. `file` is the name in
 /// errors.
 ///
-/// A line that is no case, is longer than 1 MiB or is not UTF-8 is an error, and the next line is
-/// read as if nothing had happened. When reading itself fails, that error is the last item.
+/// A line that is not a case, is longer than 1 MiB or is not UTF-8 is an error, and reading continues with
+/// the next line. If reading itself fails, that error is the last item.
 pub fn read<R: BufRead>(
     reader: R,
     file: &str,

@@ -71,17 +71,17 @@ impl Mesh {
     }
 }
 
-/// Reads an OBJ file: `v`, `f`, `o` and `g` count, materials, normals and textures do not, and what
-/// else there is gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called
+/// Reads an OBJ file: `v`, `f`, `o` and `g` count; materials, normals and textures are ignored; anything
+/// else gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called
 /// about every MiB with the number of bytes read so far, and once at the end.
 ///
 /// Polygons are cut into the fan from their first vertex. Those whose fan folds over itself or is
 /// bent by a right angle or more, which many concave ones do, are left out with a note. Triangles
 /// without area are kept with a note.
 ///
-/// Errors: what cannot be read, is not UTF-8 or has a line above 1 MiB; numbers that are none, or
-/// not finite in `f64`; faces of fewer than three vertices, or of vertices that the file has not;
-/// no vertices or no triangles at all; more than 100 million of either.
+/// It is an error if the file cannot be read, is not UTF-8 or has a line above 1 MiB; if a number is
+/// malformed or not finite in `f64`; if a face has fewer than three vertices, or one that the file does
+/// not have; if there are no vertices or no triangles, or more than 100 million of either.
 pub fn read_obj<R: BufRead>(
     reader: R,
     name: &str,

@@ -7,9 +7,9 @@ use std::io::{self, BufRead, Read};
 
 /// Reads the lines of a text with their numbers, counted from 1; blank ones are skipped.
 ///
-/// A line that is too long or not UTF-8 is an error, and the lines after it are read as if nothing had
-/// happened. A line that is too long is refused before its end is read. When reading itself fails, that
-/// error is the last item.
+/// A line that is too long or not UTF-8 is an error, and reading continues with the next line. A line
+/// that is too long is an error before its end is read. If reading itself fails, that error is the last
+/// item.
 pub struct TextLines<R> {
     reader: R,
     file: String,

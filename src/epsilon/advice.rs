@@ -11,8 +11,8 @@ use crate::kernel::{Gate, Scalar};
 /// The two counts that an epsilon trades against each other, over all sources: hits lost, and false
 /// hits of the kinds that the gate is there to refuse.
 ///
-/// For a gate on t the rays that start at a kernel's own hit point (respawn) ask for a miss: by exact
-/// truth alone an epsilon there could only lose hits.
+/// For a gate on t a second hit on the triangle from which a ray starts (family `respawn`) counts as a hit
+/// to reject: by exact truth alone an epsilon there could only lose hits.
 #[derive(Clone, Debug)]
 pub struct Trade<F> {
     /// The lowest epsilon that the gate takes.

@@ -83,7 +83,7 @@ pub struct Cell<F> {
 pub struct Curve<F> {
     /// What is counted.
     pub question: Question,
-    /// How many cases or groups were asked.
+    /// How many cases or groups the question is about.
     pub total: u64,
     /// Of these, refused at every epsilon.
     pub never: u64,

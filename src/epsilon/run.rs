@@ -12,7 +12,7 @@ use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Gate, Gated, Scalar, Tunable};
 use std::ops::Range;
 
-/// A kernel whose response is asked for.
+/// A kernel, and the gates whose responses are computed.
 #[derive(Clone, Copy)]
 pub struct Request<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.

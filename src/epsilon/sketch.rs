@@ -7,8 +7,8 @@ use super::run::{Request, Response, run, tunable_gates};
 use crate::audit::{CorpusSet, Observer, Row, Source};
 use crate::kernel::{Gated, Scalar};
 
-/// Families whose sizes span the scalar's range: whatever epsilon is right for one is wrong for
-/// another, and that is what the scales tell apart.
+/// Families whose sizes span the scalar's range. An epsilon that is right for one size is wrong for
+/// another there, and the study by scales shows that better.
 pub const SPANNING: [&str; 6] =
     ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
 
@@ -22,7 +22,7 @@ pub struct Sketch<F> {
     pub trade: Trade<F>,
 }
 
-/// Sketches of all gates that take an epsilon, each varied alone; none of no source.
+/// Sketches of all gates that take an epsilon, each varied alone; empty without a source.
 pub fn sketch<F: Scalar>(
     row: &Row,
     gated: &'static dyn Gated<F>,

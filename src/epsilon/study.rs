@@ -196,7 +196,7 @@ pub fn own_false_hits(duty: &Duty, tally: &Tally) -> (u64, u64) {
     })
 }
 
-/// Holds the responses to what the audit counted.
+/// Compares the responses with what the audit counted.
 fn check<F: Scalar>(
     prices: &[Price<F>],
     duty: &Duty,

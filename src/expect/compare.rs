@@ -9,7 +9,7 @@ use crate::report::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The chance that any of all comparisons by interval calls a difference that is none.
+/// The probability that at least one of all comparisons by interval reports a difference by chance.
 const ERROR: f64 = 0.05;
 
 /// Compares; `file` is the expectations' name.

@@ -35,7 +35,7 @@ use crate::kernel::{Dimension, KernelInfo, Role, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
 
-/// What is made as bad as it can be.
+/// What a search maximises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Objective {
     /// The error of what a gate compares with its epsilon.

@@ -30,7 +30,7 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// What a row shows on a case; none if it is as it should be.
+    /// What a row shows on a case; none if its verdict is right.
     pub fn of<F: Scalar>(row: &Row, case: &Case<F>) -> Option<Signature> {
         let epsilons: Vec<F> = row.epsilons();
         let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);

@@ -98,7 +98,7 @@ pub struct Family {
     pub version: u32,
     /// About the truth of its cases, in one line.
     pub promise: &'static str,
-    /// What it asks of a kernel.
+    /// The question that it belongs to.
     pub question: Question,
     /// How the triangles of one index belong together.
     pub grouping: Grouping,

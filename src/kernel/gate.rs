@@ -324,7 +324,7 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
 #[derive(Clone, Debug)]
 pub struct Watching<'a, R> {
     epsilons: &'a [R],
-    /// Whether each gate passed; true where the kernel never asked.
+    /// Whether each gate passed; true if the kernel never compared.
     pub passed: Vec<bool>,
 }
 

@@ -54,8 +54,8 @@ pub trait Kernel: Sync + 'static {
     /// What the source computes for each triangle ahead of any ray.
     fn prepare<V: Vector>(triangle: &Triangle<V>) -> Self::Prepared<V>;
 
-    /// The test of the source, its order of operations and its comparisons kept. A sink that does
-    /// not stop at a refusal gets every margin; the result then says nothing about hit or miss.
+    /// The test of the source, in its order of operations and with its comparisons. A sink that does not
+    /// stop at a refusal gets every margin; the result then does not say whether the ray hits.
     fn test<V: Vector, S: Sink<V::Real>>(
         prepared: &Self::Prepared<V>,
         ray: &Ray<V>,
@@ -101,7 +101,7 @@ impl<R> Hit<R> {
 pub struct KernelInfo {
     /// The name on the command line.
     pub name: &'static str,
-    /// Where its listing was seen.
+    /// Author, title, year and address of its source.
     pub source: &'static str,
     /// What its source promises.
     pub contract: Contract,
@@ -118,7 +118,7 @@ pub struct KernelInfo {
 }
 
 impl KernelInfo {
-    /// For a kernel of your own: no epsilons, and of its hits t alone is judged. Other fields by
+    /// For a kernel of your own: it has no epsilons, and only t of its hits is judged. Set other fields by
     /// `KernelInfo { gives: …, ..KernelInfo::own(name, contract) }`.
     pub const fn own(name: &'static str, contract: Contract) -> KernelInfo {
         KernelInfo {

@@ -122,8 +122,8 @@ pub fn all() -> Vec<&'static Entry> {
 /// The kernels in other arithmetics that have been requested by name so far.
 static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
 
-/// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none of a kernel
-/// that is not written for every arithmetic, and of one that is in another already.
+/// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none if the
+/// kernel is not written for every arithmetic, or is in another one already.
 pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'static Entry> {
     let base = entry.info;
     if arithmetic == Arithmetic::IEEE {
@@ -168,7 +168,7 @@ fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
 /// Entries that live as long as the process without being in the table.
 static KEPT: Mutex<Vec<&'static Entry>> = Mutex::new(Vec::new());
 
-/// The entry for the rest of the process: of the same one always the same.
+/// Keeps an entry for the rest of the process; the same entry is kept once.
 pub(crate) fn kept(entry: &Entry) -> &'static Entry {
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = all().into_iter().chain(kept.iter().copied()).find(|e| e.is(entry)) {
@@ -180,7 +180,7 @@ pub(crate) fn kept(entry: &Entry) -> &'static Entry {
 }
 
 /// Adds a kernel for the rest of the process; every command then knows its name. An error if the
-/// name is empty, taken, or no word.
+/// name is empty, taken, or not a word.
 pub fn register(entry: Entry) -> Result<&'static Entry, String> {
     let name = entry.info.name;
     let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.+@".contains(c);

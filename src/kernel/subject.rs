@@ -11,7 +11,7 @@ use crate::truth::Facing;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A kernel's answer. Values that the kernel does not give are NaN; [`KernelInfo::gives`] tells.
+/// A kernel's answer. Values that the kernel does not give are NaN ([`KernelInfo::gives`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict<F> {
     /// Hit or miss.
@@ -105,7 +105,7 @@ impl<F: Float> Verdict<F> {
 /// The margins of one case, and the values computed along the way.
 #[derive(Clone, Debug)]
 pub struct Measured<R> {
-    /// One margin a gate; +inf where the kernel never asked.
+    /// One margin a gate; +inf if the kernel never compared.
     pub margins: Vec<R>,
     /// What a hit would report.
     pub values: Option<Hit<R>>,
@@ -269,7 +269,7 @@ pub trait Subject<F: Float>: Sync {
 pub enum Trouble {
     /// The verdicts stand, and this should be known.
     Note(String),
-    /// The verdicts are worth nothing from some case on.
+    /// The verdicts are invalid from some case on.
     GaveUp(String),
 }
 
@@ -291,12 +291,12 @@ pub trait Gated<F: Float>: Sync {
     /// Every gate's margin on a case, in exact arithmetic, where it is also the threshold.
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
 
-    /// The run without rounding; none of a kernel that has no exact arithmetic.
+    /// The run without rounding; none if the kernel does not run in exact arithmetic.
     fn run_exact(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<ExactRun> {
         None
     }
 
-    /// The run of [`Subject::run`] with its exceptions; none of a kernel that cannot tell.
+    /// The run of [`Subject::run`] with its exceptions; none if the kernel does not run in tracked numbers.
     fn run_tracked(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<TrackedRun<F>> {
         None
     }

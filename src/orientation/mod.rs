@@ -1,4 +1,4 @@
-//! Beside floors 2 to 4: orientation predicates, which take points instead of rays and triangles.
+//! Floor 4: orientation predicates, which take points instead of rays and triangles.
 //!
 //! ```text
 //! Points ──► Predicate ──► Answer (-, 0, +, NaN) ─┐

@@ -279,7 +279,7 @@ fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Pages on each side of a buffer that nobody may touch.
+/// Guard pages on each side of a buffer.
 const GUARD_PAGES: usize = 16;
 /// What stands between the guard in front of a buffer and the buffer.
 const SLACK: u8 = 0xa5;
@@ -371,7 +371,7 @@ fn overrun_head() -> [u8; 8] {
     [a, b, c, d, 0, 0, 0, 0]
 }
 
-/// From now on a fault in or beside a buffer is told as such; any other kills as ever.
+/// From now on a fault in or beside a buffer is reported as such; any other kills the process as usual.
 fn watch_guards(output: c_int) {
     OUTPUT.store(output, Ordering::SeqCst);
     // SAFETY: the handler calls only what may be called in one.

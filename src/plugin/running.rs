@@ -82,7 +82,7 @@ const LAST_WORDS: Duration = Duration::from_secs(1);
 pub(super) enum Lost {
     /// It died, or was silent for too long.
     Failed(Failure),
-    /// What it wrote is no answer.
+    /// What it wrote is not a valid answer.
     Garbled(String),
 }
 
@@ -123,7 +123,7 @@ impl Running {
         Ok(std::mem::replace(&mut self.unread, rest))
     }
 
-    /// Whether something came that nobody asked for.
+    /// Whether unexpected output came.
     pub fn has_unread(&mut self) -> bool {
         while let Ok(more) = self.from.try_recv() {
             self.unread.extend(more);

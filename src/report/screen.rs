@@ -13,8 +13,8 @@ use std::io::{self, Write};
 /// Characters in a line, where words can be wrapped.
 const WIDTH: usize = 119;
 
-/// Of no more rows than this, counted in each scalar, the screen shows each by itself.
-const MOST_CLOSE_UPS: usize = 4;
+/// Of no more rows than this the screen shows each by itself.
+const MOST_CLOSE_UPS: usize = 2;
 
 /// One row in one scalar.
 pub(super) struct Line<'a> {
@@ -59,7 +59,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
             writeln!(out, "{scalar}: {ALL_INVALID}")?;
         }
     }
-    if lines.len() <= MOST_CLOSE_UPS {
+    if record.result.plan.rows.len() <= MOST_CLOSE_UPS {
         close_up::write(record, &columns, &lines, style, out)?;
     } else {
         write_cell_legend(&columns, &lines, out)?;
@@ -123,22 +123,21 @@ struct Standing {
 }
 
 fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standing> {
-    // Stored cases stay out of a sample.
+    // Stored cases stay out of the mean of samples.
     let all_complete = columns.iter().all(|column| column.complete);
     let of_row = |part: &RowPart| {
         let lines = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
-        let cells: Vec<Cell> = lines
+        let cells: Vec<(&Column, &Cell)> = lines
             .flat_map(|line| columns.iter().zip(&line.cells))
-            .filter(|(column, _)| column.is_ordinary() && column.complete == all_complete)
-            .filter(|(_, cell)| 0 < cell.of)
-            .map(|(_, cell)| *cell)
+            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.of)
             .collect();
-        let shares = cells.iter().map(|cell| cell.wrong as f64 / cell.of as f64);
-        (!cells.is_empty()).then(|| Standing {
+        let meant = cells.iter().filter(|(column, _)| column.complete == all_complete);
+        let shares: Vec<f64> = meant.map(|(_, cell)| cell.wrong as f64 / cell.of as f64).collect();
+        (!shares.is_empty()).then(|| Standing {
             label: format!("{} ({})", part.kernel, part.set),
-            share: shares.sum::<f64>() / cells.len() as f64,
-            wrong: cells.iter().map(|cell| cell.wrong).sum(),
-            far: cells.iter().map(|cell| cell.far).sum(),
+            share: shares.iter().sum::<f64>() / shares.len() as f64,
+            wrong: cells.iter().map(|(_, cell)| cell.wrong).sum(),
+            far: cells.iter().map(|(_, cell)| cell.far).sum(),
         })
     };
     record.result.plan.rows.iter().filter_map(of_row).collect()
@@ -161,6 +160,8 @@ fn write_answer(
         [] => String::new(),
         special => format!(" in ordinary sizes (all columns but {})", special.join(" and ")),
     };
+    let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
+    let mean = if 1 < meant { ", on average over these columns" } else { "" };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let text = match &standings[..] {
         [] if columns.is_empty() => {
@@ -170,16 +171,10 @@ fn write_answer(
         [] => "No case is of ordinary size.".to_owned(),
         [only] if only.wrong == 0 => format!("{}: every verdict is right{place}.", only.label),
         [only] => format!(
-            "{} is wrong on {} % of the cases{place}, as the mean of the columns; {}.",
+            "{} is wrong on {} % of the cases{place}{mean}, {} times by over 1/1000 of the triangle's longest edge.",
             only.label,
             percent(only.share),
-            match only.far {
-                0 => "never by more than 1/1000 of the triangle's longest edge".to_owned(),
-                far => format!(
-                    "{} times by more than 1/1000 of the triangle's longest edge",
-                    group_digits(far)
-                ),
-            }
+            group_digits(only.far),
         ),
         all => {
             // Of equals the first.
@@ -189,8 +184,6 @@ fn write_answer(
             let least = first(|a, b| a.share.total_cmp(&b.share));
             let most = first(|a, b| b.share.total_cmp(&a.share));
             let [near, far] = [first(|a, b| a.far.cmp(&b.far)), first(|a, b| b.far.cmp(&a.far))];
-            let several = columns.iter().filter(|column| column.is_ordinary()).count();
-            let mean = if 1 < several { ", on average over these columns" } else { "" };
             let far = match far.far {
                 0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
                 most => format!(

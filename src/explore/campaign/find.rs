@@ -29,7 +29,7 @@ pub struct Find {
     pub from: Option<String>,
 }
 
-/// Why a stored case is no find.
+/// Why a stored case is not a finding of a campaign.
 #[derive(Debug, PartialEq)]
 pub enum FindError {
     /// It says nothing of a kernel.

@@ -121,7 +121,7 @@ impl<F: Scalar> Population<F> {
         }
     }
 
-    /// Anyone, each niche as likely as every other; none of an empty population.
+    /// A random individual, each niche equally likely; none if the population is empty.
     pub fn pick(&self, draw: &mut Draw) -> Option<&Individual<F>> {
         let niche = self.niches.values().nth(draw.below(self.niches.len().max(1)))?;
         niche.get(draw.below(niche.len())).map(|(_, individual)| individual)

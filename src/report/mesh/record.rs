@@ -100,7 +100,7 @@ pub struct NotedPart {
     pub count: u64,
     /// The line of a face of the first.
     pub first_line: Option<u32>,
-    /// The first's points; infinities, which JSON has not, as null.
+    /// The first's points; infinities as null, because JSON has none.
     pub first_points: Vec<[f64; 3]>,
 }
 
