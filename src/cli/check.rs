@@ -15,7 +15,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
 
-/// Where expectations are looked for if nothing else is said.
+/// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
 
 /// What to run, what to expect, and how to report.

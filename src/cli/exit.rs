@@ -38,7 +38,7 @@ impl From<Status> for ExitCode {
 pub enum Failure {
     /// With a message of one line.
     Message(Status, String),
-    /// Whoever read the output has left; that is no error.
+    /// The reader of the output has closed it, which is no error.
     ClosedPipe,
 }
 

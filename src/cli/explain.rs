@@ -52,7 +52,10 @@ fn write_cases<F: Scalar>(
     name: &str,
     group: &Group<F>,
     rows: &[Row],
-) -> io::Result<()> {
+) -> io::Result<()>
+where
+    AnyCase: From<Case<F>>,
+{
     let cases = &group.cases;
     let respawned = group.grouping == Grouping::Respawn;
     for (i, case) in cases.iter().enumerate() {
@@ -143,7 +146,10 @@ fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
 }
 
-fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()> {
+fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()>
+where
+    AnyCase: From<Case<F>>,
+{
     writeln!(out, "case {}", if name.trim_start().starts_with('{') { "as given" } else { name })?;
     let labels = ["origin", "direction", "a", "b", "c"];
     for (label, vector) in labels.into_iter().zip(case.vectors()) {
@@ -155,12 +161,7 @@ fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io:
     writeln!(out, "    interval   [{}, {}]   {} {}", t_min, t_max, t_min.hex(), t_max.hex())?;
     let definition = oracle::define(case);
     writeln!(out, "truth {}", definition.truth)?;
-    let kind = if F::NAME == f32::NAME {
-        AnyCase::F32(narrowed(case))
-    } else {
-        AnyCase::F64(case.widen())
-    };
-    let stored = StoredCase::of(kind);
+    let stored = StoredCase::of(*case);
     let line = serde_json::to_string(&truth_line(&stored)).unwrap_or_default();
     writeln!(out, "    {line}")?;
     if let Some(severity) = exact_severity(case, Extent::Interval) {
@@ -171,12 +172,6 @@ fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io:
         )?;
     }
     writeln!(out, "    as JSON: {}", lines::write_case(&stored))
-}
-
-/// A case of a scalar known to be `f32`.
-fn narrowed<F: Float>(case: &Case<F>) -> Case<f32> {
-    let [o, d, a, b, c] = case.vectors().map(|v| v.map(|x| x.to_f64() as f32));
-    Case::new(o, d, [a, b, c]).on(case.ray.t_min.to_f64() as f32, case.ray.t_max.to_f64() as f32)
 }
 
 fn write_row<F: Scalar>(

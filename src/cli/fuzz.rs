@@ -119,7 +119,7 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let mut session = Session::new(arguments, directory, campaign, finds, &state);
     let outcome = session.go_on(arguments);
     session.progress.finish();
-    // The summary is owed also where a disk is full.
+    // A full disk does not keep the summary from being printed.
     write_result("-", |out| write_summary(out, path, &session.finds, &session.counters()))?;
     outcome.map(|()| Status::Success)
 }
@@ -133,7 +133,7 @@ fn plan(begun: &Begun) -> Result<Plan, Failure> {
 }
 
 impl FuzzArguments {
-    /// What the flags ask for, if the campaign is new.
+    /// The beginning of a new campaign under these flags.
     fn asked(&self) -> Begun {
         let both = || vec!["f32".to_owned(), "f64".to_owned()];
         let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };

@@ -271,7 +271,10 @@ impl MapArguments {
     fn varied(&self, names: &[&'static str], default: usize) -> Result<usize, Failure> {
         let Some(name) = &self.vary else { return Ok(default) };
         names.iter().position(|other| other == name).ok_or_else(|| {
-            Failure::usage(format!("--vary: '{name}' is none of {}", names.join(", ")))
+            Failure::usage(format!(
+                "--vary: unknown point '{name}': there are {}",
+                names.join(", ")
+            ))
         })
     }
 

@@ -256,7 +256,7 @@ impl OrientArguments {
         Ok(default_rows(&epsilons))
     }
 
-    /// An error if an epsilon, which is a number of `f64`, is none of `f32`.
+    /// An error if an epsilon is not representable in `f32`.
     fn check_epsilons_in_f32(&self) -> Result<(), Failure> {
         self.epsilon.iter().try_for_each(|text| check_epsilon::<f32>(text.trim()))
     }

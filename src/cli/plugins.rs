@@ -1,4 +1,4 @@
-//! The kernels that a command line brings along: libraries and commands.
+//! Kernels of the user's own: libraries and commands that flags name.
 
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
@@ -37,10 +37,10 @@ pub struct PluginArguments {
     kernel_failures: Option<u64>,
 }
 
-/// How long a kernel may be silent if nothing else is said.
+/// How long a kernel may be silent by default.
 const TIMEOUT_SECONDS: f64 = 10.0;
 
-/// On how many cases it may fail if nothing else is said.
+/// On how many cases it may fail by default.
 const FAILURES: u64 = 1000;
 
 impl Default for PluginArguments {
@@ -55,12 +55,12 @@ impl Default for PluginArguments {
 }
 
 impl PluginArguments {
-    /// With no end after many failures, unless one was asked for.
+    /// Goes on after any number of failures, unless the flags set a limit.
     pub fn go_on_after_failures(&mut self) {
         self.kernel_failures.get_or_insert(u64::MAX);
     }
 
-    /// Whether any kernel is brought along.
+    /// Whether a flag names a kernel.
     pub fn names_kernels(&self) -> bool {
         !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
     }
@@ -103,7 +103,7 @@ impl PluginArguments {
     }
 }
 
-/// The kernel that a flag brings along, which is started once for the whole run.
+/// The kernel that a flag names; it is started once for the whole run.
 fn started(
     flag: String,
     start: impl FnOnce(String) -> Result<&'static Entry, Failure>,

@@ -122,7 +122,7 @@ pub struct RunArguments {
 }
 
 impl RunArguments {
-    /// What the flags ask for, with so many findings of each class attributed.
+    /// The plan of the flags, with this many findings of each class attributed.
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;

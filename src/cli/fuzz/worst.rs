@@ -208,7 +208,7 @@ fn list(arguments: &WorstArguments, goals: &[Vec<Goal>; 2]) -> Result<Status, Fa
     };
     let entries: Vec<&Entry> = table.entries().filter(wanted).collect();
     if entries.is_empty() {
-        let message = "nothing is known of what was asked for".to_owned();
+        let message = "the table has no entry for these flags".to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
     write_result("-", |out| write_entries(out, entries.into_iter(), arguments.table.as_deref()))?;

@@ -16,7 +16,7 @@ use crate::orientation::{Dimension, Points, PointsId, find_known};
 pub enum Input {
     F32(Case<f32>),
     F64(Case<f64>),
-    /// Points, and which of them is varied if nothing else is said.
+    /// Points, and which of them is varied by default.
     PointsF32(Points<f32>, usize),
     PointsF64(Points<f64>, usize),
 }
