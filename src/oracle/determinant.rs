@@ -168,9 +168,9 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::determinants::ALL;
     use crate::arith::{Float, scale_by_power_of_two};
     use crate::case::Draw;
+    use crate::oracle::determinants::ALL;
 
     /// Cases with exact zeros and near ones among their determinants.
     fn case(index: u64, scale: i32) -> Case<f64> {
