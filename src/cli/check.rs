@@ -269,6 +269,6 @@ mod tests {
             .collect();
         // Two flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 17, "{words:?}");
+        assert_eq!(words.len(), 18, "{words:?}");
     }
 }
