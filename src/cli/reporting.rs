@@ -1,7 +1,7 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
-use super::flags::{JUDGING, OUTPUT, RUNNING};
+use super::flags::{OUTPUT, RUNNING};
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
