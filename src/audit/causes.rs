@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Causes {
     by: [u64; Attribution::ALL.len()],
-    /// Findings of kernels that cannot tell.
+    /// Findings of kernels that do not run in exact arithmetic.
     pub untold: u64,
 }
 

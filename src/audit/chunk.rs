@@ -1,8 +1,8 @@
 //! Some indices of a source together: their cases, truths and groups.
 
 use super::digest::Place;
+use super::forms::ScalarName;
 use super::source::Source;
-use super::stored::ScalarName;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::Observer;
@@ -20,7 +20,7 @@ pub struct SourceSummary {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    #[serde(with = "super::stored::scalar_name")]
+    #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
     /// Indices made.
     pub indices: u64,

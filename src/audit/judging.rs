@@ -17,7 +17,7 @@ use crate::kernel::{Failure, Scalar, Subject, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What is worked out of a case once some kernel is wrong on it.
+/// Per-case data, computed lazily when some kernel is wrong on the case.
 #[derive(Clone, Copy)]
 pub(super) struct Known {
     /// None of invalid input.

@@ -2,11 +2,23 @@
 //! and serialises, so that every file and every printed command can show the same row again.
 
 use super::epsilon_text::EpsilonText;
-use super::plan::{EpsilonChoice, PlanError};
 use crate::arith::Float;
 use crate::contract::Contract;
-use crate::kernel::{Entry, Gate, Tunable, find};
+use crate::kernel::{Entry, Gate, Tunable};
 use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Why a plan cannot be made; one line.
+#[derive(Debug, PartialEq)]
+pub struct PlanError(pub String);
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for PlanError {}
 
 /// A kernel with its epsilons: a row of every table.
 #[derive(Clone)]
@@ -37,26 +49,7 @@ pub struct RowSpec {
     pub contract: String,
 }
 
-impl RowSpec {
-    /// The row, if this program has its kernel.
-    pub fn row(&self) -> Result<Row, PlanError> {
-        let row = Row::named(&self.kernel, self.epsilons.as_deref(), &self.contract)?;
-        Ok(Row { set: self.set.clone().unwrap_or(row.set), ..row })
-    }
-}
-
 impl Row {
-    /// The row of a kernel, its epsilons as [`Row::epsilon_argument`] writes them (none: as the source
-    /// has them), and a contract in the words of [`Contract::from_words`].
-    pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, PlanError> {
-        let entry = find(kernel).ok_or_else(|| PlanError(format!("unknown kernel '{kernel}'")))?;
-        let choice = match epsilons {
-            Some(text) => EpsilonChoice::parse(text)?,
-            None => EpsilonChoice::Source,
-        };
-        Ok(choice.rows(&[entry], Some(contract))?.swap_remove(0))
-    }
-
     /// The row as text, its set included.
     pub fn spec(&self) -> RowSpec {
         RowSpec {
@@ -162,35 +155,5 @@ mod tests {
     fn a_quote_in_a_word_stays_one_word() {
         assert_eq!(quoted("a b"), "'a b'");
         assert_eq!(quoted("it's"), "'it'\\''s'");
-    }
-
-    #[test]
-    fn a_command_names_all_that_a_row_is() {
-        let contract = "closed-ray,coplanar=free";
-        let mut row = Row::named("moller-trumbore", Some("parallel=1e-6"), contract).unwrap();
-        let command = row.explain_command("'x'");
-        let expected = "hairline explain 'x' --kernel moller-trumbore \
-                        --epsilon 'parallel=1e-6,edge=0' --contract closed-ray,coplanar=free";
-        assert_eq!(command, expected);
-        row.contract.band = "4ulps".parse().ok();
-        assert_eq!(row.explain_command("'x'"), format!("{expected} --band 4ulps"));
-    }
-
-    #[test]
-    fn a_row_comes_back_from_its_text() {
-        for (kernel, epsilons, contract) in [
-            ("moller-trumbore", None, "own"),
-            ("moller-trumbore+fma", Some("parallel=16*EPSILON,edge=-1e-7"), "own,band=4ulps"),
-            ("half-space", None, "front-closed-ray,invalid=free,band=1e-3"),
-        ] {
-            let row = Row::named(kernel, epsilons, contract).unwrap();
-            let text = serde_json::to_string(&row.spec()).unwrap();
-            let again = serde_json::from_str::<RowSpec>(&text).unwrap().row().unwrap();
-            assert_eq!(again.spec(), row.spec());
-            assert_eq!((again.epsilons, again.contract), (row.epsilons, row.contract), "{text}");
-        }
-        let unknown =
-            RowSpec { kernel: "x".into(), set: None, epsilons: None, contract: "own".into() };
-        assert_eq!(unknown.row().err().unwrap().0, "unknown kernel 'x'");
     }
 }

@@ -2,12 +2,12 @@
 
 use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
+use super::forms::ScalarName;
 use super::plan::Plan;
 use super::row::Row;
 use super::rows::{Rows, verdicts_of};
 use super::shard::Shard;
 use super::source::Source;
-use super::stored::ScalarName;
 use super::tally::{ClassCount, Tally};
 use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer};
@@ -27,7 +27,7 @@ pub struct Cell {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    #[serde(with = "super::stored::scalar_name")]
+    #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
     /// What was found.
     pub tally: Tally,

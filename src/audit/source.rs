@@ -56,6 +56,12 @@ pub enum Source {
     Corpus(CorpusSet),
 }
 
+/// Whether a source of this name in tables makes its cases from a mesh.
+pub(crate) fn is_of_mesh(name: &str) -> bool {
+    let kind = name.split_once(':').map(|(kind, _)| kind);
+    kind.is_some_and(|kind| kind == "mesh" || Part::of_family(kind).is_some())
+}
+
 /// The stored cases of one file.
 #[derive(Clone, Default)]
 pub struct CorpusSet {

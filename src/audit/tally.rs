@@ -86,7 +86,7 @@ pub struct Examples {
     /// In order of their place.
     pub first: Vec<Place>,
     /// The one with the largest approximate severity, the first of equals.
-    #[serde(with = "super::stored::scored")]
+    #[serde(with = "super::forms::scored")]
     pub worst: Option<(f64, Place)>,
     /// Of all places with the finding.
     pub digest: Digest,
@@ -129,7 +129,7 @@ pub struct PolygonCount {
     /// The polygons, what the contract asks of them, and what was found.
     pub count: ClassCount,
     /// The polygons that show a finding.
-    #[serde(with = "super::stored::pairs")]
+    #[serde(with = "super::forms::pairs")]
     pub examples: BTreeMap<Finding, Examples>,
 }
 
@@ -191,7 +191,7 @@ pub struct Tally {
     /// Examples by class and finding.
     pub examples: ByFinding<Examples>,
     /// How far false misses and false hits are from where the verdict would be right.
-    #[serde(with = "super::stored::pairs")]
+    #[serde(with = "super::forms::pairs")]
     pub severities: BTreeMap<Finding, Severities>,
     /// How accurate the values of right hits are, of a sample.
     pub accuracy: Accuracy,

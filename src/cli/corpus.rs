@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::flags::unknown;
-use super::input::{corpus_files, open, read_corpus};
+use super::input::{MANIFEST, corpus_files, open, read_corpus};
 use super::output::write_result;
 use crate::case::Parameters;
 use crate::corpus::InputError;
@@ -17,9 +17,6 @@ use clap::{Args, Subcommand};
 use std::fs;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
-
-/// The manifest's name in a corpora folder.
-pub const MANIFEST: &str = "manifest.jsonl";
 
 /// What to do with stored cases.
 #[derive(Args)]

@@ -16,6 +16,9 @@ use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+/// The manifest's name in a corpora folder.
+pub const MANIFEST: &str = "manifest.jsonl";
+
 /// Opens a file; `-` is standard input.
 pub fn open(path: &str) -> Result<Box<dyn Read>, Failure> {
     let failed = |error: io::Error| Failure::of_file(path, &error);
@@ -89,7 +92,7 @@ pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
     let mut files = files_under(Path::new(&path), |_| false)?;
     files.retain(|file| {
         file.extension().is_some_and(|extension| extension == "jsonl")
-            && file.file_name().is_some_and(|name| name != super::corpus::MANIFEST)
+            && file.file_name().is_some_and(|name| name != MANIFEST)
     });
     if files.is_empty() {
         return Err(Failure::Message(

@@ -2,7 +2,8 @@
 
 #![forbid(unsafe_code)]
 
-use super::lines::{AnyCase, StoredCase, StoredTruth};
+use super::stored_case::{AnyCase, StoredCase};
+use super::stored_truth::StoredTruth;
 use super::{Provenance, json, number};
 use crate::arith::Float;
 use crate::case::Case;
@@ -181,9 +182,9 @@ fn object(fields: &[(&str, String)]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::lines::write_case;
     use super::*;
     use crate::case::Draw;
+    use crate::corpus::lines::write_case;
 
     const CASE: &str =
         r#""origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0]"#;

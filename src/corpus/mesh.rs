@@ -3,13 +3,13 @@
 //! The file's text is read here, so that errors carry their line and numbers keep their digits;
 //! tobj then sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
+pub use super::obj::Note;
 use super::obj::{self, LIMITS, Limits, Notes, Source};
 use super::shapes::Shape;
 use super::{InputError, fan};
 use crate::arith::Float;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
-use std::fmt;
 use std::io::{self, BufRead, Read, Write};
 
 /// A mesh of triangles, as read from an OBJ file.
@@ -34,24 +34,6 @@ pub struct Mesh {
     /// The first 16 hexadecimal digits of the SHA-256 of the bits of all `f64` positions, all `f32`
     /// positions and all triangles' indices, little-endian.
     pub digest: String,
-}
-
-/// Something in a file that was skipped, altered or suspect.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
-    /// The first line it was found at, counted from 1.
-    pub line: Option<usize>,
-    /// How often it was found.
-    pub count: usize,
-    /// What was found and what was done with it, without the count.
-    pub message: String,
-}
-
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message, self.count)?;
-        self.line.map_or(Ok(()), |line| write!(f, " (first at line {line})"))
-    }
 }
 
 impl Mesh {

@@ -11,6 +11,7 @@ pub mod number;
 mod obj;
 mod provenance;
 pub mod shapes;
+mod stored_case;
 mod stored_truth;
 pub mod text_lines;
 pub mod truth_json;

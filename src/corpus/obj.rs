@@ -3,7 +3,7 @@
 //! tobj then reads a text of faces and groups with absolute indices only.
 
 use super::InputError;
-use super::mesh::Note;
+use std::fmt;
 use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
@@ -36,6 +36,24 @@ pub(super) struct Source {
     pub notes: Notes,
     /// The largest index of a face, counted from 1, and the first line that names it.
     pub largest: (i64, usize),
+}
+
+/// Something in a file that was skipped, altered or suspect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// The first line it was found at, counted from 1.
+    pub line: Option<usize>,
+    /// How often it was found.
+    pub count: usize,
+    /// What was found and what was done with it, without the count.
+    pub message: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message, self.count)?;
+        self.line.map_or(Ok(()), |line| write!(f, " (first at line {line})"))
+    }
 }
 
 /// Notes of one kind are one note.

@@ -2,6 +2,7 @@
 //! that names its line.
 
 use super::{Amount, Entry, Expectations, SCHEMA};
+use crate::audit::is_of_mesh;
 use crate::corpus::InputError;
 use crate::family::FAMILIES;
 use crate::judge::Class;
@@ -132,8 +133,7 @@ impl Reader<'_> {
         let finding = spanned.get_ref();
         let families: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
         let family = finding.family.get_ref();
-        let files = ["mesh:", "mesh-edges:", "mesh-vertices:", "corpus:"];
-        if !files.iter().any(|kind| family.starts_with(kind)) {
+        if !is_of_mesh(family) && !family.starts_with("corpus:") {
             self.check("family", &finding.family, &families)?;
         }
         let mut classes: Vec<String> = Class::all().map(Class::name).collect();

@@ -20,8 +20,7 @@ const NEAR: f64 = 1.0 / 1024.0;
 ///   neighbour is enough.
 ///
 /// A neighbour that is clearly crossed elsewhere, as on the far side of a small mesh, does not explain the
-/// missing hit. All
-/// triangles of the group face as said.
+/// missing hit. All triangles of the group have the given facing.
 pub fn may_be_elsewhere<F: Float>(
     facing: Facing,
     neighbours: &[Case<F>],

@@ -80,7 +80,7 @@ fn goes_around_once<F: Float>(cases: &[Case<F>], truths: &[Truth]) -> bool {
     winds_once(direction(&cases[0]).map(F::to_f64), spokes[0][0], &ring)
 }
 
-/// What the truths of a group ask together, under a contract's extent and sides.
+/// What the truths of a group demand together, under a contract's extent and sides.
 pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) -> GroupTruth {
     let crossings = truths.iter().filter_map(Truth::crossing);
     let Some(first) = truths.first().and_then(Truth::crossing) else { return GroupTruth::Free };
@@ -118,7 +118,7 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
     GroupTruth::Free
 }
 
-/// Whether two contracts ask the same of every group.
+/// Whether two contracts demand the same of every group.
 pub(crate) fn owes_groups_alike(one: &Contract, other: &Contract) -> bool {
     let all =
         |contract: &Contract| (contract.extent, contract.sides, contract.direction, contract.band);

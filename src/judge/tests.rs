@@ -151,7 +151,8 @@ fn a_group_that_covers_itself_at_the_ray_is_free() {
     assert_eq!(ask(&truths(&twice)), GroupTruth::Free);
 }
 
-/// Whoever is no suspect shows nothing, whatever the verdict; without values, every suspect does.
+/// Cases that are not suspects met their obligation, whatever the verdict; without values, every suspect
+/// shows a finding.
 fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
     let mut found = Vec::new();

@@ -16,13 +16,15 @@
 #![forbid(unsafe_code)]
 
 mod fans;
+mod incidence;
 mod neighbours;
 mod rays;
 mod surface;
 mod topology;
 
 pub use fans::{Fans, VertexKind};
-pub use neighbours::{Incidence, MOST_AROUND};
+pub use incidence::Incidence;
+pub use neighbours::MOST_AROUND;
 pub use rays::{Aim, Part, Targets};
 pub use surface::Surface;
 pub use topology::{EdgeKind, FaceKind, Noted, SharedEdge, Topology};

@@ -5,7 +5,7 @@
 //! indices. Nothing is decided by a tolerance.
 
 use super::fans::{Fans, VertexKind, fan_of};
-use super::neighbours::Incidence;
+use super::incidence::Incidence;
 use crate::arith::Float;
 use crate::corpus::mesh::Mesh;
 use rayon::prelude::*;

@@ -14,12 +14,14 @@
 mod batch;
 mod contact;
 mod determinant;
+mod determinants;
 mod filter;
 mod grid;
 pub(crate) mod integer;
 mod monomials;
 mod rational;
 mod resolve;
+mod scaled;
 mod signs;
 
 pub use batch::{Batch, UnequalColumns};

@@ -208,7 +208,7 @@ impl Part {
         }
     }
 
-    /// Counts a case: whether it keeps the promise, and its sign; a case that has none keeps none.
+    /// Counts a case: whether it keeps the promise, and its sign; a case without a sign does not keep it.
     fn ask(&mut self, index: u64, exact: Option<(bool, Ordering)>) {
         let set = &mut self.set;
         set.cases += 1;

@@ -22,12 +22,12 @@ pub struct Limits {
     pub failures: u64,
 }
 
-/// Why a kernel's process is none.
+/// Why a kernel's process cannot be used.
 #[derive(Debug)]
 pub enum LoadError {
     /// It cannot be started.
     Start(io::Error),
-    /// Its hello is none; one line.
+    /// Its hello is invalid; one line.
     Hello(String),
 }
 
@@ -94,7 +94,7 @@ impl Process {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Asks a process for the verdicts on a batch. It goes back to the idle ones if it answered.
+    /// Gets the verdicts on a batch from a process, which goes back to the idle ones if it answered.
     fn ask<F: Float>(
         &self,
         cases: &[Case<F>],
@@ -195,7 +195,7 @@ impl Process {
         Ok(())
     }
 
-    /// Asks one case.
+    /// Gets the verdict on one case.
     fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
         match self.ask(std::slice::from_ref(case), epsilons, &mut verdict) {
@@ -205,7 +205,7 @@ impl Process {
         }
     }
 
-    /// The verdict where a case by itself is a process's end; an error where that is too often.
+    /// The verdict on a case that ends a process when it runs alone; an error if there are too many.
     fn pinned<F: Float>(&self, failure: Failure, case: &Case<F>) -> Result<Verdict<F>, String> {
         let mut state = self.state();
         state.failures += 1;

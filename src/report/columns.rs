@@ -2,6 +2,7 @@
 
 use super::record::*;
 use super::text::RowView;
+use crate::audit::is_of_mesh;
 use crate::family::{self, Question};
 
 /// The sources of one question, all of them samples or all of them complete sets.
@@ -24,7 +25,7 @@ impl Column {
     fn of(family: &str, complete: bool) -> Column {
         let topic = match family::find(family) {
             Some(family) => Topic::Families(family.question),
-            None if family.starts_with("mesh:") => Topic::Mesh,
+            None if is_of_mesh(family) => Topic::Mesh,
             None => Topic::Stored,
         };
         Column { topic, complete }

@@ -54,17 +54,19 @@ pub(super) fn write(
 /// What a row did although it promises otherwise across triangles, and the command that shows the first.
 fn broken_promise(line: &Line) -> Option<(String, String)> {
     let across = line.across.as_ref().filter(|across| across.is_broken())?;
-    let results = || line.row.results.iter().filter_map(|result| result.across.as_ref());
-    let first = |ids: fn(&AcrossPart) -> &[String]| results().find_map(|part| ids(part).first());
+    let first = |ids: fn(&AcrossPart) -> &[String]| {
+        let first = |result: &KernelResult| Some(ids(result.across.as_ref()?).first()?.clone());
+        line.row.results.iter().find_map(|result| Some((*result, first(result)?)))
+    };
     let [no_crack, _] = across.rules_out();
-    let (what, [count, of], id) = if no_crack && 0 < across.cracks[0] {
+    let (what, [count, of], (result, id)) = if no_crack && 0 < across.cracks[0] {
         ("no triangle reports", across.cracks, first(|part| &part.first_cracks)?)
     } else {
         ("two triangles report", across.doubles, first(|part| &part.first_doubles)?)
     };
     let (count, of) = (group_digits(count), group_digits(of));
     let text = format!("broken promise, {what} {count} of {of} crossings");
-    Some((text, line.row.part.explain_command(id)))
+    Some((text, line.row.part.explain_group(result, &id)))
 }
 
 /// The worst of each class of false misses and false hits in ordinary sizes. A triangle without area may

@@ -34,7 +34,7 @@ pub struct Find {
 pub enum FindError {
     /// It says nothing of a kernel.
     NoProvenance,
-    /// It says something impossible, or something else is shown now.
+    /// Its provenance is impossible, or the row shows something else now.
     Wrong(String),
 }
 
@@ -48,7 +48,7 @@ impl fmt::Display for FindError {
 }
 
 impl Find {
-    /// What a row shows on a case; none if it is as it should be.
+    /// What a row shows on a case; none if its verdict is right.
     pub fn of(row: &Row, case: AnyCase) -> Option<Find> {
         row.check_in(case.scalars()).ok()?;
         let signature = match &case {
@@ -67,7 +67,7 @@ impl Find {
         })
     }
 
-    /// The find that a stored case is: run again, it must show the very signature that it says.
+    /// The finding that a stored case holds. The case is run again, and must show the stored signature.
     pub fn of_stored(stored: &StoredCase) -> Result<Find, FindError> {
         let found = stored.found.as_ref().ok_or(FindError::NoProvenance)?;
         let wrong = |message: String| FindError::Wrong(format!("found: {message}"));

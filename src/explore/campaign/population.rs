@@ -105,7 +105,7 @@ pub struct Population<F: Float> {
 }
 
 impl<F: Scalar> Population<F> {
-    /// Nobody.
+    /// An empty population.
     pub fn new() -> Population<F> {
         Population { niches: BTreeMap::new() }
     }
@@ -127,7 +127,7 @@ impl<F: Scalar> Population<F> {
         niche.get(draw.below(niche.len())).map(|(_, individual)| individual)
     }
 
-    /// Everyone, niche by niche.
+    /// All individuals, niche by niche.
     pub fn all(&self) -> impl Iterator<Item = &Individual<F>> {
         self.niches.values().flatten().map(|(_, individual)| individual)
     }

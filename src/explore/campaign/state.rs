@@ -14,7 +14,7 @@ pub struct State {
     pub seconds: f64,
     /// Sessions until now: how often the campaign was begun or resumed.
     pub sessions: u64,
-    /// Everyone.
+    /// All individuals.
     pub population: Vec<SavedIndividual>,
 }
 

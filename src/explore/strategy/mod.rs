@@ -116,7 +116,7 @@ single! {
 }
 
 /// Fails a proptest unless a kernel, `Fn(&Case<F>) -> Option<F>` with t of a hit, does on a case what a
-/// contract asks.
+/// contract demands.
 #[macro_export]
 macro_rules! prop_assert_conforms {
     ($kernel:expr, $contract:expr, $case:expr $(,)?) => {
@@ -126,8 +126,8 @@ macro_rules! prop_assert_conforms {
     };
 }
 
-/// Fails a proptest unless a kernel does on two triangles on one edge what a contract asks of each, and
-/// what its [`Across`](crate::contract::Across) asks of both.
+/// Fails a proptest unless a kernel does on two triangles on one edge what a contract demands of each, and
+/// what its [`Across`](crate::contract::Across) demands of both.
 #[macro_export]
 macro_rules! prop_assert_conforms_together {
     ($kernel:expr, $contract:expr, $cases:expr $(,)?) => {

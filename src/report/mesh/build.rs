@@ -1,6 +1,5 @@
 //! From the sums of a mesh audit to its record.
 
-use super::geometry::Offender;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};

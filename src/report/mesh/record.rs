@@ -1,6 +1,5 @@
 //! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
 
-use super::geometry::Offender;
 use crate::report::{Provenance, Rate, RowPart};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -184,4 +183,20 @@ pub struct MeshExample {
     pub lines: Vec<u32>,
     /// The command that shows it again.
     pub command: String,
+}
+
+/// An edge (two points) or a vertex (one) where rows went wrong, with how many rays of all rows together
+/// say so. Cracks count for every row, doubles and folds for rows that promise exactly one hit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Offender {
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Two ends, or one vertex.
+    pub points: Vec<[f64; 3]>,
+    /// Rays that no triangle reported.
+    pub cracks: u32,
+    /// Rays that two triangles or more reported where one is right.
+    pub doubles: u32,
+    /// Rays over a fold with the wrong parity.
+    pub odd_folds: u32,
 }
