@@ -10,7 +10,7 @@ use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;
 use crate::expect::{self, Expectations};
-use crate::report::{Conformance, PartialPart, Record, SCHEMA, Verdict};
+use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
@@ -74,7 +74,7 @@ impl CheckCommand {
     pub fn run(&self) -> Result<Status, Failure> {
         let text = match self {
             CheckCommand::Config { .. } => settings::default_file(&words_command()),
-            CheckCommand::Schema => SCHEMA.to_owned(),
+            CheckCommand::Schema => JSON_SCHEMA.to_owned(),
         };
         write_result("-", |out| out.write_all(text.as_bytes()))?;
         Ok(Status::Success)
