@@ -44,7 +44,7 @@ pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of}
 pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ResponsePart};
 #[cfg(feature = "cli")]
-pub use json::SCHEMA;
+pub use json::JSON_SCHEMA;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use record::*;
 pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
