@@ -192,7 +192,7 @@ fn a_promise_across_triangles_is_part_of_the_contract() {
     let kernel = Entry::new(&NEVER).f32(|_: &Case<f32>, _: &[f32]| None);
     let outcome = hairline::audit(&kernel).families(["fan"]).count(200).run().unwrap();
     assert!(!outcome.conforms());
-    assert!(outcome.to_string().contains("fan (own): crack in "), "{outcome}");
+    assert!(outcome.to_string().contains("fan (own): crack of group: "), "{outcome}");
 }
 
 /// Signed volumes that panic on every polygon of five corners.
