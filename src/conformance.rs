@@ -205,7 +205,7 @@ impl fmt::Display for Outcome {
                 parts.push(describe(&at, part)?);
             }
             for (kind, rate, first) in broken_across(result).into_iter().filter(|b| b.1.count > 0) {
-                let share = interval_of(rate.count, rate.of);
+                let share = interval_of(rate);
                 let mut text = format!("{at}: {kind} in {} of {}{share}\n", rate.count, rate.of);
                 for id in first {
                     writeln!(text, "    hairline explain '{id}'")?;
@@ -228,7 +228,7 @@ impl fmt::Display for Outcome {
 /// A class of findings with its rate and its first cases.
 fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
     let Rate { count, of, .. } = part.rate;
-    let share = interval_of(count, of);
+    let share = interval_of(&part.rate);
     let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
     for example in &part.first {
         writeln!(text, "    hairline explain '{}'\n        {}", example.case, example.bits)?;

@@ -24,6 +24,7 @@ mod shard;
 mod source;
 mod stored;
 mod tally;
+mod trials;
 
 pub(crate) use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
@@ -36,7 +37,7 @@ pub(crate) use chunk::{CHUNK, Chunk};
 pub use command::quoted;
 pub use digest::Digest;
 pub use histogram::Histogram;
-pub use interval::{Interval, clopper_pearson, clopper_pearson_at};
+pub use interval::Interval;
 pub(crate) use plan::did_you_mean;
 pub use plan::{EpsilonChoice, EpsilonText, Plan, PlanError, Row};
 pub(crate) use run::verdicts_of;
@@ -48,3 +49,4 @@ pub use stored::{StoredPlan, StoredSource};
 pub use tally::{
     ClassCount, Examples, GroupCount, Place, PolygonCount, SelfHits, Severities, Tally,
 };
+pub use trials::{RayProducts, Trials};

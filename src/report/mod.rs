@@ -29,7 +29,6 @@ mod verdict;
 mod why;
 mod worst;
 
-pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
 pub use compare::{Change, Comparison, ContractChange, Difference, difference};
 pub use conformance::*;

@@ -5,6 +5,7 @@ use super::record::*;
 use super::why::{accuracy_text, causes_text};
 use super::worst::write_worst;
 use super::{Style, group_digits, number_of};
+use crate::audit::Trials;
 use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
@@ -80,18 +81,9 @@ impl<'a> RowView<'a> {
         rows.filter(|row| !row.results.is_empty()).collect()
     }
 
-    /// Sum over the families of a rate's count and denominator, and the interval if all are samples.
+    /// Sum over the families of a rate.
     pub(super) fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
-        let rates: Vec<&Rate> = self.results.iter().filter_map(|result| rate(result)).collect();
-        let (count, of) = rates.iter().fold((0, 0), |sum, r| (sum.0 + r.count, sum.1 + r.of));
-        let sample = rates.iter().any(|rate| rate.interval.is_some());
-        let interval = (sample && of > 0).then(|| crate::audit::clopper_pearson(count, of));
-        Rate {
-            count,
-            of,
-            rate: (of > 0).then(|| count as f64 / of as f64),
-            interval: interval.map(|interval| [interval.low, interval.high]),
-        }
+        Rate::sum(self.results.iter().filter_map(|result| rate(result)))
     }
 
     /// Hits on NaN, infinities, zero directions and impossible intervals.
@@ -110,19 +102,14 @@ impl<'a> RowView<'a> {
             .collect()
     }
 
-    /// How many cases could have shown a kind of finding: of one class, or of all.
-    pub(super) fn trials(&self, kind: &str, class: &str) -> u64 {
-        let of = |counts: &Counts| match kind {
-            "false-miss" => counts.false_misses.of,
-            "false-hit" => counts.false_hits.of,
-            "bad-value" => counts.bad_values.of,
-            _ => counts.cases,
-        };
-        let of_result = |result: &&KernelResult| match class {
-            "" => of(&result.total),
-            class => result.classes.get(class).map_or(0, of),
-        };
-        self.results.iter().map(of_result).sum()
+    /// How often a kind of finding occurred over the families: of one class, or of all.
+    pub(super) fn rate(&self, kind: &str, class: &str) -> Rate {
+        let counts = self.results.iter().filter_map(|result| match class {
+            "" => Some(&result.total),
+            class => result.classes.get(class),
+        });
+        let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
+        Rate::sum(&rates)
     }
 
     /// The family with the largest share.
@@ -256,7 +243,8 @@ fn write_exact_shares(
             named.map(|(_, counts)| counts.cases).sum()
         };
         let (edges, vertices) = (of_part("edge/"), of_part("vertex/"));
-        let share = interval_of(edges + vertices, source.cases);
+        let met = Trials::independent(edges + vertices, source.cases);
+        let share = interval_of(&Rate::new(met, true));
         writeln!(
             out,
             "{}: {} rays meet an edge and {} a vertex exactly{share}",
@@ -268,18 +256,12 @@ fn write_exact_shares(
     Ok(())
 }
 
-/// ` (20.3% [20.0%, 20.6%])`; nothing of nothing.
-pub(crate) fn interval_of(count: u64, of: u64) -> String {
-    if of == 0 {
+/// ` (20.3% [20.0%, 20.6%])`; nothing without an interval.
+pub(crate) fn interval_of(rate: &Rate) -> String {
+    let (Some(share), Some([low, high])) = (rate.rate, rate.interval) else {
         return String::new();
-    }
-    let interval = crate::audit::clopper_pearson(count, of);
-    format!(
-        " ({} [{}, {}])",
-        percent(count as f64 / of as f64),
-        percent(interval.low),
-        percent(interval.high)
-    )
+    };
+    format!(" ({} [{}, {}])", percent(share), percent(low), percent(high))
 }
 
 /// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.

@@ -32,13 +32,12 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
     let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
     writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
     for row in rows {
-        let mut worst: BTreeMap<(&str, &str), (u64, &FindingPart)> = BTreeMap::new();
+        let mut worst: BTreeMap<(&str, &str), &FindingPart> = BTreeMap::new();
         for finding in row.results.iter().flat_map(|result| &result.findings) {
             let class = if by_class { finding.class.as_str() } else { "" };
-            let entry = worst.entry((&finding.finding, class)).or_insert((0, finding));
-            entry.0 += finding.rate.count;
-            if severity(entry.1) < severity(finding) {
-                entry.1 = finding;
+            let entry = worst.entry((&finding.finding, class)).or_insert(finding);
+            if severity(entry) < severity(finding) {
+                *entry = finding;
             }
         }
         let label = format!("{} ({})", row.part.kernel, row.part.set);
@@ -48,11 +47,10 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
             continue;
         }
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
-        for ((kind, class), (count, finding)) in &worst {
-            let of = row.trials(kind, class);
-            let sampled = finding.rate.interval.is_some();
-            let share = if sampled { interval_of(*count, of) } else { String::new() };
-            let (count, of) = (group_digits(*count), group_digits(of));
+        for ((kind, class), finding) in &worst {
+            let rate = row.rate(kind, class);
+            let share = interval_of(&rate);
+            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
             let distance = describe_severity(finding);
             let (named, worst) = match *class {
                 "" => (String::new(), format!("{}, ", finding.class)),

@@ -4,7 +4,7 @@
 //! Drawn here, since no plotting library has an axis with zero between two logarithmic halves.
 
 use super::record::{EpsilonRecord, GatePart};
-use crate::audit::clopper_pearson;
+use crate::audit::Trials;
 use crate::report::Style;
 use crate::response::LEAST_SUM;
 use std::io::{self, Write};
@@ -266,8 +266,8 @@ impl<'a> Panel<'a> {
 
     /// A question's share by epsilon, with the 95 % interval behind it where it is of a sample.
     fn line(&self, question: usize, stroke: &str, out: &mut dyn Write) -> io::Result<()> {
-        let of = self.part.curves[0].asked[question];
-        let sampled = self.part.curves[0].sample;
+        let all = &self.part.curves[0];
+        let (of, of_squared) = (all.asked[question], all.asked_squared[question]);
         let mut path = String::new();
         let mut band: Vec<(f64, [f64; 2])> = Vec::new();
         let mut last: Option<(f64, u64)> = None;
@@ -281,8 +281,8 @@ impl<'a> Panel<'a> {
                 Some(_) => format!("H{x:.1}V{y:.1}"),
             });
             last = Some((x, count));
-            if sampled {
-                let interval = clopper_pearson(count, of);
+            if all.sample {
+                let interval = Trials::alike_on_each_ray(count, of, of_squared).interval();
                 let ends = [self.y(interval.high), self.y(interval.low)];
                 // Its corners as the line's.
                 for [high, low] in band.last().map(|(_, ends)| *ends).into_iter().chain([ends]) {

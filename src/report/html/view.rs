@@ -1,6 +1,5 @@
 //! A record by kernel row, as the report walks through it.
 
-use crate::audit::clopper_pearson;
 use crate::report::record::*;
 use std::collections::HashMap;
 
@@ -111,18 +110,9 @@ impl Row<'_> {
 }
 
 impl InScalar<'_> {
-    /// The sum of a rate over the sources; its interval if one of them is a sample.
+    /// The sum of a rate over the sources.
     pub fn sum(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
-        let rates = || self.results.iter().filter_map(|result| rate(result));
-        let (count, of) = rates().fold((0, 0), |sum, rate| (sum.0 + rate.count, sum.1 + rate.of));
-        let sample = rates().any(|rate| rate.interval.is_some());
-        let interval = (sample && 0 < of && count <= of).then(|| clopper_pearson(count, of));
-        Rate {
-            count,
-            of,
-            rate: (0 < of).then(|| count as f64 / of as f64),
-            interval: interval.map(|interval| [interval.low, interval.high]),
-        }
+        Rate::sum(self.results.iter().filter_map(|result| rate(result)))
     }
 
     /// The sum of one kind.

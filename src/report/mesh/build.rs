@@ -3,10 +3,10 @@
 use super::geometry::Offender;
 use super::record::*;
 use crate::arith::Float;
-use crate::audit::{Row, quoted};
+use crate::audit::{Row, Trials, quoted};
 use crate::corpus::mesh::Mesh;
 use crate::report::build::{promised, provenance_of, row_part};
-use crate::report::{Context, Rate, rate_between};
+use crate::report::{Context, Rate};
 use crate::watertight::{
     CLASSES, ClassSums, Found, Noted, Part, Plan, RowFound, Tally, Targets, Topology,
 };
@@ -171,7 +171,7 @@ fn rates(classes: &[ClassSums]) -> AcrossRates {
     let sum = |count: fn(&ClassSums) -> u64| -> u64 { classes.iter().map(count).sum() };
     let crossings = sum(|sums| sums.groups.crossings);
     let folds = sum(|sums| sums.groups.folds);
-    let rate = |count: u64, of: u64| -> Rate { rate_between(count, of, true) };
+    let rate = |count: u64, of: u64| Rate::new(Trials::independent(count, of), true);
     AcrossRates {
         cracks: rate(sum(|sums| sums.groups.cracks), crossings),
         elsewhere: rate(sum(|sums| sums.elsewhere), crossings),
