@@ -115,8 +115,13 @@ impl Trials {
     /// The interval with this share left out at each end: of Clopper and Pearson, with the findings and
     /// the trials divided by the design effect (Korn and Graubard 1998).
     pub fn interval_at(&self, tail: f64) -> Interval {
+        self.interval_of_others(self.count, self.of, tail)
+    }
+
+    /// The same of other counts, with the design effect of these.
+    pub fn interval_of_others(&self, count: u64, of: u64, tail: f64) -> Interval {
         let effect = self.design_effect();
-        clopper_pearson(self.count.min(self.of) as f64 / effect, self.of as f64 / effect, tail)
+        clopper_pearson(count.min(of) as f64 / effect, of as f64 / effect, tail)
     }
 
     /// By how much the variance of the share is above that of as many independent trials: of the ratio

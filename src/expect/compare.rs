@@ -133,7 +133,7 @@ impl Judge {
             || found.rate.interval.is_none()
             || found.key.finding == Finding::Panic.name()
             || !expectations.entries.keys().any(|key| row(key) == row_of_found)
-            || trials.scaled(0, trials.of).interval_at(self.tail).high
+            || trials.interval_of_others(0, trials.of, self.tail).high
                 < trials.interval_at(self.tail).low
     }
 
@@ -159,11 +159,12 @@ impl Judge {
         }
     }
 
-    /// Expectations do not hold how findings cluster on rays: as those of this run do.
+    /// Expectations do not say which trials share a ray, so both intervals have the design effect of
+    /// this run.
     fn rates(&self, count: u64, of: u64, found: &Rate) -> Outcome {
         let found = found.trials();
-        let [expected, found] =
-            [found.scaled(count, of), found].map(|trials| trials.interval_at(self.tail));
+        let expected = found.interval_of_others(count, of, self.tail);
+        let found = found.interval_at(self.tail);
         if expected.high < found.low {
             Outcome::Worse
         } else if found.high < expected.low {

@@ -4,8 +4,8 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, CorpusSet, Examples, GroupCount, Place, Plan, Row, Source,
-    SourceSummary, Tally, Trials, exact_severity,
+    Audit, Cell, CorpusSet, Examples, GroupCount, Place, Plan, Row, Source, SourceSummary, Tally,
+    Trials, exact_severity,
 };
 use crate::case::Case;
 use crate::contract::Across;
