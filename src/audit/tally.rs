@@ -404,6 +404,8 @@ mod tests {
                 let severity = Some(((index * 7 % 11) as f64, 2.0));
                 tally.find(class, Finding::FalseMiss, (place, Digest::of(place)), severity);
             }
+            let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
+            products.add_ray(index % 4, 4);
             tally.group(index, GroupTruth::Crossing, (index % 4) as usize);
         };
         let mut whole = Tally::new(5, 0);
