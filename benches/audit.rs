@@ -4,11 +4,11 @@
 //! on the same cases, and the whole audit of them (cases made, asked, run, judged, added up). The
 //! figure to watch is the audit's time over the bare kernels'.
 
-use hairline::audit::{EpsilonChoice, Observer, Plan, Source, run};
-use hairline::case::{Case, Parameters};
-use hairline::family::{FAMILIES, Family};
-use hairline::kernel::{KERNELS, Scalar, Verdict};
-use hairline::oracle;
+use hairline::internals::audit::{EpsilonChoice, Observer, Plan, Source, run};
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::family::{FAMILIES, Family};
+use hairline::internals::kernel::{KERNELS, Scalar, Verdict};
+use hairline::internals::oracle;
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -6,9 +6,9 @@
 //! a vertex and coplanar ones on small and fine lattices; rays aimed at a rounded point of an edge;
 //! exponents over a wide and over the whole range.
 
-use hairline::arith::{Float, scale_by_power_of_two};
-use hairline::case::{Case, Draw};
-use hairline::oracle::{self, Batch, Layers};
+use hairline::internals::arith::{Float, scale_by_power_of_two};
+use hairline::internals::case::{Case, Draw};
+use hairline::internals::oracle::{self, Batch, Layers};
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -4,12 +4,12 @@
 //! its default epsilons, the oracle, and the response of all of the kernel's gates (cases made,
 //! asked, measured, counted). The figure to watch is the response over the other three together.
 
-use hairline::audit::{EpsilonChoice, Observer, Source};
-use hairline::case::{Case, Parameters};
-use hairline::family::FAMILIES;
-use hairline::kernel::{KERNELS, Scalar, Verdict};
-use hairline::oracle::{Layers, truths};
-use hairline::response::{Axis, Request, run, tunable_gates};
+use hairline::internals::audit::{EpsilonChoice, Observer, Source};
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::epsilon::{Axis, Request, run, tunable_gates};
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{KERNELS, Scalar, Verdict};
+use hairline::internals::oracle::{Layers, truths};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -37,7 +37,7 @@ const COUNT: u64 = 20_000;
 
 fn sources() -> Vec<Source> {
     let families = ["interior", "outside", "edge-near", "grazing", "coplanar", "shared-edge"];
-    let source = |family: &'static hairline::family::Family| Source::Family {
+    let source = |family: &'static hairline::internals::family::Family| Source::Family {
         family,
         parameters: Parameters::default(),
         seed: 1,

@@ -6,9 +6,9 @@
 //! hairline mesh million.obj --kernel moller-trumbore
 //! ```
 
-use hairline::case::Draw;
-use hairline::corpus::mesh::write_obj;
-use hairline::corpus::shapes::Shape;
+use hairline::internals::case::Draw;
+use hairline::internals::corpus::mesh::write_obj;
+use hairline::internals::corpus::shapes::Shape;
 use std::collections::HashMap;
 use std::io::{self, BufWriter, Write};
 

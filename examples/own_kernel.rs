@@ -1,9 +1,7 @@
 //! The whole program with kernels of one's own in it: `cargo run --example own_kernel -- audit
 //! --kernel mine,bounding-box`. One is a closure, one a small trait, in one scalar each.
 
-use hairline::case::Case;
-use hairline::contract::Contract;
-use hairline::kernel::{Dimension, Entry, EpsilonSet, Gate, Hit, KernelInfo, Test, Tunable};
+use hairline::{Case, Contract, Entry, EpsilonSet, Gate, Hit, KernelInfo, Role, Test};
 
 /// The plain test by signed volumes, with an epsilon on the ray's parameter.
 struct Mine;
@@ -21,12 +19,7 @@ impl Test<f32> for Mine {
 
 /// It promises what `closed-ray` says, and takes one epsilon, t, of dimension length / direction.
 const MINE: KernelInfo = KernelInfo {
-    gates: &[Gate {
-        name: "t",
-        refuses: "!(t >= e)",
-        dimension: Dimension::new(1, -1),
-        epsilon: Tunable::Signed,
-    }],
+    gates: &[Gate::signed(Role::T, "!(t >= e)", 1, -1)],
     epsilon_sets: &[EpsilonSet { name: "own", values: &["1e-4"] }],
     ..KernelInfo::own("mine", Contract::CLOSED_RAY)
 };

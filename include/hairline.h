@@ -36,7 +36,7 @@ typedef struct {
 #define HAIRLINE_FRONT 1
 #define HAIRLINE_BACK 2
 
-/* An answer. Of a miss nothing but `hit` is read. */
+/* An answer. For a miss only `hit` is read. */
 typedef struct {
     int32_t hit;    /* 1 for a hit, 0 for a miss; every case needs one of the two */
     int32_t facing; /* the side hit, HAIRLINE_FRONT or HAIRLINE_BACK; 0 if unknown */
@@ -49,7 +49,7 @@ typedef struct {
     double t, u, v;
 } hairline_verdict_f64;
 
-/* Which values of a hit are given, and judged: they must be finite, and the side right. */
+/* Which values of a hit are given. These are judged: they must be finite, and the side right. */
 #define HAIRLINE_GIVES_T 1u
 #define HAIRLINE_GIVES_UV 2u
 #define HAIRLINE_GIVES_FACING 4u
@@ -58,7 +58,8 @@ typedef struct {
 typedef struct {
     const char *name;     /* one word: `--epsilon NAME=VALUE` sets it */
     const char *value;    /* its usual value, in decimal, as "1e-6" */
-    const char *refuses;  /* the comparison, as "abs(det) < e"; NULL if not told */
+    const char *refuses;  /* the comparison, as "abs(det) < e"; NULL if unknown. A gate that is not named
+                           * parallel, t or edge may begin with its role: "role=t tau < e" */
     int32_t length;       /* the dimension of what is compared: the power of length ... */
     int32_t direction;    /* ... and of the direction's length. det is 2, 1; t is 1, -1; u is 0, 0 */
     int32_t non_negative; /* 1 if a negative value would mean the same as 0, else 0 */
@@ -67,7 +68,7 @@ typedef struct {
 
 typedef struct {
     const char *name;     /* in tables and messages: letters, digits and -_.+@ */
-    const char *source;   /* what it is and of which version, in one line; NULL if not told */
+    const char *source;   /* what it is and of which version, in one line; NULL if unknown */
     const char *contract; /* what it promises, by the words of docs/protocol.md, as "closed-ray" or
                              "extent=ray,sides=both,boundary=free" */
     uint32_t gives;       /* HAIRLINE_GIVES_... added up */

@@ -6,8 +6,8 @@ use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_pow
 use std::fmt;
 use std::str::FromStr;
 
-/// A ray `origin + t * direction`, asked for hits with t in `[t_min, t_max]`. The direction is a
-/// free vector of any length, used exactly as given.
+/// A ray `origin + t * direction`, with the interval `[t_min, t_max]` of t in which hits count. The
+/// direction is a free vector of any length, used exactly as given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray<V: Vector> {
     /// Where t = 0. Unit: length.
@@ -97,17 +97,19 @@ impl<F: Float> Case<F> {
 
     /// The case in another arithmetic, number by number.
     pub fn lift<R: Real>(&self, number: impl Fn(F) -> R) -> (Ray<Triple<R>>, Triangle<Triple<R>>) {
-        let [origin, direction, a, b, c] = self.vectors().map(|v| {
-            let [x, y, z] = v.map(&number);
-            Triple::new(x, y, z)
-        });
-        let [t_min, t_max] = [self.ray.t_min, self.ray.t_max].map(&number);
-        (Ray { origin, direction, t_min, t_max }, Triangle { a, b, c })
+        let vectors = self.vectors();
+        let triple = |i: usize| {
+            let [x, y, z] = vectors[i];
+            Triple::new(number(x), number(y), number(z))
+        };
+        let (t_min, t_max) = (number(self.ray.t_min), number(self.ray.t_max));
+        let ray = Ray { origin: triple(0), direction: triple(1), t_min, t_max };
+        (ray, Triangle { a: triple(2), b: triple(3), c: triple(4) })
     }
 
     /// The case in exact numbers.
     pub fn exact(&self) -> (Ray<ExactVector>, Triangle<ExactVector>) {
-        self.lift(|x| Exact::from_f64(x.to_f64()))
+        self.widen().lift(Exact::from_f64)
     }
 
     /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.
@@ -129,7 +131,7 @@ impl<F: Float> Case<F> {
     }
 }
 
-/// What a family's cases are put through after they are made.
+/// How a family's cases are transformed after they are generated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parameters {
     /// Positions are multiplied by 2 to this power.
@@ -223,7 +225,7 @@ pub struct CaseId {
     pub version: u32,
     /// `f32` or `f64`.
     pub scalar: String,
-    /// What the case was put through.
+    /// How the case was transformed.
     pub parameters: Parameters,
     /// The seed of the set.
     pub seed: u64,
@@ -269,7 +271,7 @@ impl FromStr for CaseId {
 /// Random numbers of one case: a stream that depends on (family, seed, index) only, so that case i
 /// never depends on case i-1. SplitMix64 (Steele, Lea and Flood 2014) from a mixed start.
 ///
-/// Integers and IEEE + - × ÷ √ only: what libraries differ in never enters a case.
+/// Integers and IEEE + - × ÷ √ only: functions in which libraries differ never enter a case.
 #[derive(Clone, Debug)]
 pub struct Draw {
     state: u64,

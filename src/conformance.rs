@@ -2,22 +2,21 @@
 
 #![forbid(unsafe_code)]
 
-use crate::audit::{self, EpsilonChoice, Observer, Plan, PlanError, Source, did_you_mean};
+use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source};
 use crate::case::Parameters;
 use crate::contract::Contract;
+use crate::engine::Unobserved;
 use crate::family::{FAMILIES, Family, find};
-use crate::kernel::{Entry, nearest_name};
+use crate::kernel::{Entry, kept};
 use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
+use crate::suggest::did_you_mean;
 use std::fmt::{self, Write};
 
 /// An audit of a kernel, to be narrowed and run: all families, 2,000 cases of each, seed 1, the
 /// kernel's own epsilons and contract, unless said otherwise.
 ///
 /// ```
-/// use hairline::arith::Vector;
-/// use hairline::case::Case;
-/// use hairline::contract::Contract;
-/// use hairline::kernel::{Entry, Hit, KernelInfo};
+/// use hairline::{Case, Contract, Entry, Hit, KernelInfo, Vector};
 ///
 /// // The plane's t alone: whatever the triangle, it hits.
 /// fn plane(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
@@ -32,11 +31,11 @@ use std::fmt::{self, Write};
 /// hairline::audit(&kernel).families(["interior"]).count(500).assert_conforms();
 /// let outcome = hairline::audit(&kernel).families(["outside"]).count(500).run()?;
 /// assert!(outcome.findings().any(|finding| finding.finding == "false-hit"));
-/// # Ok::<(), hairline::audit::PlanError>(())
+/// # Ok::<(), hairline::PlanError>(())
 /// ```
 pub fn audit(kernel: &Entry) -> Request {
     Request {
-        entry: Box::leak(Box::new(*kernel)),
+        entry: kept(kernel),
         families: None,
         count: 2000,
         seed: 1,
@@ -77,7 +76,7 @@ impl Request {
         self
     }
 
-    /// What the cases are put through: a scale, an offset, unit directions.
+    /// How the cases are transformed: a scale, an offset, unit directions.
     pub fn parameters(mut self, parameters: Parameters) -> Request {
         self.parameters = parameters;
         self
@@ -97,7 +96,7 @@ impl Request {
     }
 
     /// Runs it, in each scalar that the kernel runs in. An error names the family, gate or epsilon
-    /// that there is none of.
+    /// that does not exist.
     pub fn run(&self) -> Result<Outcome, PlanError> {
         let mut rows = self.epsilons.rows(&[self.entry], None)?;
         if let Some(contract) = self.contract {
@@ -138,8 +137,8 @@ impl Request {
         let Some(names) = &self.families else { return Ok(FAMILIES.iter().collect()) };
         let known = |name: &String| {
             find(name).ok_or_else(|| {
-                let near = nearest_name(name, FAMILIES.iter().map(|family| family.name));
-                let advice = did_you_mean(near, "hairline list families");
+                let names = FAMILIES.iter().map(|family| family.name);
+                let advice = did_you_mean(name, names, "hairline list families");
                 PlanError(format!("unknown family '{name}'{advice}"))
             })
         };
@@ -236,13 +235,28 @@ fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
     Ok(text)
 }
 
-/// Watches nothing and times nothing.
-pub(crate) struct Unobserved;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::kernel::{Hit, KERNELS, KernelInfo};
 
-impl Observer for Unobserved {
-    fn advance(&self, _: u64) {}
-
-    fn now(&self) -> u64 {
-        0
+    #[test]
+    fn an_entry_is_kept_once_however_often_it_is_audited() {
+        const INFO: KernelInfo = KernelInfo::own("kept-once", Contract::CLOSED_RAY);
+        static OWN: &KernelInfo = &INFO;
+        let always = |_: &Case<f64>, _: &[f64]| Some(Hit::at(1.0));
+        let never = |_: &Case<f64>, _: &[f64]| None;
+        let [always, never] = [Entry::new(OWN).f64(always), Entry::new(OWN).f64(never)];
+        let kept = |entry: &Entry| std::ptr::from_ref(audit(entry).entry);
+        assert_eq!(kept(&always), kept(&always.clone()));
+        assert_eq!(kept(&KERNELS[3]), std::ptr::from_ref(&KERNELS[3]));
+        // The same name with other code is another kernel.
+        assert_ne!(kept(&always), kept(&never));
+        let hits = |entry: &Entry| {
+            let outcome = audit(entry).families(["behind"]).count(20).run().unwrap();
+            outcome.findings().any(|finding| finding.finding == "false-hit")
+        };
+        assert_eq!([hits(&always), hits(&never)], [true, false]);
     }
 }

@@ -32,7 +32,7 @@ pub struct Contract {
     pub band: Option<Band>,
 }
 
-/// A distance to the boundary below which nothing is asked.
+/// A distance to the boundary below which nothing is demanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
     /// How far; above zero.
@@ -105,7 +105,7 @@ pub enum Boundary {
     Free,
 }
 
-/// What is asked of a kernel in a situation.
+/// What is demanded of a kernel in a situation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Demand {
     /// A miss.
@@ -137,6 +137,17 @@ pub enum Across {
     AtLeastOne,
     /// No crack and no double.
     ExactlyOne,
+}
+
+impl Across {
+    /// The word in contracts and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Across::Nothing => "nothing",
+            Across::AtLeastOne => "at-least-one",
+            Across::ExactlyOne => "exactly-one",
+        }
+    }
 }
 
 impl Contract {
@@ -203,10 +214,8 @@ impl Contract {
             demand(self.degenerate),
             demand(self.invalid)
         );
-        match self.across {
-            Across::Nothing => {}
-            Across::AtLeastOne => text.push_str(", at-least-one across triangles"),
-            Across::ExactlyOne => text.push_str(", exactly-one across triangles"),
+        if self.across != Across::Nothing {
+            text.push_str(&format!(", {} across triangles", self.across.name()));
         }
         if let Direction::Unit { ulps } = self.direction {
             text.push_str(&format!(", unit directions within {ulps} ulps"));
@@ -230,13 +239,26 @@ impl Contract {
 impl FromStr for Contract {
     type Err = String;
 
-    /// Words between commas: a named contract, `key=value` pairs that change it, `no-self-hit`.
-    /// Without a name extent, sides and boundary must be said; of the others coplanar rays and
-    /// triangles without area are then missed, invalid input is free, and any direction is promised.
+    /// As [`Contract::from_words`], where no kernel's own contract is known.
     fn from_str(text: &str) -> Result<Contract, String> {
+        Contract::from_words(text, None)
+    }
+}
+
+impl Contract {
+    /// From words between commas: a named contract or `own` (a kernel's own contract), then `key=value`
+    /// pairs that change it, `no-self-hit`, and `band=DISTANCE`. Without a name the words must give
+    /// extent, sides and boundary; coplanar rays and triangles without area are then missed, invalid
+    /// input is free, and directions of any length are promised.
+    ///
+    /// Errors: one line that says which word is wrong and what is known.
+    pub fn from_words(text: &str, own: Option<&Contract>) -> Result<Contract, String> {
         let words: Vec<&str> = text.split(',').map(str::trim).collect();
-        let named = NAMED.iter().find(|named| named.name == words[0]);
-        let said = |key: &str| words.iter().any(|word| word.split('=').next() == Some(key));
+        let named = match own.filter(|_| words[0] == "own") {
+            Some(own) => Some(*own),
+            None => NAMED.iter().find(|named| named.name == words[0]).map(|named| named.contract),
+        };
+        let has = |key: &str| words.iter().any(|word| word.split('=').next() == Some(key));
         if named.is_none() {
             if !words[0].contains('=') {
                 let names: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
@@ -244,16 +266,67 @@ impl FromStr for Contract {
                 let example = "extent=ray,sides=both,boundary=closed";
                 return Err(format!("'{}' is no contract: write {names}, or {example}", words[0]));
             }
-            if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !said(key)) {
+            if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !has(key)) {
                 return Err(format!("'{text}' does not say {key}=…"));
             }
         }
-        let own = Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed);
-        let mut contract = named.map_or(own, |named| named.contract);
+        let mut contract =
+            named.unwrap_or(Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed));
         for word in &words[usize::from(named.is_some())..] {
             contract.change(word)?;
         }
         Ok(contract)
+    }
+
+    /// The shortest words that [`Contract::from_words`] reads as this contract: `own` if it is the
+    /// kernel's own, a name, or what differs from either.
+    pub fn words(&self, own: &Contract) -> String {
+        let named = NAMED.iter().map(|named| (named.name, named.contract));
+        let known = std::iter::once(("own", *own)).chain(named);
+        let changes = |(name, base): (&str, Contract)| {
+            std::iter::once(name.to_owned()).chain(self.changes_from(&base)).collect::<Vec<_>>()
+        };
+        // What a base promises and this contract does not, no word takes back.
+        let possible = known.filter(|(_, base)| {
+            (self.no_self_hit || !base.no_self_hit) && (self.band.is_some() || base.band.is_none())
+        });
+        let shortest = possible.map(changes).min_by_key(Vec::len);
+        shortest.unwrap_or_default().join(",")
+    }
+
+    /// The `key=value` words that turn another contract into this one.
+    fn changes_from(&self, base: &Contract) -> Vec<String> {
+        let mut words = Vec::new();
+        let mut change = |same: bool, key: &str, value: String| {
+            if !same {
+                words.push(format!("{key}={value}"));
+            }
+        };
+        let name = |value: String| value.to_lowercase();
+        change(self.extent == base.extent, "extent", name(format!("{:?}", self.extent)));
+        change(self.sides == base.sides, "sides", name(format!("{:?}", self.sides)));
+        change(self.boundary == base.boundary, "boundary", name(format!("{:?}", self.boundary)));
+        change(self.ends == base.ends, "ends", name(format!("{:?}", self.ends)));
+        change(self.coplanar == base.coplanar, "coplanar", name(format!("{:?}", self.coplanar)));
+        change(
+            self.degenerate == base.degenerate,
+            "degenerate",
+            name(format!("{:?}", self.degenerate)),
+        );
+        change(self.invalid == base.invalid, "invalid", name(format!("{:?}", self.invalid)));
+        let direction = match self.direction {
+            Direction::Any => "any".to_owned(),
+            Direction::Unit { ulps } => format!("unit:{ulps}"),
+        };
+        change(self.direction == base.direction, "direction", direction);
+        change(self.across == base.across, "across", self.across.name().to_owned());
+        if let Some(band) = self.band {
+            change(self.band == base.band, "band", band.to_string());
+        }
+        if self.no_self_hit && !base.no_self_hit {
+            words.push("no-self-hit".to_owned());
+        }
+        words
     }
 }
 
@@ -297,16 +370,13 @@ impl Contract {
                 };
             }
             "across" => {
-                let promises = [
-                    ("nothing", Across::Nothing),
-                    ("at-least-one", Across::AtLeastOne),
-                    ("exactly-one", Across::ExactlyOne),
-                ];
-                self.across = choice(word, value, &promises)?;
+                let promises = [Across::Nothing, Across::AtLeastOne, Across::ExactlyOne];
+                self.across = choice(word, value, &promises.map(|across| (across.name(), across)))?;
             }
+            "band" => self.band = Some(value.parse()?),
             "no-self-hit" if word == key => self.no_self_hit = true,
             _ => {
-                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, no-self-hit";
+                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, band, no-self-hit";
                 return Err(format!("'{word}' is none of {keys}"));
             }
         }
@@ -377,7 +447,17 @@ mod tests {
             "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
              exactly-one across triangles, unit directions within 4 ulps, no self-hit"
         );
+        for named in NAMED {
+            let own = Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open);
+            let banded = Contract { band: "4ulps".parse().ok(), ..named.contract };
+            for contract in [own, named.contract, banded, read(all).unwrap()] {
+                let words = contract.words(&own);
+                assert_eq!(Contract::from_words(&words, Some(&own)), Ok(contract), "{words}");
+            }
+        }
+        assert_eq!(Contract::CLOSED_RAY.words(&read(all).unwrap()), "closed-ray");
         for (text, message) in [
+            ("own", "'own' is no contract: write closed-line, "),
             ("", "'' is no contract: write closed-line, "),
             ("closed", "'closed' is no contract: write closed-line, "),
             ("extent=ray,sides=both", "'extent=ray,sides=both' does not say boundary=…"),

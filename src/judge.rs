@@ -4,7 +4,9 @@
 
 mod class;
 mod distance;
+mod elsewhere;
 mod expected;
+mod group;
 #[cfg(test)]
 mod tests;
 
@@ -13,19 +15,21 @@ pub(crate) use class::Kind;
 pub use distance::{
     Distances, Squares, exact_to_change, nearest_on_segment, square, ulp_of_points,
 };
+pub use elsewhere::may_be_elsewhere;
 pub(crate) use expected::{Expectations, Kinds, ask_all, suspects};
+pub(crate) use group::owes_groups_alike;
+pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
 
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
-use crate::family::Grouping;
 use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
-/// What a contract asks of a kernel on a case.
+/// What a contract demands of a kernel on a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obligation {
     /// A hit.
@@ -82,8 +86,8 @@ impl Finding {
     }
 }
 
-/// What the contract asks for this truth. `respawned` says that the ray starts at a kernel's own hit
-/// point on the triangle.
+/// What the contract demands for this truth. `respawned` says that the ray starts at a kernel's own
+/// rounded hit point on the triangle, as a secondary ray does.
 pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obligation {
     if contract.no_self_hit && respawned && *truth != Truth::Invalid {
         return Obligation::MustMiss;
@@ -99,8 +103,8 @@ pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obliga
     }
 }
 
-/// What the contract asks on a case: nothing where it promises nothing for the direction, and within
-/// its band.
+/// What the contract demands on a case: nothing if it promises nothing for the direction, and nothing
+/// within its band.
 pub fn asked<F: Float>(
     case: &Case<F>,
     truth: &Truth,
@@ -169,7 +173,7 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
     }
 }
 
-/// What is asked on a boundary.
+/// What is demanded on a boundary.
 fn at_rim(boundary: Boundary) -> Obligation {
     match boundary {
         Boundary::Closed => Obligation::MustHit,
@@ -234,7 +238,7 @@ impl Answer {
     }
 }
 
-/// Compares a verdict with what was asked. Values of hits on invalid input are not judged.
+/// Compares a verdict with the obligation. Values of hits on invalid input are not judged.
 #[inline]
 pub fn judge<F: Float>(
     obligation: Obligation,
@@ -248,7 +252,7 @@ pub fn judge<F: Float>(
     judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
 }
 
-/// Compares an answer with what was asked.
+/// Compares an answer with the obligation.
 #[inline]
 pub fn judge_answer(
     obligation: Obligation,
@@ -278,92 +282,4 @@ fn has_bad_value(truth: &Truth, gives: Gives, answer: Answer) -> bool {
     let wrong_facing = gives.facing
         && truth.crossing().is_some_and(|crossing| answer.facing != Some(crossing.facing));
     !answer.finite || wrong_facing
-}
-
-/// What is asked of the triangles of a group together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GroupTruth {
-    /// All triangles face the ray alike, and the exact line passes through the inside of their union
-    /// within the extent: one hit is right.
-    Crossing,
-    /// Two triangles on one edge that do not face alike: as many hits are right, up to an even
-    /// number, as the exact line has.
-    Fold {
-        /// Whether the exact line meets an odd number of the two.
-        odd: bool,
-    },
-    /// Nothing: a triangle is not transversal, the hit is at an end of the extent or on the rim of
-    /// the union, the union is missed or covers itself there, or the contract does not count the side.
-    Free,
-}
-
-/// What the truths of a group ask together, under a contract's extent and sides.
-pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) -> GroupTruth {
-    let crossings = truths.iter().filter_map(Truth::crossing);
-    let Some(first) = truths.first().and_then(Truth::crossing) else { return GroupTruth::Free };
-    if crossings.clone().count() < truths.len() {
-        return GroupTruth::Free;
-    }
-    let alike = crossings.clone().all(|crossing| crossing.facing == first.facing);
-    if contract.sides == Sides::Front && !(alike && first.facing == Facing::Front) {
-        return GroupTruth::Free;
-    }
-    let mut met = crossings.filter(|crossing| crossing.feature != Feature::Outside);
-    let strictly_in_extent = |crossing: &Crossing| match contract.extent {
-        Extent::Line => true,
-        Extent::Ray => crossing.t_sign == Ordering::Greater,
-        Extent::Interval => crossing.place == Place::Within,
-    };
-    if !is_off_the_rim(met.clone(), truths.len(), grouping) || !met.clone().all(strictly_in_extent)
-    {
-        return GroupTruth::Free;
-    }
-    let hits = met.clone().count();
-    let inside = met.clone().filter(|crossing| crossing.feature == Feature::Interior).count();
-    if alike {
-        let on_edges = met.all(|crossing| crossing.feature.is_edge());
-        let once = if inside > 0 { hits == 1 } else { hits == 2 || !on_edges };
-        return if once { GroupTruth::Crossing } else { GroupTruth::Free };
-    }
-    // Over a fold the rims of the two triangles pass through each other's inside: the number of hits
-    // is owed only where no triangle is met on an edge of its own.
-    let on_shared_edge =
-        inside == 0 && hits == 2 && met.next().map(|c| c.place) == met.next().map(|c| c.place);
-    if grouping == Grouping::SharedEdge && (inside == hits || on_shared_edge) {
-        return GroupTruth::Fold { odd: hits % 2 == 1 };
-    }
-    GroupTruth::Free
-}
-
-/// Whether groups are asked the same under two contracts, whatever the rays and truths.
-pub(crate) fn asks_groups_alike(one: &Contract, other: &Contract) -> bool {
-    let all = |contract: &Contract| (contract.extent, contract.sides, contract.direction);
-    all(one) == all(other)
-}
-
-/// Whether the line passes through the inside of the triangles' union: inside a triangle, on an edge
-/// of two, or at the centre of a closed fan.
-fn is_off_the_rim<'a>(
-    mut met: impl Iterator<Item = &'a Crossing> + Clone,
-    triangles: usize,
-    grouping: Grouping,
-) -> bool {
-    let hits = met.clone().count();
-    met.clone().any(|crossing| crossing.feature == Feature::Interior)
-        || (hits >= 2 && met.all(|crossing| crossing.feature.is_edge()))
-        || (grouping == Grouping::Fan && hits > 0 && hits == triangles)
-}
-
-/// The truth of a planar convex polygon, from the truths of its fan's triangles: a point on a diagonal
-/// is inside. All triangles cross the same plane at the same t, so any that is met speaks for all.
-pub fn polygon_truth(truths: &[Truth]) -> Truth {
-    let crossings = truths.iter().filter_map(Truth::crossing);
-    let met = crossings.filter(|crossing| crossing.feature != Feature::Outside);
-    match met.clone().next() {
-        None => truths[0],
-        Some(first) if is_off_the_rim(met, truths.len(), Grouping::Polygon) => {
-            Truth::Transversal(Crossing { feature: Feature::Interior, ..*first })
-        }
-        Some(first) => Truth::Transversal(*first),
-    }
 }

@@ -1,74 +1,91 @@
-//! The truth about ray–triangle kernels: exact orientation predicates against floating-point tests
-//! with epsilons, on the cases where they break.
+//! Audits ray–triangle kernels: floating-point tests and their epsilons against exact predicates,
+//! on the cases where they break.
 //!
 //! ```text
 //! Case ──► Kernel ──► Verdict ─┐
-//!   │                          ├─► judge ──► Finding ──► Tally ──► Record ──► text, JSON
+//!   │                          ├─► judge ──► Finding ──► Tally ──► Record ──► text, JSON, HTML, …
 //!   └────► Oracle ──► Truth ───┘
 //!                       ▲
 //!              Contract ┘  (what the kernel promises: must hit, must miss, free)
 //! ```
 //!
-//! The modules are floors, each knowing only those below it (and its neighbours on the same floor):
+//! The library does four things:
 //!
-//! | floor | modules |
-//! |---|---|
-//! | 6 | [`cli`]: one file a command, the only place that prints; [`audit()`]: an audit from a program's own tests |
-//! | 5 | [`report`]: the record and its formats; `expect`: what is known to be wrong |
-//! | 4 | [`mod@audit`]: plans, runs, sums, severity; [`response`]: every epsilon; [`search`]: the worst and the simplest; [`campaign`]: campaigns; [`map`]: pictures of verdicts; [`watertight`]: whether rays slip through a mesh; [`selfcheck`]: the oracle held to its definition |
-//! | 3 | [`judge`]: the only place that compares a verdict with a truth |
-//! | 2 | [`kernel`]: what is claimed; [`oracle`]: what is true; [`family`]: where cases come from; [`corpus`]: cases and meshes on disk |
-//! | 1 | [`case`], [`truth`], [`contract`]: the words |
-//! | 0 | [`arith`]: `f32` and `f64` on glam's vectors, and exact numbers |
+//! - **The truth of a case.** [`truth()`] says exactly where a ray's line meets a triangle, for every finite
+//!   `f32` and `f64`; [`truths`] and [`Batch`] do so for many cases.
+//! - **An audit of your kernel.** [`audit()`] runs a kernel on the families of hard cases and compares each
+//!   verdict with what its [`Contract`] demands; `assert_conforms` makes it a test.
+//! - **Writing a kernel.** A closure is enough ([`Entry::f32`]); a [`Kernel`] that is written once for every
+//!   arithmetic also gets its margins, its exact runs and its runs on other machines' arithmetic.
+//! - **Strategies** for proptest, one a family, in `strategy` (feature `proptest`).
 //!
-//! Orientation predicates are kernels of a kind of their own: points instead of rays, a sign instead
-//! of a hit. [`orientation`] holds them beside floors 2 to 4, with their table, families, exact
-//! determinant and audit; it takes only `arith`, [`case::Draw`] and the audit's clock from the rest.
+//! `cli::main_with` (feature `cli`) is the whole program with your kernels in it.
 //!
-//! A new kernel is one file in `kernel/` and one row in its registry; a new family one file in
-//! `family/` and one row; a new format one file in `report/` and one row.
+//! DESIGN.md has the picture of the modules behind this; a test compares it with their `use` lines.
 
-pub mod arith;
+// Some of the modules' items serve only this project's own tests, through `internals`.
+#![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 
-pub mod case;
-pub mod contract;
-pub mod truth;
+// The floors, from the ground up: each module uses only those above it in this list.
+mod arith;
+mod engine;
 
-pub mod corpus;
-pub mod family;
-pub mod kernel;
-pub mod oracle;
+mod case;
+mod contract;
+mod plot;
+mod suggest;
+mod truth;
 
-pub mod judge;
+mod corpus;
+mod family;
+mod kernel;
+mod mesh;
+mod oracle;
 
-pub mod audit;
-pub mod campaign;
-pub mod fuzzing;
-pub mod response;
-pub mod search;
-pub mod selfcheck;
-#[cfg(feature = "proptest")]
-pub mod strategy;
+mod judge;
 
-pub mod watertight;
+mod audit;
+mod epsilon;
+mod explore;
+mod map;
+mod orientation;
+mod selfcheck;
 
-pub mod orientation;
-
-pub mod map;
-
-pub mod report;
+mod report;
 
 mod conformance;
-
-pub use conformance::{Outcome, Request, audit};
 #[cfg(feature = "cli")]
-use conformance::{Unobserved, conforms};
-
+mod descriptors;
 #[cfg(feature = "cli")]
-pub mod plugin;
-
+mod expect;
 #[cfg(feature = "cli")]
-pub mod expect;
+mod plugin;
 
 #[cfg(feature = "cli")]
 pub mod cli;
+
+pub use case::{Case, Parameters, Ray, Triangle};
+pub use oracle::{Batch, Layers, UnequalColumns, truth, truths};
+pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
+
+pub use contract::{
+    Across, Band, BandUnit, Boundary, Contract, Demand, Direction, Extent, NAMED, NamedContract,
+    Sides,
+};
+
+pub use arith::{Float, Real, Vector};
+pub use kernel::{
+    Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
+    Scalar, Sink, Subject, Test, Tunable, Verdict, find,
+};
+
+pub use audit::PlanError;
+pub use conformance::{Outcome, Request, audit};
+pub use report::{Example, FindingPart, Rate, SeverityPart};
+
+#[cfg(feature = "proptest")]
+pub use explore::strategy;
+
+#[cfg(feature = "internals")]
+#[doc(hidden)]
+pub mod internals;

@@ -1,4 +1,4 @@
-//! Floor 4: the oracle held to its definition, and to integer arithmetic that shares nothing with it.
+//! Floor 4: compares the oracle with its definition, and with integer arithmetic that shares nothing with it.
 
 #![forbid(unsafe_code)]
 
@@ -6,13 +6,14 @@ mod integers;
 
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw, Parameters};
+use crate::engine::{self, Merge, Observer};
 use crate::family::{Family, LATTICE_SIZE, apply, find};
 use crate::kernel::Scalar;
 use crate::oracle::{Layers, define, truth_counted};
 use crate::truth::Truth;
 use integers::Integers;
 use num_traits::ToPrimitive;
-use rayon::prelude::*;
+use std::ops::Range;
 
 /// What the oracle is held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,33 +67,25 @@ impl Check {
             self.first = Some((index, message));
         }
     }
+}
 
-    fn merged(mut self, other: Check) -> Check {
+impl Merge for Check {
+    fn merge(&mut self, other: Check) {
         self.cases += other.cases;
         self.differences += other.differences;
         self.layers.merge(&other.layers);
         if let Some((index, message)) = other.first {
             self.propose(index, message);
         }
-        self
     }
 }
 
-/// Runs a check over indices, on all cores; `advance` hears of each chunk's size.
-fn over(
-    indices: u64,
-    advance: &(dyn Fn(u64) + Sync),
-    check: impl Fn(u64, &mut Check) + Sync,
-) -> Check {
-    const CHUNK: u64 = 64;
-    let chunk = |number: u64| {
-        let range = number * CHUNK..indices.min((number + 1) * CHUNK);
-        let mut sum = Check::default();
-        advance(range.end - range.start);
-        range.for_each(|index| check(index, &mut sum));
-        sum
+/// Runs a check over indices, on all threads.
+fn over(indices: u64, observer: &dyn Observer, check: impl Fn(u64, &mut Check) + Sync) -> Check {
+    let add = |sum: &mut Check, indices: Range<u64>| {
+        indices.for_each(|index| check(index, sum));
     };
-    (0..indices.div_ceil(CHUNK)).into_par_iter().map(chunk).reduce(Check::default, Check::merged)
+    engine::sum(0..indices, 64, observer, Check::default, add)
 }
 
 /// A family's set against a reference. Every fourth index also with the interval's ends at the
@@ -103,9 +96,9 @@ pub fn family<F: Scalar>(
     reference: Reference,
     seed: u64,
     indices: u64,
-    advance: &(dyn Fn(u64) + Sync),
+    observer: &dyn Observer,
 ) -> Check {
-    over(indices, advance, |index, check| {
+    over(indices, observer, |index, check| {
         let made = family.make::<F>(&Parameters::default(), seed, index);
         for case in made.cases() {
             compare_cuts(reference, index, case, check);
@@ -130,7 +123,7 @@ pub fn whole_range<F: Float>(
     reference: Reference,
     seed: u64,
     indices: u64,
-    advance: &(dyn Fn(u64) + Sync),
+    observer: &dyn Observer,
 ) -> Check {
     let smallest = F::from_bits(1);
     let numbers = [
@@ -148,7 +141,7 @@ pub fn whole_range<F: Float>(
         smallest.offset_ulps(1 << 20),
         F::from_f64(scale_by_power_of_two(1.0, F::MAX_EXPONENT)),
     ];
-    over(indices, advance, |index, check| {
+    over(indices, observer, |index, check| {
         let mut draw = Draw::new("whole-range", seed, index);
         let coincide = draw.coin();
         // Few numbers a case: more coincidences.
@@ -190,9 +183,9 @@ fn cut_at<F: Float>(draw: &mut Draw, case: &Case<F>, t: F) -> Case<F> {
 }
 
 /// All 3^15 lattice cases against 64-bit integers.
-pub fn lattice(advance: &(dyn Fn(u64) + Sync)) -> Check {
+pub fn lattice(observer: &dyn Observer) -> Check {
     let family = find("lattice").expect("a family of that name");
-    over(LATTICE_SIZE, advance, |index, check| {
+    over(LATTICE_SIZE, observer, |index, check| {
         let made = family.make_in_order::<f32>(&Parameters::default(), index);
         let case = made.cases()[0];
         let numbers = case.vectors().map(|v| v.map(|x| x as i64));
@@ -215,7 +208,8 @@ mod tests {
         right.compare(9, &case, Truth::Parallel);
         right.compare(4, &case, Truth::Parallel);
         left.compare(5, &case, crate::oracle::truth(&case));
-        let sum = left.merged(right);
+        left.merge(right);
+        let sum = left;
         assert_eq!((sum.cases, sum.differences), (3, 2));
         assert_eq!(sum.first.as_ref().map(|(index, _)| *index), Some(4));
         assert!(sum.first.unwrap().1.contains("should say 'parallel'"));

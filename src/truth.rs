@@ -6,7 +6,7 @@ use num_rational::BigRational;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// What is the case, exactly. With N = (b-a)×(c-a), D = d·N, T = N·(a-o) and t = T/D.
+/// The truth of a case, exactly. With N = (b-a)×(c-a), D = d·N, T = N·(a-o) and t = T/D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Truth {
     /// D ≠ 0: the line crosses the plane at one point.
@@ -28,7 +28,7 @@ pub struct Crossing {
     pub facing: Facing,
     /// Where t lies against the interval.
     pub place: Place,
-    /// The sign of t, for contracts that ask t ≥ 0.
+    /// The sign of t, for contracts that demand t ≥ 0.
     pub t_sign: Ordering,
     /// Where the point lies in the triangle.
     pub feature: Feature,

@@ -1,10 +1,10 @@
 //! Writes `fuzz/seeds/cases`, the start of every target over cases: each construction in each scalar,
 //! and a spread of the curated cases, kernels in turn. Run it from the repository's root.
 
-use hairline::case::Draw;
-use hairline::corpus::lines::{AnyCase, read};
-use hairline::fuzzing::{AnyInput, CONSTRUCTIONS, Input, MAX_GATES};
-use hairline::kernel::KERNELS;
+use hairline::internals::case::Draw;
+use hairline::internals::corpus::lines::{AnyCase, read};
+use hairline::internals::explore::inputs::{AnyInput, CONSTRUCTIONS, Input, MAX_GATES};
+use hairline::internals::kernel::KERNELS;
 use std::fs;
 
 fn main() {

@@ -1,7 +1,7 @@
 //! The case-file reader: no panic on any bytes, and what it reads it writes and reads back.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::corpus::lines::{read, write_case};
+use hairline::internals::corpus::lines::{read, write_case};
 
 fn read_back(data: &[u8]) {
     for stored in read(data, "fuzz").flatten() {

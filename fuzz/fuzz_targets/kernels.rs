@@ -3,8 +3,7 @@
 //! kernel does not: kernels with epsilons have millions.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::{check_kernel, check_oracle, disagreement};
-use hairline_fuzz::{hold, with_input};
+use hairline_fuzz::{check_kernel, check_oracle, disagreement, hold, with_input};
 
 fn judge(data: &[u8]) {
     with_input!(data, |input| {

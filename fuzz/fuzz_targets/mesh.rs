@@ -1,7 +1,7 @@
 //! The mesh reader: no panic on any bytes, and every index it gives is in range.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::corpus::mesh::read_obj;
+use hairline::internals::corpus::mesh::read_obj;
 
 fn indices_in_range(data: &[u8]) {
     if let Ok(mesh) = read_obj(data, "fuzz.obj", &mut |_| {}) {

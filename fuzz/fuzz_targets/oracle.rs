@@ -1,8 +1,7 @@
 //! The fast oracle against its definition in rationals, one by one and in lanes.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::check_oracle;
-use hairline_fuzz::{hold, with_input};
+use hairline_fuzz::{check_oracle, hold, with_input};
 
 fn compare(data: &[u8]) {
     with_input!(data, |input| hold(check_oracle(&input.case)));

@@ -1,8 +1,7 @@
 //! Orientation predicates against the determinant in rationals.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::check_orientation;
-use hairline_fuzz::{hold, with_input};
+use hairline_fuzz::{check_orientation, hold, with_input};
 
 fn compare(data: &[u8]) {
     with_input!(data, |input| hold(check_orientation(&input.case)));

@@ -2,8 +2,7 @@
 //! the run if HAIRLINE_FINDING names them; see `hairline_fuzz::Pinned` for what else can be asked.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::check_kernel;
-use hairline_fuzz::{Pinned, hold, with_input};
+use hairline_fuzz::{Pinned, check_kernel, hold, with_input};
 use std::sync::LazyLock;
 
 static PINNED: LazyLock<Pinned> = LazyLock::new(Pinned::from_environment);

@@ -1,8 +1,9 @@
 //! What is said about every epsilon against running the kernel at it.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::fuzzing::{AnyInput, check_response};
-use hairline::response::Axis;
+use hairline::internals::epsilon::Axis;
+use hairline::internals::explore::inputs::AnyInput;
+use hairline_fuzz::check_response;
 use hairline_fuzz::hold;
 use std::sync::LazyLock;
 

@@ -2,7 +2,7 @@
 //! names is there.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::{cli, expect};
+use hairline::internals::{cli, expect};
 
 fn errors_name_their_line(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };

@@ -1,16 +1,18 @@
 //! What the fuzz targets share. Each target is a libFuzzer program under cargo-fuzz, and without it a
 //! plain program that replays the files and folders named on its command line.
 
+mod checks;
 mod pinned;
 
+pub use checks::*;
 pub use pinned::Pinned;
 
-use hairline::case::Draw;
-use hairline::fuzzing::AnyInput;
+use hairline::internals::case::Draw;
+use hairline::internals::explore::inputs::AnyInput;
 use std::{env, fs, path::Path};
 
 /// Declares a fuzz target over bytes: `target!(function)`; with `target!(function, cases)` bytes are
-/// inputs of `hairline::fuzzing`, which are moved as such.
+/// inputs of `hairline::internals::explore::inputs`, which are moved as such.
 #[macro_export]
 macro_rules! target {
     ($function:path $(, $cases:ident)?) => {
@@ -56,9 +58,9 @@ pub fn move_input(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> O
 #[macro_export]
 macro_rules! with_input {
     ($data:expr, |$input:ident| $body:expr) => {
-        match hairline::fuzzing::AnyInput::from_bytes($data) {
-            hairline::fuzzing::AnyInput::F32($input) => $body,
-            hairline::fuzzing::AnyInput::F64($input) => $body,
+        match hairline::internals::explore::inputs::AnyInput::from_bytes($data) {
+            hairline::internals::explore::inputs::AnyInput::F32($input) => $body,
+            hairline::internals::explore::inputs::AnyInput::F64($input) => $body,
         }
     };
 }

@@ -1,11 +1,12 @@
 //! One kernel, chosen by the environment, and which of its disagreements end a run.
 
-use hairline::arith::Float;
-use hairline::audit::{EpsilonChoice, Row, exact_severity};
-use hairline::fuzzing::{Input, disagreement};
-use hairline::judge::Finding;
-use hairline::kernel::{Entry, Scalar, find};
-use hairline::search::Signature;
+use crate::disagreement;
+use hairline::internals::arith::Float;
+use hairline::internals::audit::{EpsilonChoice, Row, exact_severity};
+use hairline::internals::explore::Signature;
+use hairline::internals::explore::inputs::Input;
+use hairline::internals::judge::Finding;
+use hairline::internals::kernel::{Entry, Scalar, find};
 use std::env;
 
 /// What the environment asks for.

@@ -3,9 +3,9 @@
 use crate::segment::past_the_triangle;
 use crate::{Entrant, PROMISE};
 use box3d_rust::math_functions::{Vec3, intersect_ray_triangle};
-use hairline::case::Case;
-use hairline::contract::{Contract, Sides};
-use hairline::kernel::{Entry, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::contract::{Contract, Sides};
+use hairline::internals::kernel::{Entry, Hit, KernelInfo};
 
 pub const BOX3D_RUST: Entrant = Entrant {
     name: INFO.name,

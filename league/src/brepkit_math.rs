@@ -3,9 +3,9 @@
 use crate::{Entrant, PROMISE};
 use brepkit_math::ray_triangle::watertight_ray_triangle_intersect;
 use brepkit_math::vec::{Point3, Vec3};
-use hairline::case::Case;
-use hairline::contract::{Across, Contract};
-use hairline::kernel::{Entry, Gives, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::contract::{Across, Contract};
+use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 
 pub const BREPKIT_MATH: Entrant = Entrant {
     name: INFO.name,

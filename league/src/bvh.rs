@@ -4,9 +4,9 @@ use crate::model::{self, GATES_CULLING, MollerTrumbore, Style, T};
 use crate::{Entrant, PROMISE, UNIT};
 use bvh::bounding_hierarchy::BHValue;
 use bvh::ray::Ray;
-use hairline::case::Case;
-use hairline::contract::{Contract, Sides};
-use hairline::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
+use hairline::internals::case::Case;
+use hairline::internals::contract::{Contract, Sides};
+use hairline::internals::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
 use nalgebra_0_35::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, Point3, Vector3};
 use num_traits::{Float, One, Zero};
 

@@ -1,7 +1,7 @@
 //! What takes part: a published function, what is promised for it, and how it is called.
 
-use hairline::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
-use hairline::kernel::Entry;
+use hairline::internals::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
+use hairline::internals::kernel::Entry;
 
 /// A published ray–triangle test.
 #[derive(Clone, Copy, Debug)]

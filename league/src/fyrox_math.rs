@@ -3,8 +3,8 @@
 use crate::segment::past_the_triangle;
 use crate::{Entrant, PROMISE};
 use fyrox_math::ray::Ray;
-use hairline::case::Case;
-use hairline::kernel::{Entry, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, Hit, KernelInfo};
 use nalgebra_0_34::Vector3;
 
 pub const FYROX_MATH: Entrant = Entrant {

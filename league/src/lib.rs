@@ -35,6 +35,6 @@ pub fn entrants() -> Vec<Entrant> {
 }
 
 /// The entrants that are built into this program, as kernels.
-pub fn kernels() -> Vec<hairline::kernel::Entry> {
+pub fn kernels() -> Vec<hairline::internals::kernel::Entry> {
     entrants().iter().filter_map(|entrant| entrant.kernel).map(|kernel| kernel()).collect()
 }

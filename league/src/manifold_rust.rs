@@ -2,8 +2,8 @@
 
 use crate::model::{self, GATES, MollerTrumbore, Style, T};
 use crate::{Entrant, PROMISE};
-use hairline::case::Case;
-use hairline::kernel::{Entry, EpsilonSet, Hit, KernelInfo, Refuse};
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, EpsilonSet, Hit, KernelInfo, Refuse};
 use manifold_rust::collider::ray_triangle_intersection;
 use manifold_rust::linalg::Vec3;
 

@@ -2,8 +2,8 @@
 
 use crate::model::{self, GATES, MollerTrumbore, Style, T};
 use crate::{Entrant, PROMISE};
-use hairline::case::Case;
-use hairline::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
 use mesh_geometry::queries::{Ray, ray_intersects_triangle};
 use mesh_geometry::{Point3, Vec3};
 use num_traits::Float;

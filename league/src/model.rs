@@ -5,9 +5,9 @@ mod moller_trumbore;
 
 pub use moller_trumbore::{GATES, GATES_CULLING, GATES_INTERVAL, MollerTrumbore, Style, T};
 
-use hairline::arith::Float;
-use hairline::case::Case;
-use hairline::kernel::{Entry, Gated, Generic, Kernel, Scalar, Subject, Test, Verdict};
+use hairline::internals::arith::Float;
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, Gated, Generic, Kernel, Scalar, Subject, Test, Verdict};
 use std::marker::PhantomData;
 
 /// A published function with the model of it. At the epsilons of its source the function itself runs;

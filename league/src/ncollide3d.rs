@@ -1,9 +1,9 @@
 //! ncollide3d 0.33.0, parry's predecessor: `query::ray_intersection_with_triangle`.
 
 use crate::{Entrant, PROMISE, UNIT};
-use hairline::case::Case;
-use hairline::contract::Contract;
-use hairline::kernel::{Entry, Gives, Hit, KernelInfo, Scalar};
+use hairline::internals::case::Case;
+use hairline::internals::contract::Contract;
+use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo, Scalar};
 use nalgebra_0_30::{Point3, RealField, Vector3};
 use ncollide3d::query::{Ray, ray_intersection_with_triangle};
 

@@ -2,9 +2,9 @@
 //! formulas with the edges stored.
 
 use crate::{Entrant, PROMISE};
-use hairline::case::Case;
-use hairline::contract::{Contract, Extent};
-use hairline::kernel::{Entry, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::contract::{Contract, Extent};
+use hairline::internals::kernel::{Entry, Hit, KernelInfo};
 use obvhs::ray::Ray;
 use obvhs::triangle::Triangle;
 

@@ -1,8 +1,8 @@
 //! parry3d and parry3d-f64 0.31.1: `query::details`' triangle test.
 
 use crate::{Entrant, PROMISE};
-use hairline::case::Case;
-use hairline::kernel::{Entry, Gives, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 
 pub const PARRY3D: Entrant = Entrant {
     name: INFO.name,

@@ -2,9 +2,9 @@
 
 use crate::model::{self, GATES_INTERVAL, MollerTrumbore, Style, T};
 use crate::{Entrant, PROMISE};
-use hairline::case::Case;
-use hairline::contract::{Contract, Extent};
-use hairline::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
+use hairline::internals::case::Case;
+use hairline::internals::contract::{Contract, Extent};
+use hairline::internals::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
 use nalgebra_0_34::{RealField, Vector3};
 use num_traits::Float;
 use rayx::intersect::intersect_moller_trumbore;

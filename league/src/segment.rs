@@ -1,6 +1,6 @@
 //! Rays for tests that take a segment.
 
-use hairline::case::Case;
+use hairline::internals::case::Case;
 
 /// The direction of a case times the least power of two, 1 or more, that takes the segment from the
 /// origin past every point of the triangle; and that power. No rounding: where the product would

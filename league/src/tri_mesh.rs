@@ -2,8 +2,8 @@
 
 use crate::{Entrant, PROMISE};
 use cgmath::Vector3;
-use hairline::case::Case;
-use hairline::kernel::{Entry, Gives, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 use three_d_asset::{Positions, TriMesh};
 use tri_mesh::Mesh;
 

@@ -1,8 +1,8 @@
 //! Findings that are about more than one verdict, in numbers that can be checked by hand.
 
-use hairline::case::Case;
-use hairline::kernel::{Entry, Hit, KernelInfo, Scalar, Verdict};
-use hairline::oracle;
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, Hit, KernelInfo, Scalar, Verdict};
+use hairline::internals::oracle;
 use hairline_league::{PROMISE, kernels};
 
 fn kernel(name: &str) -> Entry {
@@ -10,7 +10,7 @@ fn kernel(name: &str) -> Entry {
 }
 
 fn verdict<F: Scalar>(entry: &Entry, case: &Case<F>) -> Verdict<F> {
-    let row = hairline::audit::EpsilonChoice::Source;
+    let row = hairline::internals::audit::EpsilonChoice::Source;
     let entry: &'static Entry = Box::leak(Box::new(*entry));
     let epsilons = row.rows(&[entry], None).unwrap()[0].epsilons::<F>();
     let mut verdict = [Verdict::miss(None)];

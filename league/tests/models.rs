@@ -1,11 +1,11 @@
 //! Each model gives the verdict and the values of the published function, bit for bit, on every family.
 
-use hairline::arith::Float;
-use hairline::audit::Row;
-use hairline::case::Parameters;
-use hairline::contract::Direction;
-use hairline::family::FAMILIES;
-use hairline::kernel::{Scalar, Verdict, register};
+use hairline::internals::arith::Float;
+use hairline::internals::audit::Row;
+use hairline::internals::case::Parameters;
+use hairline::internals::contract::Direction;
+use hairline::internals::family::FAMILIES;
+use hairline::internals::kernel::{Scalar, Verdict, register};
 use hairline_league::kernels;
 
 /// The values of a hit that are given, as bits; a miss has none, and every NaN is one.

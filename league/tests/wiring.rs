@@ -1,12 +1,12 @@
 //! Adapters that are wired wrongly are noticed: on easy cases every entrant agrees with the exact truth,
 //! and its values are those of the hit.
 
-use hairline::audit::EpsilonChoice;
-use hairline::case::{Case, Parameters};
-use hairline::contract::{Direction, Sides};
-use hairline::judge::{Obligation, asked};
-use hairline::kernel::{Entry, Scalar, Verdict};
-use hairline::oracle;
+use hairline::internals::audit::EpsilonChoice;
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::contract::{Direction, Sides};
+use hairline::internals::judge::{Obligation, asked};
+use hairline::internals::kernel::{Entry, Scalar, Verdict};
+use hairline::internals::oracle;
 use hairline_league::{entrants, kernels};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;

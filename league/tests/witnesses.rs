@@ -1,9 +1,9 @@
 //! The worst known cases: each entrant still shows, at its pinned version, the very finding that its
 //! line in witnesses/ says.
 
-use hairline::campaign::Find;
-use hairline::corpus::lines::{self, StoredCase};
-use hairline::kernel::{find, register};
+use hairline::internals::corpus::lines::{self, StoredCase};
+use hairline::internals::explore::campaign::Find;
+use hairline::internals::kernel::{find, register};
 use hairline_league::kernels;
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,5 +1,5 @@
-//! What machines compute when they do not compute by IEEE 754 operation by operation: products fused
-//! into sums, and subnormal numbers flushed to zero. Both in software, so that the answer is the same
+//! How machines compute that do not follow IEEE 754 operation by operation: they fuse products into
+//! sums, or flush subnormal numbers to zero. Both are done in software here, so the answer is the same
 //! on every machine and in every mode.
 
 use super::Float;

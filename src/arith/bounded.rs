@@ -1,11 +1,11 @@
 //! Double-doubles with a bound on their error: exact numbers for the price of a few dozen
 //! operations, where the bound decides.
 //!
-//! A number is `high + low ± error`. Additions, products and quotients of floats that come out exact
-//! keep the error at zero, so that a zero is known to be one; beyond, each operation adds the bound
-//! of its rounding, rounded up. A comparison that the bounds cannot decide puts the whole run in
-//! doubt, and whoever asked does it again in [`Exact`](super::Exact). Infinities, NaN and the one
-//! zero are as there. The oracle's double-doubles are its own: no arithmetic is shared with it.
+//! A number is `high + low ± error`. Sums, products and quotients of floats that come out exact keep
+//! the error at zero, so a zero is known to be zero. Every other operation adds the bound of its
+//! rounding, rounded up. If the bounds cannot decide a comparison the whole run is in doubt, and the
+//! caller repeats it in [`Exact`](super::Exact). Infinities, NaN and the single zero behave as in
+//! `Exact`. The oracle has double-doubles of its own: no arithmetic is shared with it.
 
 use super::Real;
 use std::cell::Cell;

@@ -1,10 +1,10 @@
 //! Numbers that compute as another machine would: a float and the [`Arithmetic`] of its operations.
 //!
-//! A product remembers its factors until it is used. Where it goes straight into a sum (it is moved
-//! there), a fused arithmetic takes the factors and rounds once. A name that is used more than once is
-//! cloned or borrowed, and has been rounded by then. Those are the products that compilers contract:
-//! GCC's `widening_mul` pass those whose every use is a sum, LLVM's DAG combiner those with a single use;
-//! of two products in a sum both fuse the left one. So
+//! A product remembers its factors until it is used. If it goes straight into a sum (it is moved there)
+//! a fused arithmetic takes the factors and rounds once. A value with a name that is used more than once
+//! is cloned or borrowed, and that rounds it. Compilers fuse the same products: GCC's `widening_mul` pass
+//! fuses a product if every use is a sum, LLVM's DAG combiner if it has a single use; of two products in
+//! a sum both fuse the left one. So
 //!
 //! ```text
 //! dot(a, b)   = fma(a.z, b.z, fma(a.x, b.x, a.y*b.y))      from a.x*b.x + a.y*b.y + a.z*b.z
@@ -82,18 +82,18 @@ impl<F: Float> Emulated<F> {
         Emulated { value: operation.run(arithmetic), factors, arithmetic }
     }
 
-    #[inline]
+    #[inline(never)]
     fn plus(&self, other: &Self) -> Self {
         Emulated::made(self.sum(other), self.arithmetic.and(other.arithmetic))
     }
 
-    #[inline]
+    #[inline(never)]
     fn product(&self, other: &Self) -> Self {
         let operation = Operation::Product(self.value, other.value);
         Emulated::made(operation, self.arithmetic.and(other.arithmetic))
     }
 
-    #[inline]
+    #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
         let operation = Operation::Quotient(self.value, other.value);
         Emulated::made(operation, self.arithmetic.and(other.arithmetic))

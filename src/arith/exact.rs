@@ -3,7 +3,7 @@
 //! A kernel run takes at most one square root (a normalisation), so one radicand a run suffices;
 //! a second, different one makes the result NaN rather than wrong.
 
-use super::{Fraction, Real};
+use super::{Fraction, Real, scale_by_power_of_two};
 use num_rational::BigRational;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -75,14 +75,22 @@ impl Exact {
         }
     }
 
-    /// The nearest float, within a few ulps: for people to read, never for a decision.
+    /// The nearest float, within a few ulps whatever cancels or leaves the floats' range on the way: for
+    /// people to read, never for a decision.
     pub fn approximate(&self) -> f64 {
         match self {
             Nan => f64::NAN,
             Infinite(true) => f64::NEG_INFINITY,
             Infinite(false) => f64::INFINITY,
-            Rational(p) => p.approximate(),
-            Root { p, q, r } => p.approximate() + q.approximate() * r.approximate_root(),
+            Rational(p) => float(p.significand()),
+            Root { p, q, r } if p.sign() != q.sign().reverse() => float(sum_of_parts(p, q, r)),
+            Root { p, q, r } => {
+                // Of opposite signs the parts may cancel: p + q√r = (p² - q²r) / (p - q√r).
+                let norm = p.mul(p).add(&q.mul(q).mul(r).negated());
+                let (above, i) = norm.significand();
+                let (below, j) = sum_of_parts(p, &q.negated(), r);
+                float((above / below, i - j))
+            }
         }
     }
 
@@ -90,7 +98,7 @@ impl Exact {
     /// the number itself is out of the floats' range; NaN of any other number.
     pub fn approximate_root(&self) -> f64 {
         match self {
-            Rational(p) => p.approximate_root(),
+            Rational(p) => float(p.root_significand()),
             _ => f64::NAN,
         }
     }
@@ -178,6 +186,23 @@ impl Exact {
             _ => self.product(&other.reciprocal()),
         }
     }
+}
+
+/// `digits · 2^exponent`, rounded to a float.
+fn float((digits, exponent): (f64, i64)) -> f64 {
+    scale_by_power_of_two(digits, exponent.clamp(-4000, 4000) as i32)
+}
+
+/// `p + q√r` of parts that do not differ in sign, as a float and a power of two.
+fn sum_of_parts(p: &Fraction, q: &Fraction, r: &Fraction) -> (f64, i64) {
+    let ((factor, i), (root, j)) = (q.significand(), r.root_significand());
+    let (digits, exponent) = (factor * root, i + j);
+    if p.is_zero() {
+        return (digits, exponent);
+    }
+    let (other_digits, other_exponent) = p.significand();
+    let top = exponent.max(other_exponent);
+    (float((digits, exponent - top)) + float((other_digits, other_exponent - top)), top)
 }
 
 fn same_root(a: &Arc<Fraction>, b: &Arc<Fraction>) -> bool {
@@ -280,6 +305,8 @@ fn compare(a: &Exact, b: &Exact) -> Option<Ordering> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_bigint::BigInt;
+    use num_traits::Signed;
 
     fn number(value: f64) -> Exact {
         Exact::from_f64(value)
@@ -310,6 +337,69 @@ mod tests {
         let two = number(4.0).sqrt();
         assert!((two.clone() - number(2.0)).is_zero());
         assert!((Exact::one() / (two + number(2.0)) - number(0.25)).is_zero());
+    }
+
+    /// `value` within a few ulps of `exact`, or, out of the floats' range, on the right side of it.
+    fn assert_near(value: f64, exact: &BigRational) {
+        let rational = |x: f64| BigRational::from_float(x).unwrap();
+        let error = (rational(value.clamp(f64::MIN, f64::MAX)) - exact).abs();
+        let ulps = exact.abs() * rational(8.0 * f64::EPSILON) + rational(f64::from_bits(2));
+        let beyond = value.is_infinite() && rational(f64::MAX) * rational(0.999) < exact.abs();
+        let signs = value == 0.0 || (value > 0.0) == exact.is_positive();
+        assert!(signs && (beyond || error <= ulps), "{value:e} {exact}");
+    }
+
+    #[test]
+    fn an_approximation_is_right_whatever_its_parts_are() {
+        let power = |k: i64| Exact::from_rational(&num_traits::Pow::pow(two(), k as i32));
+        for (digits, s) in [(1i64, 3i64), (-5, 7), (12_345_678_987_654_321, 999_999_999)] {
+            for (i, j, k) in [
+                (0, 0, 0),
+                (1100, -1100, 0),
+                (-3000, 1500, 1500),
+                (2000, -5000, 2990),
+                (-900, -900, 800),
+                (3000, 3000, -5990),
+                (1060, 0, -20),
+            ] {
+                // p + q√(s²·2^2k), whose root is no float's business: exactly p + q·s·2^k.
+                let whole = |n: i64| Exact::from_rational(&BigRational::from_integer(n.into()));
+                let p = whole(digits) * power(i);
+                let root = whole(s) * whole(s) * power(2 * k);
+                for q in [1i64, -1, 3, -7].map(|q| whole(q) * power(j)) {
+                    let value = p.clone() + q.clone() * root.sqrt();
+                    let exact = p.to_rational().unwrap()
+                        + q.to_rational().unwrap() * (whole(s) * power(k)).to_rational().unwrap();
+                    assert_near(value.approximate(), &exact);
+                    assert_near((-value).approximate(), &-exact);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_approximation_is_right_where_the_parts_cancel() {
+        // √n - ⌊√n⌋, where ⌊√n⌋ has more digits than a float: bounds by integers.
+        for n in [2u64, 3, 10, 1_000_003] {
+            for shift in [0u32, 60, 300, 1100] {
+                let radicand = BigInt::from(n) << (2 * shift);
+                let floor = radicand.sqrt();
+                let number =
+                    |n: &BigInt| Exact::from_rational(&BigRational::from_integer(n.clone()));
+                let rest = number(&radicand).sqrt() - number(&floor);
+                // 200 more bits of the root.
+                let finer: BigInt = (&radicand << 400u32).sqrt() - (&floor << 200u32);
+                let exact = BigRational::new(finer, BigInt::from(1) << 200u32);
+                assert_near(rest.approximate(), &exact);
+                assert_near((-rest).approximate(), &-exact);
+            }
+        }
+        // √4 is kept as a root: nothing is left of √4 - 2.
+        assert_eq!((number(4.0).sqrt() - number(2.0)).approximate(), 0.0);
+    }
+
+    fn two() -> BigRational {
+        BigRational::from_integer(2.into())
     }
 
     #[test]

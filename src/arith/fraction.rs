@@ -1,6 +1,6 @@
 //! Rationals that are never reduced, with a power of two beside them.
 
-use super::{decompose, scale_by_power_of_two};
+use super::decompose;
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive};
@@ -77,7 +77,7 @@ impl Fraction {
         }
     }
 
-    /// As a float in [1/2, 2) (or 0) and a power of two.
+    /// As a float in 2^±63 (or 0) and a power of two.
     pub(super) fn significand(&self) -> (f64, i64) {
         // 63 leading bits of each keep the quotient within a few ulps.
         let leading = |n: &BigInt| {
@@ -89,16 +89,11 @@ impl Fraction {
         (n / d, i - j + self.exponent)
     }
 
-    pub(super) fn approximate(&self) -> f64 {
+    /// The square root, as a float and a power of two.
+    pub(super) fn root_significand(&self) -> (f64, i64) {
         let (digits, exponent) = self.significand();
-        scale_by_power_of_two(digits, exponent.clamp(-4000, 4000) as i32)
-    }
-
-    pub(super) fn approximate_root(&self) -> f64 {
-        let (digits, exponent) = self.significand();
-        let half = exponent.div_euclid(2);
         let rest = if exponent.rem_euclid(2) == 1 { 2.0 } else { 1.0 };
-        scale_by_power_of_two((digits * rest).sqrt(), half.clamp(-4000, 4000) as i32)
+        ((digits * rest).sqrt(), exponent.div_euclid(2))
     }
 
     /// `1 / self`; `self` is not zero.

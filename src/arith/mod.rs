@@ -1,9 +1,10 @@
-//! Floor 0: one trait of numbers, one of vectors; glam `f32`, glam `f64`, exact, and floats that
-//! know whether they are exact; and floats that compute as other machines do.
+//! Floor 0: one trait for numbers, one for vectors. They are implemented by `f32` and `f64` on glam, by
+//! exact numbers, by floats that know whether they are exact, and by floats that compute as other
+//! machines do.
 //!
-//! A kernel is written once against [`Real`] and [`Vector`] and runs unchanged in every
-//! arithmetic. Comparisons go through the trait too: in [`Tracked`] numbers they tell the run what
-//! the compared numbers met, in [`Bounded`] ones they say where a bound does not decide.
+//! A kernel is written once against [`Real`] and [`Vector`], and runs unchanged in every arithmetic.
+//! Comparisons go through the trait too. In [`Tracked`] numbers a comparison records the exceptions of
+//! the compared numbers; in [`Bounded`] numbers it records whether the bounds could not decide.
 
 #![forbid(unsafe_code)]
 

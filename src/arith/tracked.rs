@@ -1,11 +1,11 @@
-//! Floats that know whether they are exact: what a kernel computes in `f32` or `f64` and some
-//! [`Arithmetic`], bit for bit, and which of IEEE 754's exceptions (clause 7) the numbers behind its
-//! decisions met on their way. A number that is flushed to zero underflows; a product that is fused
-//! into a sum does not round.
+//! Floats that know whether they are exact. A run computes what the kernel computes in `f32` or `f64` in
+//! some [`Arithmetic`], bit for bit, and records which of IEEE 754's exceptions (clause 7) occurred in
+//! the numbers behind its decisions. A number that is flushed to zero underflows; a product that is
+//! fused into a sum does not round.
 //!
-//! Each number carries the exceptions of all that it was made from. A comparison, in which a number
-//! turns into a decision, adds them to the account of the run: values that are computed but never
-//! compared, as a hit's, do not count.
+//! Each number carries the exceptions of all numbers that it was computed from. A comparison turns
+//! numbers into a decision, so it adds their exceptions to the run's. Values that are computed but never
+//! compared, such as those of a hit, do not count.
 
 use super::arithmetic::{Arithmetic, Operation};
 use super::{Emulated, Exact, Float, Real, decompose};
@@ -99,6 +99,7 @@ impl<F: Float> Tracked<F> {
         Tracked { number, raised, before: earlier }
     }
 
+    #[inline(never)]
     fn sum(&self, other: &Self) -> Self {
         let earlier = match (self.number.is_product(), other.number.is_product()) {
             (true, _) => self.before | other.raised,
@@ -108,11 +109,13 @@ impl<F: Float> Tracked<F> {
         Tracked::made(self.number.sum(&other.number), self.arithmetic_with(other), earlier)
     }
 
+    #[inline(never)]
     fn product(&self, other: &Self) -> Self {
         let operation = Operation::Product(self.value(), other.value());
         Tracked::made(operation, self.arithmetic_with(other), self.raised | other.raised)
     }
 
+    #[inline(never)]
     fn quotient(&self, other: &Self) -> Self {
         let operation = Operation::Quotient(self.value(), other.value());
         Tracked::made(operation, self.arithmetic_with(other), self.raised | other.raised)

@@ -19,29 +19,29 @@ impl<R: Real> Vector for Triple<R> {
         self.0[axis].clone()
     }
     fn minus(&self, other: &Self) -> Self {
-        Triple(std::array::from_fn(|i| self.0[i].clone() - &other.0[i]))
+        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
+        Triple([x.clone() - a, y.clone() - b, z.clone() - c])
     }
     fn plus(&self, other: &Self) -> Self {
-        Triple(std::array::from_fn(|i| self.0[i].clone() + &other.0[i]))
+        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
+        Triple([x.clone() + a, y.clone() + b, z.clone() + c])
     }
     fn times(&self, factor: &R) -> Self {
-        Triple(std::array::from_fn(|i| self.0[i].clone() * factor))
+        let [x, y, z] = &self.0;
+        Triple([x.clone() * factor, y.clone() * factor, z.clone() * factor])
     }
     fn plus_scaled(self, vector: &Self, factor: &R) -> Self {
-        let mut axes = 0..3;
-        Triple(self.0.map(|x| {
-            let i = axes.next().expect("three axes");
-            x + vector.0[i].clone() * factor
-        }))
+        let ([x, y, z], [a, b, c]) = (self.0, &vector.0);
+        let product = |a: &R| a.clone() * factor;
+        Triple([x + product(a), y + product(b), z + product(c)])
     }
     fn dot(&self, other: &Self) -> R {
-        let [x, y, z] = std::array::from_fn(|i| self.0[i].clone() * &other.0[i]);
-        x + y + z
+        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
+        x.clone() * a + y.clone() * b + z.clone() * c
     }
     fn cross(&self, other: &Self) -> Self {
-        Triple(std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            self.0[j].clone() * &other.0[k] - other.0[j].clone() * &self.0[k]
-        }))
+        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
+        let minor = |p: &R, q: &R, r: &R, s: &R| p.clone() * q - r.clone() * s;
+        Triple([minor(y, c, b, z), minor(z, a, c, x), minor(x, b, a, y)])
     }
 }

@@ -1,10 +1,11 @@
 //! Verdicts that come from outside, judged as a run judges those of a kernel.
 
-use super::plan::Row;
-use super::run::{Audit, Observer, Runner, Sums};
+use super::row::Row;
+use super::run::{Audit, Runner, Sums};
 use super::source::Source;
 use crate::arith::Float;
 use crate::case::Case;
+use crate::engine::Observer;
 use crate::kernel::{Scalar, Subject, Verdict};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};

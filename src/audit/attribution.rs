@@ -1,8 +1,8 @@
 //! Why a kernel was wrong: its convention, its epsilon, rounding, or the range of its numbers.
 //!
 //! The same source runs in exact arithmetic, with the given epsilons and with none. A float run in
-//! which no operation rounded is its own exact run: there zeros keep their signs, on which some
-//! sources decide, where exact arithmetic has one zero.
+//! which no operation rounded is its own exact run. This matters because floats have two zeros, and some
+//! sources decide on the sign of one; exact arithmetic has a single zero.
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -56,8 +56,8 @@ impl Attribution {
     }
 }
 
-/// Why a kernel's verdict on a case is not what was asked; none if it is, and where the kernel has no
-/// exact arithmetic to tell.
+/// Why a kernel's verdict on a case differs from its obligation; none if it does not, or if the kernel
+/// does not run in exact arithmetic.
 pub fn attribute<F: Float>(
     subject: &dyn Subject<F>,
     case: &Case<F>,

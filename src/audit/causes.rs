@@ -1,9 +1,10 @@
-//! The causes of findings, counted: of the first findings by index, of each class.
+//! Counts the causes of the first findings of each class, by index.
 
 use super::attribution::{Attribution, attribute};
-use super::run::RunnerRow;
+use super::digest::Place;
+use super::rows::RowIn;
 use super::source::Source;
-use super::tally::{Place, Tally};
+use super::tally::Tally;
 use super::trials::Trials;
 use crate::contract::Contract;
 use crate::family::Grouping;
@@ -17,7 +18,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Causes {
     by: [Trials; Attribution::ALL.len()],
-    /// Findings of kernels that cannot tell.
+    /// Findings of kernels that do not run in exact arithmetic.
     pub untold: u64,
 }
 
@@ -54,7 +55,7 @@ impl Causes {
 /// The causes of the findings whose places a tally keeps, `most` of each class and finding.
 pub(super) fn causes<F: Scalar>(
     source: &Source,
-    row: &RunnerRow<F>,
+    row: &RowIn<F>,
     contract: &Contract,
     tally: &Tally,
     most: usize,

@@ -1,23 +1,18 @@
 //! Some indices of a source together: their cases, truths and groups.
 
-use super::run::Observer;
+use super::digest::Place;
+use super::forms::ScalarName;
 use super::source::Source;
-use super::stored::ScalarName;
-use super::tally::Place;
 use crate::case::Case;
 use crate::contract::Contract;
+use crate::engine::Observer;
 use crate::family::Grouping;
-use crate::judge::{
-    self, Class, Expectations, GroupTruth, Kinds, Obligation, group_truth, promises_direction,
-};
+use crate::judge::{self, Class, Expectations, GroupTruth, Kinds, Obligation, group_obligation};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-
-/// Indices that go through a run together.
-pub(crate) const CHUNK: u64 = 1024;
 
 /// What a source gave in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
@@ -25,7 +20,7 @@ pub struct SourceSummary {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    #[serde(with = "super::stored::scalar_name")]
+    #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
     /// Indices made.
     pub indices: u64,
@@ -149,11 +144,8 @@ impl<F: Scalar> Chunk<F> {
             return Vec::new();
         }
         let ask = |(_, range): (u64, Range<usize>)| {
-            let direction: [F; 3] = self.cases[range.start].ray.direction.into();
-            if !promises_direction(contract.direction, direction) {
-                return GroupTruth::Free;
-            }
-            group_truth(&self.truths[range], contract, self.grouping)
+            let (cases, truths) = (&self.cases[range.clone()], &self.truths[range]);
+            group_obligation(cases, truths, contract, self.grouping)
         };
         self.groups().map(ask).collect()
     }

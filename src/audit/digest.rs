@@ -1,9 +1,18 @@
-//! A digest of a set of places that does not depend on the order in which they are added.
+//! Places of cases, and a digest of a set of them that does not depend on the order in which they are
+//! added.
 
-use super::tally::Place;
 use crate::case::mix;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+
+/// Where a case stands in its source: the index, and the triangle of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Place {
+    /// The index.
+    pub index: u64,
+    /// The triangle of a group; 0 alone.
+    pub triangle: u32,
+}
 
 /// The sum, modulo 2^128, of a hash of each place. Adding is commutative, so the digest of a run does
 /// not depend on threads or shards, and it takes no memory. Two sets of equal sum that differ are a

@@ -137,7 +137,7 @@ impl PartialEq for Histogram {
 struct Stored {
     bins: BTreeMap<u16, u64>,
     count: u64,
-    #[serde(with = "super::stored::bits")]
+    #[serde(with = "super::forms::bits")]
     largest: f64,
 }
 

@@ -3,19 +3,22 @@
 use super::accuracy::Errors;
 use super::chunk::Chunk;
 use super::digest::Digest;
-use super::run::{Asked, RunnerRow};
-use super::tally::{ClassCount, Place, Tally};
+use super::rows::RowIn;
+use super::run::Asked;
+use super::source::Source;
+use super::tally::{ClassCount, Tally};
 use super::trials::RayProducts;
+use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Finding, Obligation, obligation, polygon_truth, promises_direction,
+    self, Class, Distances, Finding, Obligation, polygon_obligation, polygon_truth,
 };
-use crate::kernel::{Scalar, Verdict};
+use crate::kernel::{Failure, Scalar, Subject, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What is worked out of a case once some kernel is wrong on it.
+/// Per-case data, computed lazily when some kernel is wrong on the case.
 #[derive(Clone, Copy)]
 pub(super) struct Known {
     /// None of invalid input.
@@ -34,11 +37,11 @@ impl Known {
     }
 }
 
-impl<F: Scalar> RunnerRow<F> {
+impl<F: Scalar> RowIn<F> {
     /// Judges the verdicts; only `suspects` can show a finding ([`judge::suspects`]).
     pub fn judge(
         &self,
-        chunk: &Chunk<F>,
+        (source, chunk): (&Source, &Chunk<F>),
         (contract, asked): (&Contract, &Asked),
         (verdicts, suspects): (&[Verdict<F>], &[usize]),
         known: &mut [Option<Known>],
@@ -87,14 +90,8 @@ impl<F: Scalar> RunnerRow<F> {
             tally.self_hits.rays += verdicts.len() as u64;
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
-        for ((index, range), truth) in chunk.groups().zip(asked.groups.iter()) {
-            let verdicts = &verdicts[range];
-            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
-                continue;
-            }
-            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-            tally.group(index, *truth, hits);
-        }
+        let groups = (contract, &asked.groups[..]);
+        self.judge_groups(source, chunk, groups, verdicts).flatten().for_each(|g| tally.group(&g));
     }
 
     /// Measures the values of right hits on a sample.
@@ -119,37 +116,14 @@ impl<F: Scalar> RunnerRow<F> {
         }
     }
 
-    /// Asks about each polygon as a whole; the truth is the union of its fan.
+    /// Judges each polygon as a whole; its truth is that of the union of its fan.
     pub fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
         for (index, range) in chunk.groups() {
-            let cases = &chunk.cases[range.clone()];
-            let mut vertices = vec![cases[0].triangle.a, cases[0].triangle.b];
-            vertices.extend(cases.iter().map(|case| case.triangle.c));
-            let asked = match promises_direction(contract.direction, cases[0].ray.direction.into())
-            {
-                true => obligation(&polygon_truth(&chunk.truths[range]), contract, false),
-                false => Obligation::Free,
-            };
-            let run = || self.subject.run_polygon(&vertices, &cases[0].ray, &self.epsilons).hit;
-            let Ok(hit) = catch_unwind(AssertUnwindSafe(run)) else { continue };
-            let (polygons, place) = (&mut tally.polygons, Place { index, triangle: 0 });
-            match asked {
-                Obligation::MustHit => {
-                    polygons.must_hit += 1;
-                    if !hit {
-                        polygons.false_miss += 1;
-                        polygons.false_miss_digest.add(place);
-                    }
-                }
-                Obligation::MustMiss => {
-                    polygons.must_miss += 1;
-                    if hit {
-                        polygons.false_hit += 1;
-                        polygons.false_hit_digest.add(place);
-                    }
-                }
-                Obligation::Free => {}
-            }
+            let (cases, truths) = (&chunk.cases[range.clone()], &chunk.truths[range]);
+            let owed = polygon_obligation(cases, truths, contract);
+            let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
+            let finding = judge::judge(owed, &polygon_truth(truths), self.info.gives, &verdict);
+            tally.polygon(index, (owed, verdict.hit, finding));
         }
     }
 }
@@ -204,4 +178,17 @@ fn add_rays<F: Scalar>(
             }
         }
     }
+}
+
+/// A kernel's verdict on a polygon, given as its fan.
+pub(crate) fn polygon_verdict<F: Scalar>(
+    subject: &dyn Subject<F>,
+    cases: &[Case<F>],
+    epsilons: &[F],
+) -> Verdict<F> {
+    let Case { ray, triangle } = &cases[0];
+    let mut vertices = vec![triangle.a, triangle.b];
+    vertices.extend(cases.iter().map(|case| case.triangle.c));
+    let run = || subject.run_polygon(&vertices, ray, epsilons);
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or(Verdict::failed(Failure::Panic))
 }

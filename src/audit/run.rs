@@ -1,32 +1,23 @@
 //! The run: each case once to the oracle and once to each kernel.
 
 use super::causes::{self, Causes};
-use super::chunk::{CHUNK, Chunk, SourceSummary};
-use super::plan::{Plan, Row};
+use super::chunk::{Chunk, SourceSummary};
+use super::forms::ScalarName;
+use super::plan::Plan;
+use super::row::Row;
+use super::rows::{Rows, verdicts_of};
 use super::shard::Shard;
 use super::source::Source;
-use super::stored::ScalarName;
 use super::tally::{ClassCount, Tally};
-use crate::arith::Float;
-use crate::case::Case;
 use crate::contract::Contract;
+use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
-use crate::judge::{self, Class, Expectations, Finding, GroupTruth, asks_groups_alike};
-use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
-use rayon::prelude::*;
+use crate::judge::{self, Class, Expectations, Finding, GroupTruth, owes_groups_alike};
+use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-
-/// What a run tells while it goes on, and where it reads a clock.
-pub trait Observer: Sync {
-    /// This many more cases have gone through the oracle and every kernel.
-    fn advance(&self, cases: u64);
-    /// Nanoseconds since some moment.
-    fn now(&self) -> u64;
-}
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
@@ -36,7 +27,7 @@ pub struct Cell {
     /// The source's place in the plan.
     pub source: usize,
     /// `f32` or `f64`.
-    #[serde(with = "super::stored::scalar_name")]
+    #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
     /// What was found.
     pub tally: Tally,
@@ -103,17 +94,10 @@ pub fn run_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut A
 fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, audit: &mut Audit) {
     let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
     for (number, source) in plan.sources.iter().enumerate() {
-        let Range { start, end } = shard.range(source.count::<F>());
         let empty = || runner.no_sums(plan.examples, number);
-        let sums = (0..(end - start).div_ceil(CHUNK))
-            .into_par_iter()
-            .fold(empty, |mut sums, chunk| {
-                let first = start + chunk * CHUNK;
-                runner.add_chunk(source, first..end.min(first + CHUNK), &mut sums);
-                sums
-            })
-            .reduce(empty, Sums::merged);
-        runner.add_to(sums, audit);
+        let add = |sums: &mut Sums, indices| runner.add_chunk(source, indices, sums);
+        let indices = shard.range(source.count::<F>());
+        runner.add_to(engine::sum(indices, source.chunk(), observer, empty, add), audit);
     }
 }
 
@@ -155,36 +139,23 @@ pub(super) struct Sums {
     rows: Vec<(Tally, u64)>,
 }
 
-impl Sums {
-    fn merged(mut self, other: Sums) -> Sums {
+impl Merge for Sums {
+    fn merge(&mut self, other: Sums) {
         self.summary.merge(&other.summary);
         for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
             tally.merge(more);
             *time += more_time;
         }
-        self
     }
 }
 
 /// A plan in one scalar, its kernels and epsilons resolved.
 pub(super) struct Runner<'a, F: Scalar> {
-    /// The rows whose kernels run in this scalar.
-    rows: Vec<RunnerRow<F>>,
-    /// The distinct contracts of the rows.
-    contracts: Vec<Contract>,
+    rows: Rows<F>,
     /// How many findings of a class are attributed, and on how many indices of each source the values
     /// of hits are measured.
     attribute: usize,
     observer: &'a dyn Observer,
-}
-
-pub(super) struct RunnerRow<F: 'static> {
-    /// The row's place in the plan.
-    number: usize,
-    pub(super) subject: &'static dyn Subject<F>,
-    pub(super) info: &'static KernelInfo,
-    pub(super) epsilons: Vec<F>,
-    contract: usize,
 }
 
 /// What a contract asks on a chunk.
@@ -197,26 +168,14 @@ pub(super) struct Asked {
 
 impl<'a, F: Scalar> Runner<'a, F> {
     pub fn new(rows: &[Row], attribute: usize, observer: &'a dyn Observer) -> Self {
-        let mut contracts: Vec<Contract> = Vec::new();
-        let resolve = |(number, row): (usize, &Row)| {
-            let subject = F::subject(row.entry)?;
-            let known = contracts.iter().position(|contract| *contract == row.contract);
-            let contract = known.unwrap_or_else(|| {
-                contracts.push(row.contract);
-                contracts.len() - 1
-            });
-            let info = row.entry.info;
-            Some(RunnerRow { number, subject, info, epsilons: row.epsilons(), contract })
-        };
-        let rows = rows.iter().enumerate().filter_map(resolve).collect();
-        Runner { rows, contracts, attribute, observer }
+        Runner { rows: Rows::new(rows), attribute, observer }
     }
 
     pub fn no_sums(&self, examples: usize, source: usize) -> Sums {
         let tally = || Tally::new(examples, self.attribute);
         Sums {
             summary: SourceSummary::new(source, F::NAME),
-            rows: self.rows.iter().map(|_| (tally(), 0)).collect(),
+            rows: self.rows.each.iter().map(|_| (tally(), 0)).collect(),
         }
     }
 
@@ -224,7 +183,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
     pub fn add_to(&self, sums: Sums, audit: &mut Audit) {
         let source = sums.summary.source;
         audit.sources.push(sums.summary);
-        let rows = self.rows.iter().zip(sums.rows);
+        let rows = self.rows.each.iter().zip(sums.rows);
         audit.cells.extend(rows.map(|(row, (tally, nanoseconds))| {
             Cell::new(row.number, source, F::NAME, tally, nanoseconds)
         }));
@@ -232,8 +191,8 @@ impl<'a, F: Scalar> Runner<'a, F> {
 
     /// Finds the causes of a cell's findings, and keeps as many examples as asked.
     pub fn finish_cell(&self, source: &Source, examples: usize, cell: &mut Cell) {
-        if let Some(row) = self.rows.iter().find(|row| row.number == cell.row) {
-            let contract = &self.contracts[row.contract];
+        if let Some(row) = self.rows.each.iter().find(|row| row.number == cell.row) {
+            let contract = &self.rows.contracts[row.contract];
             cell.causes = causes::causes(source, row, contract, &cell.tally, self.attribute);
         }
         cell.tally.keep_examples(examples);
@@ -241,10 +200,10 @@ impl<'a, F: Scalar> Runner<'a, F> {
 
     /// What each contract asks on a chunk.
     fn ask(&self, chunk: &Chunk<F>) -> Vec<Asked> {
-        // Of groups, contracts of the same extent and sides ask the same.
+        // Many contracts ask the same of every group.
         let mut of_groups: Vec<(&Contract, Arc<[GroupTruth]>)> = Vec::new();
         let ask = |contract| {
-            let alike = |(other, _): &&(&Contract, _)| asks_groups_alike(contract, other);
+            let alike = |(other, _): &&(&Contract, _)| owes_groups_alike(contract, other);
             let groups = of_groups.iter().find(alike).map(|(_, groups)| groups.clone());
             let groups = groups.unwrap_or_else(|| {
                 let groups: Arc<[GroupTruth]> = chunk.group_truths(contract).into();
@@ -258,7 +217,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
             }
             Asked { expectations, classes, groups }
         };
-        self.contracts.iter().map(ask).collect()
+        self.rows.contracts.iter().map(ask).collect()
     }
 
     /// The cases of a chunk on which the values of hits are measured.
@@ -278,42 +237,20 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         let mut known = vec![None; chunk.cases.len()];
         let mut suspects = Vec::new();
-        for (row, (tally, time)) in self.rows.iter().zip(&mut sums.rows) {
+        for (row, (tally, time)) in self.rows.each.iter().zip(&mut sums.rows) {
             let start = self.observer.now();
             verdicts_of(row.subject, &chunk.cases, &row.epsilons, &mut verdicts);
             *time += self.observer.now() - start;
-            let contract = &self.contracts[row.contract];
+            let contract = &self.rows.contracts[row.contract];
             let asked = &asked[row.contract];
             judge::suspects(&asked.expectations.of, row.info.gives, &verdicts, &mut suspects);
             let found = (&verdicts[..], &suspects[..]);
-            row.judge(&chunk, (contract, asked), found, &mut known, tally);
+            row.judge((source, &chunk), (contract, asked), found, &mut known, tally);
             row.measure(&chunk, &sample, asked, &verdicts, tally);
             // Rounded polygons are not planar, and have no truth as a whole.
             if chunk.grouping == Grouping::Polygon && row.info.polygons && source.keeps_truth() {
                 row.judge_polygons(&chunk, contract, tally);
             }
-        }
-        self.observer.advance(chunk.cases.len() as u64);
-    }
-}
-
-/// Runs a kernel on all cases.
-pub(crate) fn verdicts_of<F: Float>(
-    subject: &dyn Subject<F>,
-    cases: &[Case<F>],
-    epsilons: &[F],
-    verdicts: &mut [Verdict<F>],
-) {
-    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
-    };
-    if run(cases, verdicts).is_ok() {
-        return;
-    }
-    // Once more, one by one, to pin the cases at which it panicked.
-    for i in 0..cases.len() {
-        if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
-            verdicts[i] = Verdict::failed(Failure::Panic);
         }
     }
 }

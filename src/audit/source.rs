@@ -1,12 +1,16 @@
 //! Where a plan's cases come from, by index.
 
-use super::command::quoted;
+use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily};
 use crate::kernel::Scalar;
+use crate::mesh::{Part, Surface, Targets};
 use crate::truth::Truth;
 use std::sync::Arc;
+
+/// Indices that go through a run together.
+pub(crate) const CHUNK: u64 = 1024;
 
 /// A source of cases.
 #[derive(Clone)]
@@ -35,8 +39,27 @@ pub enum Source {
         /// How many indices.
         count: u64,
     },
+    /// Groups at the edges, or at the vertices, of a mesh: a ray and the triangles around its target.
+    MeshPart {
+        /// The mesh, in the scalars of the run.
+        surface: Arc<Surface>,
+        /// Edges or vertices.
+        part: Part,
+        /// What the cases are put through.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// Rays at each edge or vertex.
+        directions: u64,
+    },
     /// Stored cases.
     Corpus(CorpusSet),
+}
+
+/// Whether a source of this name in tables makes its cases from a mesh.
+pub(crate) fn is_of_mesh(name: &str) -> bool {
+    let kind = name.split_once(':').map(|(kind, _)| kind);
+    kind.is_some_and(|kind| kind == "mesh" || Part::of_family(kind).is_some())
 }
 
 /// The stored cases of one file.
@@ -68,13 +91,21 @@ impl CorpusSet {
 }
 
 impl Source {
-    /// The name in tables.
+    /// The name in tables: one line, whatever a file is called.
     pub fn name(&self) -> String {
-        match self {
+        let name = match self {
             Source::Family { family, .. } => family.name.to_owned(),
             Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
+            Source::MeshPart { surface, part, .. } => {
+                format!("{}:{}", part.family(), surface.file_name())
+            }
             Source::Corpus(set) => format!("corpus:{}", set.file),
-        }
+        };
+        let shown = |c: char| match c.is_control() {
+            true => c.escape_default().to_string(),
+            false => c.to_string(),
+        };
+        name.chars().map(shown).collect()
     }
 
     /// The number of indices in a scalar.
@@ -85,9 +116,51 @@ impl Source {
                 family.size.map_or(*count, |size| size.min(*count))
             }
             Source::Mesh { count, .. } => *count,
+            Source::MeshPart { part, directions, .. } => {
+                self.targets::<F>().map_or(0, |targets| targets.count(*part) * directions)
+            }
             Source::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
             Source::Corpus(set) => set.f64.len() as u64,
         }
+    }
+
+    /// Indices that go through a run together; of vertices fewer, which have more triangles.
+    pub(crate) fn chunk(&self) -> u64 {
+        match self {
+            Source::MeshPart { part: Part::Vertices, .. } => CHUNK / 4,
+            _ => CHUNK,
+        }
+    }
+
+    /// The groups at the edges and at the vertices of a mesh, in some scalars; none of other sources.
+    pub fn mesh_parts(&self, directions: u64, scalars: [bool; 2]) -> Vec<Source> {
+        let Source::Mesh { family, parameters, seed, .. } = self else { return Vec::new() };
+        let surface = Arc::new(Surface::new(family.clone(), scalars));
+        let of = |part| Source::MeshPart {
+            surface: surface.clone(),
+            part,
+            parameters: parameters.clone(),
+            seed: *seed,
+            directions,
+        };
+        Part::ALL.map(of).into()
+    }
+
+    /// The edges and vertices of a mesh; none of other sources, or in another scalar.
+    fn targets<F: Float>(&self) -> Option<Targets<'_>> {
+        let Source::MeshPart { surface, parameters, seed, .. } = self else { return None };
+        surface.targets::<F>(parameters, *seed)
+    }
+
+    /// Whether there are triangles around those of a group, which may have the hit that it lacks.
+    pub(crate) fn has_neighbours(&self) -> bool {
+        matches!(self, Source::MeshPart { .. })
+    }
+
+    /// The triangles around those of an index; none if they are too many, or if there are none.
+    pub(crate) fn neighbours<F: Float>(&self, index: u64) -> Option<Vec<Case<F>>> {
+        let Source::MeshPart { part, .. } = self else { return None };
+        self.targets::<F>()?.neighbours(*part, index)
     }
 
     /// Whether a case's id alone makes the case again.
@@ -101,7 +174,7 @@ impl Source {
             Source::Family { exhaustive, family, count, .. } => {
                 !exhaustive && family.size.is_none_or(|size| *count < size)
             }
-            Source::Mesh { .. } => true,
+            Source::Mesh { .. } | Source::MeshPart { .. } => true,
             Source::Corpus(_) => false,
         }
     }
@@ -110,6 +183,7 @@ impl Source {
     pub fn grouping(&self) -> Grouping {
         match self {
             Source::Family { family, .. } => family.grouping,
+            Source::MeshPart { part, .. } => part.grouping(),
             Source::Mesh { .. } | Source::Corpus(_) => Grouping::Single,
         }
     }
@@ -126,6 +200,11 @@ impl Source {
             Source::Mesh { family, parameters, seed, .. } => {
                 Made::One(family.make(parameters, *seed, index))
             }
+            Source::MeshPart { part, .. } => {
+                let mut cases = Vec::new();
+                self.targets::<F>().expect("a scalar of the run").make(*part, index, &mut cases);
+                Made::Group(cases)
+            }
             Source::Corpus(set) => Made::One(set.get(index).1),
         }
     }
@@ -135,7 +214,7 @@ impl Source {
     pub fn keeps_promise(&self, truths: &[Truth]) -> bool {
         match self {
             Source::Family { family, .. } => family.keeps(truths),
-            Source::Mesh { .. } | Source::Corpus(_) => true,
+            Source::Mesh { .. } | Source::MeshPart { .. } | Source::Corpus(_) => true,
         }
     }
 
@@ -144,16 +223,16 @@ impl Source {
         match self {
             // Scaling can leave the range at either end.
             Source::Family { parameters, .. } => parameters.keep_truth() && parameters.scale == 0,
-            Source::Mesh { .. } | Source::Corpus(_) => true,
+            Source::Mesh { .. } | Source::MeshPart { .. } | Source::Corpus(_) => true,
         }
     }
 
     /// Whether the parameters leave truths alone, but for the ends of the range.
     pub fn keeps_truth(&self) -> bool {
         match self {
-            Source::Family { parameters, .. } | Source::Mesh { parameters, .. } => {
-                parameters.keep_truth()
-            }
+            Source::Family { parameters, .. }
+            | Source::Mesh { parameters, .. }
+            | Source::MeshPart { parameters, .. } => parameters.keep_truth(),
             Source::Corpus(_) => true,
         }
     }
@@ -162,7 +241,8 @@ impl Source {
     pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
         let id = match self {
             Source::Family { family, parameters, exhaustive: true, .. } => {
-                // The in-order index of the lattice is its own set, seed "0" of version "all".
+                // In its natural order the lattice has a name of its own: `lattice-all@1/f32/-/0/17`,
+                // whose seed is always 0.
                 let mut id = family.id::<F>(parameters, 0, index);
                 id.family = format!("{}-all", family.name);
                 id
@@ -173,6 +253,9 @@ impl Source {
             Source::Mesh { family, parameters, seed, .. } => {
                 family.id::<F>(parameters, *seed, index)
             }
+            Source::MeshPart { surface, part, parameters, seed, .. } => {
+                surface.id::<F>(*part, parameters, *seed, index)
+            }
             Source::Corpus(set) => return set.get::<F>(index).0.to_owned(),
         };
         crate::case::CaseId { triangle, ..id }.to_string()
@@ -181,10 +264,19 @@ impl Source {
     /// The words after `hairline explain` that show a case again.
     pub fn explain_arguments<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
         let id = quoted(&self.id::<F>(index, triangle));
+        match self.file_flag() {
+            Some(flag) => format!("{id} {flag}"),
+            None => id,
+        }
+    }
+
+    /// The flag that names the file from which an id makes its case; none of families.
+    pub fn file_flag(&self) -> Option<String> {
         match self {
-            Source::Family { .. } => id,
-            Source::Mesh { family, .. } => format!("{id} --mesh {}", quoted(family.path())),
-            Source::Corpus(set) => format!("{id} --corpus {}", quoted(&set.file)),
+            Source::Family { .. } => None,
+            Source::Mesh { family, .. } => Some(format!("--mesh {}", quoted(family.path()))),
+            Source::MeshPart { surface, .. } => Some(format!("--mesh {}", quoted(surface.path()))),
+            Source::Corpus(set) => Some(format!("--corpus {}", quoted(&set.file))),
         }
     }
 }

@@ -1,34 +1,23 @@
 //! Plans and sums as data, so that the parts of a run can be added up by another process.
 
-use super::plan::{EpsilonText, Plan, Row};
+use super::plan::Plan;
+use super::row::{Row, RowSpec};
 use super::run::Audit;
 use super::source::Source;
 use crate::case::Parameters;
-use crate::contract::{Band, NAMED};
 use crate::family;
 use crate::judge::Class;
-use crate::kernel;
 use serde::{Deserialize, Serialize};
 
 /// A plan with names for what is built in, and paths for what is not.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredPlan {
-    rows: Vec<StoredRow>,
+    rows: Vec<RowSpec>,
     sources: Vec<StoredSource>,
     scalars: [bool; 2],
     examples: usize,
     attribute: usize,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StoredRow {
-    kernel: String,
-    set: String,
-    epsilons: Vec<EpsilonText>,
-    contract: Option<String>,
-    band: Option<String>,
 }
 
 /// A source that can be opened again.
@@ -59,6 +48,19 @@ pub enum StoredSource {
         /// How many indices.
         count: u64,
     },
+    /// Groups at the edges or vertices of a mesh.
+    MeshPart {
+        /// The mesh's file.
+        path: String,
+        /// `mesh-edges` or `mesh-vertices`.
+        part: String,
+        /// As in case ids.
+        parameters: String,
+        /// The seed of the set.
+        seed: u64,
+        /// Rays at each edge or vertex.
+        directions: u64,
+    },
     /// Stored cases.
     Corpus {
         /// Their file.
@@ -69,15 +71,8 @@ pub enum StoredSource {
 impl StoredPlan {
     /// Of a plan.
     pub fn of(plan: &Plan) -> StoredPlan {
-        let row = |row: &Row| StoredRow {
-            kernel: row.entry.info.name.to_owned(),
-            set: row.set.clone(),
-            epsilons: row.epsilons.clone(),
-            contract: row.contract_name.map(str::to_owned),
-            band: row.contract.band.map(|band| band.to_string()),
-        };
         StoredPlan {
-            rows: plan.rows.iter().map(row).collect(),
+            rows: plan.rows.iter().map(Row::spec).collect(),
             sources: plan.sources.iter().map(StoredSource::of).collect(),
             scalars: plan.scalars,
             examples: plan.examples,
@@ -85,41 +80,22 @@ impl StoredPlan {
         }
     }
 
-    /// The plan again; `open` reads meshes and corpora.
+    /// The plan again; `open` reads meshes, in the scalars of the run, and corpora.
     pub fn plan<E: From<String>>(
         &self,
-        mut open: impl FnMut(&StoredSource) -> Result<Source, E>,
+        mut open: impl FnMut(&StoredSource, [bool; 2]) -> Result<Source, E>,
     ) -> Result<Plan, E> {
         let sources = self.sources.iter().map(|source| match source.family()? {
             Some(source) => Ok(source),
-            None => open(source),
+            None => open(source, self.scalars),
         });
         Ok(Plan {
             sources: sources.collect::<Result<_, E>>()?,
-            rows: self.rows.iter().map(StoredRow::row).collect::<Result<_, String>>()?,
+            rows: self.rows.iter().map(RowSpec::row).collect::<Result<_, _>>().map_err(|e| e.0)?,
             scalars: self.scalars,
             examples: self.examples,
             attribute: self.attribute,
         })
-    }
-}
-
-impl StoredRow {
-    fn row(&self) -> Result<Row, String> {
-        let entry = kernel::find(&self.kernel)
-            .ok_or_else(|| format!("unknown kernel '{}'", self.kernel))?;
-        let named = |name: &String| {
-            let found = NAMED.iter().find(|named| named.name == name);
-            found.ok_or_else(|| format!("unknown contract '{name}'"))
-        };
-        let named = self.contract.as_ref().map(named).transpose()?;
-        let mut contract = named.map_or(entry.info.contract, |named| named.contract);
-        contract.band = self.band.as_deref().map(str::parse::<Band>).transpose()?;
-        if self.epsilons.len() != entry.info.gates.len() {
-            return Err(format!("{} does not have {} gates", self.kernel, self.epsilons.len()));
-        }
-        let (set, epsilons) = (self.set.clone(), self.epsilons.clone());
-        Ok(Row { entry, set, epsilons, contract, contract_name: named.map(|named| named.name) })
     }
 }
 
@@ -141,6 +117,15 @@ impl StoredSource {
                 seed: *seed,
                 count: *count,
             },
+            Source::MeshPart { surface, part, parameters, seed, directions } => {
+                StoredSource::MeshPart {
+                    path: surface.path().to_owned(),
+                    part: part.family().to_owned(),
+                    parameters: parameters.to_string(),
+                    seed: *seed,
+                    directions: *directions,
+                }
+            }
             Source::Corpus(set) => StoredSource::Corpus { file: set.file.clone() },
         }
     }
@@ -179,79 +164,5 @@ impl Audit {
             cell.nanoseconds += more.nanoseconds;
         }
         Ok(())
-    }
-}
-
-/// `f32` or `f64`. Written out, serde would take it for text to borrow from its input.
-pub(super) type ScalarName = &'static str;
-
-/// A scalar by its name.
-pub(super) mod scalar_name {
-    use crate::arith::Float;
-    use serde::{Deserialize, Deserializer, Serializer, de};
-
-    pub fn serialize<S: Serializer>(name: &&'static str, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(name)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D::Error> {
-        let text = String::deserialize(from)?;
-        let known = [f32::NAME, f64::NAME].into_iter().find(|name| *name == text);
-        known.ok_or_else(|| de::Error::custom(format!("unknown scalar '{text}'")))
-    }
-}
-
-/// A float by its bits: JSON has no infinity.
-pub(super) mod bits {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_u64(value.to_bits())
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-        u64::deserialize(from).map(f64::from_bits)
-    }
-}
-
-/// A place with its score.
-pub(super) mod scored {
-    use crate::audit::Place;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(
-        value: &Option<(f64, Place)>,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        value.map(|(score, place)| (score.to_bits(), place)).serialize(to)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<Option<(f64, Place)>, D::Error> {
-        let stored = Option::<(u64, Place)>::deserialize(from)?;
-        Ok(stored.map(|(score, place)| (f64::from_bits(score), place)))
-    }
-}
-
-/// A map whose keys are no strings, as a list of pairs.
-pub(super) mod pairs {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-    use std::collections::BTreeMap;
-
-    pub fn serialize<K: Serialize, V: Serialize, S: Serializer>(
-        map: &BTreeMap<K, V>,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_seq(map)
-    }
-
-    pub fn deserialize<'de, K, V, D>(from: D) -> Result<BTreeMap<K, V>, D::Error>
-    where
-        K: Deserialize<'de> + Ord,
-        V: Deserialize<'de>,
-        D: Deserializer<'de>,
-    {
-        Ok(Vec::<(K, V)>::deserialize(from)?.into_iter().collect())
     }
 }

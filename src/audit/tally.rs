@@ -2,22 +2,14 @@
 
 use super::accuracy::Accuracy;
 use super::by_finding::ByFinding;
-use super::digest::Digest;
+use super::digest::{Digest, Place};
+use super::group_count::{GroupCount, Judged};
 use super::histogram::Histogram;
 use super::trials::{RayProducts, Trials};
-use crate::judge::{Class, Finding, GroupTruth, Obligation};
+use crate::judge::{Class, Finding, Obligation};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-
-/// Where a case stands in its source: the index, and the triangle of a group.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Place {
-    /// The index.
-    pub index: u64,
-    /// The triangle of a group; 0 alone.
-    pub triangle: u32,
-}
 
 /// The counts of one class of truths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -95,7 +87,7 @@ pub struct Examples {
     /// In order of their place.
     pub first: Vec<Place>,
     /// The one with the largest approximate severity, the first of equals.
-    #[serde(with = "super::stored::scored")]
+    #[serde(with = "super::forms::scored")]
     pub worst: Option<(f64, Place)>,
     /// Of all places with the finding.
     pub digest: Digest,
@@ -132,97 +124,38 @@ impl Examples {
     }
 }
 
-/// What the triangles of groups did together.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct GroupCount {
-    /// Groups in which one hit is right.
-    pub crossings: u64,
-    /// Of these, those without a hit.
-    pub cracks: u64,
-    /// Of these, those with two hits or more.
-    pub doubles: u64,
-    /// Pairs that fold over their edge.
-    pub folds: u64,
-    /// Of these, those whose number of hits has the wrong parity.
-    pub odd_folds: u64,
-    /// Of these, those without a hit where the exact line has two.
-    pub missed_folds: u64,
-    /// The first cracks, by index.
-    pub first_cracks: Vec<u64>,
-    /// The first doubles, by index.
-    pub first_doubles: Vec<u64>,
-    /// Of all cracks.
-    pub crack_digest: Digest,
-    /// Of all doubles.
-    pub double_digest: Digest,
-}
-
-impl GroupCount {
-    /// Counts a group.
-    pub(crate) fn add(&mut self, index: u64, truth: GroupTruth, hits: usize, limit: usize) {
-        let note = |list: &mut Vec<u64>| {
-            if list.len() < limit {
-                list.push(index)
-            }
-        };
-        match truth {
-            GroupTruth::Free => {}
-            GroupTruth::Crossing => {
-                self.crossings += 1;
-                if hits == 0 {
-                    self.cracks += 1;
-                    self.crack_digest.add(Place { index, triangle: 0 });
-                    note(&mut self.first_cracks);
-                } else if hits > 1 {
-                    self.doubles += 1;
-                    self.double_digest.add(Place { index, triangle: 0 });
-                    note(&mut self.first_doubles);
-                }
-            }
-            GroupTruth::Fold { odd } => {
-                self.folds += 1;
-                self.odd_folds += u64::from((hits % 2 == 1) != odd);
-                self.missed_folds += u64::from(hits == 0 && !odd);
-            }
-        }
-    }
-
-    /// Adds another count.
-    pub(crate) fn merge(&mut self, other: GroupCount, limit: usize) {
-        self.crossings += other.crossings;
-        self.cracks += other.cracks;
-        self.doubles += other.doubles;
-        self.folds += other.folds;
-        self.odd_folds += other.odd_folds;
-        self.missed_folds += other.missed_folds;
-        self.crack_digest.merge(other.crack_digest);
-        self.double_digest.merge(other.double_digest);
-        for (list, more) in [
-            (&mut self.first_cracks, other.first_cracks),
-            (&mut self.first_doubles, other.first_doubles),
-        ] {
-            list.extend(more);
-            list.sort_unstable();
-            list.truncate(limit);
-        }
-    }
-}
-
-/// A polygon kernel's answers about whole polygons.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// What a kernel that takes polygons did with whole ones.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PolygonCount {
-    /// Polygons that must be hit.
-    pub must_hit: u64,
-    /// Of these, missed.
-    pub false_miss: u64,
-    /// Which.
-    pub false_miss_digest: Digest,
-    /// Polygons that must be missed.
-    pub must_miss: u64,
-    /// Of these, hit.
-    pub false_hit: u64,
-    /// Which.
-    pub false_hit_digest: Digest,
+    /// The polygons, what the contract asks of them, and what was found.
+    pub count: ClassCount,
+    /// The polygons that show a finding.
+    #[serde(with = "super::forms::pairs")]
+    pub examples: BTreeMap<Finding, Examples>,
+}
+
+impl PolygonCount {
+    /// Counts a polygon, whether it was hit, and what that shows.
+    fn add(&mut self, index: u64, answer: (Obligation, bool, Option<Finding>), limit: usize) {
+        let (obligation, hit, finding) = answer;
+        self.count.ask(obligation, 1);
+        self.count.hits += u64::from(hit);
+        self.count.valued_hits += u64::from(hit);
+        let Some(finding) = finding else { return };
+        self.count.findings[finding as usize] += 1;
+        if finding.is_failure() {
+            self.count.fail(obligation);
+        }
+        let place = Place { index, triangle: 0 };
+        self.examples.entry(finding).or_default().add((place, Digest::of(place)), 0.0, limit);
+    }
+
+    fn merge(&mut self, other: PolygonCount, limit: usize) {
+        self.count.merge(&other.count);
+        for (finding, more) in other.examples {
+            self.examples.entry(finding).or_default().merge(more, limit);
+        }
+    }
 }
 
 /// Second hits on the triangle that a ray starts on.
@@ -258,12 +191,12 @@ pub struct Tally {
     pub classes: Vec<ClassCount>,
     /// By class, or of all classes together, and finding: sums over the rays; empty where each ray has one
     /// triangle.
-    #[serde(with = "super::stored::pairs")]
+    #[serde(with = "super::forms::pairs")]
     pub products: BTreeMap<(Option<Class>, Finding), RayProducts>,
     /// Examples by class and finding.
     pub examples: ByFinding<Examples>,
     /// How far false misses and false hits are from where the verdict would be right.
-    #[serde(with = "super::stored::pairs")]
+    #[serde(with = "super::forms::pairs")]
     pub severities: BTreeMap<Finding, Severities>,
     /// How accurate the values of right hits are, of a sample.
     pub accuracy: Accuracy,
@@ -342,8 +275,13 @@ impl Tally {
     }
 
     /// Counts a group.
-    pub fn group(&mut self, index: u64, truth: GroupTruth, hits: usize) {
-        self.groups.add(index, truth, hits, self.group_limit);
+    pub(super) fn group(&mut self, group: &Judged) {
+        self.groups.add(group, self.group_limit);
+    }
+
+    /// Counts a whole polygon: what the contract asks of it, whether it was hit, and what that shows.
+    pub fn polygon(&mut self, index: u64, answer: (Obligation, bool, Option<Finding>)) {
+        self.polygons.add(index, answer, self.group_limit);
     }
 
     /// Adds another tally.
@@ -361,12 +299,7 @@ impl Tally {
         }
         self.accuracy.merge(&other.accuracy);
         self.groups.merge(other.groups, self.group_limit);
-        self.polygons.must_hit += other.polygons.must_hit;
-        self.polygons.false_miss += other.polygons.false_miss;
-        self.polygons.must_miss += other.polygons.must_miss;
-        self.polygons.false_hit += other.polygons.false_hit;
-        self.polygons.false_miss_digest.merge(other.polygons.false_miss_digest);
-        self.polygons.false_hit_digest.merge(other.polygons.false_hit_digest);
+        self.polygons.merge(other.polygons, self.group_limit);
         self.self_hits.rays += other.self_hits.rays;
         self.self_hits.hits += other.self_hits.hits;
     }
@@ -393,6 +326,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::GroupTruth;
 
     #[test]
     fn any_split_adds_up_to_the_same() {
@@ -406,7 +340,8 @@ mod tests {
             }
             let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
             products.add_ray(index % 4, 4);
-            tally.group(index, GroupTruth::Crossing, (index % 4) as usize);
+            let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
+            tally.group(&Judged { index, cases: 0..2, truth, hits, elsewhere: index % 8 == 4 });
         };
         let mut whole = Tally::new(5, 0);
         (0..100).for_each(|index| event(&mut whole, index));

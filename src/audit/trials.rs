@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Products of the findings k and the trials n of one ray, summed over the rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RayProducts {
     /// Sum of k².

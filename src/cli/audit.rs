@@ -1,6 +1,7 @@
 //! `hairline audit`: kernels on families of cases, a mesh or a corpus.
 
 use super::exit::{Failure, Status};
+use super::flags::JUDGING;
 use super::reporting::{RunArguments, self_check};
 use clap::Args;
 
@@ -10,9 +11,9 @@ pub struct AuditArguments {
     #[command(flatten)]
     run: RunArguments,
 
-    /// How many findings of each class of each family, the first by index, to attribute to a cause,
-    /// and on how many indices to measure the values of hits; 0 for none
-    #[arg(long, default_value_t = 100, value_name = "N")]
+    /// How many findings of each class of each family to attribute to a cause, and on how many indices to
+    /// measure the errors of t, u and v; 0 for none
+    #[arg(long, default_value_t = 100, value_name = "N", help_heading = JUDGING)]
     attribute: usize,
 }
 
@@ -21,7 +22,7 @@ pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let outputs = arguments.run.report.outputs()?;
     let plan = arguments.run.plan(arguments.attribute)?;
     let record = arguments.run.execute(&plan, outputs.illustrate())?;
-    outputs.write(&record)?;
     self_check(&record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }

@@ -1,14 +1,15 @@
 //! The case that a command line names: an id, the name of a stored case, or JSON.
 
 use super::exit::{Failure, Status};
+use super::flags::unknown;
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
-use super::select::unknown;
 use crate::case::{Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
 use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
 use crate::kernel::Scalar;
-use crate::watertight::{Part, Targets, Topology};
+use crate::mesh::{Part, Targets, Topology};
+use crate::report::number_of;
 use clap::Args;
 
 /// Which case.
@@ -18,7 +19,7 @@ pub struct CaseArguments {
     #[arg(value_name = "CASE")]
     pub case: String,
 
-    /// The mesh that the case's id speaks of
+    /// The mesh that the case's id names
     #[arg(long, value_name = "FILE")]
     pub(super) mesh: Option<String>,
 
@@ -64,13 +65,13 @@ impl<F: Scalar> Group<F> {
 impl CaseArguments {
     /// The cases, or why there are none.
     pub fn cases(&self) -> Result<Cases, Failure> {
+        if let Some(path) = &self.corpus {
+            return self.stored(path);
+        }
         if self.case.trim_start().starts_with('{') {
             let stored = lines::read(self.case.as_bytes(), "argument").next();
             let missing = || Failure::usage("the argument holds no case".to_owned());
-            return Ok(stored_cases(stored.ok_or_else(missing)??));
-        }
-        if let Some(path) = &self.corpus {
-            return self.stored(path);
+            return Ok(stored_cases(&stored.ok_or_else(missing)??));
         }
         let id: CaseId = self.case.parse().map_err(|error| {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
@@ -83,21 +84,33 @@ impl CaseArguments {
     }
 
     fn stored(&self, path: &str) -> Result<Cases, Failure> {
-        let mut names = Vec::new();
+        let (mut names, mut found) = (Vec::new(), Vec::new());
         for file in corpus_files(path)? {
             for stored in read_corpus(&file)? {
-                if name_of(&stored) == self.case {
-                    return Ok(stored_cases(stored));
-                }
                 names.push(name_of(&stored));
+                if names.last() == Some(&self.case) {
+                    found.push((format!("{file}:{}", stored.line), stored));
+                }
             }
         }
-        let names = names.iter().map(String::as_str);
-        Err(unknown("case", &self.case, names, &format!("hairline truth {path}")))
+        if let [(_, stored)] = &found[..] {
+            return Ok(stored_cases(stored));
+        }
+        if found.is_empty() {
+            let names = names.iter().map(String::as_str);
+            return Err(unknown("case", &self.case, names, &format!("hairline truth {path}")));
+        }
+        let places: Vec<&str> = found.iter().map(|(place, _)| place.as_str()).collect();
+        Err(Failure::usage(format!(
+            "{} cases are called '{}': {}; name the file with --corpus",
+            found.len(),
+            self.case,
+            places.join(", ")
+        )))
     }
 }
 
-fn stored_cases(stored: StoredCase) -> Cases {
+fn stored_cases(stored: &StoredCase) -> Cases {
     match stored.case {
         AnyCase::F32(case) => Cases::F32(Group::alone(vec![case], Grouping::Single)),
         AnyCase::F64(case) => Cases::F64(Group::alone(vec![case], Grouping::Single)),
@@ -142,10 +155,9 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
 /// The triangle of a group that an id names, or all.
 fn chosen_triangle<F: Scalar>(id: &CaseId, cases: Vec<Case<F>>) -> Result<Vec<Case<F>>, Failure> {
     let Some(triangle) = id.triangle else { return Ok(cases) };
-    let count = cases.len();
+    let count = number_of(cases.len() as u64, "triangle", "triangles");
     let case = cases.get(triangle).copied();
-    let case = case
-        .ok_or_else(|| Failure::usage(format!("'{id}' has {count} triangles, counted from 0")))?;
+    let case = case.ok_or_else(|| Failure::usage(format!("'{id}' has {count}, counted from 0")))?;
     Ok(vec![case])
 }
 
@@ -156,15 +168,14 @@ fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Grou
         return Err(Failure::Message(Status::BadInput, message));
     }
     let topology = Topology::of::<F>(mesh);
-    let targets = Targets::new::<F>(mesh, &topology, id.seed, id.parameters.unit_direction);
+    let targets = Targets::new(mesh, &topology, &id.parameters, id.seed);
     if targets.count(part) == 0 {
         let message = format!("'{id}': the mesh has no edge or vertex that is asked about");
         return Err(Failure::Message(Status::BadInput, message));
     }
     let mut cases = Vec::new();
     targets.make(part, id.index, &mut cases);
-    let (target, _) = targets.place(part, id.index);
-    let neighbours = targets.neighbours(part, target, &cases[0]);
+    let neighbours = targets.neighbours(part, id.index);
     Ok(Group { cases: chosen_triangle(id, cases)?, grouping: part.grouping(), neighbours })
 }
 

@@ -1,35 +1,39 @@
 //! `hairline check`: a run held to its expectations.
 
 use super::exit::{Failure, Status};
+use super::flags::JUDGING;
 use super::github;
 use super::input::{read_record, read_text};
-use super::output::write_file;
+use super::output::write_result;
 use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;
 use crate::expect::{self, Expectations};
-use crate::report::{Conformance, PartialPart, Record, Verdict};
+use crate::report::{Conformance, PartialPart, Record, SCHEMA, Verdict};
 use clap::parser::ValueSource;
-use clap::{Args, CommandFactory, FromArgMatches, Parser};
-use std::ffi::OsString;
+use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
 
-/// Where expectations are looked for if nothing else is said.
+/// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
 
 /// What to run, what to expect, and how to report.
 #[derive(Args)]
+#[command(args_conflicts_with_subcommands = true)]
 pub struct CheckArguments {
+    #[command(subcommand)]
+    command: Option<CheckCommand>,
+
     /// The settings [default: hairline.toml, if there is one]
     #[arg(long, value_name = "FILE")]
     config: Option<String>,
 
-    /// The known disagreements; without the file nothing is expected
+    /// The known disagreements; without this file none is known
     #[arg(long, value_name = "FILE", default_value = DEFAULT_FILE)]
     expectations: String,
 
-    /// Write what was found as what is expected from now on
+    /// Write what this run finds as the known disagreements
     #[arg(long)]
     bless: bool,
 
@@ -41,37 +45,80 @@ pub struct CheckArguments {
     run: RunArguments,
 
     /// How many findings of each class to attribute to a cause (see `audit`); 0 for none
-    #[arg(long, default_value_t = 0, value_name = "N")]
+    #[arg(long, default_value_t = 0, value_name = "N", help_heading = JUDGING)]
     attribute: usize,
 }
 
-/// The arguments alone, to be read again under the settings.
-#[derive(Parser)]
-#[command(name = "hairline check")]
-struct Alone {
-    #[command(flatten)]
-    arguments: CheckArguments,
+/// What the files that `check` reads and writes look like.
+#[derive(Subcommand)]
+pub enum CheckCommand {
+    /// Print a commented hairline.toml with every setting at its default
+    Config {
+        /// The only thing that `config` does
+        #[arg(long, hide = true)]
+        print_default: bool,
+    },
+    /// Print the JSON Schema of the record that `--format json` writes
+    Schema,
 }
 
-/// The words of the command line that the text of a `hairline.toml` stands for; `file` is its name in
-/// errors, from whose folder its paths are. Their values are parsed as the command line's, and files and
-/// names in them not looked for.
-///
-/// Errors: file and line of what is no setting, or what is wrong with a value.
-pub fn read_settings(text: &str, file: &str) -> Result<Vec<String>, String> {
-    let given = settings::from_file(text, file)
-        .map_err(|failure| failure.message().unwrap_or_default().to_owned())?;
-    let words: Vec<String> = given.into_iter().flat_map(|given| given.words).collect();
-    let program = std::iter::once("check");
-    match Alone::try_parse_from(program.chain(words.iter().map(String::as_str))) {
-        Ok(_) => Ok(words),
-        Err(error) => Err(format!("{file}: {error}")),
+impl CheckCommand {
+    /// Runs `check config` or `check schema`.
+    pub fn run(&self) -> Result<Status, Failure> {
+        let text = match self {
+            CheckCommand::Config { .. } => settings::default_file(&words_command()),
+            CheckCommand::Schema => SCHEMA.to_owned(),
+        };
+        write_result("-", |out| out.write_all(text.as_bytes()))?;
+        Ok(Status::Success)
     }
 }
 
-/// Runs the command on the words after `check`.
-pub fn run(words: &[OsString]) -> Result<Status, Failure> {
-    let (arguments, given) = with_settings(words)?;
+/// The flags of `check` on their own, to read settings as words.
+fn words_command() -> clap::Command {
+    CheckArguments::augment_args_for_update(clap::Command::new("check").no_binary_name(true))
+}
+
+/// What words of settings say, without the defaults of all other flags.
+fn parsed(words: &[String]) -> Result<ArgMatches, String> {
+    let mut matches = words_command().try_get_matches_from(words).map_err(|error| {
+        let text = error.to_string();
+        let line = text.lines().next().unwrap_or_default();
+        line.strip_prefix("error: ").unwrap_or(line).to_owned()
+    })?;
+    let ids: Vec<String> = matches.ids().map(ToString::to_string).collect();
+    for id in ids {
+        if matches.value_source(&id) != Some(ValueSource::CommandLine) {
+            let _ = matches.try_clear_id(&id);
+        }
+    }
+    Ok(matches)
+}
+
+/// The words of the command line that the text of a `hairline.toml` stands for; `file` is its name in
+/// errors, and its folder is where relative paths begin. Values are parsed as on the command line; files
+/// and names in them are not looked up.
+///
+/// Errors: file and line of an unknown setting or of a wrong value.
+pub fn read_settings(text: &str, file: &str) -> Result<Vec<String>, String> {
+    let given = settings::from_file(text, file)
+        .map_err(|failure| failure.message().unwrap_or_default().to_owned())?;
+    let words = |given: Given| match parsed(&given.words) {
+        Ok(_) => Ok(given.words),
+        Err(message) => Err(format!("{}: {message}", given.place)),
+    };
+    Ok(given.into_iter().map(words).collect::<Result<Vec<_>, _>>()?.concat())
+}
+
+/// Runs the command; `matches` says which flags the command line has.
+pub fn run(mut arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
+    if let Some(command) = &arguments.command {
+        return command.run();
+    }
+    let given = arguments.settings(matches)?;
+    for given in &given {
+        arguments.set(given)?;
+    }
     let outputs = arguments.run.report.outputs()?;
     let mut record = match &arguments.record {
         Some(file) => read_record(file)?,
@@ -125,64 +172,25 @@ fn part_only(
     write().map(|()| Status::Success)
 }
 
-/// Reads the words, then again with the settings that they leave open.
-fn with_settings(words: &[OsString]) -> Result<(CheckArguments, Vec<Given>), Failure> {
-    let named = |words: &[OsString]| {
-        std::iter::once(OsString::from("hairline check")).chain(words.to_vec()).collect::<Vec<_>>()
-    };
-    let matches = Alone::command().try_get_matches_from(named(words)).map_err(refused)?;
-    let alone = Alone::from_arg_matches(&matches).map_err(refused)?.arguments;
-    let file = match &alone.config {
-        Some(file) => Some(file.as_str()),
-        None => Path::new(settings::FILE).exists().then_some(settings::FILE),
-    };
-    let from_file = match file {
-        Some(file) => settings::from_file(&read_text(file)?, file)?,
-        None => Vec::new(),
-    };
-    let from_environment = settings::from_environment(|name| std::env::var(name).ok())?;
-    let on_command_line = |key: &str| {
-        let id = key.replace('-', "_");
-        matches.value_source(&id) == Some(ValueSource::CommandLine)
-    };
-    let given = settings::layered([from_environment, from_file], on_command_line);
-    let mut all = words.to_vec();
-    for given in &given {
-        // One by one, so that an error has its place.
-        let words: Vec<OsString> = given.words.iter().map(OsString::from).collect();
-        if let Err(error) = Alone::try_parse_from(named(&words)) {
-            let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            let line = line.strip_prefix("error: ").unwrap_or(line);
-            return Err(Failure::usage(format!("{}: {line}", given.place)));
-        }
-        all.extend(words);
-    }
-    let arguments = Alone::try_parse_from(named(&all)).map_err(refused)?.arguments;
-    Ok((arguments, given))
-}
-
-/// What the argument parser says.
-fn refused(error: clap::Error) -> Failure {
-    let text = error.to_string();
-    Failure::usage(text.trim_end().strip_prefix("error: ").unwrap_or(&text).to_owned())
-}
-
-/// Says which setting a plan fails for: the one that fails alone in the same way.
+/// Names the setting that a plan fails for: the one that fails alone in the same way.
 fn blame(failure: Failure, given: &[Given]) -> Failure {
     let Failure::Message(status, message) = &failure else { return failure };
     let kernels = given.iter().find(|given| given.key == "kernel");
     for setting in given {
         let context = kernels.filter(|_| setting.key.starts_with("epsilon"));
-        let words = context.into_iter().chain([setting]).flat_map(|given| &given.words);
-        let words = std::iter::once("hairline check").chain(words.map(String::as_str));
-        let Ok(alone) = Alone::try_parse_from(words) else { continue };
-        let same = alone.arguments.plan().is_err_and(|error| error.message() == Some(message));
-        if same {
+        let all = context.into_iter().chain([setting]);
+        let Ok(mut alone) = defaults() else { break };
+        let same = |failure: Failure| failure.message() == Some(message);
+        if all.into_iter().all(|given| alone.set(given).is_ok()) && alone.plan().is_err_and(same) {
             return Failure::Message(*status, format!("{}: {message}", setting.place));
         }
     }
     failure
+}
+
+/// The arguments of `check` on an empty command line.
+fn defaults() -> Result<CheckArguments, clap::Error> {
+    CheckArguments::from_arg_matches(&words_command().try_get_matches_from([""; 0])?)
 }
 
 /// The expectations; none if the file is not there, unless the command line names it to be read.
@@ -213,13 +221,54 @@ fn blessed(
             error.outside_the_plan
         ))
     })?;
-    write_file(Path::new(file), |out| out.write_all(text.as_bytes()))
-        .map_err(|error| Failure::of_file(file, &error))?;
-    Ok(expect::read(&text, file)?)
+    let expectations = expect::read(&text, file)?;
+    write_result(file, |out| out.write_all(text.as_bytes()))?;
+    Ok(expectations)
 }
 
 impl CheckArguments {
     fn plan(&self) -> Result<Plan, Failure> {
         self.run.plan(self.attribute)
+    }
+
+    /// What the environment and hairline.toml say of the flags that the command line leaves out.
+    fn settings(&self, matches: Option<&ArgMatches>) -> Result<Vec<Given>, Failure> {
+        let default = || Path::new(settings::FILE).exists().then_some(settings::FILE);
+        let from_file = match self.config.as_deref().or_else(default) {
+            Some(file) => settings::from_file(&read_text(file)?, file)?,
+            None => Vec::new(),
+        };
+        let from_environment = settings::from_environment(|name| std::env::var(name).ok())?;
+        settings::layered([from_environment, from_file], |key| {
+            let source = matches.and_then(|matches| matches.value_source(&key.replace('-', "_")));
+            source == Some(ValueSource::CommandLine)
+        })
+    }
+
+    /// Takes over one setting.
+    fn set(&mut self, given: &Given) -> Result<(), Failure> {
+        let wrong = |message: String| Failure::usage(format!("{}: {message}", given.place));
+        let matches = parsed(&given.words).map_err(wrong)?;
+        self.update_from_arg_matches(&matches).map_err(|error| wrong(error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_file_is_read_and_gives_every_setting_its_default() {
+        let text = settings::default_file(&words_command());
+        assert!(text.contains("\nscalar = [\"f32\", \"f64\"]\n"), "{text}");
+        assert!(text.contains("\ncount = 20000\n") && text.contains("\n# band = \"4ulps\"\n"));
+        read_settings(&text, "h.toml").unwrap();
+        let examples: Vec<&str> = text
+            .lines()
+            .map(|l| l.strip_prefix("# ").filter(|l| l.contains(" = ")).unwrap_or(l))
+            .collect();
+        // Two flags are false, which takes no word.
+        let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
+        assert_eq!(words.len(), 17, "{words:?}");
     }
 }

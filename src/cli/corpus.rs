@@ -1,25 +1,22 @@
 //! `hairline corpus`: verify or make the stored cases.
 
 use super::exit::{Failure, Status};
-use super::input::{corpus_files, open, read_corpus};
-use super::output::{write_file, write_result};
-use super::select::unknown;
-use crate::campaign::Find;
+use super::flags::unknown;
+use super::input::{MANIFEST, corpus_files, open, read_corpus};
+use super::output::write_result;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
-use crate::corpus::manifest::{self, ManifestLine};
+use crate::explore;
+use crate::explore::campaign::Find;
+use crate::family::manifest::{self, ManifestLine};
 use crate::family::{FAMILIES, Family, find};
 use crate::kernel::Scalar;
 use crate::oracle;
-use crate::search;
 use clap::{Args, Subcommand};
 use std::fs;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
-
-/// The manifest's name in a corpora folder.
-pub const MANIFEST: &str = "manifest.jsonl";
 
 /// What to do with stored cases.
 #[derive(Args)]
@@ -30,7 +27,7 @@ pub struct CorpusArguments {
 
 #[derive(Subcommand)]
 enum CorpusCommand {
-    /// Check every stored truth, and make every set and mesh of the manifest again
+    /// Check every stored truth, and generate every set and mesh of the manifest again
     Verify {
         /// A folder of corpus files, or one of them
         #[arg(default_value = "corpora", value_name = "FILE|DIR")]
@@ -50,11 +47,11 @@ enum CorpusCommand {
         #[arg(long, default_value = "f32", value_name = "SCALAR")]
         scalar: String,
 
-        /// How many indices
+        /// How many cases, or groups of cases
         #[arg(long, short = 'n', default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
         count: u64,
 
-        /// Which random cases
+        /// Seed of the random cases
         #[arg(long, default_value_t = 1)]
         seed: u64,
 
@@ -72,15 +69,19 @@ pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
             let names = FAMILIES.iter().map(|family| family.name);
             let family = find(name)
                 .ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
-            write_result(output, |out| match scalar.as_str() {
-                "f32" => write_family::<f32>(out, family, *seed, *count, AnyCase::F32),
-                "f64" => write_family::<f64>(out, family, *seed, *count, AnyCase::F64),
-                other => Err(io::Error::new(io::ErrorKind::InvalidInput, other.to_owned())),
-            })
-            .map_err(|failure| match scalar.as_str() {
-                "f32" | "f64" => failure,
-                other => Failure::usage(format!("unknown scalar '{other}': there are f32 and f64")),
-            })?;
+            let (seed, count) = (*seed, *count);
+            match scalar.as_str() {
+                "f32" => write_result(output, |out| {
+                    write_family::<f32>(out, family, seed, count, AnyCase::F32)
+                })?,
+                "f64" => write_result(output, |out| {
+                    write_family::<f64>(out, family, seed, count, AnyCase::F64)
+                })?,
+                other => {
+                    let message = format!("unknown scalar '{other}': there are f32 and f64");
+                    return Err(Failure::usage(message));
+                }
+            }
             Ok(Status::Success)
         }
         CorpusCommand::Generate { path, .. } => generate(Path::new(path)),
@@ -101,15 +102,8 @@ fn write_family<F: Scalar>(
         for (k, case) in made.cases().iter().enumerate() {
             let mut id = family.id::<F>(&parameters, seed, index);
             id.triangle = several.then_some(k);
-            let mut stored = StoredCase {
-                name: Some(id.to_string()),
-                case: wrap(*case),
-                truth: None,
-                line: 0,
-                why: None,
-                url: None,
-                found: None,
-            };
+            let mut stored =
+                StoredCase { name: Some(id.to_string()), ..StoredCase::of(wrap(*case)) };
             stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
             writeln!(out, "{}", write_case(&stored))?;
         }
@@ -126,7 +120,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let (mut scores, mut finds) = (0, 0);
         for case in &stored {
             agree(&file, case)?;
-            let replayed = search::replay(case);
+            let replayed = explore::replay(case);
             scores +=
                 u64::from(replayed.map_err(|message| InputError::at(&file, case.line, message))?);
             if case.found.is_some() {
@@ -151,7 +145,14 @@ fn verify(path: &str) -> Result<Status, Failure> {
         nothing &= lines.is_empty();
         let folder = manifest_path.parent().unwrap_or(Path::new("."));
         for (number, line) in &lines {
-            manifest::verify(line, |mesh| fs::read(folder.join("meshes").join(mesh)))
+            let mesh = match line {
+                ManifestLine::Set(_) => Vec::new(),
+                ManifestLine::Mesh(line) => {
+                    let path = folder.join("meshes").join(&line.mesh);
+                    fs::read(&path).map_err(|error| Failure::of_path(&path, &error))?
+                }
+            };
+            manifest::verify(line, &mesh)
                 .map_err(|message| InputError::at(&name, *number, message))?;
         }
         let meshes = lines.iter().filter(|(_, line)| matches!(line, ManifestLine::Mesh(_))).count();
@@ -185,24 +186,19 @@ fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
 }
 
 fn generate(folder: &Path) -> Result<Status, Failure> {
-    let failed =
-        |path: &Path, error: io::Error| Failure::of_file(&path.display().to_string(), &error);
     let meshes = folder.join("meshes");
-    fs::create_dir_all(&meshes).map_err(|error| failed(&meshes, error))?;
+    fs::create_dir_all(&meshes).map_err(|error| Failure::of_path(&meshes, &error))?;
     for (name, _, text) in manifest::meshes() {
-        let path = meshes.join(name);
-        write_file(&path, |out| out.write_all(text.as_bytes()))
-            .map_err(|error| failed(&path, error))?;
+        write_result(meshes.join(name), |out| out.write_all(text.as_bytes()))?;
     }
     let path = folder.join(MANIFEST);
     let lines = manifest::current();
-    write_file(&path, |out| {
+    write_result(&path, |out| {
         lines.iter().try_for_each(|line| {
             serde_json::to_writer(&mut *out, line)?;
             writeln!(out)
         })
-    })
-    .map_err(|error| failed(&path, error))?;
+    })?;
     eprintln!("{}: {} lines; meshes in {}", path.display(), lines.len(), meshes.display());
     Ok(Status::Success)
 }

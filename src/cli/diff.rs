@@ -16,7 +16,7 @@ pub struct DiffArguments {
     /// The later record
     new: String,
 
-    /// How to write it
+    /// The format of the output
     #[arg(long, value_enum, default_value_t)]
     format: DiffFormat,
 
@@ -36,14 +36,18 @@ enum DiffFormat {
 pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
     let (old, new) = (read_record(&arguments.old)?, read_record(&arguments.new)?);
     let comparison = difference(&old.result, &new.result);
-    write_result(&arguments.output, |out| match arguments.format {
-        DiffFormat::Text => comparison.write(out),
-        DiffFormat::Json => {
-            serde_json::to_writer_pretty(&mut *out, &comparison).map_err(io::Error::from)?;
-            writeln!(out)
-        }
-    })?;
-    if comparison.common == 0 {
+    let nothing = comparison.common == 0;
+    // It is printed, but no file becomes a comparison of nothing.
+    if !nothing || arguments.output == "-" {
+        write_result(&arguments.output, |out| match arguments.format {
+            DiffFormat::Text => comparison.write(out),
+            DiffFormat::Json => {
+                serde_json::to_writer_pretty(&mut *out, &comparison).map_err(io::Error::from)?;
+                writeln!(out)
+            }
+        })?;
+    }
+    if nothing {
         let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
     }

@@ -1,17 +1,19 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::flags::refuse_twice;
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;
+use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::Family;
-use crate::kernel::{Gate, Scalar, nearest_name};
+use crate::kernel::{Gate, Gated, Scalar};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
-use crate::response::{SPANNING, StudyPlan, floor, study, tunable_gates};
+use crate::suggest::nearest_name;
 use clap::Args;
 
 /// Which kernel, gate and cases, and how to report.
@@ -20,27 +22,28 @@ pub struct EpsilonArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// A gate, or several separated by commas, each varied alone [default: all that take an epsilon]
+    /// A gate, or several separated by commas; each is varied alone [default: all that take an epsilon]
     #[arg(long, value_delimiter = ',', value_name = "GATE")]
     gate: Vec<String>,
 
-    /// Further epsilons to weigh, separated by commas
+    /// More epsilons to compare, separated by commas
     #[arg(long, value_delimiter = ',', value_name = "E", allow_hyphen_values = true)]
     at: Vec<String>,
 
-    /// Keep every margin: exact at every epsilon, with memory that grows with the cases
+    /// Keep every margin: exact at every epsilon, but memory grows with the number of cases
     #[arg(long)]
     exact: bool,
 
-    /// Multiply the epsilon by each case's own size, to the power of the gate's dimension
+    /// Let the epsilon follow each case: multiply it by the case's size, to the power of the gate's
+    /// dimension
     #[arg(long)]
     relative: bool,
 
-    /// Weigh two gates against each other (in text and JSON)
+    /// Compare two gates with each other: one table of both epsilons (text and JSON)
     #[arg(long)]
     map: bool,
 
-    /// Scales at which to look for the limits again, or `none`
+    /// Scales of the cases at which to look for the limits again, or `none`
     #[arg(
         long,
         value_delimiter = ',',
@@ -65,7 +68,7 @@ pub struct EpsilonArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// No progress, no notes
+    /// Print no progress and no notes
     #[arg(long, short)]
     quiet: bool,
 }
@@ -82,41 +85,56 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         &arguments.output,
     )?;
     let rows = arguments.rows()?;
-    for row in &rows {
-        arguments.gates(row)?;
-    }
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;
     let threads = set_threads(arguments.threads)?;
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
-    let progress = Progress::new(total, "indices", arguments.quiet);
-    let mut all = Vec::new();
+    // What is wrong with the flags shows before the first study runs.
+    let sources = &sources;
+    let mut studies: Vec<Planned<'_>> = Vec::new();
     for row in &rows {
         let in_scalar = row.entry.scalars();
         if scalars[0] && in_scalar[0] {
-            all.push(arguments.study::<f32>(row, &sources, &progress)?);
+            let plan = arguments.plan::<f32>(row)?;
+            studies.push(Box::new(move |progress| run_study(&plan, sources, progress)));
         }
         if scalars[1] && in_scalar[1] {
-            all.push(arguments.study::<f64>(row, &sources, &progress)?);
+            let plan = arguments.plan::<f64>(row)?;
+            studies.push(Box::new(move |progress| run_study(&plan, sources, progress)));
         }
     }
+    let progress = Progress::new(total, "indices", arguments.quiet);
+    let all = studies.iter().map(|study| study(&progress)).collect::<Result<Vec<_>, _>>()?;
     progress.finish();
-    let record = record(&sources, all, threads, progress.seconds());
-    for (format, path) in outputs {
+    let record = record(sources, all, threads, progress.seconds());
+    write_results(outputs, |format, _, out| {
         let style = Style { color: ColorChoice::Never.enabled(false), details: false };
-        write_result(path, |out| (format.write)(&record, style, out))?;
-    }
+        (format.write)(&record, style, out)
+    })?;
     Ok(Status::Success)
 }
 
+/// What a study of one row in one scalar adds to the record.
+type StudyParts = Result<(Vec<GatePart>, Option<MapPart>), Failure>;
+
+/// A study that is still to be run.
+type Planned<'a> = Box<dyn Fn(&Progress) -> StudyParts + 'a>;
+
+fn run_study<F: Scalar>(
+    plan: &StudyPlan<'_, F>,
+    sources: &[Source],
+    progress: &Progress,
+) -> StudyParts {
+    let study = study(plan, sources, progress)
+        .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
+    Ok(parts(plan, sources, &study))
+}
+
 impl EpsilonArguments {
-    /// One row a kernel: its first epsilon set, with the given epsilons.
+    /// One row a kernel: its first epsilon set, with the given epsilons. Of several kernels those that
+    /// cannot be studied are left out, with a note.
     fn rows(&self) -> Result<Vec<Row>, Failure> {
-        if !self.kernels.names_kernels() {
-            let message = "name a kernel with --kernel (see `hairline list kernels`)";
-            return Err(Failure::usage(message));
-        }
         let mut rows = self.kernels.rows()?;
         rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
         if self.relative && (self.map || !self.at.is_empty()) {
@@ -126,15 +144,29 @@ impl EpsilonArguments {
         if self.map && self.gate.len() != 2 {
             return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
         }
+        refuse_twice("--gate", &self.gate)?;
+        let mut reasons = Vec::new();
+        rows.retain(|row| self.gates(row).map_err(|reason| reasons.push(reason)).is_ok());
+        match reasons.first() {
+            Some(reason) if rows.is_empty() => return Err(Failure::usage(reason)),
+            _ if self.quiet => {}
+            _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
+        }
         Ok(rows)
     }
 
-    fn gates(&self, row: &Row) -> Result<Vec<usize>, Failure> {
+    /// The gates to study, or why the kernel cannot be studied.
+    fn gates(&self, row: &Row) -> Result<Vec<usize>, String> {
         let gates = row.entry.info.gates;
         let tunable = tunable_gates(gates);
         let name = row.entry.info.name;
         if tunable.is_empty() {
-            return Err(Failure::usage(format!("{name}: no gate of it takes an epsilon")));
+            return Err(format!("{name} has no gate that takes an epsilon"));
+        }
+        if gated::<f32>(row).is_none() && gated::<f64>(row).is_none() {
+            return Err(format!(
+                "{name} does not show its gates: `hairline audit --epsilon GATE=VALUE` runs it at one epsilon"
+            ));
         }
         if self.gate.is_empty() {
             return Ok(tunable);
@@ -143,35 +175,26 @@ impl EpsilonArguments {
             let named = |gate: &&usize| gates[**gate].name == wanted;
             tunable.iter().find(named).copied().ok_or_else(|| self.no_gate(row, gates, wanted))
         };
-        let found: Vec<usize> = self.gate.iter().map(find).collect::<Result<_, _>>()?;
-        match (1..found.len()).find(|&i| found[..i].contains(&found[i])) {
-            Some(i) => Err(Failure::usage(format!("--gate: '{}' is given twice", self.gate[i]))),
-            None => Ok(found),
-        }
+        self.gate.iter().map(find).collect()
     }
 
-    fn no_gate(&self, row: &Row, gates: &[Gate], wanted: &str) -> Failure {
+    fn no_gate(&self, row: &Row, gates: &[Gate], wanted: &str) -> String {
         let kernel = row.entry.info.name;
         if gates.iter().any(|gate| gate.name == wanted) {
-            return Failure::usage(format!("gate '{wanted}' of {kernel} takes no epsilon"));
+            return format!("gate '{wanted}' of {kernel} takes no epsilon");
         }
         let advice = nearest_name(wanted, gates.iter().map(|gate| gate.name));
         let advice = advice.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
         let names: Vec<&str> =
             tunable_gates(gates).into_iter().map(|gate| gates[gate].name).collect();
-        Failure::usage(format!(
+        format!(
             "{kernel} has no gate '{wanted}'{advice} (those that take an epsilon: {})",
             names.join(", ")
-        ))
+        )
     }
 
-    fn study<F: Scalar>(
-        &self,
-        row: &Row,
-        sources: &[Source],
-        progress: &Progress,
-    ) -> Result<(Vec<GatePart>, Option<MapPart>), Failure> {
-        let chosen = self.gates(row)?;
+    fn plan<'a, F: Scalar>(&self, row: &'a Row) -> Result<StudyPlan<'a, F>, Failure> {
+        let chosen = self.gates(row).map_err(Failure::usage)?;
         let at = self.at.iter().map(|text| {
             let e = F::parse(text).filter(|e| e.is_finite()).ok_or_else(|| {
                 let message = format!("--at: '{text}' is not a finite number of {}", F::NAME);
@@ -186,25 +209,22 @@ impl EpsilonArguments {
                 None => Ok(e),
             }
         });
-        let gated = F::subject(row.entry).and_then(|subject| subject.gated()).ok_or_else(|| {
-            let kernel = row.entry.info.name;
-            let message = format!("{kernel} does not show its gates: `hairline audit --epsilon GATE=VALUE` runs it at one epsilon");
-            Failure::usage(message)
+        let at = at.collect::<Result<_, _>>()?;
+        let name = row.entry.info.name;
+        let gated = gated(row).ok_or_else(|| {
+            Failure::usage(format!("{name} does not show its gates in {}", F::NAME))
         })?;
-        let plan = StudyPlan::<F> {
+        Ok(StudyPlan {
             row,
             gated,
-            at: at.collect::<Result<_, _>>()?,
-            gates: chosen.clone(),
+            at,
+            gates: chosen,
             exact: self.exact,
             relative: self.relative,
             scales: self.exponents()?,
             scale_count: SCALE_COUNT,
             map: self.map,
-        };
-        let study = study(&plan, sources, progress)
-            .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
-        Ok(parts(&plan, sources, &study))
+        })
     }
 
     fn exponents(&self) -> Result<Vec<i32>, Failure> {
@@ -216,4 +236,8 @@ impl EpsilonArguments {
         };
         self.scales.iter().map(parse).collect()
     }
+}
+
+fn gated<F: Scalar>(row: &Row) -> Option<&'static dyn Gated<F>> {
+    F::subject(row.entry)?.gated()
 }

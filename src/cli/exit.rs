@@ -3,6 +3,7 @@
 use crate::audit::PlanError;
 use crate::corpus::InputError;
 use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// How the program ends. The README's table is tested against this one.
@@ -37,7 +38,7 @@ impl From<Status> for ExitCode {
 pub enum Failure {
     /// With a message of one line.
     Message(Status, String),
-    /// Whoever read the output has left; that is no error.
+    /// The reader of the output has closed it, which is no error.
     ClosedPipe,
 }
 
@@ -62,6 +63,11 @@ impl Failure {
         }
     }
 
+    /// An error of reading or writing at a path.
+    pub(super) fn of_path(path: &Path, error: &io::Error) -> Failure {
+        Failure::of_file(&path.display().to_string(), error)
+    }
+
     /// An error of reading or writing a file.
     pub(super) fn of_file(file: &str, error: &io::Error) -> Failure {
         if error.kind() == io::ErrorKind::BrokenPipe {
@@ -79,7 +85,8 @@ impl From<PlanError> for Failure {
 
 impl From<InputError> for Failure {
     fn from(error: InputError) -> Failure {
-        Failure::Message(Status::BadInput, error.to_string())
+        let status = if error.unreadable { Status::InputOutput } else { Status::BadInput };
+        Failure::Message(status, error.to_string())
     }
 }
 

@@ -5,18 +5,23 @@ use super::exit::{Failure, Status};
 use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
-use crate::arith::{Exact, Float};
-use crate::audit::{Errors, Row, attribute, exact_severity};
+use crate::arith::{Exact, Float, Real};
+use crate::audit::{Errors, Row, attribute, exact_severity, polygon_verdict, verdicts_of};
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::explore::Decimal;
 use crate::family::Grouping;
-use crate::judge::{Finding, GroupTruth, Obligation, asked, group_truth, judge};
+use crate::judge::{
+    Finding, GroupTruth, Obligation, asked, group_obligation, judge, may_be_elsewhere,
+    polygon_obligation, polygon_truth,
+};
 use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
 use crate::oracle;
+use crate::report::epsilon::shortest;
 use crate::truth::{Feature, Truth};
-use crate::watertight::may_be_elsewhere;
 use clap::Args;
+use std::cmp::Ordering;
 use std::io::{self, Write};
 
 /// Which case, and which kernels.
@@ -47,7 +52,10 @@ fn write_cases<F: Scalar>(
     name: &str,
     group: &Group<F>,
     rows: &[Row],
-) -> io::Result<()> {
+) -> io::Result<()>
+where
+    AnyCase: From<Case<F>>,
+{
     let cases = &group.cases;
     let respawned = group.grouping == Grouping::Respawn;
     for (i, case) in cases.iter().enumerate() {
@@ -64,6 +72,9 @@ fn write_cases<F: Scalar>(
         writeln!(out, "together")?;
         for row in rows {
             write_group(out, group, row)?;
+            if group.grouping == Grouping::Polygon && row.entry.info.polygons {
+                write_polygon(out, cases, row)?;
+            }
         }
     }
     Ok(())
@@ -75,12 +86,12 @@ fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> i
     let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
     let mut verdicts = vec![Verdict::miss(None); cases.len()];
     let Some(subject) = F::subject(row.entry) else { return Ok(()) };
-    subject.run(cases, &row.epsilons::<F>(), &mut verdicts);
+    verdicts_of(subject, cases, &row.epsilons::<F>(), &mut verdicts);
     if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
         return writeln!(out, "{}: {failure}; the group is not judged", row.label());
     }
     let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-    let asked = group_truth(&truths, &row.contract, group.grouping);
+    let asked = group_obligation(cases, &truths, &row.contract, group.grouping);
     let judged = match (asked, hits) {
         (GroupTruth::Free, _) => "nothing is asked of the group",
         (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
@@ -97,6 +108,33 @@ fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> i
     writeln!(out, "{}: {hits} of {} triangles hit; {judged}", row.label(), cases.len())
 }
 
+/// What a kernel makes of a polygon as a whole.
+fn write_polygon<F: Scalar>(out: &mut dyn Write, cases: &[Case<F>], row: &Row) -> io::Result<()> {
+    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let Some(subject) = F::subject(row.entry) else { return Ok(()) };
+    let owed = polygon_obligation(cases, &truths, &row.contract);
+    let verdict = polygon_verdict(subject, cases, &row.epsilons());
+    let finding = judge(owed, &polygon_truth(&truths), row.entry.info.gives, &verdict);
+    let corners = cases.len() + 2;
+    let judged = judged(owed, &verdict, finding);
+    writeln!(out, "{}: the polygon of {corners} corners as a whole: {judged}", row.label())
+}
+
+/// A verdict beside what the contract asks, in words.
+fn judged<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -> String {
+    let demand = match owed {
+        Obligation::MustHit => "a hit",
+        Obligation::MustMiss => "a miss",
+        Obligation::Free => "nothing",
+    };
+    let said = match verdict.failure {
+        Some(failure) => failure.to_string(),
+        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
+    };
+    let judged = finding.map_or("as it should".to_owned(), |finding| finding.name().to_uppercase());
+    format!("{said}; its contract asks {demand}: {judged}")
+}
+
 /// Whether a hit that a group lacks may be among the triangles around it, or these are too many.
 fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     let Some(crossing) = truth.crossing() else { return false };
@@ -104,11 +142,14 @@ fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     let Some(subject) = F::subject(row.entry) else { return false };
     let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
     let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
-    subject.run(neighbours, &row.epsilons::<F>(), &mut verdicts);
+    verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
     may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
 }
 
-fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()> {
+fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()>
+where
+    AnyCase: From<Case<F>>,
+{
     writeln!(out, "case {}", if name.trim_start().starts_with('{') { "as given" } else { name })?;
     let labels = ["origin", "direction", "a", "b", "c"];
     for (label, vector) in labels.into_iter().zip(case.vectors()) {
@@ -120,20 +161,7 @@ fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io:
     writeln!(out, "    interval   [{}, {}]   {} {}", t_min, t_max, t_min.hex(), t_max.hex())?;
     let definition = oracle::define(case);
     writeln!(out, "truth {}", definition.truth)?;
-    let kind = if F::NAME == f32::NAME {
-        AnyCase::F32(narrowed(case))
-    } else {
-        AnyCase::F64(case.widen())
-    };
-    let stored = StoredCase {
-        name: None,
-        case: kind,
-        truth: None,
-        line: 1,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     let line = serde_json::to_string(&truth_line(&stored)).unwrap_or_default();
     writeln!(out, "    {line}")?;
     if let Some(severity) = exact_severity(case, Extent::Interval) {
@@ -144,12 +172,6 @@ fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io:
         )?;
     }
     writeln!(out, "    as JSON: {}", lines::write_case(&stored))
-}
-
-/// A case of a scalar known to be `f32`.
-fn narrowed<F: Float>(case: &Case<F>) -> Case<f32> {
-    let [o, d, a, b, c] = case.vectors().map(|v| v.map(|x| x.to_f64() as f32));
-    Case::new(o, d, [a, b, c]).on(case.ray.t_min.to_f64() as f32, case.ray.t_max.to_f64() as f32)
 }
 
 fn write_row<F: Scalar>(
@@ -164,23 +186,16 @@ fn write_row<F: Scalar>(
     };
     let epsilons: Vec<F> = row.epsilons();
     let mut verdict = [Verdict::miss(None)];
-    subject.run(std::slice::from_ref(case), &epsilons, &mut verdict);
+    verdicts_of(subject, std::slice::from_ref(case), &epsilons, &mut verdict);
     let [verdict] = verdict;
 
     let asked = asked(case, truth, &row.contract, respawned);
     let finding = judge(asked, truth, row.entry.info.gives, &verdict);
-    let demand = match asked {
-        Obligation::MustHit => "a hit",
-        Obligation::MustMiss => "a miss",
-        Obligation::Free => "nothing",
-    };
-    let said = match verdict.failure {
-        Some(failure) => failure.to_string(),
-        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
-    };
-    let judged = finding.map_or("as it should".to_owned(), |finding| finding.name().to_uppercase());
-    writeln!(out, "{}: {said}; its contract asks {demand}: {judged}", row.label())?;
+    writeln!(out, "{}: {}", row.label(), judged(asked, &verdict, finding))?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
+    if verdict.failure.is_some() {
+        return Ok(());
+    }
     match subject.gated() {
         Some(gated) => write_gates(out, case, gated, &verdict, row)?,
         None => write_epsilons(out, row)?,
@@ -236,13 +251,14 @@ fn write_gates<F: Scalar>(
             )?;
             continue;
         }
+        let epsilon = epsilons[i];
         writeln!(
             out,
             "    {:<10} margin {:>13} (exactly {:>13}) at e = {}: {decision} (exactly: {should}{wrong}){mark}   [refuses {}]",
             gate.name,
-            format!("{:.6e}", margin.to_f64()),
-            describe(exact_margin),
-            row.epsilons[i],
+            margin_text(&Exact::from_f64(margin.to_f64()), epsilon, false),
+            margin_text(exact_margin, epsilon, should == word(false)),
+            shortest(epsilon),
             gate.refuses
         )?;
     }
@@ -297,8 +313,40 @@ fn write_errors<F: Scalar>(
     if parts.is_empty() { Ok(()) } else { writeln!(out, "    off by ulps: {}", parts.join(", ")) }
 }
 
-/// An exact number for people; its sign is exact.
-fn describe(value: &Exact) -> String {
-    use crate::arith::Real;
-    if value.is_zero() { "0".to_owned() } else { format!("{:.6e}", value.approximate()) }
+/// A margin in seven digits, or in as many as show on which side of the epsilon it lies; where
+/// seventeen do not, as the epsilon and the distance from it. Where it is the epsilon itself and the
+/// gate refuses, the gate accepts only what is below.
+fn margin_text<F: Float>(margin: &Exact, epsilon: F, refuses: bool) -> String {
+    let distance = margin.clone() - Exact::from_f64(epsilon.to_f64());
+    let epsilon = shortest(epsilon);
+    let (Some((sign, size)), Some((side, distance))) =
+        (sign_and_size(margin), sign_and_size(&distance))
+    else {
+        return format!("{:e}", margin.approximate());
+    };
+    if side == Ordering::Equal {
+        return if refuses { format!("below {epsilon}") } else { epsilon };
+    }
+    let epsilon_size = epsilon.trim_start_matches('-').parse().unwrap_or(Decimal::ZERO);
+    let shown_side = |digits: u32| match (sign == Ordering::Less, epsilon.starts_with('-')) {
+        (false, false) => size.rounded(digits).cmp(&epsilon_size),
+        (true, true) => epsilon_size.cmp(&size.rounded(digits)),
+        (true, false) => Ordering::Less,
+        (false, true) => Ordering::Greater,
+    };
+    match [7, 9, 17].into_iter().find(|digits| shown_side(*digits) == side) {
+        Some(digits) => {
+            let minus = if sign == Ordering::Less { "-" } else { "" };
+            format!("{minus}{}", size.with_digits(digits))
+        }
+        None => {
+            let direction = if side == Ordering::Less { '-' } else { '+' };
+            format!("{epsilon} {direction} {}", distance.brief())
+        }
+    }
+}
+
+/// The sign and the size of a finite number.
+fn sign_and_size(number: &Exact) -> Option<(Ordering, Decimal)> {
+    Some((number.sign()?, Decimal::of(&number.abs())?))
 }

@@ -2,30 +2,61 @@
 
 mod directory;
 mod lock;
+mod shrink;
 mod summary;
-
-pub use directory::{CAMPAIGN, FINDS, read_begun, read_finds};
-pub use summary::explain_command;
+mod triage;
+mod worst;
 
 use super::exit::{Failure, Status};
-use super::output::write_result;
+use super::flags::chosen_scalars;
+use super::output::{standard_output, write_result};
 use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars};
+use super::select::KernelArguments;
 use super::sources::{scalars_in_use, set_threads};
-use crate::campaign::{Campaign, Find, Plan, State};
-use clap::Args;
-use directory::{Begun, Directory};
-use std::io::{self, Write};
+use crate::explore::campaign::{Campaign, Find, Plan, State};
+use clap::{Args, Subcommand};
+use directory::{Begun, CAMPAIGN, Directory, NO_BAND};
+use std::io::Write;
 use summary::{Counters, write_summary};
 
 /// The seconds between two savings of counters and population, at least and at most: a session that
 /// is killed early should not have been for nothing.
 const SAVE_EVERY: [f64; 2] = [0.5, 10.0];
 
-/// Where the campaign is kept, what it looks at, and how long it goes on.
+/// What is done with findings.
+#[derive(Subcommand)]
+pub enum FuzzCommand {
+    /// Keep one small finding of each kind, out of campaigns, corpora and cargo-fuzz artifacts
+    Triage(triage::TriageArguments),
+    /// Make a case with a finding as simple as possible, as JSON, Rust and C to paste into a test
+    Shrink(shrink::ShrinkArguments),
+    /// Search for the worst case of each kernel and gate, and keep the worst known
+    Worst(Box<worst::WorstArguments>),
+}
+
+impl FuzzCommand {
+    /// Runs the command.
+    pub fn run(&self) -> Result<Status, Failure> {
+        match self {
+            FuzzCommand::Triage(arguments) => triage::run(arguments),
+            FuzzCommand::Shrink(arguments) => shrink::run(arguments),
+            FuzzCommand::Worst(arguments) => worst::run(arguments),
+        }
+    }
+}
+
+/// Where the campaign is kept, what it searches, and how long it runs.
 #[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    mut_arg("band", |band| band.hide(true))
+)]
 pub struct FuzzArguments {
-    /// The campaign's directory; an old campaign goes on, with what it was begun with
+    #[command(subcommand)]
+    command: Option<FuzzCommand>,
+
+    /// The campaign's directory; a campaign that is already there goes on
     #[arg(value_name = "DIR", required_unless_present = "output", conflicts_with = "output")]
     directory: Option<String>,
 
@@ -40,15 +71,15 @@ pub struct FuzzArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR")]
     scalar: Vec<String>,
 
-    /// Which random cases [default: 1]
+    /// Seed of the random cases [default: 1]
     #[arg(long)]
     seed: Option<u64>,
 
-    /// Stop this session after so many seconds [default: when it is killed, which loses nothing]
+    /// Stop this session after this many seconds [default: when it is killed, which loses nothing]
     #[arg(long, value_name = "SECONDS")]
     time: Option<f64>,
 
-    /// Stop when the campaign has made so many evaluations; then the finds depend on the seed only
+    /// Stop when the campaign has made this many evaluations; the findings then depend on the seed only
     #[arg(long, short = 'n', value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     evaluations: Option<u64>,
 
@@ -56,17 +87,20 @@ pub struct FuzzArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// Print the name of each find once it is on the disk
+    /// Print the name of each finding once it is on the disk
     #[arg(long)]
     print: bool,
 
-    /// No live status
+    /// Print no live status
     #[arg(long, short)]
     quiet: bool,
 }
 
 /// Runs the command.
 pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
+    if let Some(command) = &arguments.command {
+        return command.run();
+    }
     let path = arguments.directory.as_ref().or(arguments.output.as_ref());
     let path = path.ok_or_else(|| Failure::usage("say where the campaign is kept: DIR"))?;
     if let Some(seconds) = arguments.time.filter(|seconds| seconds.is_nan() || *seconds < 0.0) {
@@ -85,30 +119,21 @@ pub fn run(arguments: &FuzzArguments) -> Result<Status, Failure> {
     let mut session = Session::new(arguments, directory, campaign, finds, &state);
     let outcome = session.go_on(arguments);
     session.progress.finish();
-    // The summary is owed also where a disk is full.
+    // A full disk does not keep the summary from being printed.
     write_result("-", |out| write_summary(out, path, &session.finds, &session.counters()))?;
     outcome.map(|()| Status::Success)
 }
 
-/// Finds are kept, and run again, without a band.
-pub fn refuse_band(kernels: &KernelArguments) -> Result<(), Failure> {
-    match kernels.has_band() {
-        true => Err(Failure::usage("--band: finds are kept and run again without one")),
-        false => Ok(()),
-    }
-}
-
 /// The plan of a campaign.
 fn plan(begun: &Begun) -> Result<Plan, Failure> {
-    refuse_band(&begun.kernels)?;
-    let rows = begun.kernels.rows()?;
+    let rows = begun.kernels.rows_without_band(NO_BAND)?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&begun.scalar)?)?;
     let varies = !begun.kernels.chooses_epsilons();
     Ok(Plan { rows, varies, scalars, seed: begun.seed })
 }
 
 impl FuzzArguments {
-    /// What the flags ask for, if the campaign is new.
+    /// The beginning of a new campaign under these flags.
     fn asked(&self) -> Begun {
         let both = || vec!["f32".to_owned(), "f64".to_owned()];
         let scalar = if self.scalar.is_empty() { both() } else { self.scalar.clone() };
@@ -206,7 +231,7 @@ impl Session {
         finds.iter_mut().for_each(|find| find.seconds = Some(seconds));
         self.directory.append(&finds)?;
         if print {
-            let mut out = io::stdout().lock();
+            let mut out = standard_output()?;
             finds.iter().try_for_each(|find| writeln!(out, "{}", find.name()))?;
             out.flush()?;
         }

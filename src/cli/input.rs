@@ -7,19 +7,25 @@ use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::{Mesh, read_obj};
 use crate::corpus::truth_json::TruthLine;
+use crate::descriptors;
 use crate::oracle;
-use crate::report::{Record, SCHEMA};
+use crate::report::{Record, SCHEMA, number_of};
 use serde::Deserialize;
+use std::collections::{HashMap, HashSet};
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+/// The manifest's name in a corpora folder.
+pub const MANIFEST: &str = "manifest.jsonl";
+
 /// Opens a file; `-` is standard input.
 pub fn open(path: &str) -> Result<Box<dyn Read>, Failure> {
+    let failed = |error: io::Error| Failure::of_file(path, &error);
     if path == "-" {
+        descriptors::standard_input().map_err(failed)?;
         return Ok(Box::new(io::stdin()));
     }
-    let failed = |error: io::Error| Failure::of_file(path, &error);
     let file = File::open(path).map_err(failed)?;
     if file.metadata().map_err(failed)?.is_dir() {
         return Err(Failure::of_file(path, &io::Error::from(io::ErrorKind::IsADirectory)));
@@ -62,8 +68,10 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     progress.finish();
     let mesh = mesh?;
     if !quiet {
-        let (triangles, vertices) = (mesh.triangles.len(), mesh.positions_f64.len());
-        eprintln!("{path}: {triangles} triangles, {vertices} vertices, {} groups", mesh.groups);
+        let triangles = number_of(mesh.triangles.len() as u64, "triangle", "triangles");
+        let vertices = number_of(mesh.positions_f64.len() as u64, "vertex", "vertices");
+        let groups = number_of(mesh.groups as u64, "group", "groups");
+        eprintln!("{path}: {triangles}, {vertices}, {groups}");
         mesh.notes.iter().for_each(|note| eprintln!("{path}: {note}"));
     }
     Ok(mesh)
@@ -72,41 +80,76 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
 /// The corpus files of a path: itself, or the `.jsonl` files of a folder and its subfolders, in the
 /// order of their names. Manifests are no cases.
 pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
-    let failed =
-        |path: &Path, error: io::Error| Failure::of_file(&path.display().to_string(), &error);
-    let root = PathBuf::from(path);
-    if path == "-" || !fs::metadata(&root).map_err(|error| failed(&root, error))?.is_dir() {
-        return Ok(vec![path.to_owned()]);
+    // The commands that repeat the name must not take it for a flag.
+    let path = match path {
+        "-" => return Ok(vec![path.to_owned()]),
+        flag if flag.starts_with('-') => format!("./{flag}"),
+        path => path.to_owned(),
+    };
+    if !fs::metadata(&path).map_err(|error| Failure::of_file(&path, &error))?.is_dir() {
+        return Ok(vec![path]);
     }
-    let (mut files, mut folders) = (Vec::new(), vec![root]);
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).map_err(|error| failed(&folder, error))? {
-            let entry = entry.map_err(|error| failed(&folder, error))?.path();
-            let is_manifest = entry.file_name().is_some_and(|name| name == super::corpus::MANIFEST);
-            if entry.is_dir() {
-                folders.push(entry);
-            } else if entry.extension().is_some_and(|extension| extension == "jsonl")
-                && !is_manifest
-            {
-                files.push(entry.display().to_string());
-            }
-        }
-    }
-    files.sort();
+    let mut files = files_under(Path::new(&path), |_| false)?;
+    files.retain(|file| {
+        file.extension().is_some_and(|extension| extension == "jsonl")
+            && file.file_name().is_some_and(|name| name != MANIFEST)
+    });
     if files.is_empty() {
         return Err(Failure::Message(
             Status::NothingSelected,
             format!("{path}: no .jsonl files in it"),
         ));
     }
+    let name = |file: PathBuf| match file.to_str() {
+        Some(name) => Ok(name.to_owned()),
+        None => Err(InputError::of(&file.display().to_string(), "its name is not UTF-8").into()),
+    };
+    files.into_iter().map(name).collect()
+}
+
+/// What a folder and its subfolders hold but folders, each file once whatever links lead to it, in the
+/// order of their names. A folder that is `whole` is taken as a file.
+pub fn files_under(root: &Path, whole: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, Failure> {
+    let (mut files, mut seen) = (Vec::new(), HashSet::new());
+    // Links wait, so that a file goes by its own name if it has one here.
+    let (mut waiting, mut links) = (vec![root.to_owned()], Vec::new());
+    while let Some(path) = waiting.pop().or_else(|| links.pop()) {
+        let failed = |error: io::Error| Failure::of_path(&path, &error);
+        // A link that leads nowhere is an error once it is read.
+        if !seen.insert(fs::canonicalize(&path).unwrap_or_else(|_| path.clone())) {
+            continue;
+        }
+        if !path.is_dir() || whole(&path) {
+            files.push(path);
+            continue;
+        }
+        let entries = fs::read_dir(&path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+        let mut inside: Vec<PathBuf> =
+            entries.map_err(failed)?.into_iter().map(|entry| entry.path()).collect();
+        inside.sort();
+        let (linked, real) = inside.into_iter().rev().partition(|path| path.is_symlink());
+        links.extend::<Vec<_>>(linked);
+        waiting.extend::<Vec<_>>(real);
+    }
+    files.sort();
     Ok(files)
 }
 
-/// The cases of a corpus file. Stored truths are checked: a wrong one is an error with its line.
+/// The cases of a corpus file. A stored truth that is wrong is an error with its line, and so is a
+/// second case of a name.
 pub fn read_corpus(file: &str) -> Result<Vec<StoredCase>, Failure> {
+    let mut lines_of_names = HashMap::new();
     lines::read(BufReader::new(open(file)?), file)
         .map(|stored| {
             let stored = stored?;
+            if let Some(first) = lines_of_names.insert(name_of(&stored), stored.line) {
+                let message = format!(
+                    "a second case called '{}', as that of line {first} is{}: give each a name of its own",
+                    name_of(&stored),
+                    if stored.name.is_none() { " (a case without a name is called line-N)" } else { "" }
+                );
+                return Err(InputError::at(file, stored.line, message));
+            }
             if let Some(truth) = &stored.truth {
                 let line = truth_line(&stored);
                 truth.check(&line).map_err(|message| InputError::at(file, stored.line, message))?;

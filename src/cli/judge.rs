@@ -5,18 +5,19 @@ use super::case::family_of;
 use super::exit::{Failure, Status};
 use super::input::open;
 use super::reporting::ReportArguments;
-use super::select::named_contract;
 use crate::arith::Float;
 use crate::audit::{Answers, Audit, CHUNK, EpsilonChoice, Given, Plan, Row, Source};
 use crate::case::CaseId;
-use crate::contract::{Contract, NamedContract};
+use crate::conformance::conforms;
+use crate::contract::Contract;
 use crate::corpus::InputError;
+use crate::corpus::text_lines::TextLines;
+use crate::engine::Unobserved;
 use crate::kernel::{Entry, Gives, KernelInfo, Scalar, Verdict};
 use crate::plugin::{Start, text};
 use crate::report::{Context, build};
-use crate::{Unobserved, conforms};
 use clap::Args;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 
 /// What to read, and how to report it.
 #[derive(Args)]
@@ -25,8 +26,9 @@ pub struct JudgeArguments {
     #[arg(value_name = "FILE", default_value = "-")]
     file: String,
 
-    /// A contract instead of the hello's (see `hairline list contracts`); needed without a hello
-    #[arg(long, value_name = "NAME")]
+    /// A contract instead of the kernel's own (see `hairline list contracts`); needed if the kernel does not
+    /// announce one
+    #[arg(long, value_name = "CONTRACT")]
     contract: Option<String>,
 
     #[command(flatten)]
@@ -44,9 +46,10 @@ const ATTRIBUTE: usize = 100;
 /// Runs the command.
 pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
     let outputs = arguments.report.outputs()?;
-    let named = arguments.contract.as_deref().map(named_contract).transpose()?.flatten();
-    let mut lines = Lines::open(&arguments.file)?;
-    let mut line = lines.next()?;
+    let contract = arguments.contract.as_deref();
+    let reader = BufReader::with_capacity(1 << 16, open(&arguments.file)?);
+    let mut lines = TextLines::new(reader, &arguments.file, LONGEST_LINE);
+    let mut line = next(&mut lines)?;
     let no_verdicts = || {
         let message = format!("{}: no verdicts in it", arguments.file);
         Err(Failure::Message(Status::NothingSelected, message))
@@ -60,12 +63,12 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
         // Epsilons stay as they are: a filter is never told any.
         info = KernelInfo { gates: &[], ..*hello(&mut lines, line)? };
         info.epsilon_sets = KernelInfo::own("", Contract::CLOSED_RAY).epsilon_sets;
-        line = lines.next()?;
-    } else if named.is_none() {
+        line = next(&mut lines)?;
+    } else if contract.is_none_or(|words| words.starts_with("own")) {
         let message = "there is no hello that states a contract: give --contract NAME";
         return Err(lines.error(message).into());
     }
-    let mut sets = Sets::new(info, named, arguments.examples)?;
+    let mut sets = Sets::new(info, contract, arguments.examples)?;
     let mut count = 0;
     let ended = loop {
         let Some(text) = line else { break false };
@@ -78,7 +81,7 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
             }
         }
         count += 1;
-        line = lines.next()?;
+        line = next(&mut lines)?;
     };
     if !ended {
         let message = format!(
@@ -86,7 +89,7 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
         );
         return Err(InputError::of(&arguments.file, message).into());
     }
-    if let Some(more) = lines.next()? {
+    if let Some(more) = next(&mut lines)? {
         let message = format!("'{}' stands behind the last 'end'", text::shown(&more));
         return Err(lines.error(message).into());
     }
@@ -109,7 +112,7 @@ fn hello(lines: &mut Lines, first: Option<String>) -> Result<&'static KernelInfo
         if let Some(hello) = start.take(&text).map_err(|message| lines.error(message))? {
             return Ok(hello.info());
         }
-        line = lines.next()?;
+        line = next(lines)?;
     }
     Err(lines.error("the hello has no line 'ready'").into())
 }
@@ -128,16 +131,12 @@ struct Sets {
 }
 
 impl Sets {
-    fn new(
-        info: KernelInfo,
-        named: Option<&'static NamedContract>,
-        examples: usize,
-    ) -> Result<Sets, Failure> {
+    fn new(info: KernelInfo, contract: Option<&str>, examples: usize) -> Result<Sets, Failure> {
         let given: (&Given<f32>, &Given<f64>) =
             (Box::leak(Box::default()), Box::leak(Box::default()));
         let entry = Entry::new(Box::leak(Box::new(info))).with_f32(given.0).with_f64(given.1);
         let entry: &'static Entry = Box::leak(Box::new(entry.chosen_by("")));
-        let row = EpsilonChoice::Source.rows(&[entry], named)?.remove(0);
+        let row = EpsilonChoice::Source.rows(&[entry], contract)?.remove(0);
         Ok(Sets {
             row,
             given,
@@ -312,40 +311,12 @@ fn rounded<F: Float>(verdict: Verdict<f64>) -> Verdict<F> {
 }
 
 /// The most bytes of a line.
-const LONGEST_LINE: u64 = 1 << 16;
+const LONGEST_LINE: usize = 1 << 16;
 
-/// A file's lines that are not blank, counted.
-struct Lines {
-    file: String,
-    reader: BufReader<Box<dyn Read>>,
-    number: usize,
-}
+type Lines = TextLines<BufReader<Box<dyn Read>>>;
 
-impl Lines {
-    fn open(file: &str) -> Result<Lines, Failure> {
-        let reader = BufReader::with_capacity(1 << 16, open(file)?);
-        Ok(Lines { file: file.to_owned(), reader, number: 0 })
-    }
-
-    fn error(&self, message: impl Into<String>) -> InputError {
-        InputError::at(&self.file, self.number, message)
-    }
-
-    fn next(&mut self) -> Result<Option<String>, Failure> {
-        loop {
-            let mut bytes = Vec::new();
-            let limited = (&mut self.reader).take(LONGEST_LINE).read_until(b'\n', &mut bytes);
-            if limited.map_err(|error| Failure::of_file(&self.file, &error))? == 0 {
-                return Ok(None);
-            }
-            self.number += 1;
-            if bytes.len() as u64 == LONGEST_LINE {
-                return Err(self.error("a line of more than 65,536 bytes").into());
-            }
-            let line = String::from_utf8(bytes).map_err(|_| self.error("not UTF-8"))?;
-            if !line.trim().is_empty() {
-                return Ok(Some(line.trim().to_owned()));
-            }
-        }
-    }
+/// The next line without blanks at its ends.
+fn next(lines: &mut Lines) -> Result<Option<String>, Failure> {
+    let line = lines.next().transpose()?;
+    Ok(line.map(|(_, text)| text.trim().to_owned()))
 }

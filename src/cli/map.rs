@@ -4,9 +4,10 @@ mod input;
 mod summary;
 
 use super::exit::{Failure, Status};
+use super::flags::unknown;
 use super::orient::check_epsilon;
-use super::output::{paired_outputs, write_result};
-use super::select::{KernelArguments, unknown};
+use super::output::{paired_outputs, write_results};
+use super::select::KernelArguments;
 use super::sources::set_threads;
 use crate::arith::Float;
 use crate::audit::Row;
@@ -27,7 +28,7 @@ pub struct MapArguments {
     #[arg(value_name = "CASE")]
     case: Option<String>,
 
-    /// The mesh that the case's id speaks of
+    /// The mesh that the case's id names
     #[arg(long, value_name = "FILE")]
     mesh: Option<String>,
 
@@ -35,7 +36,8 @@ pub struct MapArguments {
     #[arg(long, value_name = "FILE|DIR")]
     corpus: Option<String>,
 
-    /// Instead of a case: edge, vertex, grazing; or points: collinear, coplanar [default: edge]
+    /// A standard spot instead of a case: edge, vertex, grazing; of points: collinear, coplanar
+    /// [default: edge]
     #[arg(long, value_name = "SPOT", conflicts_with = "case")]
     at: Option<String>,
 
@@ -46,35 +48,36 @@ pub struct MapArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// What is varied: origin, direction, a, b or c; of points a, b, c or d [default: origin; of points
-    /// the last, with --at the one near the others' line or plane]
+    /// Which point to vary: origin, direction, a, b or c; of points a, b, c or d [default: origin; of
+    /// points the last, with --at the one near the line or plane of the others]
     #[arg(long, value_name = "POINT")]
     vary: Option<String>,
 
-    /// In which two coordinates, to the right and upwards [default: the two that lie most in the
+    /// The coordinates to vary, to the right and upwards [default: the two that lie most in the
     /// triangle's plane; of points x,y]
     #[arg(long, value_name = "AXIS,AXIS")]
     axes: Option<String>,
 
-    /// From pixel to pixel: floats, as 1, or a length, as 2^-24 [default: 1 float, and in a coordinate
-    /// that is 0 the ulp of the largest]
+    /// The step from pixel to pixel: a number of floats, as 1, or a length, as 2^-24 [default: 1 float;
+    /// where a coordinate is 0, the ulp of the largest one]
     #[arg(long, value_name = "ULPS|2^K", allow_hyphen_values = true)]
     step: Option<String>,
 
-    /// Pixels, the case in the middle: to the right, and upwards if not as many
+    /// Width and height in pixels, the case in the middle; one number for both
     #[arg(long, value_name = "W[xH]", default_value = "128", allow_hyphen_values = true)]
     size: String,
 
-    /// The side of a pixel in a PNG, in dots [default: so that the picture is about 1000 wide]
+    /// The side of a pixel in a PNG, in dots [default: the picture becomes about 1000 dots wide]
     #[arg(long, value_name = "N")]
     dots: Option<usize>,
 
-    /// Draw the case instead: the triangle, the ray, where they meet and where the kernel says so (SVG)
+    /// Draw the case instead: the triangle, the ray, where they meet, and where the kernel reports a hit
+    /// (SVG)
     #[arg(long, conflicts_with_all = ["vary", "axes", "step", "size", "dots"])]
     drawing: bool,
 
-    /// How to write it: text, svg, png; or several separated by commas [default: as the names of the
-    /// outputs end; text if there are none]
+    /// text, svg or png, or several separated by commas [default: by the ending of each output's name;
+    /// text without outputs]
     #[arg(long, value_delimiter = ',', value_name = "FORMAT")]
     format: Vec<String>,
 
@@ -86,7 +89,7 @@ pub struct MapArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// No summary beside the picture
+    /// Print no summary beside the picture
     #[arg(long, short)]
     quiet: bool,
 }
@@ -125,15 +128,18 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         Input::PointsF32(points, point) => arguments.of_points(&points, point)?,
         Input::PointsF64(points, point) => arguments.of_points(&points, point)?,
     };
-    for (format, path) in &outputs {
-        let bytes = match (**format, &picture.map) {
+    let quiet = arguments.quiet || wants("text");
+    let mut pictures = Vec::new();
+    for (format, path) in outputs {
+        let bytes = match (*format, &picture.map) {
             ("png", Some(map)) => map::png(map, arguments.dots(map))?,
             ("svg", _) => picture.svg.clone().into_bytes(),
             _ => picture.summary.clone().into_bytes(),
         };
-        write_result(path, |out| out.write_all(&bytes))?;
+        pictures.push((bytes, path));
     }
-    if !arguments.quiet && !wants("text") {
+    write_results(pictures, |bytes, _, out| out.write_all(&bytes))?;
+    if !quiet {
         // A summary that nobody reads is no error.
         let _ = io::stderr().write_all(picture.summary.as_bytes());
     }
@@ -265,7 +271,10 @@ impl MapArguments {
     fn varied(&self, names: &[&'static str], default: usize) -> Result<usize, Failure> {
         let Some(name) = &self.vary else { return Ok(default) };
         names.iter().position(|other| other == name).ok_or_else(|| {
-            Failure::usage(format!("--vary: '{name}' is none of {}", names.join(", ")))
+            Failure::usage(format!(
+                "--vary: unknown point '{name}': there are {}",
+                names.join(", ")
+            ))
         })
     }
 

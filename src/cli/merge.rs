@@ -4,10 +4,11 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_set, read_mesh, read_record};
 use super::progress::Progress;
 use super::reporting::{ReportArguments, self_check};
-use crate::Unobserved;
 use crate::audit::{Plan, Source, StoredSource};
 use crate::corpus::InputError;
+use crate::engine::Unobserved;
 use crate::family::MeshFamily;
+use crate::mesh::{Part, Surface};
 use crate::report::{illustrations, mergeable, merged};
 use clap::Args;
 use std::sync::Arc;
@@ -15,11 +16,11 @@ use std::sync::Arc;
 /// What to merge, and how to report.
 #[derive(Args)]
 pub struct MergeArguments {
-    /// Records that `--shard` with `--format json` wrote
+    /// The records that `--shard` with `--format json` wrote
     #[arg(required = true, value_name = "RECORD")]
     records: Vec<String>,
 
-    /// Go without missing shards; the result says which are in it
+    /// Merge without the shards that are missing; the record says which shards it has
     #[arg(long)]
     allow_partial: bool,
 
@@ -39,10 +40,11 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let quiet = arguments.report.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrations(plan, &Unobserved));
-    let record = merged(parts, illustrate, &progress, |source| open(source, quiet))
-        .map_err(|Unmergeable(failure)| failure)?;
-    outputs.write(&record)?;
+    let record =
+        merged(parts, illustrate, &progress, |source, scalars| open(source, scalars, quiet))
+            .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;
+    outputs.write(&record)?;
     Ok(Status::Success)
 }
 
@@ -61,12 +63,23 @@ impl From<Failure> for Unmergeable {
     }
 }
 
-fn open(source: &StoredSource, quiet: bool) -> Result<Source, Unmergeable> {
+fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source, Unmergeable> {
     match source {
         StoredSource::Mesh { path, parameters, seed, count } => {
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
             let parameters = parameters.parse()?;
             Ok(Source::Mesh { family, parameters, seed: *seed, count: *count })
+        }
+        StoredSource::MeshPart { path, part, parameters, seed, directions } => {
+            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+            let unknown = || format!("unknown part of a mesh '{part}'");
+            Ok(Source::MeshPart {
+                surface: Arc::new(Surface::new(family, scalars)),
+                part: Part::of_family(part).ok_or_else(unknown)?,
+                parameters: parameters.parse()?,
+                seed: *seed,
+                directions: *directions,
+            })
         }
         StoredSource::Corpus { file } => Ok(Source::Corpus(corpus_set(file)?)),
         StoredSource::Family { family, .. } => {

@@ -1,21 +1,25 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
 use super::exit::{Failure, Status};
+use super::flags::chosen_scalars;
 use super::input::read_mesh;
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
-use super::select::{KernelArguments, chosen_scalars};
-use super::sources::{scalars_in_use, set_threads};
-use crate::corpus::mesh::Mesh;
+use super::select::KernelArguments;
+use super::sources::{rays_at_each, scalars_in_use, set_threads};
+use crate::audit::mesh::{self, Found, Plan};
+use crate::family::MeshFamily;
 use crate::kernel::Scalar;
+use crate::mesh::{Part, Surface};
 use crate::report::mesh::{MESH_FORMATS, build};
 use crate::report::{Context, Style, number_of};
-use crate::watertight::{self, Found, Part, Plan, Targets, Topology};
 use clap::Args;
+use std::sync::Arc;
 
 /// Which mesh and kernels, and how to report it.
 #[derive(Args)]
+#[command(mut_arg("band", |band| band.hide(true)))]
 pub struct MeshArguments {
     /// An OBJ file; - is standard input
     #[arg(value_name = "FILE")]
@@ -28,15 +32,15 @@ pub struct MeshArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32")]
     scalar: Vec<String>,
 
-    /// Rays at each edge and vertex, 1 to 65536; any four are exact and near, grazing and not
-    #[arg(long, default_value = "8", value_name = "N", allow_hyphen_values = true)]
-    directions: String,
+    /// How many rays at each edge and vertex, from 1 to 65536: exact and near, grazing and not, in turn
+    #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each())]
+    directions: u64,
 
-    /// `unit`: replace each direction by its rounded unit vector; few rays are then exact
-    #[arg(long, value_name = "unit")]
+    /// `unit`: replace each direction by its rounded unit vector; few rays then meet an edge exactly
+    #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true)]
     direction: Option<String>,
 
-    /// Which random rays
+    /// Seed of the random rays
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
@@ -48,7 +52,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// text, json, or ply and obj with the offending edges and vertices, or several separated by commas
+    /// text, json, ply or obj, or several separated by commas; ply and obj mark the edges and vertices
+    /// where rays slip through
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
     format: Vec<String>,
 
@@ -56,7 +61,7 @@ pub struct MeshArguments {
     #[arg(short, long, value_name = "FILE")]
     output: Vec<String>,
 
-    /// All examples in the text, of every kernel
+    /// Print all examples, of every kernel
     #[arg(long)]
     details: bool,
 
@@ -64,44 +69,42 @@ pub struct MeshArguments {
     #[arg(long, value_enum, default_value_t)]
     color: ColorChoice,
 
-    /// No progress, no notes
+    /// Print no progress and no notes
     #[arg(long, short)]
     quiet: bool,
 }
 
-/// The most rays at an edge: their number fits what counts them, for every kernel.
-const MOST_DIRECTIONS: u64 = 65_536;
-
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
-    let outputs =
+    let mut outputs =
         paired_outputs(MESH_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
-    if arguments.kernels.has_band() {
-        let message = "--band: across triangles a band means nothing: every ray is near an edge";
-        return Err(Failure::usage(message));
-    }
     let plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
-    let mesh = read_mesh(&arguments.file, arguments.quiet)?;
+    let family = MeshFamily::new(read_mesh(&arguments.file, arguments.quiet)?, &arguments.file);
+    let surface = Arc::new(Surface::new(Arc::new(family), scalars));
     let progress = Progress::new(0, "rays", arguments.quiet);
     let mut found = Vec::new();
     if scalars[0] {
-        found.push(arguments.run_scalar::<f32>(&mesh, &plan, &progress));
+        found.push(arguments.run_scalar::<f32>(&surface, &plan, &progress));
     }
     if scalars[1] {
-        found.push(arguments.run_scalar::<f64>(&mesh, &plan, &progress));
+        found.push(arguments.run_scalar::<f64>(&surface, &plan, &progress));
     }
     progress.finish();
     plugins::check()?;
     let context = Context { seconds: progress.seconds(), threads };
-    let report = build(&mesh, &arguments.file, &plan, &found, &context);
-    for (format, path) in outputs {
-        let color = arguments.color.enabled(path == "-");
-        let style = Style { color, details: arguments.details };
-        write_result(path, |out| (format.write)(&report, style, out))?;
+    let report = build(&surface, &plan, &found, &context);
+    let nothing = found.iter().all(|found| found.cases == 0);
+    if nothing {
+        // It is printed why, but no file becomes a report of nothing.
+        outputs.retain(|(_, path)| *path == "-");
     }
-    if found.iter().all(|found| found.cases == 0) {
+    write_results(outputs, |format, path, out| {
+        let color = arguments.color.enabled(path == "-");
+        (format.write)(&report, Style { color, details: arguments.details }, out)
+    })?;
+    if nothing {
         let message = format!(
             "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
             arguments.file
@@ -113,35 +116,28 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
 
 impl MeshArguments {
     fn plan(&self) -> Result<Plan, Failure> {
-        let unit_direction = match self.direction.as_deref() {
-            None => false,
-            Some("unit") => true,
-            Some(other) => {
-                let message = format!("--direction: unknown '{other}'; there is 'unit'");
-                return Err(Failure::usage(message));
-            }
-        };
-        let directions = self.directions.parse().ok();
-        let directions = directions.filter(|n| (1..=MOST_DIRECTIONS).contains(n));
-        let directions = directions.ok_or_else(|| {
-            let text = &self.directions;
-            let message = format!("--directions: '{text}' is not a number from 1 to 65536");
-            Failure::usage(message)
-        })?;
-        let (seed, examples) = (self.seed, self.examples);
-        Ok(Plan { rows: self.kernels.rows()?, directions, seed, unit_direction, examples })
+        let unit_direction = self.direction.is_some();
+        let MeshArguments { directions, seed, examples, .. } = *self;
+        let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
+        Ok(Plan { rows, directions, seed, unit_direction, examples })
     }
 
-    fn run_scalar<F: Scalar>(&self, mesh: &Mesh, plan: &Plan, progress: &Progress) -> Found {
-        let topology = Topology::of::<F>(mesh);
-        let targets = Targets::new::<F>(mesh, &topology, plan.seed, plan.unit_direction);
-        let rays = Part::ALL.map(|part| targets.count(part) * plan.directions).iter().sum();
+    fn run_scalar<F: Scalar>(
+        &self,
+        surface: &Arc<Surface>,
+        plan: &Plan,
+        progress: &Progress,
+    ) -> Found {
+        let parameters = plan.parameters();
+        let targets = surface.targets::<F>(&parameters, plan.seed);
+        let count = |part| targets.as_ref().map_or(0, |targets| targets.count(part));
+        let rays: u64 = Part::ALL.map(|part| count(part) * plan.directions).iter().sum();
         progress.add_total(rays);
         if !self.quiet {
             let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();
             let rows = number_of(rows as u64, "kernel row", "kernel rows");
             eprintln!("{rows} on {rays} rays in {}", F::NAME);
         }
-        watertight::run::<F>(mesh, topology, plan, progress)
+        mesh::run::<F>(surface, plan, progress)
     }
 }

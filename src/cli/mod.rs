@@ -2,15 +2,23 @@
 
 #![forbid(unsafe_code)]
 
+/// Prints to standard error. Unlike the standard library's it does not panic if nobody can read it.
+macro_rules! eprintln {
+    ($($words:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($words)*);
+    }};
+}
+
 mod audit;
 mod case;
-mod check;
-mod config;
+pub(crate) mod check;
 mod corpus;
 mod diff;
 mod epsilon;
-mod exit;
+pub(crate) mod exit;
 mod explain;
+mod flags;
 mod fuzz;
 mod generate;
 mod github;
@@ -28,18 +36,15 @@ mod reporting;
 mod select;
 mod selfcheck;
 mod settings;
-mod shrink;
 mod sources;
-mod triage;
 mod truth;
-mod worst;
 
-pub use check::read_settings;
-pub use exit::{Failure, Status};
+use exit::{Failure, Status};
 
 use crate::kernel::{self, Entry};
 use crate::plugin;
-use clap::{Parser, Subcommand};
+use clap::builder::Styles;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -53,54 +58,85 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run kernels on families of cases, a mesh or a corpus, and say where they are wrong
+    /// Run kernels on families of cases, a mesh or a corpus, and report where they are wrong
     Audit(Box<audit::AuditArguments>),
-    /// Send rays at every edge and vertex of a mesh, and say where they slip through
-    Mesh(Box<mesh::MeshArguments>),
-    /// Run the project's plan and compare with its known disagreements: the gate for CI
-    Check(Box<check::CheckArguments>),
-    /// Make one record of those of all shards
-    Merge(merge::MergeArguments),
-    /// Say what got better and what got worse between two records
-    Diff(diff::DiffArguments),
-    /// Print the settings of `check` with their defaults
-    Config(config::ConfigArguments),
-    /// Print the JSON Schema of the record that `--format json` writes
-    Schema,
-    /// Say what every epsilon of a kernel would do, and which to use
+    /// Show what every epsilon of a kernel would do, and which to use
     Epsilon(Box<epsilon::EpsilonArguments>),
+    /// Send rays at every edge and vertex of a mesh, and report where they slip through
+    Mesh(Box<mesh::MeshArguments>),
+    /// Show one case: its exact truth, and what each gate of each kernel decides
+    Explain(explain::ExplainArguments),
+    /// Draw where a kernel is wrong, one pixel one float, beside the exact truth
+    Map(Box<map::MapArguments>),
+    /// List kernels, families, contracts, epsilon presets or arithmetics
+    List(list::ListArguments),
+    /// Search for findings until stopped; keep, shrink and sort them
+    Fuzz(Box<fuzz::FuzzArguments>),
+    /// Run the project's plan and compare with its known disagreements
+    Check(Box<check::CheckArguments>),
+    /// Merge the records of all shards of a run into one
+    Merge(merge::MergeArguments),
+    /// Show what got better and what got worse between two records
+    Diff(diff::DiffArguments),
+    /// Write cases as lines, for a kernel that is a filter
+    Generate(Box<generate::GenerateArguments>),
+    /// Read a filter's verdicts, and report where they are wrong
+    Judge(judge::JudgeArguments),
     /// Print the exact truth of cases, one JSON line each
     Truth(truth::TruthArguments),
-    /// Show one case: its exact truth, and what each gate of each kernel made of it
-    Explain(explain::ExplainArguments),
-    /// Search for the worst case of each kernel and gate; keep the worst known
-    Worst(Box<worst::WorstArguments>),
-    /// Search on and on for kinds of findings, and keep one small example of each in a directory
-    Fuzz(Box<fuzz::FuzzArguments>),
-    /// Keep one small find of each kind, out of campaigns, corpora and cargo-fuzz artifacts
-    Triage(triage::TriageArguments),
-    /// Make a case with a finding as simple as it can be, as JSON, Rust and C to paste into a test
-    Shrink(shrink::ShrinkArguments),
-    /// Draw where a kernel is wrong, one pixel one float, beside what is exactly true
-    Map(Box<map::MapArguments>),
-    /// List kernels, families, contracts or epsilon presets
-    List(list::ListArguments),
-    /// Hold the oracle to its definition and to integer arithmetic
+    /// Compare the oracle with its definition and with integer arithmetic
     Selfcheck(selfcheck::SelfcheckArguments),
-    /// Run orientation predicates on families of points, and say where their sign is wrong
-    Orient(Box<orient::OrientArguments>),
-    /// Verify or make the stored cases
+    /// Verify the stored cases, or write them again
     Corpus(corpus::CorpusArguments),
-    /// Write cases as lines for a kernel that is a filter: `generate … | kernel | judge`
-    Generate(Box<generate::GenerateArguments>),
-    /// Read a filter's verdicts, and say where they are wrong
-    Judge(judge::JudgeArguments),
+    /// Run orientation predicates on families of points, and report wrong signs
+    Orient(Box<orient::OrientArguments>),
+    /// The old names of the commands of `fuzz`.
+    #[command(flatten)]
+    OfFuzz(fuzz::FuzzCommand),
+    /// The old names of the commands of `check`.
+    #[command(flatten)]
+    OfCheck(check::CheckCommand),
     /// Load a library and answer cases from standard input: what --kernel-lib starts
     #[command(name = plugin::HOST_COMMAND, hide = true)]
     KernelHost {
         /// The library
         file: PathBuf,
     },
+}
+
+/// The commands by what they are for, in the order of the help.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Choose an epsilon", &["audit", "epsilon", "mesh", "explain", "map", "list"]),
+    ("Hunt with a fuzzer", &["fuzz"]),
+    ("Gate a CI", &["check", "merge", "diff"]),
+    ("Bring your own", &["generate", "judge", "truth"]),
+    ("Trust it", &["selfcheck", "corpus", "orient"]),
+];
+
+/// The command line, its help grouped and the old names hidden.
+fn command() -> clap::Command {
+    let mut command = Arguments::command();
+    for parent in ["fuzz", "check"] {
+        let names = command.find_subcommand(parent).into_iter().flat_map(|c| c.get_subcommands());
+        let names: Vec<String> = names.map(|child| child.get_name().to_owned()).collect();
+        command = names
+            .into_iter()
+            .fold(command, |command, name| command.mut_subcommand(name, |old| old.hide(true)));
+    }
+    let styles = Styles::default();
+    let (header, name_style) = (styles.get_header(), styles.get_literal());
+    let mut help = "{about-with-newline}\n{usage-heading} {usage}\n".to_owned();
+    for (title, names) in GROUPS {
+        help.push_str(&format!("\n{header}{title}:{header:#}\n"));
+        for name in names {
+            let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            help.push_str(&format!("  {name_style}{name:<9}{name_style:#}  {about}\n"));
+        }
+    }
+    help.push_str(&format!("\n{header}Options:{header:#}\n{{options}}\n"));
+    help.push_str("\n`hairline COMMAND --help` describes a command.");
+    command.help_template(help)
 }
 
 /// Runs the program on the process's arguments.
@@ -112,7 +148,7 @@ pub fn main() -> ExitCode {
 /// become exit codes.
 ///
 /// ```no_run
-/// use hairline::{case::Case, contract::Contract, kernel::{Entry, Hit, KernelInfo}};
+/// use hairline::{Case, Contract, Entry, Hit, KernelInfo};
 ///
 /// const INFO: KernelInfo = KernelInfo::own("mine", Contract::CLOSED_RAY);
 ///
@@ -129,49 +165,74 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
             return Status::Usage.into();
         }
     }
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
+    let parsed = command()
+        .try_get_matches()
+        .and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?.command, matches)));
+    let (command, matches) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => {
+            if error.use_stderr() {
+                let _ = error.print();
+                return Status::Usage.into();
+            }
             // Help and version are no errors.
-            let code = if error.use_stderr() { Status::Usage } else { Status::Success };
-            let _ = error.print();
-            return code.into();
+            let printed = output::standard_output().map(drop).and_then(|()| Ok(error.print()?));
+            return printed.map_or_else(ended, |()| Status::Success.into());
         }
     };
-    let outcome = match arguments.command {
+    let outcome = match command {
         Command::Audit(arguments) => audit::run(&arguments),
-        Command::Mesh(arguments) => mesh::run(&arguments),
-        // Read again, under the environment and hairline.toml.
-        Command::Check(_) => check::run(&std::env::args_os().skip(2).collect::<Vec<_>>()),
-        Command::Merge(arguments) => merge::run(&arguments),
-        Command::Diff(arguments) => diff::run(&arguments),
-        Command::Config(arguments) => config::run(&arguments),
-        Command::Schema => config::schema(),
         Command::Epsilon(arguments) => epsilon::run(&arguments),
-        Command::Truth(arguments) => truth::run(&arguments),
+        Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
-        Command::Worst(arguments) => worst::run(&arguments),
-        Command::Fuzz(arguments) => fuzz::run(&arguments),
-        Command::Triage(arguments) => triage::run(&arguments),
-        Command::Shrink(arguments) => shrink::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
-        Command::Selfcheck(arguments) => selfcheck::run(&arguments),
-        Command::Orient(arguments) => orient::run(&arguments),
-        Command::Corpus(arguments) => corpus::run(&arguments),
+        Command::Fuzz(arguments) => fuzz::run(&arguments),
+        Command::Check(arguments) => check::run(*arguments, matches.subcommand_matches("check")),
+        Command::Merge(arguments) => merge::run(&arguments),
+        Command::Diff(arguments) => diff::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Judge(arguments) => judge::run(&arguments),
+        Command::Truth(arguments) => truth::run(&arguments),
+        Command::Selfcheck(arguments) => selfcheck::run(&arguments),
+        Command::Corpus(arguments) => corpus::run(&arguments),
+        Command::Orient(arguments) => orient::run(&arguments),
+        Command::OfFuzz(command) => command.run(),
+        Command::OfCheck(command) => command.run(),
         Command::KernelHost { file } => return plugin::serve(&file).into(),
     };
     plugins::print_notes();
-    // What went wrong in a kernel of the user's own goes before what was made of its verdicts.
+    // A broken kernel of the user's is reported before anything that its verdicts led to.
     match plugins::check().and(outcome) {
         Ok(status) => status.into(),
-        Err(failure) => {
-            if let Some(message) = failure.message() {
-                eprintln!("hairline: {message}");
-            }
-            failure.status().into()
-        }
+        Err(failure) => ended(failure),
+    }
+}
+
+/// Says why a command stops.
+fn ended(failure: Failure) -> ExitCode {
+    if let Some(message) = failure.message() {
+        eprintln!("hairline: {message}");
+    }
+    failure.status().into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_visible_command_is_in_one_group_with_a_line_that_fits() {
+        let command = command();
+        let visible = command.get_subcommands().filter(|command| !command.is_hide_set());
+        let mut visible: Vec<&str> = visible.map(clap::Command::get_name).collect();
+        let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|group| group.1).copied().collect();
+        visible.sort();
+        grouped.sort();
+        assert_eq!(visible, grouped);
+        let help = command.clone().render_long_help().to_string();
+        assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+        assert!(help.contains("\nGate a CI:\n  check      Run the project's plan"), "{help}");
+        command.debug_assert();
     }
 }

@@ -3,12 +3,12 @@
 mod text;
 
 use super::exit::{Failure, Status};
+use super::flags::{case_count, chosen_scalars, unknown};
 use super::output::write_result;
 use super::progress::Progress;
-use super::select::{case_count, chosen_scalars, unknown};
 use crate::arith::Float;
 use crate::audit::EpsilonText;
-use crate::corpus::points_json::{self, AnyPoints};
+use crate::orientation::points_json::{self, AnyPoints};
 use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
     Scalar, build, default_rows, find_family, find_known, show,
@@ -20,7 +20,7 @@ use std::io::{self, Write};
 /// What to run, and how to report it.
 #[derive(Args)]
 pub struct OrientArguments {
-    /// Points of the plane, of space, or both
+    /// Dimension of the points: 2, 3 or both
     #[arg(long, value_delimiter = ',', value_name = "2|3", default_value = "2,3")]
     dimension: Vec<String>,
 
@@ -28,7 +28,7 @@ pub struct OrientArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
     scalar: Vec<String>,
 
-    /// Epsilons of the plain determinants, a row for each: 0 where abs(det) <= E
+    /// Epsilons of the plain determinants, a row for each: the sign counts as 0 where abs(det) <= E
     #[arg(
         long,
         value_delimiter = ',',
@@ -38,22 +38,23 @@ pub struct OrientArguments {
     )]
     epsilon: Vec<String>,
 
-    /// Cases for each family
+    /// How many cases of each family
     #[arg(
         long,
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
-    /// Which random cases
+    /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
     /// Show one case again: an id, the name of a known case, or points as
-    /// {"scalar":"f64","points":[[x,y],...]}, three of the plane or four of space
+    /// {"scalar":"f64","points":[[x,y],...]}, three in the plane or four in space
     #[arg(long, value_name = "ID", conflicts_with_all = ["known", "dimension", "scalar", "count", "seed"])]
     case: Option<String>,
 
@@ -61,7 +62,7 @@ pub struct OrientArguments {
     #[arg(long, conflicts_with_all = ["dimension", "scalar", "count", "seed"])]
     known: bool,
 
-    /// How to write it
+    /// The format of the output
     #[arg(long, value_enum, default_value_t)]
     format: OutputFormat,
 
@@ -69,7 +70,7 @@ pub struct OrientArguments {
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: String,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }
@@ -115,18 +116,19 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         rows,
         dimensions: arguments.dimensions()?,
         scalars,
-        count: case_count(&arguments.count)?,
+        count: arguments.count,
         seed: arguments.seed,
     };
     let progress = Progress::new(plan.cases(), "cases", arguments.quiet);
     let sums = orientation::run(&plan, &progress);
     progress.finish();
     let record = build(&plan, &sums, progress.seconds(), rayon::current_num_threads());
+    self_check(&record)?;
     write_result(&arguments.output, |out| match arguments.format {
         OutputFormat::Text => text::write(&record, out),
         OutputFormat::Json => write_json(&record, out),
     })?;
-    self_check(&record)
+    Ok(Status::Success)
 }
 
 fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
@@ -135,9 +137,9 @@ fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// A family that breaks its own promise is a fault of this tool.
-fn self_check(record: &Record) -> Result<Status, Failure> {
+fn self_check(record: &Record) -> Result<(), Failure> {
     match record.result.sets.iter().find(|set| set.promise_broken > 0) {
-        None => Ok(Status::Success),
+        None => Ok(()),
         Some(set) => {
             let first = set.first_broken.as_deref().unwrap_or("-");
             let message =
@@ -254,7 +256,7 @@ impl OrientArguments {
         Ok(default_rows(&epsilons))
     }
 
-    /// An error if an epsilon, which is a number of `f64`, is none of `f32`.
+    /// An error if an epsilon is not representable in `f32`.
     fn check_epsilons_in_f32(&self) -> Result<(), Failure> {
         self.epsilon.iter().try_for_each(|text| check_epsilon::<f32>(text.trim()))
     }

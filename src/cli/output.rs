@@ -1,11 +1,15 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
-use crate::kernel::nearest_name;
+use super::flags::refuse_twice;
+use super::plugins;
+use crate::descriptors;
+use crate::suggest::nearest_name;
 use clap::ValueEnum;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, IsTerminal, Write};
+use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
+use std::process;
 
 /// When to colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -50,9 +54,7 @@ pub fn paired_outputs<'a, T>(
         })
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    if let Some(i) = (1..outputs.len()).find(|&i| outputs[..i].contains(&outputs[i])) {
-        return Err(Failure::usage(format!("-o {} is given twice", outputs[i])));
-    }
+    refuse_twice("-o", outputs)?;
     match (formats.len(), outputs.len()) {
         (1, 0) => Ok(vec![(formats[0], "-")]),
         (n, m) if n == m => {
@@ -64,47 +66,138 @@ pub fn paired_outputs<'a, T>(
     }
 }
 
-/// Writes one result to standard output (`-`) or to a file, which is written beside and renamed.
+/// Writes a result to standard output (`-`) or to a file, which appears whole or stays as it was.
 pub fn write_result(
-    path: &str,
+    path: impl AsRef<Path>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    if path == "-" {
-        let mut out = BufWriter::new(io::stdout().lock());
-        write(&mut out)?;
-        out.flush()?;
-        return Ok(());
-    }
-    write_file(Path::new(path), write).map_err(|error| Failure::of_file(path, &error))
+    written(path.as_ref(), write)?.map_or(Ok(()), Beside::put_in_place)
 }
 
-/// Writes a file beside its place and renames it; leaves nothing half-written.
-pub fn write_file(
-    path: &Path,
+/// Writes several results; unless all can be written, every file stays as it was.
+pub fn write_results<T>(
+    outputs: Vec<(T, &str)>,
+    write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let written = outputs
+        .into_iter()
+        .map(|(what, path)| written(Path::new(path), |out| write(what, path, out)));
+    let files = written.filter_map(Result::transpose).collect::<Result<Vec<Beside>, _>>()?;
+    files.into_iter().try_for_each(Beside::put_in_place)
+}
+
+/// Writes a result; a file still has to be put in its place.
+fn written(
+    name: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    // A device, a pipe or a socket has no place beside it.
-    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
-        let mut out = BufWriter::new(File::options().write(true).open(path)?);
-        write(&mut out)?;
-        return out.flush();
-    }
-    if path.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a directory"));
-    }
-    let name = path.file_name().ok_or_else(|| io::Error::other("names no file"))?;
-    let mut beside_name = std::ffi::OsString::from(".");
-    beside_name.push(name);
-    beside_name.push(format!(".{}.tmp", std::process::id()));
-    let beside: PathBuf = path.with_file_name(beside_name);
-    let attempt = || -> io::Result<()> {
-        let mut out = BufWriter::new(File::create(&beside)?);
-        write(&mut out)?;
-        out.flush()?;
-        out.get_ref().sync_all()?;
-        fs::rename(&beside, path)
+) -> Result<Option<Beside>, Failure> {
+    let failed = |error: io::Error| Failure::of_path(name, &error);
+    let through = |to: &mut dyn Write| {
+        let mut out = BufWriter::new(to);
+        write(&mut out).and_then(|()| out.flush())
     };
-    attempt().inspect_err(|_| {
-        let _ = fs::remove_file(&beside);
-    })
+    let (outcome, file) = match Place::of(name).map_err(failed)? {
+        Place::StandardOutput => (through(&mut standard_output()?).map_err(Failure::from), None),
+        Place::Stream(mut file) => (through(&mut file).map_err(failed), None),
+        Place::Beside(mut beside) => (through(&mut beside.file).map_err(failed), Some(beside)),
+    };
+    match outcome {
+        Err(Failure::ClosedPipe) => Ok(None),
+        outcome => outcome.map(|()| file),
+    }
+}
+
+/// Standard output, unless it is closed.
+pub fn standard_output() -> Result<StdoutLock<'static>, Failure> {
+    descriptors::standard_output()?;
+    Ok(io::stdout().lock())
+}
+
+/// Where a result is written.
+enum Place {
+    StandardOutput,
+    /// A device, a pipe, or a file that a descriptor names.
+    Stream(File),
+    Beside(Beside),
+}
+
+impl Place {
+    fn of(name: &Path) -> io::Result<Place> {
+        let path = if name == Path::new("-") { "/dev/fd/1".into() } else { linked(name) };
+        if path == Path::new("/dev/fd/1") || path == Path::new("/proc/self/fd/1") {
+            return Ok(Place::StandardOutput);
+        }
+        match fs::metadata(&path) {
+            Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            // What a shell has opened goes on at its end.
+            Ok(metadata) if !metadata.is_file() || is_descriptor(&path) => {
+                File::options().append(true).open(&path).map(Place::Stream)
+            }
+            _ => Beside::new(path).map(Place::Beside),
+        }
+    }
+}
+
+/// Where a path leads if it is a link, also to a file that is yet to be made.
+fn linked(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // As many links as Linux follows.
+    for _ in 0..40 {
+        match fs::read_link(&path) {
+            Ok(target) if !is_descriptor(&path) => {
+                path.pop();
+                path.push(target);
+            }
+            _ => break,
+        }
+    }
+    path
+}
+
+/// Whether a path names an open file, as that of `/dev/stdout` does.
+fn is_descriptor(path: &Path) -> bool {
+    path.starts_with("/proc") || path.starts_with("/dev/fd")
+}
+
+/// A file that is written beside its place; it is removed unless it is put there.
+struct Beside {
+    file: File,
+    path: PathBuf,
+    place: PathBuf,
+}
+
+impl Beside {
+    fn new(place: PathBuf) -> io::Result<Beside> {
+        // A file that may not be written may not be replaced either.
+        let permissions = match File::options().write(true).open(&place) {
+            Ok(old) => Some(old.metadata()?.permissions()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(error),
+        };
+        let mut number = 0;
+        let (path, file) = loop {
+            let path = place.with_file_name(format!(".hairline-{}-{number}.tmp", process::id()));
+            match File::create_new(&path) {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+                file => break (path, file?),
+            }
+        };
+        let beside = Beside { file, path, place };
+        permissions.map_or(Ok(()), |old| beside.file.set_permissions(old))?;
+        Ok(beside)
+    }
+
+    fn put_in_place(self) -> Result<(), Failure> {
+        // What a kernel wrote that is given up is no result.
+        plugins::check()?;
+        let renamed = self.file.sync_all().and_then(|()| fs::rename(&self.path, &self.place));
+        renamed.map_err(|error| Failure::of_path(&self.place, &error))
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // It is gone already if it was put in its place.
+        let _ = fs::remove_file(&self.path);
+    }
 }

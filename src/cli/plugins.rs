@@ -1,7 +1,8 @@
-//! The kernels that a command line brings along: libraries and commands.
+//! Kernels of the user's own: libraries and commands that flags name.
 
 use super::exit::{Failure, Status};
-use crate::audit::quoted;
+use super::flags::refuse_twice;
+use crate::audit::{quoted, shell_word};
 use crate::kernel::{self, Entry, Scalar, Trouble};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
 use clap::Args;
@@ -13,15 +14,15 @@ use std::time::Duration;
 #[derive(Args, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PluginArguments {
-    /// A shared library with the functions of include/hairline.h; may be repeated
+    /// A kernel in a shared library with the functions of include/hairline.h; may be repeated
     #[arg(long, value_name = "FILE", help_heading = "Kernels of your own")]
     kernel_lib: Vec<String>,
 
-    /// A command that answers cases over its pipes (docs/protocol.md); may be repeated
+    /// A kernel as a command that answers cases over its pipes (docs/protocol.md); may be repeated
     #[arg(long, value_name = "COMMAND", help_heading = "Kernels of your own")]
     kernel_cmd: Vec<String>,
 
-    /// How long such a kernel may be silent when an answer is due
+    /// How long to wait for an answer of such a kernel
     #[arg(
         long,
         value_name = "SECONDS",
@@ -30,16 +31,16 @@ pub struct PluginArguments {
     )]
     kernel_timeout: f64,
 
-    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; a
-    /// campaign goes on]
+    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; no limit in a
+    /// fuzz campaign]
     #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
     kernel_failures: Option<u64>,
 }
 
-/// How long a kernel may be silent if nothing else is said.
+/// How long a kernel may be silent by default.
 const TIMEOUT_SECONDS: f64 = 10.0;
 
-/// On how many cases it may fail if nothing else is said.
+/// On how many cases it may fail by default.
 const FAILURES: u64 = 1000;
 
 impl Default for PluginArguments {
@@ -54,14 +55,23 @@ impl Default for PluginArguments {
 }
 
 impl PluginArguments {
-    /// With no end after many failures, unless one was asked for.
+    /// Goes on after any number of failures, unless the flags set a limit.
     pub fn go_on_after_failures(&mut self) {
         self.kernel_failures.get_or_insert(u64::MAX);
     }
 
-    /// Whether any kernel is brought along.
+    /// Whether a flag names a kernel.
     pub fn names_kernels(&self) -> bool {
         !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
+    }
+
+    /// The flags that bring the kernels along, as a shell takes them.
+    pub fn flags(&self) -> Vec<String> {
+        let libraries =
+            self.kernel_lib.iter().map(|path| format!("--kernel-lib {}", shell_word(path)));
+        let commands =
+            self.kernel_cmd.iter().map(|line| format!("--kernel-cmd {}", shell_word(line)));
+        libraries.chain(commands).collect()
     }
 
     /// Starts the kernels and puts them into the table.
@@ -77,12 +87,8 @@ impl PluginArguments {
             let flag = format!("--kernel-cmd {}", quoted(line));
             started(flag, |flag| register(line, load(program, limits, flag)))
         });
-        let twice = |flags: &[String]| (1..flags.len()).find(|&i| flags[..i].contains(&flags[i]));
-        for flags in [&self.kernel_lib, &self.kernel_cmd] {
-            if let Some(i) = twice(flags) {
-                return Err(Failure::usage(format!("the kernel '{}' is given twice", flags[i])));
-            }
-        }
+        refuse_twice("--kernel-lib", &self.kernel_lib)?;
+        refuse_twice("--kernel-cmd", &self.kernel_cmd)?;
         libraries.chain(commands).collect()
     }
 
@@ -97,7 +103,7 @@ impl PluginArguments {
     }
 }
 
-/// The kernel that a flag brings along, which is started once for the whole run.
+/// The kernel that a flag names; it is started once for the whole run.
 fn started(
     flag: String,
     start: impl FnOnce(String) -> Result<&'static Entry, Failure>,

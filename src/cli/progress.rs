@@ -25,7 +25,7 @@ impl Progress {
         Progress { bar, start: Instant::now() }
     }
 
-    /// For something without an end: what it does is told by [`Progress::tell`].
+    /// For work without an end, which [`Progress::tell`] describes.
     pub fn without_end(quiet: bool) -> Progress {
         let progress = Progress::new(0, "", quiet);
         if let Ok(style) = ProgressStyle::with_template("{spinner} {wide_msg}") {

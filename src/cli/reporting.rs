@@ -1,16 +1,17 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::exit::{Failure, Status};
-use super::output::{ColorChoice, paired_outputs, write_result};
+use super::flags::{OUTPUT, RUNNING};
+use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
-use crate::Unobserved;
-use crate::audit::{self, Plan, Shard};
+use super::sources::{SourceArguments, rays_at_each, scalars_in_use, set_threads, total_indices};
+use crate::audit::{self, Plan, Shard, Source};
+use crate::engine::Unobserved;
 use crate::report::{
-    Context, FORMATS, Format, HTML, PartialPart, Record, Style, build, illustrations, number_of,
-    shard_part,
+    Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, illustrations,
+    number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -18,28 +19,28 @@ use clap::{Args, ValueEnum};
 #[derive(Args)]
 pub struct ReportArguments {
     /// text, json, jsonl, junit, sarif, markdown or html, or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
     format: Vec<String>,
 
     /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     output: Vec<String>,
 
-    /// Leave nothing out of the text: the worst finding of every class, all deviations
-    #[arg(long)]
+    /// Leave nothing out of the text: every class with its worst finding, every deviation
+    #[arg(long, help_heading = OUTPUT)]
     details: bool,
 
-    /// When to compute what the HTML report's pictures are drawn from, on a few cases of each source; auto:
-    /// for --format html
-    #[arg(long, value_enum, default_value_t)]
+    /// When to compute the data of the HTML report's pictures, on a few cases of each source; auto: for
+    /// --format html
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     illustrate: IllustrateChoice,
 
     /// When to colour the text
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     color: ColorChoice,
 
-    /// No progress, no notes
-    #[arg(long, short)]
+    /// Print no progress and no notes
+    #[arg(long, short, help_heading = OUTPUT)]
     pub quiet: bool,
 }
 
@@ -83,11 +84,10 @@ impl Outputs<'_> {
 
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
-        for (format, path) in &self.pairs {
-            let style = Style { color: self.color.enabled(*path == "-"), details: self.details };
-            write_result(path, |out| (format.write)(record, style, out))?;
-        }
-        Ok(())
+        write_results(self.pairs.clone(), |format, path, out| {
+            let style = Style { color: self.color.enabled(path == "-"), details: self.details };
+            (format.write)(record, style, out)
+        })
     }
 }
 
@@ -100,16 +100,21 @@ pub struct RunArguments {
     #[command(flatten)]
     sources: SourceArguments,
 
+    /// How many rays at each edge and vertex of a mesh, from 1 to 65536: exact and near, grazing and not,
+    /// in turn
+    #[arg(long, default_value_t = 8, value_name = "N", allow_hyphen_values = true, value_parser = rays_at_each(), help_heading = RUNNING)]
+    directions: u64,
+
     /// How many examples of each class of finding to keep
-    #[arg(long, default_value_t = 3, value_name = "N")]
+    #[arg(long, default_value_t = 3, value_name = "N", help_heading = OUTPUT)]
     examples: usize,
 
-    /// Run part K of N only, counted from 0; `hairline merge` makes one record of all
-    #[arg(long, value_name = "K/N")]
+    /// Run only part K of N, counted from 0; `hairline merge` makes one record of all parts
+    #[arg(long, value_name = "K/N", help_heading = RUNNING)]
     shard: Option<String>,
 
     /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = RUNNING)]
     threads: Option<usize>,
 
     #[command(flatten)]
@@ -117,12 +122,26 @@ pub struct RunArguments {
 }
 
 impl RunArguments {
-    /// What the flags ask for, with so many findings of each class attributed.
+    /// The plan of the flags, with this many findings of each class attributed.
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
         let sources = self.sources.sources(self.report.quiet, |_| true)?;
+        let with_parts = |source: Source| {
+            let parts = source.mesh_parts(self.directions, scalars);
+            std::iter::once(source).chain(parts)
+        };
+        let sources = sources.into_iter().flat_map(with_parts).collect();
         Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
+    }
+
+    /// The flags that choose the cases again.
+    fn source_flags(&self) -> String {
+        let flags = self.sources.flags();
+        match self.directions {
+            8 => flags,
+            directions => format!("{flags} --directions {directions}"),
+        }
     }
 
     /// Runs a plan, or the part of it that `--shard` names, and makes its record, illustrated if asked.
@@ -164,6 +183,8 @@ impl RunArguments {
         let seconds = progress.seconds();
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
+        record.provenance.plan_flags =
+            Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
         if illustrate {
             let progress = Progress::without_end(self.report.quiet);
             progress.tell("epsilons and maps for the pictures".to_owned());

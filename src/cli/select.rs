@@ -1,11 +1,12 @@
 //! Which kernels, contracts and epsilons a command line names.
 
 use super::exit::Failure;
+use super::flags::{JUDGING, RUNNING, refuse_twice, unknown};
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::{EpsilonChoice, Row};
-use crate::contract::{Band, NAMED, NamedContract};
-use crate::kernel::{self, Entry, nearest_name};
+use crate::audit::{EpsilonChoice, Row, shell_word};
+use crate::contract::Band;
+use crate::kernel::{self, Entry};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
@@ -13,50 +14,54 @@ use serde::{Deserialize, Serialize};
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KernelArguments {
-    /// A kernel, or several separated by commas [default: all, or those of your own alone]
+    /// A kernel, or several separated by commas [default: all built-in ones, or only your own if you bring
+    /// some]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     kernel: Vec<String>,
 
     #[command(flatten)]
     plugins: PluginArguments,
 
-    /// The arithmetic of the kernels' operations, or several side by side: ieee, fma, ftz, fma-ftz
-    /// (see `hairline list arithmetics`); a kernel's name with +fma does the same for it alone
-    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    /// The arithmetic in which kernels compute, or several side by side: ieee, fma, ftz, fma-ftz (see
+    /// `hairline list arithmetics`); for one kernel alone write its name with +fma
+    /// [default: as each kernel's name says]
+    #[arg(long, value_delimiter = ',', value_name = "NAME,...", help_heading = RUNNING)]
     #[serde(default)]
     arithmetic: Vec<String>,
 
-    /// Epsilons by gate, as parallel=1e-6,edge=0; other gates as the source has them
+    /// Epsilons by gate, as parallel=1e-6,edge=0; other gates keep their source's epsilon
     #[arg(
         long,
         value_name = "GATE=VALUE,...",
         conflicts_with = "epsilon_preset",
-        allow_hyphen_values = true
+        allow_hyphen_values = true,
+        help_heading = JUDGING
     )]
     epsilon: Option<String>,
 
     /// The epsilons of a published library (see `hairline list presets`), or `source`
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = JUDGING)]
     epsilon_preset: Option<String>,
 
-    /// One contract for all kernels instead of each one's own (see `hairline list contracts`)
-    #[arg(long, value_name = "NAME")]
+    /// One contract for all kernels instead of each kernel's own: a name (see `hairline list contracts`),
+    /// or words such as own,coplanar=free or extent=ray,sides=both,boundary=closed
+    #[arg(long, value_name = "CONTRACT", help_heading = JUDGING)]
     contract: Option<String>,
 
-    /// Ask nothing nearer than this to where another verdict would be right: in longest edges of the
-    /// triangle, as 1e-6, or in ulps of its largest coordinate, as 4ulps
-    #[arg(long, value_name = "DISTANCE")]
+    /// Accept both answers nearer than this to the boundary between hits and misses: in longest edges of
+    /// the triangle, as 1e-6, or in ulps of its largest coordinate, as 4ulps
+    #[arg(long, value_name = "DISTANCE", help_heading = JUDGING)]
     band: Option<String>,
 }
 
 impl KernelArguments {
-    /// With no end after many crashes of a kernel of one's own, unless one was asked for.
+    /// Goes on after any number of crashes of a user's kernel, unless the flags set a limit.
     pub fn go_on_after_failures(mut self) -> Self {
         self.plugins.go_on_after_failures();
         self
     }
 
-    /// The rows that the flags ask for.
+    /// The rows that the flags choose.
     pub fn rows(&self) -> Result<Vec<Row>, Failure> {
         let band: Option<Band> = self
             .band
@@ -64,17 +69,24 @@ impl KernelArguments {
             .map(str::parse)
             .transpose()
             .map_err(|error| Failure::usage(format!("--band: {error}")))?;
-        let contract = self.contract.as_deref().map(named_contract).transpose()?.flatten();
         let entries = self.in_arithmetics(self.entries()?)?;
-        let mut rows = self.choice()?.rows(&entries, contract)?;
-        for row in &mut rows {
-            row.contract.band = band;
+        let mut rows = self.choice()?.rows(&entries, self.contract.as_deref())?;
+        if band.is_some() {
+            rows.iter_mut().for_each(|row| row.contract.band = band);
         }
         Ok(rows)
     }
 
-    /// The names and the epsilon, for an orientation predicate, of which there is nothing else to
-    /// choose.
+    /// The rows for a command to which a band means nothing; an error with the reason if there is one.
+    pub fn rows_without_band(&self, why: &str) -> Result<Vec<Row>, Failure> {
+        let rows = self.rows()?;
+        match rows.iter().any(|row| row.contract.band.is_some()) {
+            true => Err(Failure::usage(format!("--band: {why}"))),
+            false => Ok(rows),
+        }
+    }
+
+    /// The names and the epsilon, for an orientation predicate, which takes nothing else.
     pub fn of_predicate(&self) -> Result<(&[String], Option<&str>), Failure> {
         let of_kernels = [
             ("--epsilon-preset", self.epsilon_preset.is_some()),
@@ -88,6 +100,22 @@ impl KernelArguments {
         }
     }
 
+    /// The flags again, as a shell takes them.
+    pub fn flags(&self) -> String {
+        let mut flags = self.plugins.flags();
+        let mut add = |name: &str, value: Option<String>| {
+            flags.extend(value.map(|value| format!("--{name} {}", shell_word(&value))));
+        };
+        let list = |values: &[String]| Some(values.join(",")).filter(|list| !list.is_empty());
+        add("kernel", list(&self.kernel));
+        add("arithmetic", list(&self.arithmetic));
+        add("epsilon", self.epsilon.clone());
+        add("epsilon-preset", self.epsilon_preset.clone());
+        add("contract", self.contract.clone());
+        add("band", self.band.clone());
+        flags.join(" ")
+    }
+
     /// Whether any kernel is named.
     pub fn names_kernels(&self) -> bool {
         !self.kernel.is_empty() || self.plugins.names_kernels()
@@ -96,11 +124,6 @@ impl KernelArguments {
     /// Whether the flags choose epsilons.
     pub fn chooses_epsilons(&self) -> bool {
         self.epsilon.is_some() || self.epsilon_preset.is_some()
-    }
-
-    /// Whether a band is given.
-    pub fn has_band(&self) -> bool {
-        self.band.is_some()
     }
 
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
@@ -130,12 +153,7 @@ impl KernelArguments {
             text.parse().map_err(|error| Failure::usage(format!("--arithmetic: {error}")))
         };
         let arithmetics = self.arithmetic.iter().map(parse).collect::<Result<Vec<_>, _>>()?;
-        if let Some(i) =
-            (1..arithmetics.len()).find(|&i| arithmetics[..i].contains(&arithmetics[i]))
-        {
-            let message = format!("--arithmetic: '{}' is given twice", arithmetics[i]);
-            return Err(Failure::usage(message));
-        }
+        refuse_twice("--arithmetic", &arithmetics)?;
         let is_other = |arithmetic: &Arithmetic| *arithmetic != Arithmetic::IEEE;
         let has_others =
             |entry: &'static Entry| kernel::in_arithmetic(entry, Arithmetic::FMA).is_some();
@@ -174,55 +192,4 @@ impl KernelArguments {
         EpsilonChoice::parse(text)
             .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))
     }
-}
-
-/// A contract by its name; none for `own`, each kernel's own.
-pub fn named_contract(name: &str) -> Result<Option<&'static NamedContract>, Failure> {
-    let names = NAMED.iter().map(|named| named.name);
-    match NAMED.iter().find(|named| named.name == name) {
-        Some(named) => Ok(Some(named)),
-        None if name == "own" => Ok(None),
-        None => Err(unknown("contract", name, names, "hairline list contracts")),
-    }
-}
-
-/// The error for a name that is not in a table.
-pub fn unknown<'a>(
-    what: &str,
-    name: &str,
-    names: impl IntoIterator<Item = &'a str>,
-    list: &str,
-) -> Failure {
-    let advice = match nearest_name(name, names) {
-        Some(near) => format!("; did you mean '{near}'?"),
-        None => format!("; see `{list}`"),
-    };
-    Failure::usage(format!("unknown {what} '{name}'{advice}"))
-}
-
-/// The most cases of one family: beyond it a run would take years.
-const MOST_CASES: u64 = 1_000_000_000_000;
-
-/// A number of cases.
-pub fn case_count(text: &str) -> Result<u64, Failure> {
-    let count = text.replace('_', "").parse().ok();
-    count.filter(|count| (1..=MOST_CASES).contains(count)).ok_or_else(|| {
-        Failure::usage(format!("--count: '{text}' is not a number of cases from 1 to 10^12"))
-    })
-}
-
-/// Whether `f32`, and whether `f64`, is named.
-pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
-    let mut scalars = [false; 2];
-    for name in names {
-        match name.as_str() {
-            "f32" => scalars[0] = true,
-            "f64" => scalars[1] = true,
-            other => {
-                let message = format!("unknown scalar '{other}': there are f32 and f64");
-                return Err(Failure::usage(message));
-            }
-        }
-    }
-    Ok(scalars)
 }

@@ -3,7 +3,6 @@
 use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::progress::Progress;
-use crate::audit::Observer;
 use crate::family::{FAMILIES, LATTICE_SIZE};
 use crate::oracle::Layers;
 use crate::selfcheck::{Check, Reference, family, lattice, whole_range};
@@ -13,16 +12,16 @@ use std::io::{self, Write};
 /// How much to check.
 #[derive(Args)]
 pub struct SelfcheckArguments {
-    /// Indices of each family in each scalar
+    /// How many indices of each family in each scalar to compare with the definition
     #[arg(long, short = 'n', default_value_t = 2000, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     cases: u64,
 
-    /// Indices of all sets together that are held to a separate checker in integers besides; 52500000
-    /// make a hundred million cases, in minutes
+    /// How many indices of all sets together to compare with a separate checker in integers too; 52500000
+    /// are a hundred million cases and take minutes
     #[arg(long, default_value_t = 1_000_000, value_name = "N")]
     integers: u64,
 
-    /// Which random cases
+    /// Seed of the random cases
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
@@ -30,7 +29,7 @@ pub struct SelfcheckArguments {
     #[arg(long)]
     no_lattice: bool,
 
-    /// No progress
+    /// Print no progress
     #[arg(long, short)]
     quiet: bool,
 }
@@ -46,21 +45,20 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
     ];
     let random: u64 = runs.iter().map(|(.., indices)| sets * indices).sum();
     let progress = Progress::new(lattice_size + random, "cases", quiet);
-    let advance = |count: u64| progress.advance(count);
     let mut results: Vec<(String, Check)> = Vec::new();
     if !no_lattice {
-        results.push(("all 3^15 lattice cases, integers".to_owned(), lattice(&advance)));
+        results.push(("all 3^15 lattice cases, integers".to_owned(), lattice(&progress)));
     }
     for (reference, held_to, n) in runs {
         let mut add = |set: &str, check: Check| results.push((format!("{set}, {held_to}"), check));
         for row in FAMILIES.iter().filter(|_| n != 0) {
             let name = row.name;
-            add(&format!("{name} f32"), family::<f32>(row, reference, seed, n, &advance));
-            add(&format!("{name} f64"), family::<f64>(row, reference, seed, n, &advance));
+            add(&format!("{name} f32"), family::<f32>(row, reference, seed, n, &progress));
+            add(&format!("{name} f64"), family::<f64>(row, reference, seed, n, &progress));
         }
         if n != 0 {
-            add("any finite f32", whole_range::<f32>(reference, seed, n, &advance));
-            add("any finite f64", whole_range::<f64>(reference, seed, n, &advance));
+            add("any finite f32", whole_range::<f32>(reference, seed, n, &progress));
+            add("any finite f64", whole_range::<f64>(reference, seed, n, &progress));
         }
     }
     progress.finish();

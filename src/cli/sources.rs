@@ -1,82 +1,120 @@
 //! Which cases a command line names, and on how many threads they run.
 
 use super::exit::{Failure, Status};
+use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_set, read_mesh};
-use super::select::{case_count, chosen_scalars, unknown};
-use crate::audit::{Row, Source};
+use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, find};
 use clap::Args;
+use clap::builder::TypedValueParser;
+use std::collections::HashSet;
+use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The flags that choose cases.
 #[derive(Args)]
 pub struct SourceArguments {
     /// f32, f64 or both
-    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64")]
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64", help_heading = RUNNING)]
     scalar: Vec<String>,
 
-    /// A case family, or several separated by commas [default: all, or none with --mesh or --corpus]
+    /// A family of cases, or several separated by commas [default: all, or none with --mesh or --corpus]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// Cases for each family
+    /// How many cases of each family
     #[arg(
         long,
         short = 'n',
         default_value = "20000",
         value_name = "N",
+        value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: String,
+    count: u64,
 
-    /// Every case of the lattice family instead of a sample
-    #[arg(long)]
+    /// Run every case of the lattice family instead of a sample
+    #[arg(long, help_heading = RUNNING)]
     exhaustive: bool,
 
-    /// Which random cases
-    #[arg(long, default_value_t = 1)]
+    /// Seed of the random cases
+    #[arg(long, default_value_t = 1, help_heading = RUNNING)]
     seed: u64,
 
     /// Multiply all positions by a power of two, as 2^-10
-    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true)]
+    #[arg(long, default_value = "1", value_name = "2^K", allow_hyphen_values = true, help_heading = RUNNING)]
     scale: String,
 
-    /// Multiply the direction too
-    #[arg(long)]
+    /// Multiply directions by the scale too
+    #[arg(long, help_heading = RUNNING)]
     scale_direction: bool,
 
     /// Add a vector to all positions, as 1e6:0:0
-    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true)]
+    #[arg(long, value_name = "X:Y:Z", allow_hyphen_values = true, help_heading = RUNNING)]
     offset: Option<String>,
 
     /// `unit`: replace each direction by its rounded unit vector
-    #[arg(long, value_name = "unit")]
+    #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true, help_heading = RUNNING)]
     direction: Option<String>,
 
-    /// Rays at the edges, vertices and faces of an OBJ file; may be repeated
+    /// Run rays at the edges, vertices and faces of an OBJ file; may be repeated
     #[arg(long, value_name = "FILE")]
     mesh: Vec<String>,
 
-    /// Stored cases: a JSON lines file, or a folder of them; may be repeated
-    #[arg(long, value_name = "FILE|DIR")]
+    /// Run stored cases: a JSON lines file, or a folder of them; may be repeated
+    #[arg(long, value_name = "FILE|DIR", help_heading = RUNNING)]
     corpus: Vec<String>,
 }
 
 impl SourceArguments {
+    /// The flags again, as a shell takes them.
+    pub fn flags(&self) -> String {
+        let mut flags = Vec::new();
+        let mut add = |name: &str, value: &str| {
+            flags.push(format!("--{name} {}", shell_word(value)).trim_end().to_owned());
+        };
+        add("scalar", &self.scalar.join(","));
+        if !self.family.is_empty() {
+            add("family", &self.family.join(","));
+        }
+        self.mesh.iter().for_each(|path| add("mesh", path));
+        self.corpus.iter().for_each(|path| add("corpus", path));
+        add("count", &self.count.to_string());
+        add("seed", &self.seed.to_string());
+        if self.scale != "1" {
+            add("scale", &self.scale);
+        }
+        if let Some(offset) = &self.offset {
+            add("offset", offset);
+        }
+        if let Some(direction) = &self.direction {
+            add("direction", direction);
+        }
+        for (name, given) in
+            [("exhaustive", self.exhaustive), ("scale-direction", self.scale_direction)]
+        {
+            if given {
+                flags.push(format!("--{name}"));
+            }
+        }
+        flags.join(" ")
+    }
+
     /// Whether in `f32`, and whether in `f64`.
     pub fn scalars(&self) -> Result<[bool; 2], Failure> {
         chosen_scalars(&self.scalar)
     }
 
     /// The sources, meshes and corpora read.
-    /// `usual` picks the families that are run if nothing is named.
+    /// `usual` picks the families that run if the flags name none.
     pub fn sources(
         &self,
         quiet: bool,
         usual: impl Fn(&Family) -> bool,
     ) -> Result<Vec<Source>, Failure> {
-        let (count, parameters, seed) = (case_count(&self.count)?, self.parameters()?, self.seed);
+        let (count, parameters, seed) = (self.count, self.parameters()?, self.seed);
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
@@ -100,8 +138,12 @@ impl SourceArguments {
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
             sources.push(Source::Mesh { family, parameters: parameters.clone(), seed, count });
         }
+        let mut seen = HashSet::new();
         for path in &self.corpus {
             for file in corpus_files(path)? {
+                if !seen.insert(fs::canonicalize(&file).unwrap_or_else(|_| PathBuf::from(&file))) {
+                    return Err(Failure::usage(format!("--corpus: '{file}' is given twice")));
+                }
                 sources.push(Source::Corpus(corpus_set(&file)?));
             }
         }
@@ -117,11 +159,7 @@ impl SourceArguments {
                 FAMILIES.iter().filter(|family| usual(family)).collect()
             });
         }
-        if let Some(i) =
-            (1..self.family.len()).find(|&i| self.family[..i].contains(&self.family[i]))
-        {
-            return Err(Failure::usage(format!("--family: '{}' is given twice", self.family[i])));
-        }
+        refuse_twice("--family", &self.family)?;
         self.family
             .iter()
             .map(|name| {
@@ -132,22 +170,13 @@ impl SourceArguments {
     }
 
     fn parameters(&self) -> Result<Parameters, Failure> {
-        let unit_direction = match self.direction.as_deref() {
-            None => false,
-            Some("unit") => true,
-            Some(other) => {
-                return Err(Failure::usage(format!(
-                    "--direction: unknown '{other}'; there is 'unit'"
-                )));
-            }
-        };
         let offset = self.offset.as_deref().map_or(Ok([0.0; 3]), parse_offset);
         Ok(Parameters {
             scale: parse_power_of_two(&self.scale)
                 .map_err(|e| Failure::usage(format!("--scale: {e}")))?,
             scale_direction: self.scale_direction,
             offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
-            unit_direction,
+            unit_direction: self.direction.is_some(),
             mesh: None,
         })
     }
@@ -178,6 +207,14 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
         }
         total => Ok(total),
     }
+}
+
+/// The most rays at an edge or vertex: their number fits what counts them, for every kernel.
+const MOST_DIRECTIONS: u64 = 65_536;
+
+/// Reads a number of rays at each edge and vertex.
+pub fn rays_at_each() -> impl TypedValueParser<Value = u64> {
+    clap::value_parser!(u64).range(1..=MOST_DIRECTIONS)
 }
 
 /// Sets the number of threads, all cores if none is given; returns how many there are.

@@ -2,7 +2,8 @@
 
 #![forbid(unsafe_code)]
 
-use super::lines::{AnyCase, StoredCase, StoredTruth};
+use super::stored_case::{AnyCase, StoredCase};
+use super::stored_truth::StoredTruth;
 use super::{Provenance, json, number};
 use crate::arith::Float;
 use crate::case::Case;
@@ -15,8 +16,11 @@ const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 /// The fields of `bits`.
 const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
 
+/// The most bytes of a name: commands repeat it.
+const LONGEST_NAME: usize = 1000;
+
 /// The case that stands in a line, and what stands beside it.
-pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
+pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     let [name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found] =
         json::fields(
             text,
@@ -50,8 +54,10 @@ pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     };
     let truth = truth.map(|truth| StoredTruth::parse(truth.get())).transpose();
     let found = found.map(|found| Provenance::parse(found.get())).transpose();
+    let name = text("name", name)?;
+    name.as_deref().map_or(Ok(()), check_name).map_err(|message| format!("name: {message}"))?;
     Ok(StoredCase {
-        name: text("name", name)?,
+        name,
         case,
         truth: truth.map_err(|message| format!("truth: {message}"))?,
         line,
@@ -59,6 +65,19 @@ pub(super) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         url: text("url", url)?,
         found: found.map_err(|message| format!("found: {message}"))?,
     })
+}
+
+/// An error if `hairline explain` does not take a name, or if it breaks a line of a report.
+fn check_name(name: &str) -> Result<(), String> {
+    let wrong = match name.chars().next() {
+        None => "it is empty".to_owned(),
+        Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),
+        Some('-') => "it begins with '-', as a flag does".to_owned(),
+        _ if name.contains(char::is_control) => "it has a control character".to_owned(),
+        _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
+        _ => return Ok(()),
+    };
+    Err(format!("{} cannot name a case: {wrong}", json::quoted(name)))
 }
 
 fn parse_case<F: Float>(
@@ -97,7 +116,7 @@ fn parse_vector<F: Float>(
 }
 
 /// A JSON number or a string, from its text.
-pub(super) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
+pub(crate) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
     let text = value.get();
     let number = match text.as_bytes().first() {
         Some(b'"') => json::string(value).and_then(|text| number::parse(&text)),
@@ -130,7 +149,7 @@ fn parse_pattern<F: Float>(value: &RawValue) -> Result<F, String> {
 }
 
 /// The case and what stands beside it, with its bit patterns.
-pub(super) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
+pub(crate) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
     let mut fields = Vec::new();
     let mut bits = Vec::new();
     let text = |text: &String| Value::from(text.as_str()).to_string();
@@ -163,9 +182,9 @@ fn object(fields: &[(&str, String)]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::lines::write_case;
     use super::*;
     use crate::case::Draw;
+    use crate::corpus::lines::write_case;
 
     const CASE: &str =
         r#""origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0]"#;

@@ -13,7 +13,7 @@ const EXCERPT: usize = 40;
 
 /// The values of an object's fields as they stand in the text, in the order of `known`; none where
 /// a field is missing (`null` is a value). Unknown and duplicate fields are errors.
-pub(super) fn fields<'a, const N: usize>(
+pub(crate) fn fields<'a, const N: usize>(
     text: &'a str,
     known: [&'static str; N],
 ) -> Result<[Option<&'a RawValue>; N], String> {
@@ -26,7 +26,7 @@ pub(super) fn fields<'a, const N: usize>(
 }
 
 /// The value of a field that must be there.
-pub(super) fn required<'a>(
+pub(crate) fn required<'a>(
     field: &str,
     value: Option<&'a RawValue>,
 ) -> Result<&'a RawValue, String> {
@@ -34,7 +34,7 @@ pub(super) fn required<'a>(
 }
 
 /// A JSON string.
-pub(super) fn string(value: &RawValue) -> Result<String, String> {
+pub(crate) fn string(value: &RawValue) -> Result<String, String> {
     if !value.get().starts_with('"') {
         return Err(format!("expected a string, found {}", excerpt(value.get())));
     }
@@ -42,7 +42,7 @@ pub(super) fn string(value: &RawValue) -> Result<String, String> {
 }
 
 /// A JSON array of `N` values, which messages call `what`.
-pub(super) fn array<'a, const N: usize>(
+pub(crate) fn array<'a, const N: usize>(
     value: &'a RawValue,
     what: &str,
 ) -> Result<[&'a RawValue; N], String> {
@@ -53,7 +53,7 @@ pub(super) fn array<'a, const N: usize>(
 }
 
 /// The beginning of an input, on one line.
-pub(super) fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     let start: String = text.chars().take(EXCERPT).collect();
     let dots = if start.len() < text.len() { "..." } else { "" };
     let printable: String = start
@@ -68,7 +68,7 @@ pub(super) fn excerpt(text: &str) -> String {
 }
 
 /// [`excerpt`] between apostrophes.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     format!("'{}'", excerpt(text))
 }
 

@@ -2,119 +2,29 @@
 
 #![forbid(unsafe_code)]
 
+pub use super::stored_case::{AnyCase, StoredCase};
 pub use super::stored_truth::{Stored, StoredContact, StoredTruth};
-use super::{InputError, Provenance, case_json};
-use crate::case::Case;
-use std::io::{self, BufRead, Read};
-use std::iter;
+use super::text_lines::TextLines;
+use super::{InputError, case_json};
+use std::io::BufRead;
 
 /// The most bytes of a line.
-const LONGEST_LINE: usize = 1 << 20;
-
-/// A case in the scalar that it was written for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyCase {
-    /// In `f32`.
-    F32(Case<f32>),
-    /// In `f64`.
-    F64(Case<f64>),
-}
-
-impl AnyCase {
-    /// Whether it is of `f32`, and whether of `f64`.
-    pub fn scalars(&self) -> [bool; 2] {
-        match self {
-            AnyCase::F32(_) => [true, false],
-            AnyCase::F64(_) => [false, true],
-        }
-    }
-}
-
-impl From<Case<f32>> for AnyCase {
-    fn from(case: Case<f32>) -> AnyCase {
-        AnyCase::F32(case)
-    }
-}
-
-impl From<Case<f64>> for AnyCase {
-    fn from(case: Case<f64>) -> AnyCase {
-        AnyCase::F64(case)
-    }
-}
-
-/// A case from a corpus file, and what stands beside it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StoredCase {
-    /// The case's name.
-    pub name: Option<String>,
-    /// The ray and the triangle.
-    pub case: AnyCase,
-    /// What the file says about it; not compared with anything yet.
-    pub truth: Option<StoredTruth>,
-    /// Counted from 1.
-    pub line: usize,
-    /// Why the case is in the file.
-    pub why: Option<String>,
-    /// Where it comes from.
-    pub url: Option<String>,
-    /// Which kernel shows what on it, if it was found by a campaign or by `triage`.
-    pub found: Option<Provenance>,
-}
+pub(crate) const LONGEST_LINE: usize = 1 << 20;
 
 /// The cases of a corpus file, one after the other; blank lines are skipped. `file` is the name in
 /// errors.
 ///
-/// A line that is no case, is longer than 1 MiB or is not UTF-8 is an error, and the next line is
-/// read as if nothing had happened. When reading itself fails, that error is the last item.
+/// A line that is not a case, is longer than 1 MiB or is not UTF-8 is an error, and reading continues with
+/// the next line. If reading itself fails, that error is the last item.
 pub fn read<R: BufRead>(
-    mut reader: R,
+    reader: R,
     file: &str,
 ) -> impl Iterator<Item = Result<StoredCase, InputError>> + use<R> {
     let file = file.to_owned();
-    let (mut number, mut failed) = (0, false);
-    let mut bytes = Vec::new();
-    iter::from_fn(move || {
-        loop {
-            if failed {
-                return None;
-            }
-            number += 1;
-            let item = match read_line(&mut reader, &mut bytes) {
-                Ok(false) => return None,
-                Ok(true) if bytes.trim_ascii().is_empty() => continue,
-                Ok(true) => parse_line(&bytes, number),
-                Err(error) => {
-                    failed = true;
-                    Err(format!("cannot read: {error}"))
-                }
-            };
-            return Some(item.map_err(|message| InputError::at(&file, number, message)));
-        }
+    TextLines::new(reader, &file, LONGEST_LINE).map(move |line| {
+        let (number, text) = line?;
+        case_json::parse(&text, number).map_err(|message| InputError::at(&file, number, message))
     })
-}
-
-/// The next line without its end; false if there is none. Of a line that is too long the beginning,
-/// one byte more than is allowed.
-fn read_line(reader: &mut impl BufRead, bytes: &mut Vec<u8>) -> io::Result<bool> {
-    bytes.clear();
-    if reader.by_ref().take(LONGEST_LINE as u64 + 1).read_until(b'\n', bytes)? == 0 {
-        return Ok(false);
-    }
-    if bytes.last() == Some(&b'\n') {
-        bytes.pop();
-    } else if bytes.len() > LONGEST_LINE {
-        reader.skip_until(b'\n')?;
-    }
-    Ok(true)
-}
-
-fn parse_line(bytes: &[u8], line: usize) -> Result<StoredCase, String> {
-    if bytes.len() > LONGEST_LINE {
-        return Err(format!("the line has more than {LONGEST_LINE} bytes"));
-    }
-    let text = str::from_utf8(bytes)
-        .map_err(|error| format!("not UTF-8 at byte {}", error.valid_up_to() + 1))?;
-    case_json::parse(text, line)
 }
 
 /// A case as one line without its end, with its bit patterns. [`read`] gives the same case back,
@@ -130,6 +40,7 @@ pub fn write_case(stored: &StoredCase) -> String {
 mod tests {
     use super::*;
     use std::collections::HashSet;
+    use std::io::{self, Read};
 
     const CASE: &str =
         r#""origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0]"#;
@@ -163,7 +74,7 @@ mod tests {
             errors,
             [
                 "cases.jsonl:3: expected an object, found # no",
-                "cases.jsonl:5: the line has more than 1048576 bytes",
+                "cases.jsonl:5: a line of more than 1048576 bytes",
                 "cases.jsonl:6: not UTF-8 at byte 1",
                 "cases.jsonl:8: EOF while parsing an object at column 1",
             ]

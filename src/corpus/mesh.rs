@@ -1,15 +1,15 @@
 //! Meshes from OBJ files: triangles of `f32` and of `f64` positions, each nearest to the text.
 //!
 //! The file's text is read here, so that errors carry their line and numbers keep their digits;
-//! tobj then sorts faces into groups and polygons, on vertices that hold nothing but their index.
+//! tobj then sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
+pub use super::obj::Note;
 use super::obj::{self, LIMITS, Limits, Notes, Source};
 use super::shapes::Shape;
 use super::{InputError, fan};
 use crate::arith::Float;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
-use std::fmt;
 use std::io::{self, BufRead, Read, Write};
 
 /// A mesh of triangles, as read from an OBJ file.
@@ -29,39 +29,21 @@ pub struct Mesh {
     pub lines: Vec<u32>,
     /// The number of different names of groups and objects (`g`, `o`) that hold triangles.
     pub groups: usize,
-    /// What a reader should be told, at most one note of each kind.
+    /// Notes for the user, at most one of each kind.
     pub notes: Vec<Note>,
     /// The first 16 hexadecimal digits of the SHA-256 of the bits of all `f64` positions, all `f32`
     /// positions and all triangles' indices, little-endian.
     pub digest: String,
 }
 
-/// Something in a file that was skipped, altered or suspect.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
-    /// The first line it was found at, counted from 1.
-    pub line: Option<usize>,
-    /// How often it was found.
-    pub count: usize,
-    /// What was found and what was done with it, without the count.
-    pub message: String,
-}
-
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message, self.count)?;
-        self.line.map_or(Ok(()), |line| write!(f, " (first at line {line})"))
-    }
-}
-
 impl Mesh {
-    /// The corners of a triangle in the scalar asked for, from the positions of that scalar.
+    /// The corners of a triangle in the scalar `F`, from the positions of that scalar.
     /// Panics if there is no such triangle.
     pub fn vertices<F: Float>(&self, triangle: usize) -> [[F; 3]; 3] {
         self.triangles[triangle].map(|vertex| self.position(vertex))
     }
 
-    /// A vertex's position in the scalar asked for. Panics if there is no such vertex.
+    /// A vertex's position in the scalar `F`. Panics if there is no such vertex.
     pub fn position<F: Float>(&self, vertex: u32) -> [F; 3] {
         if F::DIGITS == f32::MANTISSA_DIGITS {
             self.positions_f32[vertex as usize].map(|x| F::from_f64(f64::from(x)))
@@ -71,17 +53,17 @@ impl Mesh {
     }
 }
 
-/// Reads an OBJ file: `v`, `f`, `o` and `g` count, materials, normals and textures do not, and what
-/// else there is gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called
+/// Reads an OBJ file: `v`, `f`, `o` and `g` count; materials, normals and textures are ignored; anything
+/// else gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called
 /// about every MiB with the number of bytes read so far, and once at the end.
 ///
 /// Polygons are cut into the fan from their first vertex. Those whose fan folds over itself or is
 /// bent by a right angle or more, which many concave ones do, are left out with a note. Triangles
 /// without area are kept with a note.
 ///
-/// Errors: what cannot be read, is not UTF-8 or has a line above 1 MiB; numbers that are none, or
-/// not finite in `f64`; faces of fewer than three vertices, or of vertices that the file has not;
-/// no vertices or no triangles at all; more than 100 million of either.
+/// It is an error if the file cannot be read, is not UTF-8 or has a line above 1 MiB; if a number is
+/// malformed or not finite in `f64`; if a face has fewer than three vertices, or one that the file does
+/// not have; if there are no vertices or no triangles, or more than 100 million of either.
 pub fn read_obj<R: BufRead>(
     reader: R,
     name: &str,
@@ -152,7 +134,7 @@ fn models_by_tobj(source: &Source, name: &str) -> Result<Vec<tobj::Model>, Input
             let read = &source.text[..source.text.len() - unread.len()];
             let faces = read.split(|byte| *byte == b'\n').filter(|l| l.starts_with(b"f")).count();
             let line = source.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
-            Err(InputError { file: name.to_owned(), line, message: format!("tobj: {error}") })
+            Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
         }
     }
 }

@@ -2,24 +2,24 @@
 
 #![forbid(unsafe_code)]
 
-mod case_json;
+pub(crate) mod case_json;
 mod fan;
-mod json;
+pub(crate) mod json;
 pub mod lines;
-pub mod manifest;
 pub mod mesh;
 pub mod number;
 mod obj;
-pub mod points_json;
 mod provenance;
 pub mod shapes;
+mod stored_case;
 mod stored_truth;
+pub mod text_lines;
 pub mod truth_json;
 
 pub(crate) use fan::{is_without_area, winds_once};
 pub use provenance::Provenance;
 
-use std::fmt;
+use std::{fmt, io};
 
 /// What is wrong with an input, and where.
 #[derive(Debug)]
@@ -30,17 +30,25 @@ pub struct InputError {
     pub line: Option<usize>,
     /// What was found and what was expected, in one line.
     pub message: String,
+    /// Whether reading failed, whatever the data are.
+    pub unreadable: bool,
 }
 
 impl InputError {
     /// With a line number.
     pub fn at(file: &str, line: usize, message: impl Into<String>) -> InputError {
-        InputError { file: file.to_owned(), line: Some(line), message: message.into() }
+        InputError { line: Some(line), ..InputError::of(file, message) }
     }
 
     /// About the file as a whole.
     pub fn of(file: &str, message: impl Into<String>) -> InputError {
-        InputError { file: file.to_owned(), line: None, message: message.into() }
+        InputError { file: file.to_owned(), line: None, message: message.into(), unreadable: false }
+    }
+
+    /// An error of reading itself, at a line if it is known.
+    pub fn reading(file: &str, line: Option<usize>, error: &io::Error) -> InputError {
+        let unread = InputError::of(file, format!("cannot read: {error}"));
+        InputError { line, unreadable: true, ..unread }
     }
 }
 
@@ -54,3 +62,8 @@ impl fmt::Display for InputError {
 }
 
 impl std::error::Error for InputError {}
+
+/// Bytes as lower-case hexadecimal digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,13 +1,13 @@
 //! The lines of an OBJ file: numbers from their text, indices checked, everything with its line.
 //!
-//! What is left for tobj is a text of faces and groups that holds absolute indices only.
+//! tobj then reads a text of faces and groups with absolute indices only.
 
 use super::InputError;
-use super::mesh::Note;
+use std::fmt;
 use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
-/// How much is read before a file is refused.
+/// How much is read before a file is an error.
 #[derive(Clone, Copy)]
 pub(super) struct Limits {
     /// Bytes in a line, with what is joined to it by backslashes.
@@ -36,6 +36,24 @@ pub(super) struct Source {
     pub notes: Notes,
     /// The largest index of a face, counted from 1, and the first line that names it.
     pub largest: (i64, usize),
+}
+
+/// Something in a file that was skipped, altered or suspect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// The first line it was found at, counted from 1.
+    pub line: Option<usize>,
+    /// How often it was found.
+    pub count: usize,
+    /// What was found and what was done with it, without the count.
+    pub message: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message, self.count)?;
+        self.line.map_or(Ok(()), |line| write!(f, " (first at line {line})"))
+    }
 }
 
 /// Notes of one kind are one note.
@@ -276,7 +294,7 @@ impl<'a, R: BufRead> Lines<'a, R> {
         let read = (&mut self.reader)
             .take(room as u64)
             .read_until(b'\n', &mut self.raw)
-            .map_err(|error| InputError::of(self.name, error.to_string()))?;
+            .map_err(|error| InputError::reading(self.name, Some(self.number + 1), &error))?;
         if read == 0 {
             return Ok(false);
         }

@@ -1,4 +1,4 @@
-//! What stands beside a case that shows a finding: which kernel shows what, and where it was found.
+//! The provenance of a finding, stored beside its case: the kernel, the finding, and where it came from.
 
 #![forbid(unsafe_code)]
 
@@ -19,7 +19,7 @@ pub struct Provenance {
     pub contract: String,
     /// The finding: `false-miss`.
     pub finding: String,
-    /// The signature, as `hairline shrink` prints it.
+    /// The signature, as `hairline fuzz shrink` prints it.
     pub signature: String,
     /// The seed of the campaign; none if it comes from elsewhere.
     pub seed: Option<u64>,

@@ -4,8 +4,8 @@ use super::{Amount, Entry, Expectations, SCHEMA};
 use crate::report::{Conformance, Disagreement, ResultPart, disagreements};
 use std::fmt::Write;
 
-/// Why expectations cannot be written: they are also of kernels, scalars or families that the plan
-/// leaves out, and would be lost.
+/// Why expectations cannot be written: the file also has entries for kernels, scalars or families that
+/// the plan leaves out, and these would be lost.
 #[derive(Debug)]
 pub struct Unblessable {
     /// How many.

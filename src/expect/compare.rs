@@ -9,7 +9,7 @@ use crate::report::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The chance that any of all comparisons by interval calls a difference that is none.
+/// The probability that at least one of all comparisons by interval reports a difference by chance.
 const ERROR: f64 = 0.05;
 
 /// Compares; `file` is the expectations' name.
@@ -206,7 +206,9 @@ fn deviation(
         family: key.family.clone(),
         class: key.class.clone(),
         finding: key.finding.clone(),
-        expected: entry.map_or("none".to_owned(), |entry| describe(&entry.amount, rate)),
+        expected: entry.map_or("none".to_owned(), |entry| {
+            describe(&entry.amount, rate, found.map(|found| found.digest))
+        }),
         found: rate.clone(),
         line: entry.map(|entry| entry.line),
         case: example.as_ref().map(|example| example.case.clone()),
@@ -217,12 +219,16 @@ fn deviation(
     }
 }
 
-fn describe(amount: &Amount, found: &Rate) -> String {
+/// The expectation; where as many were found, whether they are other cases.
+fn describe(amount: &Amount, found: &Rate, digest: Option<&str>) -> String {
     match amount {
         Amount::Rate(bound) => format!("a share of at most {bound}, and not none"),
-        Amount::Count { count, of, .. } => {
+        Amount::Count { count, of, digest: expected } => {
             let of = of.unwrap_or(found.of);
-            let other = if *count == found.count && of == found.of { " (other cases)" } else { "" };
+            let is_other = (*count, of) == (found.count, found.of)
+                && expected.is_some()
+                && expected.as_deref() != digest;
+            let other = if is_other { " (other cases)" } else { "" };
             format!("{} of {}{other}", group_digits(*count), group_digits(of))
         }
     }

@@ -1,12 +1,14 @@
-//! Reading a file of expectations, strictly: unknown names, duplicates and typing errors are refused
-//! with their line.
+//! Reads a file of expectations, strictly: an unknown name, a duplicate or a typing error is an error
+//! that names its line.
 
 use super::{Amount, Entry, Expectations, SCHEMA};
+use crate::audit::is_of_mesh;
 use crate::corpus::InputError;
 use crate::family::FAMILIES;
 use crate::judge::Class;
-use crate::kernel::{self, nearest_name};
+use crate::kernel;
 use crate::report::{FINDING_KINDS, Key};
+use crate::suggest::nearest_name;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry as Place;
@@ -131,7 +133,7 @@ impl Reader<'_> {
         let finding = spanned.get_ref();
         let families: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
         let family = finding.family.get_ref();
-        if !family.starts_with("mesh:") && !family.starts_with("corpus:") {
+        if !is_of_mesh(family) && !family.starts_with("corpus:") {
             self.check("family", &finding.family, &families)?;
         }
         let mut classes: Vec<String> = Class::all().map(Class::name).collect();

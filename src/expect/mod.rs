@@ -1,7 +1,8 @@
-//! Floor 5: expectations, the known disagreements of a project, and how a run compares with them.
+//! Floor 6: expectations, the known disagreements of a project, and how a run compares with them.
 //!
-//! A file holds only what is not the default: no finding at all. What is in it and no longer happens
-//! is stale, so that the file shrinks as kernels get better, and never hides that they got worse.
+//! By default no finding is expected, and a file lists the exceptions. An entry that no longer occurs is
+//! stale, and that fails too. So the file shrinks as kernels get better, and never hides that they got
+//! worse.
 
 #![forbid(unsafe_code)]
 
@@ -24,7 +25,7 @@ pub const SCHEMA: &str = "hairline-expectations/1";
 pub struct Expectations {
     /// The hash of the plan whose counts they are.
     pub plan: String,
-    /// What is expected of each class of disagreement; none of all others.
+    /// The expectation for each class of disagreement. Every other class is expected not to occur.
     pub entries: BTreeMap<Key, Entry>,
 }
 
@@ -53,6 +54,6 @@ pub enum Amount {
         /// Of the set of cases.
         digest: Option<String>,
     },
-    /// At most this share, and not none.
+    /// At most this share, but more than zero.
     Rate(f64),
 }

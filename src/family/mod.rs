@@ -12,22 +12,26 @@ mod flat;
 pub(crate) mod integer;
 mod interval;
 mod lattice;
+pub mod manifest;
 mod mesh;
 mod neighbours;
 mod origin;
 mod polygon;
+mod question;
 mod range;
 mod shape;
 mod sizes;
 
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
+pub use question::Question;
 
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, CaseId, Draw, Parameters};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
+use std::any::Any;
 
 /// The triangles that one index of a family makes: one, or a group that shares a ray.
 #[derive(Clone, Debug)]
@@ -101,20 +105,26 @@ pub struct Family {
     pub version: u32,
     /// About the truth of its cases, in one line.
     pub promise: &'static str,
+    /// The question that it belongs to.
+    pub question: Question,
     /// How the triangles of one index belong together.
     pub grouping: Grouping,
     /// The number of its cases, if there are finitely many.
     pub size: Option<u64>,
     keeps: fn(&[Truth]) -> bool,
-    make_f32: fn(&Parameters, &mut Draw, u64) -> Made<f32>,
-    make_f64: fn(&Parameters, &mut Draw, u64) -> Made<f64>,
+    make_f32: Generator<f32>,
+    make_f64: Generator<f64>,
 }
 
-const fn row<R: Recipe>() -> Family {
+/// Makes the case of an index in one scalar.
+type Generator<F> = fn(&Parameters, &mut Draw, u64) -> Made<F>;
+
+const fn row<R: Recipe>(question: Question) -> Family {
     Family {
         name: R::NAME,
         version: R::VERSION,
         promise: R::PROMISE,
+        question,
         grouping: R::GROUPING,
         size: None,
         keeps: R::keeps,
@@ -135,34 +145,34 @@ fn made<R: Recipe, F: Scalar>(parameters: &Parameters, draw: &mut Draw, index: u
 
 /// Every family but the mesh, in the order of reports.
 pub static FAMILIES: &[Family] = &[
-    row::<control::Interior>(),
-    row::<control::Outside>(),
-    row::<boundary::EdgeExact>(),
-    row::<boundary::EdgeNear>(),
-    row::<boundary::VertexExact>(),
-    row::<boundary::VertexNear>(),
-    row::<flat::ParallelOff>(),
-    row::<flat::Coplanar>(),
-    row::<flat::Grazing>(),
-    row::<origin::OriginOn>(),
-    row::<origin::OriginNear>(),
-    row::<origin::Respawn>(),
-    row::<interval::Behind>(),
-    row::<interval::IntervalEnds>(),
-    row::<shape::Sliver>(),
-    row::<sizes::Tiny>(),
-    row::<sizes::Huge>(),
-    row::<sizes::Far>(),
-    row::<directions::DirectionLength>(),
-    row::<directions::AxisAligned>(),
-    row::<range::MixedScale>(),
-    row::<range::RangeEnds>(),
-    row::<shape::Degenerate>(),
-    row::<range::Invalid>(),
-    row::<neighbours::SharedEdge>(),
-    row::<neighbours::Fan>(),
-    row::<polygon::Polygon>(),
-    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>() },
+    row::<control::Interior>(Question::Inside),
+    row::<control::Outside>(Question::Inside),
+    row::<boundary::EdgeExact>(Question::Edges),
+    row::<boundary::EdgeNear>(Question::Edges),
+    row::<boundary::VertexExact>(Question::Vertices),
+    row::<boundary::VertexNear>(Question::Vertices),
+    row::<flat::ParallelOff>(Question::Flat),
+    row::<flat::Coplanar>(Question::Flat),
+    row::<flat::Grazing>(Question::Flat),
+    row::<origin::OriginOn>(Question::Ends),
+    row::<origin::OriginNear>(Question::Ends),
+    row::<origin::Respawn>(Question::Ends),
+    row::<interval::Behind>(Question::Ends),
+    row::<interval::IntervalEnds>(Question::Ends),
+    row::<shape::Sliver>(Question::Sizes),
+    row::<sizes::Tiny>(Question::Sizes),
+    row::<sizes::Huge>(Question::Sizes),
+    row::<sizes::Far>(Question::Sizes),
+    row::<directions::DirectionLength>(Question::Sizes),
+    row::<directions::AxisAligned>(Question::Grid),
+    row::<range::MixedScale>(Question::Range),
+    row::<range::RangeEnds>(Question::Range),
+    row::<shape::Degenerate>(Question::Flat),
+    row::<range::Invalid>(Question::Invalid),
+    row::<neighbours::SharedEdge>(Question::Edges),
+    row::<neighbours::Fan>(Question::Vertices),
+    row::<polygon::Polygon>(Question::Edges),
+    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },
 ];
 
 /// The family of a name.
@@ -175,12 +185,19 @@ impl Family {
     pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
         let mut draw = Draw::new(self.name, seed, index);
         let index = self.size.map_or(index, |size| lattice::shuffled(index % size, seed));
-        F::make(self, parameters, &mut draw, index)
+        self.generator::<F>()(parameters, &mut draw, index)
     }
 
     /// Case `index` in the natural order of a finite family.
     pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> Made<F> {
-        F::make(self, parameters, &mut Draw::new(self.name, 0, index), index)
+        self.generator::<F>()(parameters, &mut Draw::new(self.name, 0, index), index)
+    }
+
+    /// The generator of a scalar, which is one of the two.
+    fn generator<F: Scalar>(&self) -> Generator<F> {
+        let both: [&dyn Any; 2] = [&self.make_f32, &self.make_f64];
+        let found = both.into_iter().find_map(|make| make.downcast_ref::<Generator<F>>());
+        *found.expect("a scalar is f32 or f64")
     }
 
     /// Whether the truths of one index keep the promise.
@@ -199,24 +216,6 @@ impl Family {
             index,
             triangle: None,
         }
-    }
-}
-
-/// A scalar that families make cases in.
-pub trait Makes: Float {
-    /// Calls the family's generator of this scalar.
-    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<Self>;
-}
-
-impl Makes for f32 {
-    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<f32> {
-        (family.make_f32)(parameters, draw, index)
-    }
-}
-
-impl Makes for f64 {
-    fn make(family: &Family, parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<f64> {
-        (family.make_f64)(parameters, draw, index)
     }
 }
 

@@ -1,5 +1,5 @@
-//! `polygon`: exactly planar convex lattice polygons, as the fan of their first vertex. Its truth is
-//! the union of the fan's triangles; `convex-polygon` is asked about the polygon as a whole.
+//! `polygon`: exactly planar convex lattice polygons, as the fan of their first vertex. The truth is
+//! that of the union of the fan's triangles; `convex-polygon` tests the polygon as a whole.
 
 use super::integer::{Point, cross, dot, independent, minus, plus, times, transversal};
 use super::{Grouping, Made, Recipe};

@@ -1,5 +1,5 @@
-//! `mixed-scale`, `range-ends`, `invalid`: exponents of all sizes, the ends of the range, and what is
-//! no number at all.
+//! `mixed-scale`, `range-ends`, `invalid`: exponents of all sizes, the ends of the range, and input that
+//! is not a finite ray and triangle.
 
 use super::control::{aimed, interior_weights};
 use super::{Made, Recipe};

@@ -177,19 +177,56 @@ pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: 
         return relative < 1.0;
     }
     let (ray, triangle) = case.exact();
+    let squares = Squares::of(&ray, &triangle, truth.crossing().is_some());
+    squares.are_within(band, ulp_of_points(case), truth, contract)
+}
+
+/// The same of a planar convex polygon, given as its fan, with the truth of it as a whole: by the
+/// distance to its outline, in units of the longest edge of the fan's triangles.
+pub fn is_polygon_within<F: Float>(
+    band: Band,
+    cases: &[Case<F>],
+    truth: &Truth,
+    contract: &Contract,
+) -> bool {
     let crosses = truth.crossing().is_some();
-    let Squares { longest, in_space, along } = Squares::<Exact>::of(&ray, &triangle, crosses);
-    let unit = match band.unit {
-        BandUnit::Edges if longest.is_zero() => Exact::one(),
-        BandUnit::Edges => longest,
-        BandUnit::Ulps => {
-            let ulp = Exact::from_f64(ulp_of_points(case).to_f64());
-            ulp.clone() * ulp
-        }
+    let last = cases.len() - 1;
+    let fan: Vec<_> = cases.iter().map(Case::exact).collect();
+    let each = |(i, (ray, triangle)): (usize, &(Ray<_>, Triangle<_>))| {
+        let Squares { longest, along, .. } = Squares::<Exact>::of(ray, triangle, crosses);
+        let [first, rim, closing] = triangle.edges();
+        let outline = [(i == 0).then_some(first), Some(rim), (i == last).then_some(closing)];
+        let to_edge = |(p, q)| line_to_segment(&ray.origin, &ray.direction, p, q);
+        let in_space = outline.into_iter().flatten().map(to_edge).reduce(Exact::smaller);
+        Squares { longest, in_space: in_space.expect("an edge of the outline"), along }
     };
-    let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
-    let size = Exact::from_f64(band.size);
-    to_change(truth, contract, in_space, along).is_less(&(size.clone() * size * unit))
+    let larger = |one: Squares<Exact>, other: Squares<Exact>| Squares {
+        longest: one.longest.larger(other.longest),
+        in_space: one.in_space.smaller(other.in_space),
+        along: one.along,
+    };
+    let ulps = cases.iter().map(ulp_of_points);
+    let ulp = ulps.fold(F::zero(), |largest, ulp| if largest < ulp { ulp } else { largest });
+    let squares = fan.iter().enumerate().map(each).reduce(larger).expect("a triangle");
+    squares.are_within(band, ulp, truth, contract)
+}
+
+impl Squares<Exact> {
+    /// Whether they are within a band of where the obligation would be another.
+    fn are_within(self, band: Band, ulp: impl Float, truth: &Truth, contract: &Contract) -> bool {
+        let Squares { longest, in_space, along } = self;
+        let unit = match band.unit {
+            BandUnit::Edges if longest.is_zero() => Exact::one(),
+            BandUnit::Edges => longest,
+            BandUnit::Ulps => {
+                let ulp = Exact::from_f64(ulp.to_f64());
+                ulp.clone() * ulp
+            }
+        };
+        let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
+        let size = Exact::from_f64(band.size);
+        to_change(truth, contract, in_space, along).is_less(&(size.clone() * size * unit))
+    }
 }
 
 /// What a truth knows to be zero, or not to be.

@@ -1,4 +1,4 @@
-//! What is asked of many cases, ready to be compared with the verdicts of many kernels.
+//! The obligations of many cases, ready to be compared with the verdicts of many kernels.
 
 use super::{Class, Kind, Obligation, asked, obligation};
 use crate::arith::Float;
@@ -32,17 +32,17 @@ impl Kinds {
     }
 }
 
-/// What a contract asks of many cases.
+/// What a contract demands of many cases.
 pub(crate) struct Expectations {
     /// One a case.
     pub of: Vec<Expected>,
-    /// The cases on which nothing is asked.
+    /// The cases on which nothing is demanded.
     pub free: Vec<usize>,
-    /// How many cases of a class are asked what; several lines may have the same class.
+    /// How many cases of a class have which obligation; several lines may have the same class.
     pub counts: Vec<(Class, Obligation, u64)>,
 }
 
-/// What a contract asks of many cases with their truths, whose kinds are known.
+/// What a contract demands of many cases with their truths, whose kinds are known.
 pub(crate) fn ask_all<F: Float>(
     cases: &[Case<F>],
     truths: &[Truth],
@@ -76,7 +76,7 @@ pub(crate) fn ask_all<F: Float>(
     Expectations { of, free, counts }
 }
 
-/// What is asked of a case, as flags.
+/// What is demanded of a case, as flags.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected {
     may_hit: bool,
@@ -98,7 +98,7 @@ impl Expected {
         }
     }
 
-    /// What is asked.
+    /// The obligation.
     pub fn obligation(&self) -> Obligation {
         match (self.may_hit, self.may_miss) {
             (true, false) => Obligation::MustHit,

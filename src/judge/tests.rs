@@ -1,6 +1,7 @@
-//! What the judge asks and finds, by hand.
+//! Obligations and findings worked out by hand.
 
 use super::*;
+use crate::family::Grouping;
 use crate::oracle::truth;
 
 fn down_at(x: f64, y: f64, z: f64) -> Truth {
@@ -150,7 +151,8 @@ fn a_group_that_covers_itself_at_the_ray_is_free() {
     assert_eq!(ask(&truths(&twice)), GroupTruth::Free);
 }
 
-/// Whoever is no suspect shows nothing, whatever the verdict; without values, every suspect does.
+/// Cases that are not suspects met their obligation, whatever the verdict; without values, every suspect
+/// shows a finding.
 fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
     let mut found = Vec::new();
@@ -215,4 +217,63 @@ fn many_cases_are_asked_what_each_is_asked() {
             }
         }
     }
+}
+
+/// A square of side 4 as its fan, a ray onto it from above, and the truths.
+fn square_at(x: f64, y: f64) -> (Vec<Case<f64>>, Vec<Truth>) {
+    let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+    let case = |k: [usize; 3]| Case::new([x, y, 8.0], [0.0, 0.0, -1.0], k.map(|i| corners[i]));
+    let cases = [[0, 1, 2], [0, 2, 3]].map(case).to_vec();
+    let truths = cases.iter().map(truth).collect();
+    (cases, truths)
+}
+
+#[test]
+fn a_band_frees_a_polygon_by_its_outline_and_a_group_by_its_triangles() {
+    // The longest edge of the fan is its diagonal, of length √32; a band is a share of it.
+    let band = |distance: f64| {
+        let size = distance / 32f64.sqrt();
+        Contract { band: format!("{size:e}").parse().ok(), ..Contract::CLOSED_RAY }
+    };
+    let polygon = |(x, y), distance| {
+        let (cases, truths) = square_at(x, y);
+        polygon_obligation(&cases, &truths, &band(distance))
+    };
+    // The middle is on the diagonal, and 2 from the outline.
+    assert_eq!(polygon((2.0, 2.0), 1.99), Obligation::MustHit);
+    assert_eq!(polygon((2.0, 2.0), 2.01), Obligation::Free);
+    assert_eq!(polygon((2.0, 3.5), 0.49), Obligation::MustHit);
+    assert_eq!(polygon((2.0, 3.5), 0.51), Obligation::Free);
+    assert_eq!(polygon((2.0, 7.0), 2.99), Obligation::MustMiss);
+    assert_eq!(polygon((2.0, 7.0), 3.01), Obligation::Free);
+    // In ulps of the largest coordinate, 8: 2^-49.
+    let ulps = |distance: f64, ulps: &str| {
+        let (cases, truths) = square_at(2.0, 4.0 - distance);
+        let contract = Contract { band: ulps.parse().ok(), ..Contract::CLOSED_RAY };
+        polygon_obligation(&cases, &truths, &contract)
+    };
+    assert_eq!(ulps(2f64.powi(-48), "2ulps"), Obligation::MustHit);
+    assert_eq!(ulps(2f64.powi(-48), "2.5ulps"), Obligation::Free);
+    let group = |(x, y), distance| {
+        let (cases, truths) = square_at(x, y);
+        group_obligation(&cases, &truths, &band(distance), Grouping::Polygon)
+    };
+    // (3, 1) is √2 from the diagonal and 1 from the rim; the diagonal's own distance is 0.
+    assert_eq!(group((3.0, 1.0), 0.99), GroupTruth::Crossing);
+    assert_eq!(group((3.0, 1.0), 1.01), GroupTruth::Free);
+    assert_eq!(group((2.0, 2.0), 1e-9), GroupTruth::Free);
+}
+
+#[test]
+fn groups_and_polygons_are_free_where_no_direction_is_promised() {
+    let (cases, truths) = square_at(2.0, 2.0);
+    let ask = |length: f64| {
+        let unit = Contract { direction: Direction::Unit { ulps: 1 }, ..Contract::CLOSED_RAY };
+        let mut cases = cases.clone();
+        cases.iter_mut().for_each(|case| case.ray.direction *= length);
+        let group = group_obligation(&cases, &truths, &unit, Grouping::Polygon);
+        (group, polygon_obligation(&cases, &truths, &unit))
+    };
+    assert_eq!(ask(1.0), (GroupTruth::Crossing, Obligation::MustHit));
+    assert_eq!(ask(1.0 + 4.0 * f64::EPSILON), (GroupTruth::Free, Obligation::Free));
 }

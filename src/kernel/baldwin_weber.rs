@@ -1,11 +1,12 @@
 //! `baldwin-weber`: an affine map per triangle, from space to barycentric coordinates.
 //!
 //! Source: D. Baldwin and M. Weber, "Fast Ray-Triangle Intersections by Coordinate Transformation",
-//! Journal of Computer Graphics Techniques 5(3), 2016: nine coefficients and the fixed column, which
-//! is the axis of the normal's largest component. Guards as printed: t ≤ near or ≥ far is a miss, and
-//! x + y < 1 is strict where x and y are not, so edge bc is lost.
+//! Journal of Computer Graphics Techniques 5(3), 2016, <https://jcgt.org/published/0005/03/03/>: nine
+//! coefficients and the fixed column, which is the axis of the normal's largest component. The
+//! comparisons are as printed: t ≤ near and t ≥ far are misses; x + y < 1 is strict while those of x
+//! and y are not, so edge bc is lost.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, gap};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -28,12 +29,14 @@ pub(super) struct Transformation<R> {
 impl Kernel for BaldwinWeber {
     const INFO: KernelInfo = KernelInfo {
         name: "baldwin-weber",
-        source: "Baldwin and Weber (2016), nine-coefficient form",
+        source: "D. Baldwin and M. Weber, Fast Ray-Triangle Intersections by Coordinate Transformation, 2016, \
+                 nine coefficients, https://jcgt.org/published/0005/03/03/",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::fixed("column", "no component of the normal is the largest: no fixed column"),
-            Gate::signed("t", "t - t_min <= e, t_max - t <= e", 1, -1),
-            Gate::signed("edge", "!(x >= e), !(y >= e), !(1-(y+x) > e)", 0, 0),
+            Gate::fixed(Role::Other, "no component of the normal is the largest: no fixed column")
+                .named("column"),
+            Gate::signed(Role::T, "t - t_min <= e, t_max - t <= e", 1, -1),
+            Gate::signed(Role::Edge, "!(x >= e), !(y >= e), !(1-(y+x) > e)", 0, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

@@ -1,10 +1,11 @@
 //! `cramer`: the 3×3 linear system by Cramer's rule.
 //!
-//! Source: "Lecture 9: Triangles" (seed 003_0e01eb4f46ba06a4), after Fundamentals of Computer
-//! Graphics: the common subterms of "Implementation" and the pseudo-code's order of tests. The text
-//! names det = 0 the obvious test for no intersection; it comes first.
+//! Source: I. Dunn, "Lecture 9: Triangles", course CSC 473, California Polytechnic State University,
+//! <https://iondune.github.io/csc473/lectures/09-triangles>, after Fundamentals of Computer Graphics:
+//! the common subterms of "Implementation", and the tests in the order of the pseudo-code. The text calls
+//! det = 0 the obvious test for no intersection, so that test comes first.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, gap};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -18,12 +19,13 @@ const EDGE: usize = 2;
 impl Kernel for Cramer {
     const INFO: KernelInfo = KernelInfo {
         name: "cramer",
-        source: "Lecture 9: Triangles, Cramer's rule with common subterms, pseudo-code [seed 003]",
+        source: "I. Dunn, Lecture 9: Triangles, Cramer's rule with common subterms, CSC 473, Cal Poly, \
+                 https://iondune.github.io/csc473/lectures/09-triangles",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::signed("parallel", "abs(det) <= e", 2, 1),
-            Gate::signed("t", "t - t_min < e, t_max - t < e", 1, -1),
-            Gate::signed("edge", "gamma < e, 1-gamma < e, beta < e, (1-gamma)-beta < e", 0, 0),
+            Gate::signed(Role::Parallel, "abs(det) <= e", 2, 1),
+            Gate::signed(Role::T, "t - t_min < e, t_max - t < e", 1, -1),
+            Gate::signed(Role::Edge, "gamma < e, 1-gamma < e, beta < e, (1-gamma)-beta < e", 0, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

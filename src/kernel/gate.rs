@@ -1,8 +1,8 @@
 //! Gates, their margins, and the sinks that receive them.
 //!
-//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon
-//! can only refuse more. Its *margin* on a case is the largest representable epsilon at which it
-//! accepts, so one evaluation gives the verdict at every epsilon.
+//! A kernel is a chain of gates. A gate compares a quantity with its epsilon; raising the epsilon can
+//! only reject more. Its *margin* on a case is the largest representable epsilon at which it accepts, so
+//! one evaluation gives the verdict at every epsilon.
 
 use crate::arith::Real;
 
@@ -43,17 +43,18 @@ impl Refuse {
 
     /// The largest epsilon under which `x` passes.
     pub fn margin<R: Real>(self, x: &R) -> R {
-        let nan_passes = matches!(self, Refuse::Below | Refuse::AtMost);
         match self {
-            _ if x.is_nan() => {
-                if nan_passes {
-                    R::infinity()
-                } else {
-                    -R::infinity()
-                }
-            }
-            Refuse::Below | Refuse::UnlessAtLeast => x.clone(),
-            Refuse::AtMost | Refuse::UnlessAbove => x.just_below(),
+            Refuse::AtMost | Refuse::UnlessAbove if !x.is_nan() => x.just_below(),
+            _ => self.threshold(x),
+        }
+    }
+
+    /// The least upper bound of the epsilons under which `x` passes.
+    pub fn threshold<R: Real>(self, x: &R) -> R {
+        match self {
+            _ if !x.is_nan() => x.clone(),
+            Refuse::Below | Refuse::AtMost => R::infinity(),
+            Refuse::UnlessAtLeast | Refuse::UnlessAbove => -R::infinity(),
         }
     }
 }
@@ -75,11 +76,46 @@ impl Dimension {
     }
 }
 
+/// What a gate is there to refuse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Rays parallel to the plane and triangles without area; with a sign, the culled side too.
+    Parallel,
+    /// Crossings before and beyond the extent, and with them the triangle that a ray starts on.
+    T,
+    /// Crossings outside the triangle, and whatever has no gate of its own.
+    Edge,
+    /// Something else.
+    Other,
+}
+
+impl Role {
+    /// All of them.
+    pub const ALL: [Role; 4] = [Role::Parallel, Role::T, Role::Edge, Role::Other];
+
+    /// The name of a gate of this role, unless the kernel gives it another.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Role::Parallel => "parallel",
+            Role::T => "t",
+            Role::Edge => "edge",
+            Role::Other => "other",
+        }
+    }
+
+    /// The role of a name.
+    pub fn find(name: &str) -> Option<Role> {
+        Role::ALL.into_iter().find(|role| role.name() == name)
+    }
+}
+
 /// What one gate of a kernel is.
 #[derive(Clone, Copy, Debug)]
 pub struct Gate {
     /// What `--epsilon NAME=…` calls it.
     pub name: &'static str,
+    /// What it is there to refuse.
+    pub role: Role,
     /// The refusal in the source's notation, with `e` for the epsilon.
     pub refuses: &'static str,
     /// The margin's dimension.
@@ -100,41 +136,31 @@ pub enum Tunable {
 }
 
 impl Gate {
-    /// A gate that takes any epsilon.
-    pub const fn signed(
-        name: &'static str,
-        refuses: &'static str,
-        length: i8,
-        direction: i8,
-    ) -> Gate {
-        Gate {
-            name,
-            refuses,
-            dimension: Dimension::new(length, direction),
-            epsilon: Tunable::Signed,
-        }
+    /// A gate that takes any epsilon, with the name of its role.
+    pub const fn signed(role: Role, refuses: &'static str, length: i8, direction: i8) -> Gate {
+        let dimension = Dimension::new(length, direction);
+        Gate { name: role.name(), role, refuses, dimension, epsilon: Tunable::Signed }
     }
 
     /// A gate `abs(x) < e`.
     pub const fn non_negative(
-        name: &'static str,
+        role: Role,
         refuses: &'static str,
         length: i8,
         direction: i8,
     ) -> Gate {
-        let dimension = Dimension::new(length, direction);
-        Gate { name, refuses, dimension, epsilon: Tunable::NonNegative }
-    }
-
-    /// Whether it compares t, so that its epsilon is what keeps a ray from hitting the triangle that
-    /// it starts on.
-    pub fn guards_start(&self) -> bool {
-        self.dimension == Dimension::new(1, -1)
+        let gate = Gate::signed(role, refuses, length, direction);
+        Gate { epsilon: Tunable::NonNegative, ..gate }
     }
 
     /// A test that takes no epsilon.
-    pub const fn fixed(name: &'static str, refuses: &'static str) -> Gate {
-        Gate { name, refuses, dimension: Dimension::new(0, 0), epsilon: Tunable::Fixed }
+    pub const fn fixed(role: Role, refuses: &'static str) -> Gate {
+        Gate { epsilon: Tunable::Fixed, ..Gate::signed(role, refuses, 0, 0) }
+    }
+
+    /// The same gate under another name.
+    pub const fn named(self, name: &'static str) -> Gate {
+        Gate { name, ..self }
     }
 }
 
@@ -220,17 +246,24 @@ impl<R: Real> Sink<R> for Deciding<'_, R> {
     }
 }
 
-/// The measuring sink: takes every gate's margin and never stops.
+/// The measuring sink: takes every gate's margin, or its threshold, and never stops.
 #[derive(Debug)]
 pub struct Measuring<'a, R> {
     margins: &'a mut [R],
+    thresholds: bool,
 }
 
 impl<'a, R: Real> Measuring<'a, R> {
-    /// With one place a gate; it stays +inf where the kernel never asks.
+    /// With one place a gate; it stays +inf where the kernel never compares.
     pub fn new(margins: &'a mut [R]) -> Self {
         margins.fill(R::infinity());
-        Measuring { margins }
+        Measuring { margins, thresholds: false }
+    }
+
+    /// The same for thresholds. A gate `x <= e` has the margin next below x and the threshold x, so that
+    /// only its threshold compares with an exact number.
+    pub fn thresholds(thresholds: &'a mut [R]) -> Self {
+        Measuring { thresholds: true, ..Measuring::new(thresholds) }
     }
 
     #[inline(always)]
@@ -255,14 +288,19 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
         refuse: Refuse,
         clauses: [[&R; N]; M],
     ) -> bool {
-        let smaller = |a: R, b: R| if b.is_less(&a) { b } else { a };
-        let larger = |a: R, b: R| if a.is_less(&b) { b } else { a };
-        let margin = clauses
-            .into_iter()
-            .map(|clause| {
-                clause.into_iter().map(|x: &R| refuse.margin(x)).fold(R::infinity(), smaller)
-            })
-            .fold(-R::infinity(), larger);
+        let mut margin = -R::infinity();
+        for clause in &clauses {
+            let mut least = R::infinity();
+            for x in clause {
+                let found = if self.thresholds { refuse.threshold(*x) } else { refuse.margin(*x) };
+                if found.is_less(&least) {
+                    least = found;
+                }
+            }
+            if margin.is_less(&least) {
+                margin = least;
+            }
+        }
         self.record(gate, margin)
     }
 
@@ -286,7 +324,7 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
 #[derive(Clone, Debug)]
 pub struct Watching<'a, R> {
     epsilons: &'a [R],
-    /// Whether each gate passed; true where the kernel never asked.
+    /// Whether each gate passed; true if the kernel never compared.
     pub passed: Vec<bool>,
 }
 
@@ -325,5 +363,46 @@ impl<R: Real> Sink<R> for Watching<'_, R> {
 
     fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
         self.record(gate, accepts)
+    }
+}
+
+/// One of two sinks, chosen at run time: a kernel's code in a slow arithmetic is compiled once for both.
+#[derive(Debug)]
+pub(super) enum Either<A, B> {
+    One(A),
+    Other(B),
+}
+
+impl<R: Real, A: Sink<R>, B: Sink<R>> Sink<R> for Either<&mut A, &mut B> {
+    #[inline(never)]
+    fn gate<const M: usize, const N: usize>(
+        &mut self,
+        gate: usize,
+        refuse: Refuse,
+        clauses: [[&R; N]; M],
+    ) -> bool {
+        match self {
+            Either::One(sink) => sink.gate(gate, refuse, clauses),
+            Either::Other(sink) => sink.gate(gate, refuse, clauses),
+        }
+    }
+
+    fn rounded(
+        &mut self,
+        gate: usize,
+        accepts: impl Fn(&R) -> bool,
+        exact: impl FnOnce() -> R,
+    ) -> bool {
+        match self {
+            Either::One(sink) => sink.rounded(gate, accepts, exact),
+            Either::Other(sink) => sink.rounded(gate, accepts, exact),
+        }
+    }
+
+    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
+        match self {
+            Either::One(sink) => sink.fixed(gate, accepts),
+            Either::Other(sink) => sink.fixed(gate, accepts),
+        }
     }
 }

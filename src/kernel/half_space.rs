@@ -1,11 +1,12 @@
 //! `half-space`: plane, then three half-spaces of the triangle's own normal.
 //!
-//! Source: S. Marschner, "CS465 Notes: Simple ray-triangle intersection", Cornell University, 2003
-//! (seed 001_b787e9677871fc1f). Its formulas guard neither a parallel ray nor t, although its text
-//! speaks of rays. Its remark that with clockwise vertices no point can be inside is mistaken: n is
-//! made from the same vertices and turns along.
+//! Source: S. Marschner, "CS465 Notes: Simple ray-triangle intersection", Cornell University, 2003,
+//! <http://www.cs.cornell.edu/courses/cs465/2003fa/homeworks/raytri.pdf>. Its text speaks of rays, but
+//! its formulas test neither for a parallel ray nor for the sign of t. It remarks that no point can be
+//! inside a triangle with clockwise vertices. That is mistaken: n is made from the same vertices, so it
+//! turns with them.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::Vector;
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Demand, Extent, Sides};
@@ -17,11 +18,12 @@ const EDGE: usize = 0;
 impl Kernel for HalfSpace {
     const INFO: KernelInfo = KernelInfo {
         name: "half-space",
-        source: "Marschner (2003), CS465 Notes: Simple ray-triangle intersection [seed 001]",
+        source: "S. Marschner, CS465 Notes: Simple ray-triangle intersection, Cornell University, 2003, \
+                 http://www.cs.cornell.edu/courses/cs465/2003fa/homeworks/raytri.pdf",
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
             .with_flat(Demand::Free, Demand::Free),
         gates: &[Gate::signed(
-            "edge",
+            Role::Edge,
             "!(((b-a)×(x-a))·n >= e), and cyclic, n = (b-a)×(c-a)",
             4,
             0,

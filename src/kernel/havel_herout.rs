@@ -1,13 +1,14 @@
 //! `havel-herout`: three precomputed planes, and tests on sign bits.
 //!
 //! Source: J. Havel and A. Herout, "Yet Faster Ray-Triangle Intersection (Using SSE4)", IEEE
-//! Transactions on Visualization and Computer Graphics 16(3), 2010: the precomputation of section 2
-//! and the SSE4 listing, in scalar form with the summation order of `dpps`, ((x + y) + (z + w)). The
-//! listing compares sign *bits*, so -0 and +0 differ and the outcome on an edge depends on the side.
-//! Its t in [0, hit.t] is read with t_min for 0. An infinite t_max times det = 0 is taken as zero, as
-//! any finite hit.t gives; the approximate reciprocal of the listing is a division here.
+//! Transactions on Visualization and Computer Graphics 16(3), 2010, doi:10.1109/TVCG.2009.73: the
+//! precomputation of section 2 and the SSE4 listing, in scalar form, with the summation order of `dpps`,
+//! ((x + y) + (z + w)). The listing compares sign *bits*, so -0 and +0 differ, and the outcome on an edge
+//! depends on the side. The listing tests t in [0, hit.t]; here the 0 is t_min. An infinite t_max times
+//! det = 0 counts as zero, as it would be with any finite hit.t. The listing's approximate reciprocal is
+//! a division here.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Sink, end_times, facing_of};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Role, Sink, end_times, facing_of};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -31,12 +32,13 @@ pub(super) struct Planes<V: Vector> {
 impl Kernel for HavelHerout {
     const INFO: KernelInfo = KernelInfo {
         name: "havel-herout",
-        source: "Havel and Herout (2010), SSE4 listing",
+        source: "J. Havel and A. Herout, Yet Faster Ray-Triangle Intersection (Using SSE4), 2010, SSE4 \
+                 listing, doi:10.1109/TVCG.2009.73",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free),
         gates: &[
-            Gate::fixed("t", "sign bits of dett - t_min*det and t_max*det - dett differ"),
-            Gate::fixed("u", "sign bits of detu and det-detu differ"),
-            Gate::fixed("v", "sign bits of detv and det-(detu+detv) differ"),
+            Gate::fixed(Role::T, "sign bits of dett - t_min*det and t_max*det - dett differ"),
+            Gate::fixed(Role::Edge, "sign bits of detu and det-detu differ").named("u"),
+            Gate::fixed(Role::Edge, "sign bits of detv and det-(detu+detv) differ").named("v"),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },

@@ -1,10 +1,9 @@
-//! Floor 2: what is claimed. The kernel trait, gates and margins, the registry, one algorithm a
-//! file.
+//! Floor 2: the kernels. The trait, gates and margins, the registry, and one algorithm a file.
 //!
 //! Architecture invariant: nothing here knows the oracle.
 //!
-//! Every kernel that is written for every arithmetic also runs as other machines would compute it, under
-//! its name, a `+` and the arithmetic's: `moller-trumbore+fma`.
+//! A kernel that is written for every arithmetic also runs as other machines would compute it, under a
+//! name such as `moller-trumbore+fma`.
 //!
 //! To add a kernel: write its file, and give it a row in `registry.rs`. A program of your own adds
 //! its kernels with [`Entry`] and `hairline::cli::main_with`.
@@ -29,10 +28,13 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Sink, Tunable, Watching, refused_by};
+pub use gate::{
+    Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
+};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
-pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, nearest_name, register};
+pub(crate) use registry::kept;
+pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
 pub use subject::{
     ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,
 };
@@ -52,8 +54,8 @@ pub trait Kernel: Sync + 'static {
     /// What the source computes for each triangle ahead of any ray.
     fn prepare<V: Vector>(triangle: &Triangle<V>) -> Self::Prepared<V>;
 
-    /// The test of the source, its order of operations and its comparisons kept. A sink that does
-    /// not stop at a refusal gets every margin; the result then says nothing about hit or miss.
+    /// The test of the source, in its order of operations and with its comparisons. A sink that does not
+    /// stop at a refusal gets every margin; the result then does not say whether the ray hits.
     fn test<V: Vector, S: Sink<V::Real>>(
         prepared: &Self::Prepared<V>,
         ray: &Ray<V>,
@@ -99,7 +101,7 @@ impl<R> Hit<R> {
 pub struct KernelInfo {
     /// The name on the command line.
     pub name: &'static str,
-    /// Where its listing was seen.
+    /// Author, title, year and address of its source.
     pub source: &'static str,
     /// What its source promises.
     pub contract: Contract,
@@ -116,7 +118,7 @@ pub struct KernelInfo {
 }
 
 impl KernelInfo {
-    /// For a kernel of your own: no epsilons, and of its hits t alone is judged. Other fields by
+    /// For a kernel of your own: it has no epsilons, and only t of its hits is judged. Set other fields by
     /// `KernelInfo { gives: …, ..KernelInfo::own(name, contract) }`.
     pub const fn own(name: &'static str, contract: Contract) -> KernelInfo {
         KernelInfo {

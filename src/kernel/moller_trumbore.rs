@@ -1,16 +1,28 @@
 //! `moller-trumbore` and `moller-trumbore-culling`.
 //!
 //! Source: T. Möller and B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of
-//! Graphics Tools 2(1), 1997, appendix: both branches of `TEST_CULL`, EPSILON 0.000001. The paper
-//! returns t untested, so the extent is the line.
+//! Graphics Tools 2(1), 1997, doi:10.1080/10867651.1997.10487468, appendix: both branches of
+//! `TEST_CULL`, EPSILON 0.000001. The paper returns t without a test, so the kernel is judged on the
+//! whole line.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, facing_of};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, facing_of};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
 
 pub(super) struct MollerTrumbore;
 pub(super) struct MollerTrumboreCulling;
+
+/// The source, and which branch of its listing.
+macro_rules! moller_trumbore {
+    ($branch:literal) => {
+        concat!(
+            "T. Möller and B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, appendix, ",
+            $branch,
+            ", doi:10.1080/10867651.1997.10487468"
+        )
+    };
+}
 
 const PARALLEL: usize = 0;
 const EDGE: usize = 1;
@@ -21,11 +33,11 @@ const SETS: &[EpsilonSet] = &[EpsilonSet { name: "source", values: &["1e-6", "0"
 impl Kernel for MollerTrumbore {
     const INFO: KernelInfo = KernelInfo {
         name: "moller-trumbore",
-        source: "Möller and Trumbore (1997), appendix, non-culling branch",
+        source: moller_trumbore!("without culling"),
         contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed),
         gates: &[
-            Gate::non_negative("parallel", "abs(det) < e (printed det > -e && det < e)", 2, 1),
-            Gate::signed("edge", "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
+            Gate::non_negative(Role::Parallel, "abs(det) < e (printed det > -e && det < e)", 2, 1),
+            Gate::signed(Role::Edge, "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0),
         ],
         epsilon_sets: SETS,
         gives: GIVES,
@@ -74,11 +86,11 @@ impl Kernel for MollerTrumbore {
 impl Kernel for MollerTrumboreCulling {
     const INFO: KernelInfo = KernelInfo {
         name: "moller-trumbore-culling",
-        source: "Möller and Trumbore (1997), appendix, TEST_CULL branch",
+        source: moller_trumbore!("TEST_CULL"),
         contract: Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Closed),
         gates: &[
-            Gate::signed("parallel", "det < e", 2, 1),
-            Gate::signed("edge", "u < e, det-u < e, v < e, det-(u+v) < e, undivided", 2, 1),
+            Gate::signed(Role::Parallel, "det < e", 2, 1),
+            Gate::signed(Role::Edge, "u < e, det-u < e, v < e, det-(u+v) < e, undivided", 2, 1),
         ],
         epsilon_sets: SETS,
         gives: GIVES,

@@ -1,4 +1,4 @@
-//! A kernel of one's own in one scalar, from a closure or a small trait.
+//! Your own kernel in one scalar, from a closure or a small trait.
 
 use super::{Hit, Subject, Verdict};
 use crate::arith::Float;

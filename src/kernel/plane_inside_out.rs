@@ -1,12 +1,13 @@
 //! `plane-inside-out`, its precomputed and strict forms, and `convex-polygon`: plane by the
 //! unnormalised normal, then an inside-outside test at each edge.
 //!
-//! Source: "Ray-Tracing: Rendering a Triangle", geometric solution (seed 004_b6053b2fbf34db3c): the
-//! full listing; its last note (N and D stored per triangle); its earlier pseudo-code (strict
-//! edges, N·R = 0 and t < 0 from its text); its last section (any convex polygon). It gives no value
-//! of kEpsilon: the default plan runs 0 and 1e-6.
+//! Source: Scratchapixel, "Ray-Tracing: Rendering a Triangle", chapter "Ray-Triangle Intersection:
+//! Geometric Solution", <https://www.scratchapixel.com/lessons/3d-basic-rendering/ray-tracing-rendering-a-triangle/ray-triangle-intersection-geometric-solution.html>.
+//! The four kernels are its full listing, its last note (N and D stored per triangle), its earlier
+//! pseudo-code (strict edges; N·R = 0 and t < 0 from its text) and its last section (any convex
+//! polygon). It gives no value of kEpsilon, so the default plan runs 0 and 1e-6.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -21,15 +22,26 @@ const T: usize = 1;
 const EDGE: usize = 2;
 
 const GATES: &[Gate] = &[
-    Gate::non_negative("parallel", "abs(N·d) < e, N = (b-a)×(c-a)", 2, 1),
-    Gate::signed("t", "t < e", 1, -1),
-    Gate::signed("edge", "N·((b-a)×(p-a)) < e, and cyclic", 4, 0),
+    Gate::non_negative(Role::Parallel, "abs(N·d) < e, N = (b-a)×(c-a)", 2, 1),
+    Gate::signed(Role::T, "t < e", 1, -1),
+    Gate::signed(Role::Edge, "N·((b-a)×(p-a)) < e, and cyclic", 4, 0),
 ];
 
 const SETS: &[EpsilonSet] = &[
     EpsilonSet { name: "zero", values: &["0", "0", "0"] },
     EpsilonSet { name: "1e-6", values: &["1e-6", "0", "0"] },
 ];
+
+/// The source, and which part of it.
+macro_rules! scratchapixel {
+    ($part:literal) => {
+        concat!(
+            "Scratchapixel, Ray-Tracing: Rendering a Triangle, geometric solution, ",
+            $part,
+            ", https://www.scratchapixel.com/lessons/3d-basic-rendering/ray-tracing-rendering-a-triangle/"
+        )
+    };
+}
 
 const fn info(name: &'static str, source: &'static str) -> KernelInfo {
     KernelInfo {
@@ -81,8 +93,7 @@ fn inside_out<V: Vector, S: Sink<V::Real>>(
 }
 
 impl Kernel for PlaneInsideOut {
-    const INFO: KernelInfo =
-        info("plane-inside-out", "Ray-Tracing: Rendering a Triangle, full listing [seed 004]");
+    const INFO: KernelInfo = info("plane-inside-out", scratchapixel!("full listing"));
 
     type Prepared<V: Vector> = [V; 3];
 
@@ -111,7 +122,7 @@ pub(super) struct WithPlane<V: Vector> {
 impl Kernel for PlaneInsideOutPrecomputed {
     const INFO: KernelInfo = info(
         "plane-inside-out-precomputed",
-        "Ray-Tracing: Rendering a Triangle, last note: N and D stored per triangle [seed 004]",
+        scratchapixel!("last note: N and D stored per triangle"),
     );
 
     type Prepared<V: Vector> = WithPlane<V>;
@@ -136,16 +147,13 @@ impl Kernel for PlaneInsideOutStrict {
     const INFO: KernelInfo = KernelInfo {
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Open),
         gates: &[
-            Gate::signed("parallel", "abs(N·d) <= e, N = (b-a)×(c-a)", 2, 1),
-            Gate::signed("t", "t < e", 1, -1),
-            Gate::signed("edge", "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
+            Gate::signed(Role::Parallel, "abs(N·d) <= e, N = (b-a)×(c-a)", 2, 1),
+            Gate::signed(Role::T, "t < e", 1, -1),
+            Gate::signed(Role::Edge, "!(N·((b-a)×(p-a)) > e), and cyclic", 4, 0),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         hits_nan: false,
-        ..info(
-            "plane-inside-out-strict",
-            "Ray-Tracing: Rendering a Triangle, pseudo-code with strict edges [seed 004]",
-        )
+        ..info("plane-inside-out-strict", scratchapixel!("pseudo-code with strict edges"))
     };
 
     type Prepared<V: Vector> = [V; 3];
@@ -183,10 +191,7 @@ impl Kernel for PlaneInsideOutStrict {
 impl Kernel for ConvexPolygon {
     const INFO: KernelInfo = KernelInfo {
         polygons: true,
-        ..info(
-            "convex-polygon",
-            "Ray-Tracing: Rendering a Triangle, last section: any convex polygon [seed 004]",
-        )
+        ..info("convex-polygon", scratchapixel!("last section: any convex polygon"))
     };
 
     type Prepared<V: Vector> = [V; 3];

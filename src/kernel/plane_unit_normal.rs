@@ -1,11 +1,11 @@
 //! `plane-unit-normal`: plane by unit normal, then three edge tests.
 //!
-//! Source: "Triangle Intersection", 2020-11-22, listing `TriangleFace::IntersectLocal`
-//! (seed 000_3aa116a9c34c9acb). Its text asks each edge value ≥ 0, so edges are hits; its code with
-//! a positive EDGE_EPSILON loses them. It is judged by the text. It gives no epsilon values: the
-//! default plan runs 0 and 1e-6.
+//! Source: "Triangle Intersection", an unsigned blog post of 22 November 2020, listing
+//! `TriangleFace::IntersectLocal`. Its text requires each edge value to be at least 0, so edges are hits.
+//! Its code loses them if EDGE_EPSILON is positive. The kernel is judged by the text. The post gives no
+//! values for its epsilons, so the default plan runs 0 and 1e-6.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::Vector;
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Extent, Sides};
@@ -19,13 +19,13 @@ const EDGE: usize = 2;
 impl Kernel for PlaneUnitNormal {
     const INFO: KernelInfo = KernelInfo {
         name: "plane-unit-normal",
-        source: "Triangle Intersection (2020), listing TriangleFace::IntersectLocal [seed 000]",
+        source: "Triangle Intersection, unsigned blog post, 22 November 2020, TriangleFace::IntersectLocal",
         contract: Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed)
             .with_flat(crate::contract::Demand::Miss, crate::contract::Demand::Free),
         gates: &[
-            Gate::non_negative("parallel", "abs(n·d) < e, n of unit length", 0, 1),
-            Gate::signed("t", "t < e", 1, -1),
-            Gate::signed("edge", "((b-a)×(q-a))·n < e, and cyclic, n of unit length", 2, 0),
+            Gate::non_negative(Role::Parallel, "abs(n·d) < e, n of unit length", 0, 1),
+            Gate::signed(Role::T, "t < e", 1, -1),
+            Gate::signed(Role::Edge, "((b-a)×(q-a))·n < e, and cyclic, n of unit length", 2, 0),
         ],
         epsilon_sets: &[
             EpsilonSet { name: "zero", values: &["0", "0", "0"] },

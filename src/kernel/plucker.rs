@@ -1,13 +1,15 @@
 //! `plucker`: edge tests on Plücker coordinates, shifted so that the ray starts at the origin.
 //!
-//! Source: the modified Plücker intersector of Intel Embree (triangle_intersector_pluecker.h, 2.x
-//! and, with an epsilon of one ulp times |U+V+W|, 3.x; Apache License 2.0), described in Davidovič
-//! et al., "3D Rasterization" (2011), and Kensler and Shirley (2006) on the edge tests. Without
-//! backface culling; t is compared undivided. Its SIMD min and max are read as comparisons: a NaN
-//! refuses. Its "stable normal" picks per axis between two cross products of edges; here the normal is
-//! cross(e1, e0), the line that it replaced.
+//! Source: the modified Plücker intersector of Intel Embree (Apache License 2.0,
+//! <https://github.com/RenderKit/embree>, kernels/geometry/triangle_intersector_pluecker.h), version 2.x.
+//! Version 3.x adds an epsilon of one ulp times |U+V+W|. Davidovič et al., "3D Rasterization" (2011),
+//! describe it; Kensler and Shirley (2006) describe the edge tests. There is no backface culling. t is
+//! compared before the division, with the ends of the interval times |den|. The source multiplies an end
+//! of 0 too: if |den| overflows, 0·inf is NaN, and the ray misses. Its SIMD min and max are written as
+//! comparisons here: a NaN rejects. Its "stable normal" chooses per axis between two cross products of
+//! edges; here the normal is cross(e1, e0), the line that it replaced.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use super::{end_times, facing_of, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
@@ -22,18 +24,24 @@ const PARALLEL: usize = 2;
 impl Kernel for Plucker {
     const INFO: KernelInfo = KernelInfo {
         name: "plucker",
-        source: "Embree's modified Plücker intersector (2.x; the 3.x epsilon by edge=-EPSILON)",
+        source: "Intel Embree 2.x, modified Plücker intersector (for 3.x set edge=-EPSILON), \
+                 https://github.com/RenderKit/embree, triangle_intersector_pluecker.h",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free)
             .with_across(Across::AtLeastOne),
         gates: &[
-            Gate::signed("edge", "!(min(U,V,W) >= e*|U+V+W| or max(U,V,W) <= -e*|U+V+W|)", 0, 0),
             Gate::signed(
-                "t",
+                Role::Edge,
+                "!(min(U,V,W) >= e*|U+V+W| or max(U,V,W) <= -e*|U+V+W|)",
+                0,
+                0,
+            ),
+            Gate::signed(
+                Role::T,
                 "!(sT - t_min*|den| >= e), !(t_max*|den| - sT >= e), s = sign of den",
                 3,
                 0,
             ),
-            Gate::signed("parallel", "abs(den) <= e, den = 2*N·d", 2, 1),
+            Gate::signed(Role::Parallel, "abs(den) <= e, den = 2*N·d", 2, 1),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: true },
@@ -77,6 +85,7 @@ impl Kernel for Plucker {
         let t = v0.dot(&twice_normal);
         let signed_t = if den.is_sign_negative() { -t.clone() } else { t.clone() };
         let abs_den = den.abs();
+        // Multiplied whatever the ends are: `absDen*vfloat<M>(ray.tnear)`.
         let near = ray.t_min.clone() * &abs_den;
         let far = ray.t_max.clone() * &abs_den;
         if !sink.one(T, Refuse::UnlessAtLeast, &gap(&signed_t, &near))

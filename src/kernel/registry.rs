@@ -3,7 +3,8 @@
 use super::own::{Own, Test};
 use super::{Generic, Kernel, KernelInfo, Subject};
 use crate::arith::{Arithmetic, Float};
-use std::sync::{PoisonError, RwLock};
+use std::ptr;
+use std::sync::{Mutex, PoisonError, RwLock};
 
 /// A row: a kernel in one or both scalars.
 #[derive(Clone, Copy)]
@@ -62,6 +63,27 @@ impl Entry {
         [self.f32.is_some(), self.f64.is_some()]
     }
 
+    /// Whether a program has it without adding it, in whatever arithmetic.
+    pub fn is_built_in(&self) -> bool {
+        let name = self.info.name;
+        let base = name_and_arithmetic(name).map_or(name, |(base, _)| base);
+        KERNELS.iter().any(|entry| entry.info.name == base)
+    }
+
+    /// Whether it is the same kernel with the same code.
+    fn is(&self, other: &Entry) -> bool {
+        // Subjects without size share their address, so that their methods count too; methods that are
+        // in two places make the same kernel two, which is no harm.
+        #[allow(ambiguous_wide_pointer_comparisons)]
+        fn same<T: ?Sized>(a: Option<&T>, b: Option<&T>) -> bool {
+            a.map(ptr::from_ref) == b.map(ptr::from_ref)
+        }
+        ptr::eq(self.info, other.info)
+            && self.flag == other.flag
+            && same(self.f32, other.f32)
+            && same(self.f64, other.f64)
+    }
+
     /// The flag that chooses it on a command line.
     pub fn selector(&self) -> String {
         self.flag.map_or_else(|| format!("--kernel {}", self.info.name), str::to_owned)
@@ -97,11 +119,11 @@ pub fn all() -> Vec<&'static Entry> {
     KERNELS.iter().chain(added.iter().copied()).collect()
 }
 
-/// The kernels in other arithmetics that were asked for.
+/// The kernels in other arithmetics that have been requested by name so far.
 static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
 
-/// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none of a kernel
-/// that is not written for every arithmetic, and of one that is in another already.
+/// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none if the
+/// kernel is not written for every arithmetic, or is in another one already.
 pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'static Entry> {
     let base = entry.info;
     if arithmetic == Arithmetic::IEEE {
@@ -143,8 +165,22 @@ fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
     Some((kernel, arithmetic.parse().ok().filter(|found| *found != Arithmetic::IEEE)?))
 }
 
+/// Entries that live as long as the process without being in the table.
+static KEPT: Mutex<Vec<&'static Entry>> = Mutex::new(Vec::new());
+
+/// Keeps an entry for the rest of the process; the same entry is kept once.
+pub(crate) fn kept(entry: &Entry) -> &'static Entry {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = all().into_iter().chain(kept.iter().copied()).find(|e| e.is(entry)) {
+        return known;
+    }
+    let entry = Box::leak(Box::new(*entry));
+    kept.push(entry);
+    entry
+}
+
 /// Adds a kernel for the rest of the process; every command then knows its name. An error if the
-/// name is empty, taken, or no word.
+/// name is empty, taken, or not a word.
 pub fn register(entry: Entry) -> Result<&'static Entry, String> {
     let name = entry.info.name;
     let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.+@".contains(c);
@@ -179,7 +215,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 /// A scalar that kernels are registered in.
-pub trait Scalar: Float + crate::family::Makes {
+pub trait Scalar: Float {
     /// The kernel of a row, if it runs in this scalar.
     fn subject(entry: &Entry) -> Option<&'static dyn Subject<Self>>;
 }
@@ -196,34 +232,6 @@ impl Scalar for f64 {
     }
 }
 
-/// The candidate nearest to a mistyped name, by edit distance, if one is near enough to suggest.
-pub fn nearest_name<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
-    candidates
-        .into_iter()
-        .map(|candidate| (edit_distance(name, candidate), candidate))
-        .min()
-        .filter(|(distance, candidate)| *distance <= 2.max(candidate.len() / 3))
-        .map(|(_, candidate)| candidate)
-}
-
-/// Levenshtein distance in bytes.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.bytes().enumerate() {
-            let substitute = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = substitute.min(row[j] + 1).min(row[j + 1] + 1);
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -237,13 +245,5 @@ mod tests {
                 assert_eq!(set.values.len(), entry.info.gates.len(), "{}", entry.info.name);
             }
         }
-    }
-
-    #[test]
-    fn a_typing_error_finds_its_kernel() {
-        let names = || KERNELS.iter().map(|entry| entry.info.name);
-        assert_eq!(nearest_name("moler-trumbore", names()), Some("moller-trumbore"));
-        assert_eq!(nearest_name("woop", names()), None);
-        assert_eq!(nearest_name("havel-heruot", names()), Some("havel-herout"));
     }
 }

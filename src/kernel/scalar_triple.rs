@@ -1,11 +1,13 @@
 //! `scalar-triple`, `scalar-triple-shared`, `scalar-triple-two-sided`: the signs of three scalar
 //! triple products.
 //!
-//! Source: A. Lelievre, "Triangle Intersection" (seed 002_0f264503bb56484c), its three listings,
-//! after C. Ericson, Real-Time Collision Detection, 5.3.4. The listings name the weights of a, b, c
-//! u, v, w; hits here report the weights of b and c. A line, not a ray: no t is computed.
+//! Source: A. Lelievre, "Triangle Intersection", a chapter of the course Introduction to Modern
+//! Rendering, <https://github.com/alelievr/Modern-Rendering-Introduction>: its three listings, after
+//! C. Ericson, Real-Time Collision Detection (2005), section 5.3.4. The listings call the weights of
+//! a, b and c u, v and w. Here a hit reports the weights of b and c. The listings compute no t, so they
+//! test a line, not a ray.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Boundary, Contract, Demand, Extent, Sides};
@@ -16,10 +18,21 @@ pub(super) struct ScalarTripleTwoSided;
 
 const EDGE: usize = 0;
 
+/// The source, and which of its listings.
+macro_rules! lelievre {
+    ($listing:literal) => {
+        concat!(
+            "A. Lelievre, Triangle Intersection, ",
+            $listing,
+            ", https://github.com/alelievr/Modern-Rendering-Introduction"
+        )
+    };
+}
+
 const fn info(name: &'static str, source: &'static str, two_sided: bool) -> KernelInfo {
-    const ONE_SIDED: &[Gate] = &[Gate::signed("edge", "u < e, v < e, w < e", 2, 1)];
+    const ONE_SIDED: &[Gate] = &[Gate::signed(Role::Edge, "u < e, v < e, w < e", 2, 1)];
     const TWO_SIDED: &[Gate] =
-        &[Gate::signed("edge", "!(both > e or both < -e) for (u, v) and (u, w)", 2, 1)];
+        &[Gate::signed(Role::Edge, "!(both > e or both < -e) for (u, v) and (u, w)", 2, 1)];
     let (sides, boundary) =
         if two_sided { (Sides::Both, Boundary::Open) } else { (Sides::Front, Boundary::Closed) };
     KernelInfo {
@@ -49,8 +62,7 @@ fn weights<R: Real>(u: R, v: R, w: R) -> Option<Hit<R>> {
 }
 
 impl Kernel for ScalarTriple {
-    const INFO: KernelInfo =
-        info("scalar-triple", "Lelievre, Triangle Intersection, first listing [seed 002]", false);
+    const INFO: KernelInfo = info("scalar-triple", lelievre!("first listing"), false);
 
     type Prepared<V: Vector> = Triangle<V>;
 
@@ -82,11 +94,8 @@ impl Kernel for ScalarTriple {
 }
 
 impl Kernel for ScalarTripleShared {
-    const INFO: KernelInfo = info(
-        "scalar-triple-shared",
-        "Lelievre, Triangle Intersection, second listing (one shared cross product) [seed 002]",
-        false,
-    );
+    const INFO: KernelInfo =
+        info("scalar-triple-shared", lelievre!("second listing (one shared cross product)"), false);
 
     type Prepared<V: Vector> = Triangle<V>;
 
@@ -119,11 +128,8 @@ impl Kernel for ScalarTripleShared {
 }
 
 impl Kernel for ScalarTripleTwoSided {
-    const INFO: KernelInfo = info(
-        "scalar-triple-two-sided",
-        "Lelievre, Triangle Intersection, SameSign listing [seed 002]",
-        true,
-    );
+    const INFO: KernelInfo =
+        info("scalar-triple-two-sided", lelievre!("listing with SameSign"), true);
 
     type Prepared<V: Vector> = Triangle<V>;
 

@@ -1,16 +1,17 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
+use super::gate::Either;
 use super::variant::Variant;
 use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
 use crate::arith::{
-    Arithmetic, Bounded, Exact, Exceptions, Float, Real, Tracked, Vector, bounded, tracked,
+    Arithmetic, Bounded, Exact, Exceptions, Float, Real, Tracked, Triple, Vector, bounded, tracked,
 };
 use crate::case::{Case, Ray, Triangle};
 use crate::truth::Facing;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A kernel's answer. Values that the kernel does not give are NaN; [`KernelInfo::gives`] tells.
+/// A kernel's answer. Values that the kernel does not give are NaN ([`KernelInfo::gives`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict<F> {
     /// Hit or miss.
@@ -104,16 +105,21 @@ impl<F: Float> Verdict<F> {
 /// The margins of one case, and the values computed along the way.
 #[derive(Clone, Debug)]
 pub struct Measured<R> {
-    /// One margin a gate; +inf where the kernel never asked.
+    /// One margin a gate; +inf if the kernel never compared.
     pub margins: Vec<R>,
     /// What a hit would report.
     pub values: Option<Hit<R>>,
 }
 
-fn measure<K: Kernel, V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>) -> Measured<V::Real> {
-    let mut margins = vec![V::Real::zero(); K::INFO.gates.len()];
-    let values = K::test(&K::prepare(triangle), ray, &mut Measuring::new(&mut margins));
-    Measured { margins, values }
+/// Every gate's margin into `margins`, one entry a gate. Not inlined: a kernel's code is large, and
+/// compiled for every arithmetic.
+#[inline(never)]
+fn measure_into<K: Kernel, V: Vector>(
+    ray: &Ray<V>,
+    triangle: &Triangle<V>,
+    margins: &mut [V::Real],
+) -> Option<Hit<V::Real>> {
+    K::test(&K::prepare(triangle), ray, &mut Measuring::new(margins))
 }
 
 /// A kernel's run without rounding, by the comparisons of its source.
@@ -133,20 +139,46 @@ impl ExactRun {
         self.passed.iter().all(|passes| *passes)
     }
 
-    /// The run of a kernel in an arithmetic that does not round.
-    fn of<F: Float, K: Kernel, R: Real>(
-        case: &Case<F>,
-        epsilons: &[F],
-        number: impl Fn(f64) -> R,
-    ) -> ExactRun {
-        let (ray, triangle) = case.lift(|x| number(x.to_f64()));
-        let epsilons: Vec<R> = epsilons.iter().map(|e| number(e.to_f64())).collect();
-        let mut gates = Watching::new(&epsilons);
-        let values = K::test(&K::prepare(&triangle), &ray, &mut gates);
+    fn of<R: Real>(passed: Vec<bool>, values: Option<Hit<R>>) -> ExactRun {
         let finite = values.as_ref().is_some_and(|Hit { t, uv, .. }| {
             t.iter().chain(uv.iter().flat_map(|(u, v)| [u, v])).all(R::is_finite)
         });
-        ExactRun { passed: gates.passed, finite, facing: values.and_then(|hit| hit.facing) }
+        ExactRun { passed, finite, facing: values.and_then(|hit| hit.facing) }
+    }
+}
+
+/// A case and epsilons in an arithmetic that does not round. Both scalars share it as `f64`, so that a
+/// kernel is compiled once for it.
+struct Lifted<R: Real> {
+    ray: Ray<Triple<R>>,
+    triangle: Triangle<Triple<R>>,
+    epsilons: Vec<R>,
+}
+
+impl<R: Real> Lifted<R> {
+    fn new<F: Float>(case: &Case<F>, epsilons: &[F], number: fn(f64) -> R) -> Lifted<R> {
+        let (ray, triangle) = case.widen().lift(number);
+        Lifted { ray, triangle, epsilons: epsilons.iter().map(|e| number(e.to_f64())).collect() }
+    }
+
+    fn run<K: Kernel>(&self) -> ExactRun {
+        let mut watching = Watching::new(&self.epsilons);
+        let values = self.test::<K>(&mut Either::One(&mut watching));
+        ExactRun::of(watching.passed, values)
+    }
+
+    fn measure<K: Kernel>(&self) -> Measured<R> {
+        let mut margins = vec![R::zero(); K::INFO.gates.len()];
+        let values = self.test::<K>(&mut Either::Other(&mut Measuring::new(&mut margins)));
+        Measured { margins, values }
+    }
+
+    #[inline(never)]
+    fn test<K: Kernel>(
+        &self,
+        sink: &mut Either<&mut Watching<R>, &mut Measuring<R>>,
+    ) -> Option<Hit<R>> {
+        K::test(&K::prepare(&self.triangle), &self.ray, sink)
     }
 }
 
@@ -168,19 +200,33 @@ impl<F: Float> TrackedRun<F> {
         epsilons: &[F],
         arithmetic: Arithmetic,
     ) -> TrackedRun<F> {
-        let number = |x: F| Tracked::new(x, arithmetic);
-        let (ray, triangle) = case.lift(number);
-        let epsilons: Vec<Tracked<F>> = epsilons.iter().map(|e| number(*e)).collect();
+        let (ray, triangle, epsilons) = TrackedRun::lift(case, epsilons, arithmetic);
         let mut sink = Deciding::new(&epsilons);
         let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
+        TrackedRun::new(hit, decision, sink.refused_by)
+    }
+
+    fn lift(case: &Case<F>, epsilons: &[F], arithmetic: Arithmetic) -> TrackedInput<F> {
+        let number = |x: F| Tracked::new(x, arithmetic);
+        let (ray, triangle) = case.lift(number);
+        (ray, triangle, epsilons.iter().map(|e| number(*e)).collect())
+    }
+
+    fn new(
+        hit: Option<Hit<Tracked<F>>>,
+        decision: Exceptions,
+        refused_by: Option<usize>,
+    ) -> TrackedRun<F> {
         let values = hit.as_ref().map_or(Exceptions::default(), |Hit { t, uv, .. }| {
             let uv = uv.iter().flat_map(|(u, v)| [u, v]);
             t.iter().chain(uv).fold(Exceptions::default(), |sum, x| sum | x.raised())
         });
-        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), sink.refused_by);
+        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by);
         TrackedRun { verdict, decision, values }
     }
 }
+
+type TrackedInput<F> = (Ray<Triple<Tracked<F>>>, Triangle<Triple<Tracked<F>>>, Vec<Tracked<F>>);
 
 /// A kernel in one scalar: all that an audit needs.
 pub trait Subject<F: Float>: Sync {
@@ -223,7 +269,7 @@ pub trait Subject<F: Float>: Sync {
 pub enum Trouble {
     /// The verdicts stand, and this should be known.
     Note(String),
-    /// The verdicts are worth nothing from some case on.
+    /// The verdicts are invalid from some case on.
     GaveUp(String),
 }
 
@@ -238,15 +284,19 @@ pub trait Gated<F: Float>: Sync {
     /// Every gate's margin on a case, and the values of a hit.
     fn measure(&self, case: &Case<F>) -> Measured<F>;
 
-    /// Every gate's margin on a case, in exact arithmetic.
+    /// Every gate's threshold on a case: the least upper bound of the epsilons that it accepts, whether
+    /// or not it accepts the bound itself.
+    fn thresholds(&self, case: &Case<F>) -> Vec<F>;
+
+    /// Every gate's margin on a case, in exact arithmetic, where it is also the threshold.
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact>;
 
-    /// The run without rounding; none of a kernel that has no exact arithmetic.
+    /// The run without rounding; none if the kernel does not run in exact arithmetic.
     fn run_exact(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<ExactRun> {
         None
     }
 
-    /// The run of [`Subject::run`] with its exceptions; none of a kernel that cannot tell.
+    /// The run of [`Subject::run`] with its exceptions; none if the kernel does not run in tracked numbers.
     fn run_tracked(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<TrackedRun<F>> {
         None
     }
@@ -300,23 +350,31 @@ impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
 
     fn margins(&self, cases: &[Case<F>], margins: &mut [F]) {
         for (case, margins) in cases.iter().zip(margins.chunks_exact_mut(K::INFO.gates.len())) {
-            let mut sink = Measuring::new(margins);
-            K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+            measure_into::<K, F::Vector>(&case.ray, &case.triangle, margins);
         }
     }
 
     fn measure(&self, case: &Case<F>) -> Measured<F> {
-        measure::<K, F::Vector>(&case.ray, &case.triangle)
+        let mut margins = vec![F::zero(); K::INFO.gates.len()];
+        let values = measure_into::<K, F::Vector>(&case.ray, &case.triangle, &mut margins);
+        Measured { margins, values }
+    }
+
+    fn thresholds(&self, case: &Case<F>) -> Vec<F> {
+        let mut thresholds = vec![F::zero(); K::INFO.gates.len()];
+        let mut sink = Measuring::thresholds(&mut thresholds);
+        K::test(&K::prepare(&case.triangle), &case.ray, &mut sink);
+        thresholds
     }
 
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {
-        let (ray, triangle) = case.exact();
-        measure::<K, _>(&ray, &triangle)
+        Lifted::new(case, &[], Exact::from_f64).measure::<K>()
     }
 
     fn run_exact(&self, case: &Case<F>, epsilons: &[F]) -> Option<ExactRun> {
-        let near = bounded(|| ExactRun::of::<F, K, Bounded>(case, epsilons, Bounded::new));
-        Some(near.unwrap_or_else(|| ExactRun::of::<F, K, Exact>(case, epsilons, Exact::from_f64)))
+        let near = Lifted::new(case, epsilons, Bounded::new);
+        let exact = || Lifted::new(case, epsilons, Exact::from_f64).run::<K>();
+        Some(bounded(|| near.run::<K>()).unwrap_or_else(exact))
     }
 
     fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
@@ -338,9 +396,9 @@ mod tests {
                 let epsilon = F::from_f64([0.0, 1e-6][index as usize % 2]);
                 let epsilons = vec![epsilon; K::INFO.gates.len()];
                 for case in family.make::<F>(&Parameters::default(), 1, index).cases() {
-                    let exact = ExactRun::of::<F, K, Exact>(case, &epsilons, Exact::from_f64);
-                    let near =
-                        bounded(|| ExactRun::of::<F, K, Bounded>(case, &epsilons, Bounded::new));
+                    let exact = Lifted::new(case, &epsilons, Exact::from_f64).run::<K>();
+                    let near = Lifted::new(case, &epsilons, Bounded::new);
+                    let near = bounded(|| near.run::<K>());
                     runs += 1;
                     if let Some(near) = near {
                         decided += 1;

@@ -1,5 +1,6 @@
 //! A kernel in another arithmetic than IEEE 754's: the same source on another machine.
 
+use super::gate::Either;
 use super::{
     Deciding, ExactRun, Gated, Generic, Hit, Kernel, KernelInfo, Measured, Measuring, Subject,
     TrackedRun, Verdict,
@@ -21,22 +22,15 @@ impl<K: Kernel> Variant<K> {
         Variant { arithmetic, info, kernel: PhantomData }
     }
 
-    fn lift<F: Float>(&self, case: &Case<F>) -> (Ray<Numbers<F>>, Triangle<Numbers<F>>) {
-        case.lift(|x| Emulated::new(x, self.arithmetic))
-    }
-
-    fn numbers<F: Float>(&self, values: &[F]) -> Vec<Emulated<F>> {
-        values.iter().map(|x| Emulated::new(*x, self.arithmetic)).collect()
-    }
-
     fn measure_into<F: Float>(
         &self,
         case: &Case<F>,
         margins: &mut [F],
     ) -> Option<Hit<Emulated<F>>> {
-        let (ray, triangle) = self.lift(case);
-        let mut emulated = self.numbers(margins);
-        let values = K::test(&K::prepare(&triangle), &ray, &mut Measuring::new(&mut emulated));
+        let (ray, triangle) = lift(case, self.arithmetic);
+        let mut emulated = numbers(margins, self.arithmetic);
+        let mut sink = Measuring::new(&mut emulated);
+        let values = test::<F, K>(&ray, &triangle, &mut Either::Other(&mut sink));
         for (margin, emulated) in margins.iter_mut().zip(&emulated) {
             *margin = self.arithmetic.largest_epsilon(emulated.value());
         }
@@ -46,17 +40,38 @@ impl<K: Kernel> Variant<K> {
 
 type Numbers<F> = Triple<Emulated<F>>;
 
+fn lift<F: Float>(
+    case: &Case<F>,
+    arithmetic: Arithmetic,
+) -> (Ray<Numbers<F>>, Triangle<Numbers<F>>) {
+    case.lift(|x| Emulated::new(x, arithmetic))
+}
+
+fn numbers<F: Float>(values: &[F], arithmetic: Arithmetic) -> Vec<Emulated<F>> {
+    values.iter().map(|x| Emulated::new(*x, arithmetic)).collect()
+}
+
+/// Not inlined, and one for both sinks: a kernel's code is large.
+#[inline(never)]
+fn test<F: Float, K: Kernel>(
+    ray: &Ray<Numbers<F>>,
+    triangle: &Triangle<Numbers<F>>,
+    sink: &mut Either<&mut Deciding<Emulated<F>>, &mut Measuring<Emulated<F>>>,
+) -> Option<Hit<Emulated<F>>> {
+    K::test(&K::prepare(triangle), ray, sink)
+}
+
 fn verdict<F: Float>(hit: Option<Hit<Emulated<F>>>, refused_by: Option<usize>) -> Verdict<F> {
     Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by)
 }
 
 impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
-        let epsilons = self.numbers(epsilons);
+        let epsilons = numbers(epsilons, self.arithmetic);
         for (case, place) in cases.iter().zip(verdicts) {
-            let (ray, triangle) = self.lift(case);
+            let (ray, triangle) = lift(case, self.arithmetic);
             let mut sink = Deciding::new(&epsilons);
-            let hit = K::test(&K::prepare(&triangle), &ray, &mut sink);
+            let hit = test::<F, K>(&ray, &triangle, &mut Either::One(&mut sink));
             *place = verdict(hit, sink.refused_by);
         }
     }
@@ -68,13 +83,13 @@ impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
         epsilons: &[F],
     ) -> Verdict<F> {
         // A case has room for a ray and three vertices.
-        let lift = |vertex: &F::Vector| {
+        let lifted = |vertex: &F::Vector| {
             let triangle = Triangle::new(*vertex, *vertex, *vertex);
-            self.lift(&Case { ray: *ray, triangle })
+            lift(&Case { ray: *ray, triangle }, self.arithmetic)
         };
-        let Some((ray, _)) = vertices.first().map(lift) else { return Verdict::miss(None) };
-        let vertices: Vec<Numbers<F>> = vertices.iter().map(|vertex| lift(vertex).1.a).collect();
-        let epsilons = self.numbers(epsilons);
+        let Some((ray, _)) = vertices.first().map(lifted) else { return Verdict::miss(None) };
+        let vertices: Vec<Numbers<F>> = vertices.iter().map(|vertex| lifted(vertex).1.a).collect();
+        let epsilons = numbers(epsilons, self.arithmetic);
         let mut sink = Deciding::new(&epsilons);
         let hit = K::test_polygon(&vertices, &ray, &mut sink);
         verdict(hit, sink.refused_by)
@@ -100,6 +115,14 @@ impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
         let mut margins = vec![F::zero(); self.info.gates.len()];
         let values = self.measure_into(case, &mut margins);
         Measured { margins, values: values.map(|hit| hit.map(|x| x.value())) }
+    }
+
+    fn thresholds(&self, case: &Case<F>) -> Vec<F> {
+        let (ray, triangle) = lift(case, self.arithmetic);
+        let mut thresholds = numbers(&vec![F::zero(); self.info.gates.len()], self.arithmetic);
+        let mut sink = Measuring::thresholds(&mut thresholds);
+        test::<F, K>(&ray, &triangle, &mut Either::Other(&mut sink));
+        thresholds.iter().map(Emulated::value).collect()
     }
 
     fn measure_exact(&self, case: &Case<F>) -> Measured<Exact> {

@@ -1,12 +1,13 @@
 //! `woop-watertight`: shear the ray onto an axis, then three 2D edge functions.
 //!
 //! Source: S. Woop, C. Benthin and I. Wald, "Watertight Ray/Triangle Intersection", Journal of
-//! Computer Graphics Techniques 2(1), 2013, appendix A, without backface culling. The appendix tests
-//! t in [0, hit.t] undivided; the 0 is read as t_min here, which at t_min = 0 is the same comparison.
-//! In f64 the fallback's wider products are exact ones, an addition of this project. The facing
-//! is not reported by the appendix.
+//! Computer Graphics Techniques 2(1), 2013, <https://jcgt.org/published/0002/01/05/>, appendix A,
+//! without backface culling. The appendix tests t in [0, hit.t] before it divides. Here the 0 is t_min;
+//! at t_min = 0 the comparison is the same. The fallback computes in wider arithmetic: f32 in f64 as
+//! in the appendix, and f64 by exact products, which is an addition of this project. The appendix does
+//! not report which side was hit.
 
-use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Sink, end_times, gap};
+use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, end_times, gap};
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
 use crate::contract::{Across, Boundary, Contract, Extent, Sides};
@@ -20,18 +21,24 @@ const T: usize = 2;
 impl Kernel for WoopWatertight {
     const INFO: KernelInfo = KernelInfo {
         name: "woop-watertight",
-        source: "Woop, Benthin and Wald (2013), appendix A",
+        source: "S. Woop, C. Benthin and I. Wald, Watertight Ray/Triangle Intersection, 2013, \
+                 appendix A, https://jcgt.org/published/0002/01/05/",
         contract: Contract::of_kernel(Extent::Interval, Sides::Both, Boundary::Free)
             .with_across(Across::AtLeastOne),
         gates: &[
             Gate::signed(
-                "edge",
+                Role::Edge,
                 "one of U, V, W < e and one of -U, -V, -W < e, after the shear",
                 2,
                 0,
             ),
-            Gate::signed("parallel", "abs(det) <= e, det = U+V+W", 2, 0),
-            Gate::signed("t", "sT - t_min*|det| < e, t_max*|det| - sT < e, s = sign of det", 3, -1),
+            Gate::signed(Role::Parallel, "abs(det) <= e, det = U+V+W", 2, 0),
+            Gate::signed(
+                Role::T,
+                "sT - t_min*|det| < e, t_max*|det| - sT < e, s = sign of det",
+                3,
+                -1,
+            ),
         ],
         epsilon_sets: &[EpsilonSet { name: "source", values: &["0", "0", "0"] }],
         gives: Gives { t: true, uv: true, facing: false },

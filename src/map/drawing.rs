@@ -8,7 +8,7 @@ use super::MapError;
 use super::frame::Stretch;
 use super::panel::Panel;
 use super::scene::{Layer, Scene};
-use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, escaped, wrapped};
+use super::svg::{DOCUMENT_BACKGROUND, DOCUMENT_STYLE, wrapped};
 use crate::arith::{Exact, Float, Real};
 use crate::audit::{Row, exact_severity, verdicts_of};
 use crate::case::Case;
@@ -16,6 +16,7 @@ use crate::corpus::number;
 use crate::judge::{asked, judge};
 use crate::kernel::{Scalar, Verdict};
 use crate::oracle::{self, Definition};
+use crate::plot::escaped;
 use crate::truth::Truth;
 use std::fmt::Write;
 

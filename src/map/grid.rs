@@ -119,7 +119,7 @@ impl<F: Float> Grid<F> {
     }
 }
 
-/// The step of an axis when none is asked for: 1 ulp, and for a coordinate that is zero the ulp of the
+/// The default step of an axis: 1 ulp, and for a coordinate that is zero the ulp of the
 /// point's largest coordinate (of `extent`, for a point that is zero).
 fn natural_step<F: Float>(centre: F, values: &[F], extent: F) -> Step {
     let larger = |m: F, x: &F| if m < x.abs() { x.abs() } else { m };

@@ -9,11 +9,11 @@
 //! Case, Row ──► drawing: the triangle, the ray, where they meet and where the kernel says so
 //! ```
 //!
-//! Pictures are text and bytes; whoever asks for them writes them.
+//! Pictures are returned as text and bytes; the caller writes them.
 //!
 //! ```
-//! use hairline::audit::Row;
-//! use hairline::map::{self, Spot};
+//! use hairline::internals::audit::Row;
+//! use hairline::internals::map::{self, Spot};
 //!
 //! let row = Row::named("moller-trumbore", None, "own")?;
 //! let map = map::standard::<f32>(&row, Spot::Edge, [32, 32])?;
@@ -123,10 +123,10 @@ pub struct RayPixel {
     pub hit: Option<bool>,
     /// The exact truth.
     pub truth: Truth,
-    /// What the contract asks.
+    /// What the contract demands.
     pub asked: Obligation,
-    /// Whether the contract asks a hit or leaves it free only because of what it says of edges and
-    /// vertices: the ray meets the boundary exactly.
+    /// Whether the ray meets the boundary exactly, so that the contract demands a hit or leaves it free
+    /// only because of what it says of edges and vertices.
     pub on_boundary: bool,
     /// What is wrong.
     pub finding: Option<Finding>,
@@ -153,7 +153,7 @@ pub enum Ink {
     No,
     /// Exactly on the boundary, or 0.
     Boundary,
-    /// Nothing is asked.
+    /// Nothing is demanded.
     Free,
     /// A false hit, or a wrong sign.
     FalseYes,

@@ -4,6 +4,7 @@
 //! page's colour. [`svg_document`] is the same as a file of its own, in light and dark.
 
 use super::{AxisText, Ink, Map, Step};
+use crate::plot::{Ticks, escaped, group_digits, pixel_ticks};
 use std::fmt::Write;
 
 /// The side of a panel's slot.
@@ -102,7 +103,7 @@ impl<'a> Drawing<'a> {
                 body,
                 "<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"#808080\"/>"
             );
-            for (tick, at) in ticks(&self.map.axes[0]) {
+            for (at, tick) in ticks(&self.map.axes[0]) {
                 let x = left + at * wide;
                 let _ = writeln!(
                     body,
@@ -112,7 +113,7 @@ impl<'a> Drawing<'a> {
                 );
             }
         }
-        for (tick, at) in ticks(&self.map.axes[1]) {
+        for (at, tick) in ticks(&self.map.axes[1]) {
             let y = top + (1.0 - at) * high;
             let _ = writeln!(
                 body,
@@ -142,7 +143,7 @@ impl<'a> Drawing<'a> {
                     y - 11.0,
                     ink.hex(),
                     left + 20.0,
-                    grouped(*count)
+                    group_digits(*count as u64)
                 );
             }
         }
@@ -158,13 +159,15 @@ fn title(map: &Map) -> String {
 fn description(map: &Map) -> String {
     let [width, height] = map.size();
     let list = |legend: Vec<(Ink, &str, usize)>| {
-        let parts: Vec<String> =
-            legend.iter().map(|(_, words, n)| format!("{words} {}", grouped(*n))).collect();
+        let parts: Vec<String> = legend
+            .iter()
+            .map(|(_, words, n)| format!("{words} {}", group_digits(*n as u64)))
+            .collect();
         parts.join(", ")
     };
     format!(
         "A map of {width} by {height} pixels, {} wrong. Left, computed: {}. Right, exact: {}. To the right: {}. Upwards: {}.",
-        grouped(map.wrong()),
+        group_digits(map.wrong() as u64),
         list(map.computed_legend()),
         list(map.exact_legend()),
         axis_words(&map.axes[0]),
@@ -182,26 +185,12 @@ fn axis_words(axis: &AxisText) -> String {
     )
 }
 
-/// Labels with their places from 0 to 1: the first pixel, the centre, the last.
-fn ticks(axis: &AxisText) -> Vec<(String, f64)> {
+fn ticks(axis: &AxisText) -> Ticks {
     let unit = match axis.step {
-        Step::Ulps(k) => i64::from(k),
+        Step::Ulps(k) => k.into(),
         Step::PowerOfTwo(_) => 1,
     };
-    let centre = axis.count / 2;
-    let mut pixels = vec![0, centre, axis.count - 1];
-    pixels.dedup();
-    let tick = |pixel: usize| {
-        let offset = (pixel as i64 - centre as i64) * unit;
-        let sign = match offset {
-            0 => "",
-            1.. => "+",
-            _ => "−",
-        };
-        let at = (pixel as f64 + 0.5) / axis.count as f64;
-        (format!("{sign}{}", grouped(offset.unsigned_abs() as usize)), at)
-    };
-    pixels.into_iter().map(tick).collect()
+    pixel_ticks(axis.count, unit)
 }
 
 /// The cells of a panel, one unit each: the commonest ink below, the others as one path each, of runs
@@ -265,33 +254,4 @@ pub(super) fn wrapped(text: &str, most: usize) -> Vec<String> {
         }
     }
     lines.iter().map(|line| line.trim_end().to_owned()).collect()
-}
-
-/// With a comma after each third digit.
-pub(super) fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
-}
-
-/// Text for XML: what it cannot hold becomes a replacement character.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c if c.is_control() => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
 }

@@ -15,7 +15,7 @@ use std::ops::Deref;
 /// looks at columns that lie elsewhere.
 ///
 /// ```
-/// use hairline::oracle::{Batch, Layers};
+/// use hairline::{Batch, Layers};
 ///
 /// // Three rays straight down onto the triangle (0,0,0), (2,0,0), (0,2,0).
 /// let [zero, one, two] = [[0.0; 3], [1.0; 3], [2.0; 3]];
@@ -30,7 +30,7 @@ use std::ops::Deref;
 /// batch.truths(&mut truths, &mut layers);
 /// let hits: Vec<_> = truths.iter().map(|truth| truth.hits_closed()).collect();
 /// assert_eq!(hits, [Some(true), Some(true), Some(false)]);
-/// # Ok::<(), hairline::oracle::UnequalColumns>(())
+/// # Ok::<(), hairline::UnequalColumns>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Batch<C> {

@@ -2,25 +2,13 @@
 //! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out,
 //! then integers of any size.
 
-use super::integer::Scaled;
+use super::determinants::{Determinant, Point, rows};
+use super::scaled::Scaled;
 use super::{Layer, monomials};
 use crate::case::Case;
 use robust::{Coord3D, orient3d};
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
-
-/// The determinants that decide a truth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Determinant {
-    /// U, V or W: the weight of vertex 0, 1 or 2.
-    Weight(usize),
-    /// D = d·((b-a)×(c-a)).
-    D,
-    /// T = (a-o)·((b-o)×(c-o)).
-    T,
-}
-
-pub(super) type Point = [f64; 3];
 
 /// The sign of a determinant of a case, and the layer that found it. `near_one` is the same case with
 /// its axes scaled, for the double-doubles; `scaled` is made where it is needed first.
@@ -41,19 +29,6 @@ pub(super) fn sign(
     }
     let scaled = scaled.get_or_insert_with(|| Scaled::new(case));
     (scaled.sign(determinant), Layer::BigInteger)
-}
-
-/// The rows of a determinant first·(second × third): d or a point, and points from which a base is
-/// subtracted. D and the weights have d first.
-pub(super) fn rows(determinant: Determinant, case: &Case<f64>) -> (Point, Point, Point, Point) {
-    let [o, d, a, b, c] = case.vectors();
-    match determinant {
-        Determinant::Weight(0) => (d, c, b, o),
-        Determinant::Weight(1) => (d, a, c, o),
-        Determinant::Weight(_) => (d, b, a, o),
-        Determinant::D => (d, b, c, a),
-        Determinant::T => (a, b, c, o),
-    }
 }
 
 /// An unevaluated sum of two floats, the second at most half an ulp of the first.
@@ -191,19 +166,11 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
 }
 
 #[cfg(test)]
-pub(super) const ALL: [Determinant; 5] = [
-    Determinant::Weight(0),
-    Determinant::Weight(1),
-    Determinant::Weight(2),
-    Determinant::D,
-    Determinant::T,
-];
-
-#[cfg(test)]
 mod tests {
     use super::*;
     use crate::arith::{Float, scale_by_power_of_two};
     use crate::case::Draw;
+    use crate::oracle::determinants::ALL;
 
     /// Cases with exact zeros and near ones among their determinants.
     fn case(index: u64, scale: i32) -> Case<f64> {

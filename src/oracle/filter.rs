@@ -21,7 +21,7 @@
 //! Overflow, infinities and NaN need no test: they make a permanent infinite or NaN, and then nothing
 //! is certain. A zero direction makes every weight zero, which is never certain either.
 
-use super::determinant::Determinant;
+use super::determinants::Determinant;
 use super::signs::Signs;
 use crate::case::Case;
 use crate::truth::Truth;

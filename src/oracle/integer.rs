@@ -1,14 +1,7 @@
-//! The last layer: the predicates in integers of any size; and what the integer layers share.
-//!
-//! Positions are multiples of 2^p and the direction of 2^q for the smallest exponents p, q of their
-//! lowest bits, so that all coordinates become integers. U, V, W and D are then multiples of
-//! 2^(2p+q), T of 2^(3p), and t = T/D carries 2^(p-q).
+//! Integer vectors and intervals, which the integer layers share.
 
-use super::contact;
-use super::determinant::Determinant;
 use crate::arith::decompose;
 use crate::case::Case;
-use crate::truth::Truth;
 use num_bigint::BigInt;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -116,72 +109,6 @@ impl Interval {
             right <<= -shift
         }
         relative(left.cmp(&right))
-    }
-}
-
-/// A case's numbers as integers of any size.
-pub(super) struct Scaled {
-    origin: Triple<BigInt>,
-    direction: Triple<BigInt>,
-    vertices: [Triple<BigInt>; 3],
-    /// Of t = T/D.
-    t_exponent: i64,
-}
-
-impl Scaled {
-    /// Of a valid case.
-    pub fn new(case: &Case<f64>) -> Scaled {
-        let [o, d, a, b, c] = case.vectors();
-        let ([origin, a, b, c], p) = align([o, a, b, c]);
-        let ([direction], q) = align([d]);
-        Scaled { origin, direction, vertices: [a, b, c], t_exponent: p - q }
-    }
-
-    /// The sign of one determinant.
-    pub fn sign(&self, determinant: Determinant) -> Ordering {
-        let [a, b, c] = &self.vertices;
-        let from_origin = |x, y| cross(&minus(x, &self.origin), &minus(y, &self.origin));
-        let value = match determinant {
-            Determinant::Weight(0) => dot(&self.direction, &from_origin(c, b)),
-            Determinant::Weight(1) => dot(&self.direction, &from_origin(a, c)),
-            Determinant::Weight(_) => dot(&self.direction, &from_origin(b, a)),
-            Determinant::D => self.capital_d(),
-            Determinant::T => self.capital_t(),
-        };
-        Integer::sign(&value)
-    }
-
-    fn normal(&self) -> Triple<BigInt> {
-        let [a, b, c] = &self.vertices;
-        cross(&minus(b, a), &minus(c, a))
-    }
-
-    fn capital_d(&self) -> BigInt {
-        dot(&self.direction, &self.normal())
-    }
-
-    fn capital_t(&self) -> BigInt {
-        dot(&self.normal(), &minus(&self.vertices[0], &self.origin))
-    }
-
-    /// The signs of t - t_min and t - t_max, where D is not zero.
-    pub fn place(&self, case: &Case<f64>) -> (Ordering, Ordering) {
-        let (t, d) = (self.capital_t(), self.capital_d());
-        let interval = Interval::new(case, self.t_exponent);
-        (interval.compare_start(&t, &d), interval.compare_end(&t, &d))
-    }
-
-    /// The truth where D is zero.
-    pub fn flat(&self, case: &Case<f64>) -> Truth {
-        let n = self.normal();
-        let degenerate = n.iter().all(Zero::is_zero);
-        if !degenerate && !self.capital_t().is_zero() {
-            return Truth::Parallel;
-        }
-        let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));
-        let interval = Interval::new(case, self.t_exponent);
-        let contact = contact::decide(&interval, &self.direction, [&a, &b, &c], &n);
-        if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
     }
 }
 

@@ -4,8 +4,8 @@
 //! same answer faster, in layers that each decide or hand on: a floating-point filter for all signs
 //! together; machine integers where the coordinates lie on a small grid; then, sign by sign,
 //! double-doubles with a bound, the adaptive predicate of the crate `robust` where its conditions
-//! hold, the determinant multiplied out, and integers of any size. A `f32` case is asked in `f64`, which
-//! holds it exactly. There is no range of exponents in which it fails.
+//! hold, the determinant multiplied out, and integers of any size. An `f32` case is decided in `f64`,
+//! which holds it exactly. It works over the whole range of exponents.
 //!
 //! Architecture invariant: nothing here knows a kernel, and no arithmetic is shared with them.
 
@@ -14,12 +14,14 @@
 mod batch;
 mod contact;
 mod determinant;
+mod determinants;
 mod filter;
 mod grid;
 pub(crate) mod integer;
 mod monomials;
 mod rational;
 mod resolve;
+mod scaled;
 mod signs;
 
 pub use batch::{Batch, UnequalColumns};
@@ -33,7 +35,7 @@ use serde::{Deserialize, Serialize};
 /// A layer of the oracle, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
-    /// Input that asks no question: NaN, infinities, a zero direction, an impossible interval.
+    /// Invalid input: NaN, infinities, a zero direction, an impossible interval.
     Invalid,
     /// The floating-point filter, all signs at once.
     Filter,
@@ -94,14 +96,12 @@ impl Layers {
 /// The truth of a case.
 ///
 /// ```
-/// use hairline::case::Case;
-/// use hairline::oracle;
-/// use hairline::truth::{Feature, Truth};
+/// use hairline::{Case, Feature, Truth, truth};
 ///
 /// // Straight down onto the middle of edge ab.
 /// let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
 /// let case = Case::<f32>::new([1.0, 0.0, 1.0], [0.0, 0.0, -1.0], triangle);
-/// let Truth::Transversal(crossing) = oracle::truth(&case) else { panic!() };
+/// let Truth::Transversal(crossing) = truth(&case) else { panic!() };
 /// assert_eq!(crossing.feature, Feature::EdgeAb);
 /// ```
 pub fn truth<F: Float>(case: &Case<F>) -> Truth {
@@ -120,14 +120,13 @@ pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
 /// first. Cases that lie as arrays of coordinates are a [`Batch`].
 ///
 /// ```
-/// use hairline::case::Case;
-/// use hairline::oracle::{self, Layers};
+/// use hairline::{Case, Layers, truths};
 ///
 /// let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
 /// let down_at = |x, y| Case::<f64>::new([x, y, 1.0], [0.0, 0.0, -1.0], triangle);
-/// let (mut truths, mut layers) = (Vec::new(), Layers::default());
-/// oracle::truths(&[down_at(0.5, 0.5), down_at(3.0, 3.0)], &mut truths, &mut layers);
-/// let hits: Vec<_> = truths.iter().map(|truth| truth.hits_closed()).collect();
+/// let (mut found, mut layers) = (Vec::new(), Layers::default());
+/// truths(&[down_at(0.5, 0.5), down_at(3.0, 3.0)], &mut found, &mut layers);
+/// let hits: Vec<_> = found.iter().map(|truth| truth.hits_closed()).collect();
 /// assert_eq!(hits, [Some(true), Some(false)]);
 /// ```
 pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut Layers) {

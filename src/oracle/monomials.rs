@@ -6,7 +6,7 @@
 //! out, o×o is gone, what is left are 18 products (24 in T) whose exponents mostly lie far apart, and
 //! the largest decides.
 
-use super::determinant::{Determinant, Point, rows};
+use super::determinants::{Determinant, Point, rows};
 use crate::case::Case;
 use std::cmp::Ordering;
 
@@ -94,7 +94,7 @@ fn product(x: Extended, y: Extended, z: Extended) -> Extended {
 mod tests {
     use super::*;
     use crate::case::Draw;
-    use crate::oracle::integer::Scaled;
+    use crate::oracle::scaled::Scaled;
 
     #[test]
     fn monomials_agree_with_big_integers_or_hand_on() {
@@ -119,7 +119,7 @@ mod tests {
             let [o, d, a, b, c] = std::array::from_fn(|_| std::array::from_fn(|_| number()));
             let case = Case::new(o, d, [a, b, c]);
             let exact = Scaled::new(&case);
-            for determinant in super::super::determinant::ALL {
+            for determinant in crate::oracle::determinants::ALL {
                 match sign(determinant, &case) {
                     Some(sign) => {
                         decided += 1;

@@ -1,9 +1,10 @@
 //! Sign by sign, where the filter could not decide all at once.
 
 use super::Layer;
-use super::determinant::{self, Determinant};
+use super::determinant;
+use super::determinants::Determinant;
 use super::filter;
-use super::integer::Scaled;
+use super::scaled::Scaled;
 use super::signs::Signs;
 use crate::arith::scale_by_power_of_two;
 use crate::case::Case;

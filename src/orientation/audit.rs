@@ -2,9 +2,9 @@
 
 use super::predicate::{Row, Scalar};
 use super::{Answer, Dimension, FAMILIES, Finding, Points, ScaledPoints, judge};
-use crate::audit::Observer;
-use rayon::prelude::*;
+use crate::engine::{self, Merge, Observer};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// What to run: every family of each dimension, in each scalar.
 pub struct Plan {
@@ -147,15 +147,8 @@ fn run_scalar<F: Scalar>(
             },
             rows: vec![(Counts::default(), 0); rows.len()],
         };
-        let part = (0..plan.count.div_ceil(CHUNK))
-            .into_par_iter()
-            .fold(empty, |mut part, chunk| {
-                let (start, end) = (chunk * CHUNK, plan.count.min((chunk + 1) * CHUNK));
-                part.add_chunk::<F>(plan, &rows, start, end, observer);
-                observer.advance(end - start);
-                part
-            })
-            .reduce(empty, Part::merged);
+        let add = |part: &mut Part, indices| part.add_chunk::<F>(plan, &rows, indices, observer);
+        let part = engine::sum(0..plan.count, CHUNK, observer, empty, add);
         let set = sums.sets.len();
         sums.sets.push(part.set);
         let cells = rows.iter().zip(part.rows);
@@ -179,10 +172,10 @@ impl Part {
         &mut self,
         plan: &Plan,
         rows: &[(usize, &Row)],
-        start: u64,
-        end: u64,
+        indices: Range<u64>,
         observer: &dyn Observer,
     ) {
+        let Range { start, end } = indices;
         let family = &FAMILIES[self.set.family];
         let dimension = self.set.dimension;
         let cases: Vec<Points<F>> =
@@ -215,7 +208,7 @@ impl Part {
         }
     }
 
-    /// Counts a case: whether it keeps the promise, and its sign; a case that has none keeps none.
+    /// Counts a case: whether it keeps the promise, and its sign; a case without a sign does not keep it.
     fn ask(&mut self, index: u64, exact: Option<(bool, Ordering)>) {
         let set = &mut self.set;
         set.cases += 1;
@@ -225,8 +218,10 @@ impl Part {
             set.first_broken = set.first_broken.into_iter().chain([index]).min();
         }
     }
+}
 
-    fn merged(mut self, other: Part) -> Part {
+impl Merge for Part {
+    fn merge(&mut self, other: Part) {
         self.set.cases += other.set.cases;
         self.set.zeros += other.set.zeros;
         self.set.promise_broken += other.set.promise_broken;
@@ -238,6 +233,5 @@ impl Part {
             counts.merge(more);
             *nanoseconds += more_nanoseconds;
         }
-        self
     }
 }

@@ -3,6 +3,7 @@
 use super::{Dimension, Dyadic, Points, PointsId, ScaledPoints, predicate::Scalar};
 use crate::arith::Float;
 use crate::case::Draw;
+use std::any::Any;
 use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
@@ -29,9 +30,8 @@ struct RangeHigh;
 type Keeps = fn(Dimension, &ScaledPoints, &Dyadic) -> bool;
 
 /// A family in one scalar.
-#[doc(hidden)]
 #[derive(Clone, Copy)]
-pub struct InScalar<F> {
+struct InScalar<F> {
     make: fn(&mut Draw, Dimension) -> Points<F>,
     keeps: Keeps,
 }
@@ -44,8 +44,8 @@ pub struct Family {
     pub version: u32,
     /// About the points and their determinant, in one line.
     pub promise: &'static str,
-    pub(super) in_f32: InScalar<f32>,
-    pub(super) in_f64: InScalar<f64>,
+    in_f32: InScalar<f32>,
+    in_f64: InScalar<f64>,
 }
 
 const fn row<R: Recipe>() -> Family {
@@ -77,7 +77,7 @@ impl Family {
     /// Case `index` of the set of a seed: it depends on nothing else.
     pub fn make<F: Scalar>(&self, dimension: Dimension, seed: u64, index: u64) -> Points<F> {
         let stream = format!("{}:{}", dimension.name(), self.name);
-        (F::family(self).make)(&mut Draw::new(&stream, seed, index), dimension)
+        (self.recipe::<F>().make)(&mut Draw::new(&stream, seed, index), dimension)
     }
 
     /// Whether a case keeps the promise.
@@ -87,7 +87,14 @@ impl Family {
         points: &ScaledPoints,
         determinant: &Dyadic,
     ) -> bool {
-        (F::family(self).keeps)(dimension, points, determinant)
+        (self.recipe::<F>().keeps)(dimension, points, determinant)
+    }
+
+    /// How it makes and checks points of a scalar, which is one of the two.
+    fn recipe<F: Scalar>(&self) -> InScalar<F> {
+        let both: [&dyn Any; 2] = [&self.in_f32, &self.in_f64];
+        let found = both.into_iter().find_map(|recipe| recipe.downcast_ref::<InScalar<F>>());
+        *found.expect("a scalar is f32 or f64")
     }
 
     /// The id of a case.

@@ -1,4 +1,4 @@
-//! Beside floors 2 to 4: orientation predicates, kernels of a kind of their own.
+//! Floor 4: orientation predicates, which take points instead of rays and triangles.
 //!
 //! ```text
 //! Points ──► Predicate ──► Answer (-, 0, +, NaN) ─┐
@@ -22,6 +22,7 @@ mod exact;
 mod families;
 mod id;
 mod known;
+pub mod points_json;
 mod predicate;
 mod record;
 

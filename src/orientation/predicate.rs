@@ -1,6 +1,5 @@
 //! The table of predicates: plain determinants with an epsilon, and the crate robust's.
 
-use super::families::{Family, InScalar};
 use super::{Answer, Dimension, Points};
 use crate::arith::Float;
 use robust::{Coord, Coord3D};
@@ -127,28 +126,17 @@ pub trait Scalar: Float {
     /// A predicate in this scalar, if it runs in it.
     #[doc(hidden)]
     fn batch(predicate: &Predicate) -> Option<Batch<Self>>;
-    /// A family in this scalar.
-    #[doc(hidden)]
-    fn family(family: &Family) -> InScalar<Self>;
 }
 
 impl Scalar for f32 {
     fn batch(predicate: &Predicate) -> Option<Batch<f32>> {
         predicate.batch_f32
     }
-
-    fn family(family: &Family) -> InScalar<f32> {
-        family.in_f32
-    }
 }
 
 impl Scalar for f64 {
     fn batch(predicate: &Predicate) -> Option<Batch<f64>> {
         Some(predicate.batch_f64)
-    }
-
-    fn family(family: &Family) -> InScalar<f64> {
-        family.in_f64
     }
 }
 

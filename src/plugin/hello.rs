@@ -5,7 +5,7 @@
 use super::PROTOCOL;
 use crate::contract::Contract;
 use crate::corpus::number;
-use crate::kernel::{Dimension, EpsilonSet, Gate, Gives, KernelInfo, Tunable};
+use crate::kernel::{Dimension, EpsilonSet, Gate, Gives, KernelInfo, Role, Tunable};
 
 /// A kernel's announcement.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,7 @@ pub struct Hello {
 #[derive(Clone, Debug, PartialEq)]
 struct Epsilon {
     name: String,
+    role: Role,
     value: String,
     dimension: Dimension,
     tunable: Tunable,
@@ -123,6 +124,7 @@ impl Hello {
         let [t, uv, facing] = self.gives;
         let gate = |epsilon: &Epsilon| Gate {
             name: leak(&epsilon.name),
+            role: epsilon.role,
             refuses: leak(&epsilon.refuses),
             dimension: epsilon.dimension,
             epsilon: epsilon.tunable,
@@ -175,11 +177,11 @@ fn subset<const N: usize>(text: &str, what: &str, known: [&str; N]) -> Result<[b
     Ok(found)
 }
 
-/// `NAME VALUE LENGTH DIRECTION signed|non-negative MEANING…`.
+/// `NAME VALUE LENGTH DIRECTION signed|non-negative [role=ROLE] MEANING…`.
 fn epsilon(text: &str) -> Result<Epsilon, String> {
     let shape = || {
         format!(
-            "epsilon: '{}' is not NAME VALUE LENGTH DIRECTION signed|non-negative [MEANING], as: parallel 1e-6 2 1 non-negative abs(det) < e",
+            "epsilon: '{}' is not NAME VALUE LENGTH DIRECTION signed|non-negative [role=ROLE] [MEANING], as: parallel 1e-6 2 1 non-negative abs(det) < e",
             shown(text)
         )
     };
@@ -198,9 +200,18 @@ fn epsilon(text: &str) -> Result<Epsilon, String> {
     if !finite.iter().all(|x| x.as_ref().is_ok_and(fits)) || value.contains(['x', 'X']) {
         return Err(format!("epsilon {name}: '{}' is no epsilon that it can take", shown(value)));
     }
+    let mut words = words.peekable();
+    let role = match words.next_if(|word| word.starts_with("role=")) {
+        None => Role::find(name).unwrap_or(Role::Other),
+        Some(word) => Role::find(&word["role=".len()..]).ok_or_else(|| {
+            let known = Role::ALL.map(Role::name).join(", ");
+            format!("epsilon {name}: '{}' is none of {known}", shown(word))
+        })?,
+    };
     let meaning = words.collect::<Vec<_>>().join(" ");
     let refuses = if meaning.is_empty() { "not told".to_owned() } else { meaning };
-    Ok(Epsilon { name: name.to_owned(), value: value.to_owned(), dimension, tunable, refuses })
+    let (name, value) = (name.to_owned(), value.to_owned());
+    Ok(Epsilon { name, role, value, dimension, tunable, refuses })
 }
 
 /// The beginning of what a process wrote, on one line.
@@ -243,6 +254,18 @@ mod tests {
     }
 
     #[test]
+    fn a_role_is_given_or_follows_from_the_name() {
+        let hello = WHOLE
+            .replace("epsilon parallel", "epsilon det")
+            .replace("signed\nready", "signed\nepsilon near 0 3 0 signed role=t s t >= e\nready");
+        let gates = read(&hello).unwrap().info().gates;
+        let roles: Vec<_> = gates.iter().map(|gate| (gate.name, gate.role)).collect();
+        assert_eq!(roles, [("det", Role::Other), ("edge", Role::Edge), ("near", Role::T)]);
+        assert_eq!(gates[2].refuses, "s t >= e");
+        assert_eq!(read(WHOLE).unwrap().info().gates[0].role, Role::Parallel);
+    }
+
+    #[test]
     fn what_is_missing_twice_or_unknown_is_named() {
         for (old, new, message) in [
             (
@@ -263,6 +286,7 @@ mod tests {
             ("epsilon edge -1e-3", "epsilon parallel 1", "epsilon 'parallel' is announced twice"),
             ("epsilon edge -1e-3 0 0 signed", "epsilon edge 0", "epsilon: 'edge 0' is not NAME"),
             ("1e-6 2 1 non", "-1e-6 2 1 non", "epsilon parallel: '-1e-6' is no epsilon"),
+            ("signed\nready", "signed role=side\nready", "epsilon edge: 'role=side' is none of"),
             ("1e-6 2 1 non", "1e-6 two 1 non", "epsilon: 'parallel 1e-6 two"),
             ("source here", "sauce here", "'sauce here and there' is none of name, source,"),
             ("source here", "error three is not installed\nsource", "three is not installed"),

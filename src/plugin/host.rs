@@ -2,17 +2,18 @@
 //! answers batches in the binary encoding. It is a process of its own so that the library may crash,
 //! hang, exit or write where it must not.
 //!
-//! The only file of the project with unsafe code: it calls C.
+//! Its unsafe code calls C.
 
 #![allow(unsafe_code)]
 
 use super::PROTOCOL;
 use super::binary::{ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, OVERRUN, verdict_bytes};
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use libloading::os::unix;
+use std::ffi::{CStr, c_char, c_int, c_void};
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::mem::ManuallyDrop;
 use std::os::fd::{AsFd, AsRawFd};
-use std::os::unix::ffi::OsStrExt;
 use std::os::unix::process::parent_id;
 use std::path::Path;
 use std::ptr;
@@ -173,28 +174,33 @@ pub(super) fn kill_group(leader: u32) {
 
 /// A loaded library; it stays loaded until the process ends.
 struct Library {
-    handle: *mut c_void,
+    library: ManuallyDrop<unix::Library>,
     f32: Option<Test>,
     f64: Option<Test>,
 }
 
 impl Library {
     fn open(path: &Path) -> Result<Library, String> {
-        let name = CString::new(path.as_os_str().as_bytes()).map_err(|error| error.to_string())?;
-        // SAFETY: a valid string; what the library's constructors do is what this process is for.
-        let handle = unsafe { libc::dlopen(name.as_ptr(), libc::RTLD_NOW | libc::RTLD_LOCAL) };
-        if handle.is_null() {
-            // SAFETY: dlerror returns a valid string or null, and no other thread calls it.
-            let error = unsafe { text_of(libc::dlerror()) };
-            return Err(error.unwrap_or_else(|| "it cannot be loaded".to_owned()));
+        // SAFETY: what the library's constructors do is what this process is for.
+        let opened = unsafe { unix::Library::open(Some(path), unix::RTLD_NOW | unix::RTLD_LOCAL) };
+        let library = ManuallyDrop::new(opened.map_err(|error| one_line(&error.to_string()))?);
+        let mut library = Library { library, f32: None, f64: None };
+        // SAFETY: by include/hairline.h this symbol has this type.
+        let abi = unsafe { library.symbol::<unsafe extern "C" fn() -> u32>("hairline_abi") };
+        let abi = abi.ok_or(
+            "it has no function hairline_abi: build it with include/hairline.h (extern \"C\" in C++)",
+        )?;
+        // SAFETY: it takes nothing.
+        let abi = unsafe { abi() };
+        if abi != ABI {
+            return Err(format!(
+                "it was built with version {abi} of hairline.h, this program has version {ABI}"
+            ));
         }
-        let mut library = Library { handle, f32: None, f64: None };
-        library.check_abi()?;
         // SAFETY: by include/hairline.h these symbols have this type.
         unsafe {
-            let test = |address: *mut c_void| std::mem::transmute::<*mut c_void, Test>(address);
-            library.f32 = library.symbol(c"hairline_test_f32").map(test);
-            library.f64 = library.symbol(c"hairline_test_f64").map(test);
+            library.f32 = library.symbol::<Test>("hairline_test_f32");
+            library.f64 = library.symbol::<Test>("hairline_test_f64");
         }
         if library.f32.is_none() && library.f64.is_none() {
             return Err("it has neither hairline_test_f32 nor hairline_test_f64".to_owned());
@@ -202,36 +208,24 @@ impl Library {
         Ok(library)
     }
 
-    fn symbol(&self, name: &CStr) -> Option<*mut c_void> {
-        // SAFETY: a handle that dlopen returned and a valid string.
-        let address = unsafe { libc::dlsym(self.handle, name.as_ptr()) };
-        (!address.is_null()).then_some(address)
-    }
-
-    fn check_abi(&self) -> Result<(), String> {
-        let address = self.symbol(c"hairline_abi").ok_or(
-            "it has no function hairline_abi: build it with include/hairline.h (extern \"C\" in C++)",
-        )?;
-        // SAFETY: by include/hairline.h the symbol has this type.
-        let abi =
-            unsafe { std::mem::transmute::<*mut c_void, unsafe extern "C" fn() -> u32>(address)() };
-        if abi != ABI {
-            return Err(format!(
-                "it was built with version {abi} of hairline.h, this program has version {ABI}"
-            ));
-        }
-        Ok(())
+    /// A function of the library.
+    ///
+    /// # Safety
+    /// The symbol is a function of type `T`, if there is one.
+    unsafe fn symbol<T: Copy>(&self, name: &str) -> Option<T> {
+        // SAFETY: the caller's promise.
+        let symbol = unsafe { self.library.get::<T>(name.as_bytes()) };
+        symbol.ok().map(|symbol| *symbol)
     }
 
     /// What the library says of itself, as a hello.
     fn hello(&self) -> Result<String, String> {
-        let address =
-            self.symbol(c"hairline_describe").ok_or("it has no function hairline_describe")?;
         // SAFETY: by include/hairline.h the symbol has this type, and what it returns stays valid.
         let kernel = unsafe {
             let describe =
-                std::mem::transmute::<*mut c_void, unsafe extern "C" fn() -> *const Kernel>;
-            describe(address)().as_ref().ok_or("hairline_describe returned NULL")?
+                self.symbol::<unsafe extern "C" fn() -> *const Kernel>("hairline_describe");
+            let describe = describe.ok_or("it has no function hairline_describe")?;
+            describe().as_ref().ok_or("hairline_describe returned NULL")?
         };
         // SAFETY: strings by include/hairline.h.
         let [name, source, contract] =
@@ -285,7 +279,7 @@ fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Pages on each side of a buffer that nobody may touch.
+/// Guard pages on each side of a buffer.
 const GUARD_PAGES: usize = 16;
 /// What stands between the guard in front of a buffer and the buffer.
 const SLACK: u8 = 0xa5;
@@ -377,7 +371,7 @@ fn overrun_head() -> [u8; 8] {
     [a, b, c, d, 0, 0, 0, 0]
 }
 
-/// From now on a fault in or beside a buffer is told as such; any other kills as ever.
+/// From now on a fault in or beside a buffer is reported as such; any other kills the process as usual.
 fn watch_guards(output: c_int) {
     OUTPUT.store(output, Ordering::SeqCst);
     // SAFETY: the handler calls only what may be called in one.

@@ -2,8 +2,8 @@
 //! protocol of docs/protocol.md over its pipes, or a shared library with the functions of
 //! include/hairline.h, which a child of this program loads.
 //!
-//! A process may crash, hang, exit or write where it must not: that is a finding about the case, and
-//! the run goes on with a new process. An answer that is no answer is the end of the run.
+//! A process may crash, hang, exit or write outside its buffers: that is a finding about the case, and
+//! the run goes on with a new process. An invalid answer ends the run.
 
 #![deny(unsafe_code)]
 

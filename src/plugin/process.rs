@@ -1,5 +1,5 @@
-//! A kernel in processes of its own, as a [`Subject`]: one process a thread, each asked in batches;
-//! what a process dies of is pinned case by case.
+//! A kernel in processes of its own, as a [`Subject`]: one process a thread, which receives batches. If a
+//! batch ends its process the cases run again one by one, to find the one that does it.
 
 #![forbid(unsafe_code)]
 
@@ -13,21 +13,21 @@ use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How much a process may try this program's patience.
+/// How much this program tolerates of a process.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// How long it may be silent when an answer is due.
     pub silence: Duration,
-    /// On how many cases it may crash or hang before no more are asked.
+    /// On how many cases it may crash or hang before the run ends.
     pub failures: u64,
 }
 
-/// Why a kernel's process is none.
+/// Why a kernel's process cannot be used.
 #[derive(Debug)]
 pub enum LoadError {
     /// It cannot be started.
     Start(io::Error),
-    /// Its hello is none; one line.
+    /// Its hello is invalid; one line.
     Hello(String),
 }
 
@@ -79,7 +79,7 @@ struct Process {
 
 #[derive(Default)]
 struct State {
-    /// Processes that nobody asks at the moment.
+    /// Processes that are idle at the moment.
     idle: Vec<Running>,
     /// Cases that killed a process.
     failures: u64,
@@ -94,7 +94,7 @@ impl Process {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Asks a process for the verdicts on a batch. It goes back to the idle ones if it answered.
+    /// Gets the verdicts on a batch from a process, which goes back to the idle ones if it answered.
     fn ask<F: Float>(
         &self,
         cases: &[Case<F>],
@@ -195,7 +195,7 @@ impl Process {
         Ok(())
     }
 
-    /// Asks one case.
+    /// Gets the verdict on one case.
     fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
         match self.ask(std::slice::from_ref(case), epsilons, &mut verdict) {
@@ -205,7 +205,7 @@ impl Process {
         }
     }
 
-    /// The verdict where a case by itself is a process's end; an error where that is too often.
+    /// The verdict on a case that ends a process when it runs alone; an error if there are too many.
     fn pinned<F: Float>(&self, failure: Failure, case: &Case<F>) -> Result<Verdict<F>, String> {
         let mut state = self.state();
         state.failures += 1;

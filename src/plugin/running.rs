@@ -22,30 +22,11 @@ impl Program {
         Program { words }
     }
 
-    /// From a line, split at blanks as a shell does, with '…', "…" and \ for words with blanks in
-    /// them. No shell runs it: variables, pipes and && need `sh -c '…'`.
+    /// From a line, split as a shell splits it. No shell runs it: variables, pipes and && need
+    /// `sh -c '…'`.
     pub fn parse(line: &str) -> Result<Program, String> {
-        let (mut words, mut word, mut quote) = (Vec::new(), None::<String>, None);
-        let mut characters = line.chars();
-        while let Some(c) = characters.next() {
-            match (c, quote) {
-                ('\'' | '"', None) => {
-                    quote = Some(c);
-                    word.get_or_insert_default();
-                }
-                (c, Some(q)) if c == q => quote = None,
-                ('\\', None | Some('"')) => {
-                    let next = characters.next().ok_or("it ends in a backslash")?;
-                    word.get_or_insert_default().push(next);
-                }
-                (c, None) if c.is_whitespace() => words.extend(word.take()),
-                (c, _) => word.get_or_insert_default().push(c),
-            }
-        }
-        if let Some(quote) = quote {
-            return Err(format!("it has no closing {quote}"));
-        }
-        words.extend(word);
+        let words =
+            shlex::split(line).ok_or("a quotation mark or a backslash in it is not closed")?;
         if words.is_empty() { Err("it is empty".to_owned()) } else { Ok(Program { words }) }
     }
 
@@ -101,7 +82,7 @@ const LAST_WORDS: Duration = Duration::from_secs(1);
 pub(super) enum Lost {
     /// It died, or was silent for too long.
     Failed(Failure),
-    /// What it wrote is no answer.
+    /// What it wrote is not a valid answer.
     Garbled(String),
 }
 
@@ -142,7 +123,7 @@ impl Running {
         Ok(std::mem::replace(&mut self.unread, rest))
     }
 
-    /// Whether something came that nobody asked for.
+    /// Whether unexpected output came.
     pub fn has_unread(&mut self) -> bool {
         while let Ok(more) = self.from.try_recv() {
             self.unread.extend(more);
@@ -210,7 +191,9 @@ mod tests {
             ["sh", "-c", "a \"b\" \\", "c'd", "e f", "", "ghi"]
         );
         assert_eq!(words(" ").unwrap_err(), "it is empty");
-        assert_eq!(words("sh -c 'x").unwrap_err(), "it has no closing '");
-        assert_eq!(words("x\\").unwrap_err(), "it ends in a backslash");
+        for line in ["sh -c 'x", "sh \"x", "x\\"] {
+            let error = words(line).unwrap_err();
+            assert_eq!(error, "a quotation mark or a backslash in it is not closed");
+        }
     }
 }

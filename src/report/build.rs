@@ -4,12 +4,12 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, CorpusSet, Examples, GroupCount, Place, Plan, Row, Source, SourceSummary, Tally,
-    Trials, exact_severity,
+    Audit, Cell, CorpusSet, Examples, GroupCount, Place, Plan, PolygonCount, Row, Source,
+    SourceSummary, Tally, Trials, exact_severity,
 };
 use crate::case::Case;
 use crate::contract::Across;
-use crate::corpus::manifest::hex;
+use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::Scalar;
@@ -53,6 +53,7 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
 /// A row as a plan names it.
 pub(super) fn row_part(row: &Row) -> RowPart {
     RowPart {
+        contract_words: row.spec().contract,
         kernel: row.entry.info.name.to_owned(),
         selector: row.entry.selector(),
         set: row.set.clone(),
@@ -178,7 +179,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         accuracy: distribution::accuracy(&tally.accuracy),
         across: grouping.shares_a_ray().then(|| across_part::<F>(source, row, &tally.groups)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
-            .then(|| polygon_part(tally, sample)),
+            .then(|| polygon_part::<F>(source, &tally.polygons)),
         self_hits: (grouping == Grouping::Respawn)
             .then(|| rate(tally.self_hits.hits, tally.self_hits.rays, sample)),
     }
@@ -237,6 +238,7 @@ pub(super) fn promised(row: &Row) -> &'static str {
 
 fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
     let sample = source.is_sample();
+    let elsewhere = matches!(source, Source::MeshPart { .. });
     let ids = |indices: &[u64]| indices.iter().map(|i| source.id::<F>(*i, None)).collect();
     AcrossPart {
         promised: promised(row).to_owned(),
@@ -246,18 +248,37 @@ fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> Ac
         missed_folds: rate(groups.missed_folds, groups.folds, sample),
         first_cracks: ids(&groups.first_cracks),
         first_doubles: ids(&groups.first_doubles),
+        first_odd_folds: ids(&groups.first_odd_folds),
         crack_digest: groups.crack_digest.to_string(),
         double_digest: groups.double_digest.to_string(),
+        odd_fold_digest: groups.odd_fold_digest.to_string(),
+        file: source.file_flag(),
+        elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
     }
 }
 
-fn polygon_part(tally: &Tally, sample: bool) -> PolygonPart {
-    let polygons = &tally.polygons;
+fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonPart {
+    let sample = source.is_sample();
+    let part = |finding: Finding| {
+        let examples = polygons.examples.get(&finding);
+        let places = examples.iter().flat_map(|examples| &examples.first);
+        PolygonFinding {
+            finding: finding.name().to_owned(),
+            rate: rate(polygons.count.of(finding), polygons.count.trials(finding), sample),
+            digest: examples.map(|examples| examples.digest).unwrap_or_default().to_string(),
+            first: places.map(|place| source.id::<F>(place.index, None)).collect(),
+        }
+    };
+    let (misses, hits) = (part(Finding::FalseMiss), part(Finding::FalseHit));
+    let others = Finding::ALL[2..].iter().map(|finding| part(*finding));
     PolygonPart {
-        false_misses: rate(polygons.false_miss, polygons.must_hit, sample),
-        false_hits: rate(polygons.false_hit, polygons.must_miss, sample),
-        false_miss_digest: polygons.false_miss_digest.to_string(),
-        false_hit_digest: polygons.false_hit_digest.to_string(),
+        false_misses: misses.rate,
+        false_hits: hits.rate,
+        false_miss_digest: misses.digest,
+        false_hit_digest: hits.digest,
+        first_false_misses: misses.first,
+        first_false_hits: hits.first,
+        others: others.filter(|part| 0 < part.rate.count).collect(),
     }
 }
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
-/// The chance that any of all comparisons calls a difference that is none.
+/// The probability that at least one of all comparisons reports a difference by chance.
 const ERROR: f64 = 0.05;
 
 /// What became of a class of disagreement.

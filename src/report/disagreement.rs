@@ -15,9 +15,9 @@ pub struct Key {
     pub scalar: String,
     /// The source's name in tables.
     pub family: String,
-    /// The class of the truth; `group` for cracks and doubles, `polygon` for whole polygons.
+    /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
     pub class: String,
-    /// `false-miss`, …, `crack`, `double`, `polygon-false-miss`, `polygon-false-hit`.
+    /// `false-miss`, …, `crack`, `double`, `odd-fold`, `polygon-false-miss`, `polygon-false-hit`.
     pub finding: String,
 }
 
@@ -33,6 +33,7 @@ pub const FINDING_KINDS: &[(&str, &str)] = &[
     ("double", "Two triangles of a group report one crossing"),
     ("polygon-false-miss", "The contract asks for a hit of the whole polygon, and it is missed"),
     ("polygon-false-hit", "The contract asks for a miss of the whole polygon, and it is hit"),
+    ("odd-fold", "Over a folded edge the number of hits on its two triangles has the wrong parity"),
 ];
 
 impl Key {
@@ -87,56 +88,69 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
             example: Some(finding.worst.clone()),
         }));
         let row = rows.get(&(part.kernel.as_str(), part.set.as_str()));
-        for (finding, rate, digest, first) in across(part) {
-            let example = row.zip(first.first()).map(|(row, id)| group_example(row, id));
-            let key = Key::of(part, "group", finding);
+        let groups = across(part).into_iter().map(|found| ("group", found));
+        let polygons = polygons(part).into_iter().map(|found| ("polygon", found));
+        for (class, (finding, rate, digest, first)) in groups.chain(polygons) {
+            let example = row.zip(first.first()).map(|(row, id)| group_example(row, part, id));
+            let key = Key::of(part, class, finding);
             all.push(Disagreement { key, rate, digest, example });
-        }
-        for (finding, rate, digest) in polygons(part) {
-            let key = Key::of(part, "polygon", finding);
-            all.push(Disagreement { key, rate, digest, example: None });
         }
     }
     all.retain(|disagreement| disagreement.rate.count > 0);
     all
 }
 
-type Across<'a> = (&'static str, &'a Rate, &'a str, &'a [String]);
+/// A finding on groups or polygons: its name, how often, of the set of all, ids of the first.
+pub(super) type Together<'a> = (&'a str, &'a Rate, &'a str, &'a [String]);
 
 /// What the contract promises across triangles, with what came of it.
-fn across(part: &KernelResult) -> Vec<Across<'_>> {
+fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(across) = &part.across else { return Vec::new() };
-    let cracks: Across =
+    let cracks: Together =
         ("crack", &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
-    let doubles: Across =
+    let doubles: Together =
         ("double", &across.doubles, &across.double_digest, across.first_doubles.as_slice());
+    let folds: Together =
+        ("odd-fold", &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised.as_str() {
         "nothing" => Vec::new(),
         "at-least-one" => vec![cracks],
-        _ => vec![cracks, doubles],
+        _ => vec![cracks, doubles, folds],
     }
 }
 
-fn polygons(part: &KernelResult) -> Vec<(&'static str, &Rate, &str)> {
-    let Some(polygons) = &part.polygons else { return Vec::new() };
-    vec![
-        ("polygon-false-miss", &polygons.false_misses, &polygons.false_miss_digest),
-        ("polygon-false-hit", &polygons.false_hits, &polygons.false_hit_digest),
-    ]
+/// What was found of whole polygons.
+pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {
+    let Some(part) = &part.polygons else { return Vec::new() };
+    let others = part.others.iter();
+    let others = others
+        .map(|found| -> Together { (&found.finding, &found.rate, &found.digest, &found.first) });
+    let misses: Together = (
+        "polygon-false-miss",
+        &part.false_misses,
+        &part.false_miss_digest,
+        &part.first_false_misses,
+    );
+    let hits: Together =
+        ("polygon-false-hit", &part.false_hits, &part.false_hit_digest, &part.first_false_hits);
+    [misses, hits].into_iter().chain(others).collect()
 }
 
 /// How often a finding of a class occurred in a result, or could have: nought if it did not.
 pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
-    let named = across(part).into_iter().map(|(name, rate, ..)| (name, rate));
-    let named = named.chain(polygons(part).into_iter().map(|(name, rate, _)| (name, rate)));
-    if let Some((_, rate)) = named.into_iter().find(|(name, _)| *name == finding) {
+    let together = match class {
+        "group" => across(part),
+        "polygon" => polygons(part),
+        _ => Vec::new(),
+    };
+    if let Some((_, rate, ..)) = together.into_iter().find(|(name, ..)| *name == finding) {
         return rate.clone();
     }
     part.classes.get(class).and_then(|counts| counts.rate(finding)).unwrap_or_default()
 }
 
 /// The kinds of finding that a result could show.
-pub(super) fn kinds_of(part: &KernelResult) -> Vec<&'static str> {
+pub(super) fn kinds_of(part: &KernelResult) -> Vec<&str> {
     let mut kinds: Vec<&str> = Finding::ALL.iter().map(|finding| finding.name()).collect();
     kinds.extend(across(part).into_iter().map(|(name, ..)| name));
     kinds.extend(polygons(part).into_iter().map(|(name, ..)| name));
@@ -144,11 +158,11 @@ pub(super) fn kinds_of(part: &KernelResult) -> Vec<&'static str> {
 }
 
 /// A group by its id: its bits are those of several triangles, and are left to the command.
-fn group_example(row: &RowPart, id: &str) -> Example {
+fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
     Example {
         case: id.to_owned(),
         bits: String::new(),
         severity: None,
-        command: row.explain_command(id),
+        command: row.explain_group(result, id),
     }
 }

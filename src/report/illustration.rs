@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// What pictures are drawn from; only where they were asked for.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Illustrations {
     /// Indices of each source that the responses are counted on, at most.
@@ -21,7 +21,7 @@ pub struct Illustrations {
 
 /// What a kernel row says of the rays around one, float by float, as a picture.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MapPart {
     /// The kernel's name.
@@ -48,7 +48,7 @@ pub struct MapPart {
 
 /// How wrong a kernel row is as one of its epsilons varies and the others stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ResponsePart {
     /// The kernel's name.

@@ -3,8 +3,28 @@
 use super::{Record, Style};
 use std::io::{self, Write};
 
+/// The JSON Schema of the record. The tests derive it from the types; the program only prints it.
+#[cfg(feature = "cli")]
+pub const SCHEMA: &str = include_str!("../../docs/schema/record.json");
+
 /// Writes the record and a newline.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, record)?;
     writeln!(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_schema_is_that_of_the_types() {
+        let committed = include_str!("../../docs/schema/record.json");
+        let derived = serde_json::to_string_pretty(&schemars::schema_for!(Record)).unwrap() + "\n";
+        if committed != derived {
+            let path = std::env::temp_dir().join("hairline-record.json");
+            std::fs::write(&path, derived).unwrap();
+            panic!("the record has changed: cp {} docs/schema/record.json", path.display());
+        }
+    }
 }

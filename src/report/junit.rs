@@ -4,6 +4,7 @@
 //! Of an audit every disagreement fails its case; of a check only what is unexpected or stale does.
 
 use super::{Deviation, Key, Record, Style, disagreements, group_digits, kinds_of};
+use crate::plot::escaped;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -119,21 +120,4 @@ fn write_case(
         writeln!(out, "      <system-out>{}</system-out>", escaped(&case.notes.join("\n")))?;
     }
     writeln!(out, "    </testcase>")
-}
-
-/// Text for XML 1.0, which has no control characters but tab and newlines.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\t' | '\n' => escaped.push(c),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

@@ -1,6 +1,8 @@
 //! The record as Markdown, for a summary on a forge: the verdict, what deviates, and the rates.
 
-use super::text::{RowView, percent};
+use super::columns::{Column, short_percent};
+use super::screen::{Line, column_legend, lines};
+use super::text::percent;
 use super::{Conformance, Deviation, Rate, Record, Style, group_digits};
 use std::io::{self, Write};
 
@@ -36,7 +38,7 @@ fn whole(record: &Record) -> String {
     let tool = &record.provenance.tool;
     text.push_str(&format!(
         "\n{tool}, plan `{}`: {rows} kernel rows on {sources} sources of cases. \
-         Shares of cases, with 95 % intervals (Clopper-Pearson).\n",
+         Shares of wrong verdicts (false misses and false hits), with 95 % intervals (Clopper-Pearson).\n",
         plan.hash
     ));
     if let Some(partial) = &record.result.partial {
@@ -45,9 +47,12 @@ fn whole(record: &Record) -> String {
             "\n**A part of a run**: {words}; every count and share is of it alone.\n"
         ));
     }
+    let columns = Column::all(record);
+    let lines = lines(record, &columns);
     for scalar in &plan.scalars {
-        scalar_part(record, scalar, &mut text);
+        scalar_part(&columns, &lines, scalar, &mut text);
     }
+    text.push_str(&format!("\n{}\n", column_legend(&columns, &lines)));
     text
 }
 
@@ -83,32 +88,32 @@ fn deviations(title: &str, list: &[Deviation], text: &mut String) {
     }
 }
 
-fn scalar_part(record: &Record, scalar: &str, text: &mut String) {
+/// One scalar: a row of the table a kernel row, a column a question.
+fn scalar_part(columns: &[Column], lines: &[Line], scalar: &str, text: &mut String) {
+    let heads: String = columns.iter().map(|column| format!("{} | ", column.label())).collect();
+    let rule = "---:|".repeat(columns.len());
     text.push_str(&format!(
-        "\n### {scalar}\n\n| kernel (epsilons) | false misses | false hits | bad values | cracks |\n\
-         |---|---:|---:|---:|---:|\n"
+        "\n### {scalar}\n\n| kernel (epsilons) | {heads}cracks | doubles | promised |\n|---|{rule}---:|---:|---|\n"
     ));
-    for row in RowView::all(record, scalar) {
-        let misses = row.total(|result| Some(&result.total.false_misses));
-        let hits = row.total(|result| Some(&result.total.false_hits));
-        let bad = row.total(|result| Some(&result.total.bad_values));
-        let cracks = row.total(|result| result.across.as_ref().map(|across| &across.cracks));
-        text.push_str(&format!(
-            "| {} ({}) | {} | {} | {} | {} |\n",
-            row.part.kernel,
-            cell(&row.part.set),
-            share(&misses),
-            share(&hits),
-            group_digits(bad.count),
-            if cracks.of == 0 { "-".to_owned() } else { group_digits(cracks.count) }
-        ));
+    for line in lines.iter().filter(|line| line.scalar == scalar) {
+        let cells = columns.iter().zip(&line.cells).map(|(column, cell)| {
+            let rate = Rate::new(cell.wrong, !column.complete);
+            format!("{} | ", share(&rate))
+        });
+        let cells: String = cells.collect();
+        let groups = line.across.as_ref().map_or("- | - | -".to_owned(), |across| {
+            let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
+            format!("{cracks}% | {doubles}% | {}", across.words())
+        });
+        text.push_str(&format!("| {} | {cells}{groups} |\n", cell(&line.label())));
     }
 }
 
+/// A sample's share with its interval; counts of stored cases.
 fn share(rate: &Rate) -> String {
     match (rate.rate, rate.interval) {
         (None, _) => "-".to_owned(),
-        (Some(share), None) => percent(share),
+        (Some(_), None) => format!("{} of {}", group_digits(rate.count), group_digits(rate.of)),
         (Some(share), Some([low, high])) => {
             format!("{} [{}, {}]", percent(share), percent(low), percent(high))
         }

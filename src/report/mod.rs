@@ -6,11 +6,14 @@
 #![forbid(unsafe_code)]
 
 mod build;
+mod close_up;
+mod columns;
 mod compare;
 mod conformance;
 mod disagreement;
 mod distribution;
 pub mod epsilon;
+mod extremes;
 #[cfg(feature = "cli")]
 mod html;
 #[cfg(feature = "cli")]
@@ -21,8 +24,10 @@ mod jsonl;
 mod junit;
 mod markdown;
 pub mod mesh;
+mod pool;
 mod record;
 mod sarif;
+mod screen;
 mod shard;
 mod text;
 mod verdict;
@@ -37,11 +42,14 @@ pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of}
 #[cfg(feature = "cli")]
 pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ResponsePart};
+#[cfg(feature = "cli")]
+pub use json::SCHEMA;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use record::*;
 pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
 pub(crate) use text::interval_of;
 
+pub(crate) use crate::plot::group_digits;
 use std::io::{self, Write};
 
 /// How people-facing formats look.
@@ -49,7 +57,7 @@ use std::io::{self, Write};
 pub struct Style {
     /// Whether to use terminal colours.
     pub color: bool,
-    /// Whether to list every class of finding of every kernel.
+    /// Whether to print everything: the tables by scalar, and every class of finding of every kernel.
     pub details: bool,
 }
 
@@ -75,19 +83,6 @@ pub const FORMATS: &[Format] = &[
     #[cfg(feature = "cli")]
     Format { name: HTML, write: html::write },
 ];
-
-/// Digits in groups of three.
-pub(crate) fn group_digits(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
 
 /// `3 findings`, `1 finding`.
 pub(crate) fn number_of(count: u64, one: &str, many: &str) -> String {

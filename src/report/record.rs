@@ -15,7 +15,7 @@ pub const SCHEMA: &str = "hairline-record/1";
 
 /// Everything that a run found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// [`SCHEMA`].
@@ -37,7 +37,7 @@ pub struct Record {
 
 /// What was found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ResultPart {
     /// What was asked.
@@ -65,7 +65,7 @@ impl ResultPart {
 
 /// Distributions of one kernel row in one scalar, over all sources.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowTotal {
     /// `f32` or `f64`.
@@ -82,7 +82,7 @@ pub struct RowTotal {
 
 /// What was asked.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanPart {
     /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
@@ -97,7 +97,7 @@ pub struct PlanPart {
 
 /// A kernel with its epsilons.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RowPart {
     /// The kernel's name.
@@ -108,13 +108,24 @@ pub struct RowPart {
     pub set: String,
     /// By gate; gates that take none are left out.
     pub epsilons: BTreeMap<String, String>,
-    /// The contract it is judged by, in words.
+    /// The contract it is judged by, as people read it.
     pub contract: String,
+    /// The same as `--contract` takes it, where it is not the kernel's own.
+    #[serde(default = "own", skip_serializing_if = "is_own")]
+    pub contract_words: String,
+}
+
+fn own() -> String {
+    "own".to_owned()
+}
+
+fn is_own(words: &String) -> bool {
+    words == "own"
 }
 
 /// A source of cases as planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlannedSource {
     /// The name in tables.
@@ -127,7 +138,7 @@ pub struct PlannedSource {
 
 /// What a source gave in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SourcePart {
     /// `f32` or `f64`.
@@ -150,7 +161,7 @@ pub struct SourcePart {
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct KernelResult {
     /// `f32` or `f64`.
@@ -181,7 +192,7 @@ pub struct KernelResult {
 
 /// Counts and rates of findings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
     /// Cases.
@@ -222,7 +233,7 @@ impl Counts {
 
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rate {
     /// How many.
@@ -272,7 +283,7 @@ impl Rate {
 
 /// One finding in one class.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
     /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
@@ -293,7 +304,7 @@ pub struct FindingPart {
 
 /// Why findings happened, of the first by index.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CausesPart {
     /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
@@ -305,7 +316,7 @@ pub struct CausesPart {
 
 /// How far cases with a finding are from where the verdict would be right.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityDistribution {
     /// In longest edges of the triangle.
@@ -316,7 +327,7 @@ pub struct SeverityDistribution {
 
 /// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Distribution {
     /// How many.
@@ -336,7 +347,7 @@ pub struct Distribution {
 
 /// A case that shows a finding.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Example {
     /// The id or the name.
@@ -351,18 +362,18 @@ pub struct Example {
 
 /// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SeverityPart {
     /// In the plane, from where the line meets it to the triangle's boundary.
     pub in_plane: Option<f64>,
     /// In space, from the line to the boundary.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub in_space: f64,
     /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
     #[serde(deserialize_with = "or_infinite")]
-    #[cfg_attr(feature = "cli", schemars(with = "Option<f64>"))]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
@@ -375,7 +386,7 @@ fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Er
 
 /// What the triangles of groups did together.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AcrossPart {
     /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
@@ -394,28 +405,64 @@ pub struct AcrossPart {
     pub first_doubles: Vec<String>,
     /// Of the set of all cracks.
     pub crack_digest: String,
+    /// Ids of the first folds of wrong parity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_odd_folds: Vec<String>,
     /// Of the set of all doubles.
     pub double_digest: String,
+    /// Of the set of all folds of wrong parity.
+    #[serde(default)]
+    pub odd_fold_digest: String,
+    /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elsewhere: Option<Rate>,
+    /// The flag that names the file from which an id makes its group, as `--mesh 'model.obj'`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
 }
 
-/// A polygon kernel's answers about whole polygons.
+/// What a kernel that takes polygons did with whole ones.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonPart {
-    /// Of the polygons that must be hit.
+    /// Of the polygons that must be hit, and have a verdict.
     pub false_misses: Rate,
-    /// Of the polygons that must be missed.
+    /// Of the polygons that must be missed, and have a verdict.
     pub false_hits: Rate,
     /// Of the set of all false misses.
     pub false_miss_digest: String,
     /// Of the set of all false hits.
     pub false_hit_digest: String,
+    /// Ids of the first false misses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_false_misses: Vec<String>,
+    /// Ids of the first false hits.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_false_hits: Vec<String>,
+    /// Polygons with a bad value, and those without a verdict.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<PolygonFinding>,
+}
+
+/// A finding on whole polygons.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PolygonFinding {
+    /// `bad-value`, `panic`, `crash`, `timeout`.
+    pub finding: String,
+    /// How often.
+    pub rate: Rate,
+    /// Of the set of all its polygons.
+    pub digest: String,
+    /// Ids of the first.
+    pub first: Vec<String>,
 }
 
 /// Where and how a record was made.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// `hairline 0.1.0`.
@@ -432,9 +479,31 @@ pub struct Provenance {
     pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
     /// By scalar and row label: nanoseconds a ray in the kernel.
     pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+    /// The flags of `hairline audit` that make the plan again, where a command line made it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan_flags: Option<PlanFlags>,
     /// Of the parts that were merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Provenance>,
+}
+
+/// The flags that make a plan again, as a shell takes them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlanFlags {
+    /// Those that choose kernels, epsilons and the contract.
+    pub kernels: String,
+    /// Those that choose cases.
+    pub sources: String,
+}
+
+impl PlanFlags {
+    /// The command that runs some kernels on the plan's cases.
+    pub fn command(&self, kernels: &str) -> String {
+        let words = ["hairline audit", kernels, &self.sources];
+        words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+    }
 }
 
 #[cfg(test)]

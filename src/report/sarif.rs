@@ -6,7 +6,7 @@ use super::{
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// A forge keeps this many results of a run, and refuses a file with five times as many.
+/// A forge keeps this many results of a run, and rejects a file with five times as many.
 const MOST_RESULTS: usize = 5_000;
 
 /// The rule of expectations that no longer come true.

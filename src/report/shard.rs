@@ -3,13 +3,13 @@
 use super::build::plan_part;
 use super::{Context, Illustrations, Provenance, Record, build};
 use crate::audit::{self, Audit, Observer, Plan, Shard, Source, StoredPlan, StoredSource};
-use crate::corpus::manifest::hex;
+use crate::corpus::hex;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// Which parts of a plan a result is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PartialPart {
     /// How many parts there are.
@@ -20,7 +20,7 @@ pub struct PartialPart {
 
 /// What the record of a part holds beside its result, for `merge` of the same version alone.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ShardPart {
     /// The plan and the sums, as JSON of no stable form.
@@ -143,7 +143,7 @@ pub fn merged<E: From<String>>(
     parts: Mergeable,
     illustrate: impl FnOnce(&Plan) -> Option<Illustrations>,
     observer: &dyn Observer,
-    open: impl FnMut(&StoredSource) -> Result<Source, E>,
+    open: impl FnMut(&StoredSource, [bool; 2]) -> Result<Source, E>,
 ) -> Result<Record, E> {
     let complete = parts.missing().next().is_none();
     let plan = parts.plan.plan(open)?;
@@ -168,6 +168,8 @@ pub fn merged<E: From<String>>(
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
     record.illustrations = illustrate(&plan);
+    record.provenance.plan_flags =
+        parts.provenance.first().and_then(|part| part.plan_flags.clone());
     record.provenance.parts = parts.provenance;
     Ok(record)
 }

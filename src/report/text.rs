@@ -1,6 +1,7 @@
-//! The record as text for people: one table a scalar, then the worst findings with the commands that
-//! show them again.
+//! The record as text for people: the screen, or with `--details` everything: one table a scalar, then
+//! the worst findings with the commands that show them again.
 
+use super::pool::Pool;
 use super::record::*;
 use super::why::{accuracy_text, causes_text};
 use super::worst::write_worst;
@@ -17,6 +18,30 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         }
         writeln!(out)?;
     }
+    if style.details {
+        write_details(record, style, out)?;
+    } else {
+        super::screen::write(record, style, out)?;
+    }
+    let broken: Vec<&SourcePart> =
+        record.result.sources.iter().filter(|source| source.promise_broken > 0).collect();
+    if !broken.is_empty() {
+        writeln!(out)?;
+    }
+    for source in broken {
+        let (scalar, family) = (&source.scalar, &source.family);
+        let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
+        let first = source.first_broken.as_deref().unwrap_or("-");
+        writeln!(
+            out,
+            "{scalar} {family}: {n} of {of} indices are not what the family's promise says, first {first}"
+        )?;
+    }
+    Ok(())
+}
+
+/// Everything, for `--details`.
+fn write_details(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
     let result = &record.result;
     writeln!(
         out,
@@ -38,20 +63,6 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     for scalar in &result.plan.scalars {
         write_scalar(record, scalar, style, out)?;
     }
-    let broken: Vec<&SourcePart> =
-        result.sources.iter().filter(|source| source.promise_broken > 0).collect();
-    if !broken.is_empty() {
-        writeln!(out)?;
-    }
-    for source in broken {
-        let (scalar, family) = (&source.scalar, &source.family);
-        let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
-        let first = source.first_broken.as_deref().unwrap_or("-");
-        writeln!(
-            out,
-            "{scalar} {family}: {n} of {of} indices are not what the family's promise says, first {first}"
-        )?;
-    }
     Ok(())
 }
 
@@ -60,6 +71,7 @@ pub(super) struct RowView<'a> {
     pub(super) part: &'a RowPart,
     pub(super) total: Option<&'a RowTotal>,
     pub(super) results: Vec<&'a KernelResult>,
+    pub(super) sources: &'a [SourcePart],
 }
 
 impl<'a> RowView<'a> {
@@ -75,15 +87,16 @@ impl<'a> RowView<'a> {
             part,
             total: record.result.totals.iter().find(|total| total_of(part, total)),
             results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
+            sources: &record.result.sources,
         };
         // A kernel of one scalar has nothing to say in the other.
         let rows = record.result.plan.rows.iter().map(view);
         rows.filter(|row| !row.results.is_empty()).collect()
     }
 
-    /// Sum over the families of a rate.
-    pub(super) fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
-        Rate::sum(self.results.iter().filter_map(|result| rate(result)))
+    /// The sum of a rate over the sources.
+    pub(super) fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Pool {
+        Pool::of(self.results.iter().filter_map(|result| rate(result)))
     }
 
     /// Hits on NaN, infinities, zero directions and impossible intervals.
@@ -92,24 +105,14 @@ impl<'a> RowView<'a> {
     }
 
     /// A family's first groups that no triangle reported, by id.
-    pub(super) fn first_cracks(&self) -> Vec<(&str, &str)> {
+    pub(super) fn first_cracks(&self) -> Vec<(&KernelResult, &str)> {
         self.results
             .iter()
             .filter_map(|result| {
                 let across = result.across.as_ref()?;
-                Some((result.family.as_str(), across.first_cracks.first()?.as_str()))
+                Some((*result, across.first_cracks.first()?.as_str()))
             })
             .collect()
-    }
-
-    /// How often a kind of finding occurred over the families: of one class, or of all.
-    pub(super) fn rate(&self, kind: &str, class: &str) -> Rate {
-        let counts = self.results.iter().filter_map(|result| match class {
-            "" => Some(&result.total),
-            class => result.classes.get(class),
-        });
-        let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
-        Rate::sum(&rates)
     }
 
     /// The family with the largest share.
@@ -121,6 +124,18 @@ impl<'a> RowView<'a> {
             .max_by(|x, y| share(x).total_cmp(&share(y)))
             .map_or("", |result| &result.family)
     }
+}
+
+/// What is to be said of a scalar without a valid case.
+pub(super) const ALL_INVALID: &str =
+    "All are invalid: a number is infinite or NaN, or the direction is zero.";
+
+/// Whether all cases of rows are invalid.
+pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
+    rows.first().is_some_and(|row| {
+        let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
+        invalid.map(|counts| counts.cases).sum::<u64>() == cases
+    })
 }
 
 fn write_scalar(
@@ -138,15 +153,8 @@ fn write_scalar(
     if cases == 0 {
         return Ok(());
     }
-    let is_all_invalid = |row: &RowView| {
-        let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
-        invalid.map(|counts| counts.cases).sum::<u64>() == cases
-    };
-    if rows.first().is_some_and(is_all_invalid) {
-        writeln!(
-            out,
-            "All are invalid: a number is infinite or NaN, or the direction is zero. Nothing else was asked."
-        )?;
+    if is_all_invalid(&rows, cases) {
+        writeln!(out, "{ALL_INVALID}")?;
     }
     writeln!(
         out,
@@ -172,14 +180,22 @@ fn write_scalar(
         writeln!(
             out,
             "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {:>6} {time:>6.1}",
-            share_column(&misses, style),
-            row.worst_family(|result| &result.total.false_misses),
-            share_column(&hits, style),
-            row.worst_family(|result| &result.total.false_hits),
-            short_count(bad.count),
+            share_column(misses.rate(), style),
+            fitted(row.worst_family(|result| &result.total.false_misses), 16),
+            share_column(hits.rate(), style),
+            fitted(row.worst_family(|result| &result.total.false_hits), 16),
+            short_count(bad.counts()[0]),
             short_count(row.hits_on_invalid()),
-            if cracks.of == 0 { "-".to_owned() } else { short_count(cracks.count) },
+            match cracks.counts() {
+                [_, 0] => "-".to_owned(),
+                [count, _] => short_count(count),
+            },
         )?;
+        for (pool, what) in [(&misses, "misses"), (&hits, "hits")] {
+            if let Some(apart) = pool.apart() {
+                writeln!(out, "    stored or exhaustive cases, apart: false {what} {apart}")?;
+            }
+        }
         for (kind, what) in [("false-miss", "misses"), ("false-hit", "hits")] {
             if let Some(causes) = causes_text(&row.results, kind, "") {
                 writeln!(out, "    false {what}: {causes}")?;
@@ -195,13 +211,13 @@ fn write_scalar(
             "ns/ray of a kernel in another arithmetic (NAME+fma) is the time of its emulation"
         )?;
     }
-    write_failures(&rows, out)?;
+    write_failures(&rows.iter().collect::<Vec<_>>(), out)?;
     write_exact_shares(record, scalar, &rows, out)?;
     write_worst(&rows, style, out)
 }
 
 /// The kernels that gave no verdict on some cases.
-fn write_failures(rows: &[RowView], out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write_failures(rows: &[&RowView], out: &mut dyn Write) -> io::Result<()> {
     for row in rows {
         let sum = |count: fn(&Counts) -> u64| -> u64 {
             row.results.iter().map(|result| count(&result.total)).sum()
@@ -254,6 +270,14 @@ fn write_exact_shares(
         )?;
     }
     Ok(())
+}
+
+/// A source's name in so many columns: of a long one the end, which is a file's name.
+fn fitted(name: &str, columns: usize) -> String {
+    match name.chars().count().saturating_sub(columns) {
+        0 => name.to_owned(),
+        more => std::iter::once('…').chain(name.chars().skip(more + 1)).collect(),
+    }
 }
 
 /// ` (20.3% [20.0%, 20.6%])`; nothing without an interval.

@@ -3,7 +3,7 @@
 use super::{Conformance, Deviation, Method, Record, Style, group_digits};
 use std::io::{self, Write};
 
-/// Deviations of a kind that the text lists, unless all are asked for.
+/// The most deviations of a kind that the text lists without `--details`.
 const MOST_LISTED: usize = 50;
 
 /// Writes what `check` has to say; the tables are for `--details`.

@@ -24,7 +24,7 @@ pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) ->
 /// A cause with its share, and the interval of that if not all findings were examined.
 pub(super) type CauseShare = (Attribution, f64, Option<[f64; 2]>);
 
-/// The causes that occur, as [`causes_text`] tells them.
+/// The causes that occur, as [`causes_text`] lists them.
 pub(super) fn cause_shares(
     results: &[&KernelResult],
     kind: &str,

@@ -1,22 +1,41 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
-use super::record::{FindingPart, RowPart};
+use super::disagreement::polygons;
+use super::pool::Pool;
+use super::record::{FindingPart, KernelResult, Rate, RowPart};
 use super::text::{RowView, interval_of};
 use super::why::{causes_text, severity_text};
 use super::{Style, group_digits};
+use crate::audit::{RowSpec, flags};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 impl RowPart {
-    /// The flags that choose the kernel and set its epsilons.
+    /// The row as text that this program can run again, if it has the kernel.
+    pub(super) fn spec(&self) -> RowSpec {
+        RowSpec {
+            kernel: self.kernel.clone(),
+            set: Some(self.set.clone()),
+            epsilons: self.epsilon_argument(),
+            contract: self.contract_words.clone(),
+        }
+    }
+
+    fn epsilon_argument(&self) -> Option<String> {
+        let pairs = self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}"));
+        Some(pairs.collect::<Vec<_>>().join(",")).filter(|words| !words.is_empty())
+    }
+
+    /// The flags that make this row again.
     pub(super) fn flags(&self) -> String {
-        let pairs: Vec<String> =
-            self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
-        let epsilons = match &pairs[..] {
-            [] => String::new(),
-            pairs => format!(" --epsilon '{}'", pairs.join(",")),
-        };
-        format!("{}{epsilons}", self.selector).trim_end().to_owned()
+        flags(&self.selector, self.epsilon_argument().as_deref(), &self.contract_words)
+    }
+
+    /// The command that shows a group of a result again by its id.
+    pub(super) fn explain_group(&self, result: &KernelResult, id: &str) -> String {
+        let file = result.across.as_ref().and_then(|across| across.file.as_deref());
+        let command = self.explain_command(id);
+        file.map_or(command.clone(), |flag| format!("{command} {flag}"))
     }
 
     /// The command that shows a case again by its id.
@@ -25,38 +44,46 @@ impl RowPart {
     }
 }
 
-/// For each row and finding the worst example of each class, or of all classes together.
+/// For each row and kind of finding the worst example, then that of each class.
 pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    let by_class = style.details || rows.len() <= 2;
-    let scope = if by_class { "of each class" } else { "of each kind (--details: of each class)" };
-    writeln!(out, "\n{bold}Worst findings {scope}{plain}")?;
+    writeln!(out, "\n{bold}Worst findings of each kind and of each class{plain}")?;
     for row in rows {
+        // The empty class stands for all.
         let mut worst: BTreeMap<(&str, &str), &FindingPart> = BTreeMap::new();
         for finding in row.results.iter().flat_map(|result| &result.findings) {
-            let class = if by_class { finding.class.as_str() } else { "" };
-            let entry = worst.entry((&finding.finding, class)).or_insert(finding);
-            if severity(entry) < severity(finding) {
-                *entry = finding;
+            for class in ["", &finding.class] {
+                let entry = worst.entry((&finding.finding, class)).or_insert(finding);
+                if severity(entry) < severity(finding) {
+                    *entry = finding;
+                }
             }
         }
         let label = format!("{} ({})", row.part.kernel, row.part.set);
         let cracks = row.first_cracks();
-        if worst.is_empty() && cracks.is_empty() {
+        let polygons = row.results.iter().flat_map(|result| polygons(result));
+        let polygons: Vec<_> = polygons.filter(|(_, rate, ..)| 0 < rate.count).collect();
+        if worst.is_empty() && cracks.is_empty() && polygons.is_empty() {
             writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
             continue;
         }
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
         for ((kind, class), finding) in &worst {
-            let rate = row.rate(kind, class);
-            let share = interval_of(&rate);
+            let pool = row.found(kind, class);
+            let rate = pool.rate();
+            let share = interval_of(rate);
             let (count, of) = (group_digits(rate.count), group_digits(rate.of));
+            let apart =
+                pool.apart().map_or(String::new(), |apart| format!(", stored cases {apart}"));
             let distance = describe_severity(finding);
             let (named, worst) = match *class {
                 "" => (String::new(), format!("{}, ", finding.class)),
                 class => (format!(" {class}"), String::new()),
             };
-            writeln!(out, "    {kind}{named}: {count} of {of}{share}; worst {worst}{distance}")?;
+            writeln!(
+                out,
+                "    {kind}{named}: {count} of {of}{share}{apart}; worst {worst}{distance}"
+            )?;
             let severity = row.total.and_then(|total| total.severity.get(*kind));
             match severity {
                 Some(severity) if class.is_empty() => {
@@ -70,20 +97,40 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
             writeln!(out, "        {}", finding.worst.command)?;
             writeln!(out, "        {}", finding.worst.bits)?;
         }
-        for (family, id) in cracks {
+        for (result, id) in cracks {
+            let family = &result.family;
             writeln!(
                 out,
                 "    crack, first of {family}: no triangle of the group reports the hit"
             )?;
-            writeln!(out, "        {}", row.part.explain_command(id))?;
+            writeln!(out, "        {}", row.part.explain_group(result, id))?;
+        }
+        for (kind, rate, _, first) in polygons {
+            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
+            writeln!(out, "    {kind}: {count} of {of} whole polygons")?;
+            for id in first.iter().take(1) {
+                writeln!(out, "        {}", row.part.explain_command(id))?;
+            }
         }
     }
     Ok(())
 }
 
+impl RowView<'_> {
+    /// The findings of a kind, of a class or of all.
+    fn found(&self, kind: &str, class: &str) -> Pool {
+        let counts = self.results.iter().filter_map(|result| match class {
+            "" => Some(&result.total),
+            class => result.classes.get(class),
+        });
+        let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
+        Pool::of(rates.iter())
+    }
+}
+
 /// By how far the verdict is wrong, and whether that is a distance along the ray: for a false hit
 /// before or beyond the extent it is.
-fn severity_of(finding: &FindingPart) -> (f64, bool) {
+pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
     let Some(severity) = &finding.worst.severity else { return (0.0, false) };
     let off_end = finding.class.ends_with("/before") || finding.class.ends_with("/beyond");
     match severity.along {
@@ -145,10 +192,16 @@ mod tests {
             set: "source".to_owned(),
             epsilons: [("t".to_owned(), "1e-6".to_owned())].into(),
             contract: String::new(),
+            contract_words: "own".to_owned(),
         };
         let command = "hairline explain 'x' --kernel-lib './libmine.so'";
         assert_eq!(row.explain_command("x"), format!("{command} --epsilon 't=1e-6'"));
         row.epsilons.clear();
         assert_eq!(row.explain_command("x"), command);
+        row.contract_words = "closed-ray,band=1e-3".to_owned();
+        assert_eq!(
+            row.explain_command("x"),
+            format!("{command} --contract closed-ray --band 1e-3")
+        );
     }
 }

@@ -1,5 +1,5 @@
-//! A second reference: truths from the words of the definition in integers, with formulas and code
-//! that are not the oracle's.
+//! A second reference: truths by the words of the definition, in integers, with formulas and code that
+//! share nothing with the oracle.
 //!
 //! All fifteen coordinates are multiplied by one power of two that makes them integers, so that t is
 //! the same. A crossing is Cramer's rule for o + t d = a + u (b-a) + v (c-a). A contact is a range of

@@ -1,8 +1,6 @@
 //! Where the kernel does as the closed triangle asks, and where it does not.
 
-use hairline::case::Case;
-use hairline::contract::{Boundary, Contract};
-use hairline::prop_assert_conforms;
+use hairline::{Boundary, Case, Contract, prop_assert_conforms};
 use hairline::strategy::{any_case, edge_exact, edge_near, interior, outside, parallel_off, tiny};
 use proptest::prelude::*;
 use proptest_kernel::intersect;

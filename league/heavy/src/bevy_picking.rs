@@ -8,9 +8,9 @@ use crate::{PROMISE, UNIT};
 use bevy_math::{Affine3A, Dir3, Vec3};
 use bevy_picking::mesh_picking::ray_cast::{Backfaces, ray_mesh_intersection};
 use bevy_shape::Ray3d;
-use hairline::case::Case;
-use hairline::contract::Contract;
-use hairline::kernel::{Entry, Gives, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::contract::Contract;
+use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 
 const INFO: KernelInfo = KernelInfo {
     source: "bevy_picking 0.20.1, ray_mesh_intersection, Backfaces::Include",

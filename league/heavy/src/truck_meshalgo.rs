@@ -1,8 +1,8 @@
 //! truck-meshalgo 0.4.0: `signed_crossing_faces` of a mesh of one triangle.
 
 use crate::PROMISE;
-use hairline::case::Case;
-use hairline::kernel::{Entry, Gives, Hit, KernelInfo};
+use hairline::internals::case::Case;
+use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 use truck_meshalgo::prelude::*;
 
 const INFO: KernelInfo = KernelInfo {

@@ -1,9 +1,9 @@
 //! Möller and Trumbore's test in the order in which most crates write it: divided by the determinant
 //! before the edges are compared, t last.
 
-use hairline::arith::{Real, Vector};
-use hairline::case::{Ray, Triangle};
-use hairline::kernel::{Gate, Hit, Kernel, KernelInfo, Refuse, Sink};
+use hairline::internals::arith::{Real, Vector};
+use hairline::internals::case::{Ray, Triangle};
+use hairline::internals::kernel::{Gate, Hit, Kernel, KernelInfo, Refuse, Role, Sink};
 use std::marker::PhantomData;
 
 /// In what the crates differ.
@@ -36,27 +36,27 @@ const FINITE: usize = 3;
 
 /// The gates of a test that takes both sides.
 pub const GATES: &[Gate] = &[
-    Gate::non_negative("parallel", "abs(det) < e", 2, 1),
+    Gate::non_negative(Role::Parallel, "abs(det) < e", 2, 1),
     EDGE_GATE,
-    Gate::signed("t", "!(t > e)", 1, -1),
+    Gate::signed(Role::T, "!(t > e)", 1, -1),
 ];
 
 /// The gates of a test of both sides on an interval.
 pub const GATES_INTERVAL: &[Gate] = &[
-    Gate::non_negative("parallel", "abs(det) < e", 2, 1),
+    Gate::non_negative(Role::Parallel, "abs(det) < e", 2, 1),
     EDGE_GATE,
-    Gate::signed("t", "!(t - t_min >= e), !(t_max - t >= e)", 1, -1),
+    Gate::signed(Role::T, "!(t - t_min >= e), !(t_max - t >= e)", 1, -1),
 ];
 
 /// The gates of a test that culls, and whose infinite t means a miss.
 pub const GATES_CULLING: &[Gate] = &[
-    Gate::signed("parallel", "det < e", 2, 1),
+    Gate::signed(Role::Parallel, "det < e", 2, 1),
     EDGE_GATE,
-    Gate::signed("t", "!(t > e)", 1, -1),
-    Gate::fixed("finite", "t = inf"),
+    Gate::signed(Role::T, "!(t > e)", 1, -1),
+    Gate::fixed(Role::Other, "t = inf").named("finite"),
 ];
 
-const EDGE_GATE: Gate = Gate::signed("edge", "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0);
+const EDGE_GATE: Gate = Gate::signed(Role::Edge, "u < e, 1-u < e, v < e, 1-(u+v) < e", 0, 0);
 
 /// The test in a style.
 pub struct MollerTrumbore<S>(PhantomData<fn() -> S>);

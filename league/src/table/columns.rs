@@ -1,7 +1,7 @@
 //! The table of all entrants: rates by groups of families.
 
 use super::rows::TableRow;
-use hairline::report::{Example, Rate};
+use hairline::internals::report::{Example, Rate};
 use std::fmt::Write;
 
 /// Families that ask alike.
@@ -165,7 +165,7 @@ pub fn percent(count: u64, of: u64) -> String {
 /// Cracks and doubles over all groups of triangles, and what the contract promises.
 fn across(row: &TableRow) -> [String; 3] {
     let parts: Vec<_> = row.results.iter().filter_map(|result| result.across.as_ref()).collect();
-    let sum = |rate: fn(&hairline::report::AcrossPart) -> &Rate| {
+    let sum = |rate: fn(&hairline::internals::report::AcrossPart) -> &Rate| {
         let (count, of) = parts
             .iter()
             .map(|part| (rate(part).count, rate(part).of))

@@ -2,7 +2,7 @@
 
 use super::columns::{command, digits, percent};
 use super::rows::TableRow;
-use hairline::report::Rate;
+use hairline::internals::report::Rate;
 use std::fmt::Write;
 
 /// All sections.

@@ -7,7 +7,7 @@ mod precision;
 mod rows;
 mod witnesses;
 
-use hairline::report::Record;
+use hairline::internals::report::Record;
 use std::fs;
 use std::process::ExitCode;
 

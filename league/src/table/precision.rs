@@ -1,13 +1,13 @@
 //! Whose errors in `f32` go away when the same function runs on the same case in `f64`.
 
 use super::columns::percent;
-use hairline::audit::EpsilonChoice;
-use hairline::case::{Case, Parameters};
-use hairline::contract::Direction;
-use hairline::family::FAMILIES;
-use hairline::judge::{asked, judge};
-use hairline::kernel::{Entry, Scalar, Subject, Verdict};
-use hairline::oracle;
+use hairline::internals::audit::EpsilonChoice;
+use hairline::internals::case::{Case, Parameters};
+use hairline::internals::contract::Direction;
+use hairline::internals::family::FAMILIES;
+use hairline::internals::judge::{asked, judge};
+use hairline::internals::kernel::{Entry, Scalar, Subject, Verdict};
+use hairline::internals::oracle;
 use hairline_league::kernels;
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! The records' results by entrant and scalar.
 
-use hairline::report::{KernelResult, Record, RowPart};
+use hairline::internals::report::{KernelResult, Record, RowPart};
 use hairline_league::{Entrant, entrants};
 use std::collections::BTreeMap;
 use std::process::Command;

@@ -2,13 +2,13 @@
 
 use super::columns::worst;
 use super::rows::TableRow;
-use hairline::arith::Float;
-use hairline::audit::Row;
-use hairline::campaign::Find;
-use hairline::case::Case;
-use hairline::corpus::lines::{AnyCase, write_case};
-use hairline::kernel::{find, register};
-use hairline::report::Example;
+use hairline::internals::arith::Float;
+use hairline::internals::audit::Row;
+use hairline::internals::case::Case;
+use hairline::internals::corpus::lines::{AnyCase, write_case};
+use hairline::internals::explore::campaign::Find;
+use hairline::internals::kernel::{find, register};
+use hairline::internals::report::Example;
 use hairline_league::kernels;
 use std::collections::BTreeMap;
 use std::fs;

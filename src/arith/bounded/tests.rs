@@ -1,4 +1,4 @@
-//! What bounds claim, against exact numbers.
+//! Tests of the bounds against exact numbers.
 
 use super::*;
 use crate::arith::Exact;

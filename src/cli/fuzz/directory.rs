@@ -8,12 +8,12 @@
 //! - `lock`: one process at a time.
 
 use super::lock::{Lock, LockError};
-use crate::campaign::{Find, State};
 use crate::cli::exit::{Failure, Status};
-use crate::cli::output::write_file;
+use crate::cli::output::write_result;
 use crate::cli::select::KernelArguments;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, write_case};
+use crate::explore::campaign::{Find, State};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
@@ -30,6 +30,9 @@ pub const CAMPAIGN: &str = "campaign.json";
 pub const FINDS: &str = "finds.jsonl";
 
 const STATE: &str = "state.json";
+
+/// Why neither a campaign nor triage takes a band.
+pub const NO_BAND: &str = "findings are kept and run again without one";
 
 /// What a campaign was begun with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,22 +76,21 @@ impl Directory {
     /// Makes the directory, if there is none, and takes its lock.
     pub fn open(path: &str) -> Result<Directory, Failure> {
         let path = PathBuf::from(path);
-        let failed = |path: &Path, error: io::Error| of_path(path, &error);
-        fs::create_dir_all(&path).map_err(|error| failed(&path, error))?;
+        fs::create_dir_all(&path).map_err(|error| Failure::of_path(&path, &error))?;
         let lock_path = path.join("lock");
         let (lock, taken_over) = Lock::take(&lock_path).map_err(|error| match error {
             LockError::Held(message) => {
                 let message = format!("{}: {message}", path.display());
                 Failure::Message(Status::InputOutput, message)
             }
-            LockError::Io(error) => failed(&lock_path, error),
+            LockError::Io(error) => Failure::of_path(&lock_path, &error),
         })?;
         if taken_over {
             eprintln!("{}: its process is gone; the campaign goes on here", lock_path.display());
         }
         let finds_path = path.join(FINDS);
         let finds = File::options().create(true).append(true).open(&finds_path);
-        let finds = finds.map_err(|error| failed(&finds_path, error))?;
+        let finds = finds.map_err(|error| Failure::of_path(&finds_path, &error))?;
         Ok(Directory { path, finds, length: 0, _lock: lock })
     }
 
@@ -112,13 +114,13 @@ impl Directory {
     /// The finds until now, each run again; a last line without its end is cut off.
     pub fn finds(&mut self) -> Result<Vec<Find>, Failure> {
         let path = self.path.join(FINDS);
-        let bytes = fs::read(&path).map_err(|error| of_path(&path, &error))?;
+        let bytes = fs::read(&path).map_err(|error| Failure::of_path(&path, &error))?;
         let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         let name = path.display().to_string();
         // First read, then cut: a file that is no finds file is left alone.
         let finds = read_finds(&bytes[..whole], &name)?;
         if whole < bytes.len() {
-            self.finds.set_len(whole as u64).map_err(|error| of_path(&path, &error))?;
+            self.finds.set_len(whole as u64).map_err(|error| Failure::of_path(&path, &error))?;
             let cut = bytes.len() - whole;
             eprintln!(
                 "{name}: the last line was cut short, as by a kill; its {cut} bytes are removed (that find was not reported)"
@@ -172,12 +174,10 @@ impl Directory {
     }
 
     fn write(&self, name: &str, value: &impl Serialize) -> Result<(), Failure> {
-        let path = self.path.join(name);
-        let write = |out: &mut dyn Write| {
+        write_result(self.path.join(name), |out| {
             serde_json::to_writer(&mut *out, value).map_err(io::Error::from)?;
             writeln!(out)
-        };
-        write_file(&path, write).map_err(|error| of_path(&path, &error))
+        })
     }
 }
 
@@ -207,15 +207,11 @@ pub fn read_finds(text: &[u8], name: &str) -> Result<Vec<Find>, Failure> {
 fn read_json<T: DeserializeOwned>(path: &Path, advice: &str) -> Result<Option<T>, Failure> {
     let text = match fs::read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        text => text.map_err(|error| of_path(path, &error))?,
+        text => text.map_err(|error| Failure::of_path(path, &error))?,
     };
     let read = serde_json::from_slice(&text);
     let damaged = |error: serde_json::Error| {
         InputError::at(&path.display().to_string(), error.line(), format!("{error}{advice}"))
     };
     Ok(Some(read.map_err(damaged)?))
-}
-
-fn of_path(path: &Path, error: &io::Error) -> Failure {
-    Failure::of_file(&path.display().to_string(), error)
 }

@@ -1,7 +1,7 @@
 //! What a campaign says when it stops.
 
 use crate::audit::quoted;
-use crate::campaign::Find;
+use crate::explore::campaign::Find;
 use crate::judge::Finding;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -42,7 +42,11 @@ pub fn write_summary(
     if let Some(find) = finds.last() {
         writeln!(out, "The last one")?;
         writeln!(out, "    {}", find.signature)?;
-        writeln!(out, "    {}", explain_command(find, &format!("{path}/{}", super::FINDS)))?;
+        writeln!(
+            out,
+            "    {}",
+            explain_command(find, &format!("{path}/{}", super::directory::FINDS))
+        )?;
     }
     Ok(())
 }

@@ -4,19 +4,19 @@ use super::MapArguments;
 use crate::case::Case;
 use crate::cli::case::{CaseArguments, Cases};
 use crate::cli::exit::Failure;
+use crate::cli::flags::unknown;
 use crate::cli::orient::points_of_id;
-use crate::cli::select::unknown;
 use crate::corpus::InputError;
-use crate::corpus::points_json::{self, AnyPoints};
 use crate::kernel::Scalar;
 use crate::map::{self, Spot};
+use crate::orientation::points_json::{self, AnyPoints};
 use crate::orientation::{Dimension, Points, PointsId, find_known};
 
 /// What is mapped.
 pub enum Input {
     F32(Case<f32>),
     F64(Case<f64>),
-    /// Points, and which of them is varied if nothing else is said.
+    /// Points, and which of them is varied by default.
     PointsF32(Points<f32>, usize),
     PointsF64(Points<f64>, usize),
 }
@@ -25,6 +25,9 @@ impl MapArguments {
     /// The case or the points.
     pub(super) fn input(&self) -> Result<Input, Failure> {
         let Some(text) = &self.case else { return self.standard() };
+        if self.corpus.is_some() {
+            return self.case(text);
+        }
         let text = text.trim();
         if text.starts_with('{') && points_json::is_points(text) {
             let points = points_json::parse(text)
@@ -34,7 +37,7 @@ impl MapArguments {
                 AnyPoints::F64(points) => Input::PointsF64(points, points.dimension().number()),
             });
         }
-        if let (Some(known), None) = (find_known(text), &self.corpus) {
+        if let Some(known) = find_known(text) {
             let points = known.points();
             return Ok(Input::PointsF64(points, points.dimension().number()));
         }
@@ -50,6 +53,10 @@ impl MapArguments {
                 other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
             };
         }
+        self.case(text)
+    }
+
+    fn case(&self, text: &str) -> Result<Input, Failure> {
         let case = CaseArguments {
             case: text.to_owned(),
             mesh: self.mesh.clone(),

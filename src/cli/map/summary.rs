@@ -68,15 +68,7 @@ pub fn explain<F: Scalar>(case: &Case<F>, row: &Row) -> String
 where
     AnyCase: From<Case<F>>,
 {
-    let stored = StoredCase {
-        name: None,
-        case: AnyCase::from(*case),
-        truth: None,
-        line: 1,
-        why: None,
-        url: None,
-        found: None,
-    };
+    let stored = StoredCase::of(*case);
     row.explain_command(&quoted(&write_case(&stored)))
 }
 

@@ -4,15 +4,15 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::{Place, Row, Source, Tally, Trials, exact_severity};
 use crate::case::Case;
+use crate::epsilon::{
+    AtScale, Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study,
+    StudyPlan, common, own_false_hits, scale_free_form, slope, unit_of_length,
+};
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, Scalar};
 use crate::report::Rate;
 use crate::report::build::{explain_command, planned_source};
-use crate::response::{
-    AtScale, Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study,
-    StudyPlan, common, own_false_hits, scale_free_form, slope, unit_of_length,
-};
 
 /// The parts of a record that are about one row in one scalar.
 pub fn parts<F: Scalar>(

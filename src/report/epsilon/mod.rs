@@ -7,7 +7,7 @@ mod record;
 mod text;
 
 #[cfg(feature = "cli")]
-pub(super) use build::shortest;
+pub(crate) use build::shortest;
 pub use build::{parts, record};
 pub use record::*;
 

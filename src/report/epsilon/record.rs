@@ -99,7 +99,7 @@ pub struct CurvePart {
     pub family: String,
     /// Whether it is a random sample.
     pub sample: bool,
-    /// How many could be wrong, by [`crate::response::Question::ALL`]: false misses, false hits,
+    /// How many could be wrong, by [`crate::epsilon::Question::ALL`]: false misses, false hits,
     /// cracks, doubles, self-hits, and of the false hits those that this gate is there to refuse.
     pub asked: [u64; 6],
     /// Sums over the rays of the squares of how many could be wrong on each.

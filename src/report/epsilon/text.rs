@@ -3,7 +3,7 @@
 use super::record::*;
 use crate::report::record::Rate;
 use crate::report::text::percent;
-use crate::report::{Style, group_digits};
+use crate::report::{Style, group_digits, number_of};
 use std::io::{self, Write};
 
 /// Writes the limits, the prices and the scaling of every gate.
@@ -42,14 +42,20 @@ fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<(
         writeln!(out, "  other gates: {}", others.join(", "))?;
     }
     writeln!(out, "  contract: {}", part.contract)?;
-    let [must_hit, must_miss, groups, _, respawned, _] = part.curves[0].asked.map(group_digits);
-    let mut asked =
-        format!("  {sources} sources: {must_hit} cases must hit, {must_miss} must miss");
-    if groups != "0" {
-        asked.push_str(&format!(", {groups} groups are owed one hit"));
+    let [must_hit, must_miss, groups, _, respawned, _] = part.curves[0].asked;
+    let mut asked = format!(
+        "  {}: {} hit, {} must miss",
+        number_of(sources as u64, "source", "sources"),
+        number_of(must_hit, "case must", "cases must"),
+        group_digits(must_miss)
+    );
+    if groups != 0 {
+        let groups = number_of(groups, "group expects", "groups expect");
+        asked.push_str(&format!(", {groups} one hit"));
     }
-    if respawned != "0" {
-        asked.push_str(&format!(", {respawned} rays start on their triangle"));
+    if respawned != 0 {
+        let rays = number_of(respawned, "ray starts on its", "rays start on their");
+        asked.push_str(&format!(", {rays} triangle"));
     }
     writeln!(out, "{asked}")
 }

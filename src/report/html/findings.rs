@@ -3,6 +3,7 @@
 use super::room::Room;
 use super::view::{Row, View};
 use super::words::{code, counts, share};
+use crate::report::disagreement::polygons;
 use crate::report::record::*;
 use crate::report::why::causes_text;
 use crate::report::worst::describe_severity;
@@ -140,15 +141,17 @@ fn example(name: &str, example: &Example) -> Markup {
     }
 }
 
-/// Cracks and doubles that occurred, with the ids of the first.
-fn grouped(result: &KernelResult) -> impl Iterator<Item = (&'static str, &Rate, &[String])> {
+/// Cracks, doubles, folds and findings on whole polygons that occurred, with the ids of the first.
+fn grouped(result: &KernelResult) -> impl Iterator<Item = (&str, &Rate, &[String])> {
     let across = result.across.iter().flat_map(|across| {
         [
             ("crack", &across.cracks, across.first_cracks.as_slice()),
             ("double", &across.doubles, across.first_doubles.as_slice()),
+            ("odd-fold", &across.odd_folds, across.first_odd_folds.as_slice()),
         ]
     });
-    across.filter(|(_, rate, _)| 0 < rate.count)
+    let polygons = polygons(result).into_iter().map(|(kind, rate, _, first)| (kind, rate, first));
+    across.chain(polygons).filter(|(_, rate, _)| 0 < rate.count)
 }
 
 fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[String]) -> Markup {
@@ -156,9 +159,16 @@ fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[S
     html! {
         div.class {
             h5 { (kind) }
-            p { (share(rate)) ", " (counts(rate)) " crossings; across triangles the contract promises " (promised) }
+            p {
+                (share(rate)) ", " (counts(rate))
+                @match kind {
+                    "crack" | "double" => { " crossings; across triangles the contract promises " (promised) }
+                    "odd-fold" => { " folds; across triangles the contract promises " (promised) }
+                    _ => " polygons"
+                }
+            }
             @for id in ids {
-                p.example { (code(&row.explain_command(id))) }
+                p.example { (code(&row.explain_group(result, id))) }
             }
         }
     }

@@ -2,8 +2,9 @@
 
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
-use super::words::{counts, interval, percent};
+use super::words::{apart, counts, interval, percent};
 use crate::report::number_of;
+use crate::report::pool::Pool;
 use crate::report::record::Rate;
 use maud::{Markup, PreEscaped, html};
 use std::collections::HashMap;
@@ -97,6 +98,7 @@ fn line(families: &[&str], row: &Row, scalar: &InScalar, kind: Kind) -> Markup {
         .iter()
         .map(|result| (result.family.as_str(), kind.rate(&result.total)))
         .collect();
+    let all = scalar.all(kind);
     html! {
         tr data-kernel={ (row.part.kernel) " (" (row.part.set) ")" } data-scalar=(scalar.scalar) data-finding=(kind.finding()) {
             th scope="row" {
@@ -104,16 +106,16 @@ fn line(families: &[&str], row: &Row, scalar: &InScalar, kind: Kind) -> Markup {
                 span.set { "(" (row.part.set) ")" } " "
                 span.what { (scalar.scalar) " " span class={ "key " (kind.finding()) } { (kind.words()) } }
             }
-            (cell(kind, Some(&scalar.all(kind))))
+            (cell(kind, Some(all.rate()), Some(&all)))
             @for family in families {
-                (cell(kind, by_family.get(family).copied()))
+                (cell(kind, by_family.get(family).copied(), None))
             }
         }
     }
 }
 
-/// A share with its interval, or its count where there is no interval.
-fn cell(kind: Kind, rate: Option<&Rate>) -> Markup {
+/// A share with its interval, or its count where there is no interval; and what a sum holds beside.
+fn cell(kind: Kind, rate: Option<&Rate>, sum: Option<&Pool>) -> Markup {
     let Some((rate, share)) = rate.and_then(|rate| Some((rate, rate.rate?))) else {
         return html! { td { "–" } };
     };
@@ -124,7 +126,7 @@ fn cell(kind: Kind, rate: Option<&Rate>) -> Markup {
             small { @match rate.interval {
                 Some(ends) => (interval(ends)),
                 None => (counts(rate)),
-            } }
+            } @if let Some(sum) = sum { (apart(sum)) } }
         }
     }
 }

@@ -5,7 +5,7 @@ use super::findings::{self, Depth};
 use super::pictures;
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
-use super::words::{code, counts, percent, share};
+use super::words::{apart, code, counts, percent, share};
 use crate::kernel::{self, Gate, Tunable};
 use crate::report::record::*;
 use crate::report::why::{CauseShare, cause_shares, short};
@@ -45,7 +45,7 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
 
 /// A row. What it takes of `room` is what its lists may take; the caller counts the whole.
 fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
-    let promise = facts(row);
+    let promise = facts(view, row);
     let tables = html! {
         (causes(row))
         div.tables { (rates(view, row)) (severities(row)) (accuracies(row)) }
@@ -68,7 +68,7 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
                         (scalar.scalar) " "
                         @for kind in Kind::ALL {
                             span class={ "key " (kind.finding()) } {
-                                (scalar.all(kind).rate.map_or("–".to_owned(), percent)) " " (kind.words())
+                                (scalar.all(kind).rate().rate.map_or("–".to_owned(), percent)) " " (kind.words())
                             } " "
                         }
                     }
@@ -85,7 +85,8 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
     }
 }
 
-fn facts(row: &Row) -> Markup {
+fn facts(view: &View, row: &Row) -> Markup {
+    let plan_flags = view.record.provenance.plan_flags.clone().unwrap_or_default();
     let info = kernel::find(&row.part.kernel).map(|entry| entry.info);
     let gates: &[Gate] = info.map_or(&[], |info| info.gates);
     let unknown = row
@@ -97,7 +98,7 @@ fn facts(row: &Row) -> Markup {
         dl.facts {
             dt { "Contract" } dd { (row.part.contract) }
             @if let Some(info) = info { dt { "Source" } dd { (info.source) } }
-            dt { "Run again" } dd { (code(&format!("hairline audit {}", row.part.flags()))) }
+            dt { "Run again" } dd { (code(&plan_flags.command(&row.part.flags()))) }
         }
         @if !row.part.epsilons.is_empty() || !gates.is_empty() {
             div.scroll tabindex="0" role="group" aria-label="Gates" {
@@ -143,7 +144,7 @@ fn rates(view: &View, row: &Row) -> Markup {
         ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
         ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
     ];
-    let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.sum(get).of);
+    let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.sum(get).counts()[1]);
     let failures: [(&str, Count); 3] = [
         ("panics", |counts| counts.panics),
         ("crashes", |counts| counts.crashes),
@@ -173,8 +174,8 @@ fn rates(view: &View, row: &Row) -> Markup {
                         @if asked(get) {
                             tr { th scope="row" { (name) }
                                 @for scalar in &row.scalars {
-                                    @let rate = scalar.sum(get);
-                                    td { (share(&rate)) small { (counts(&rate)) } }
+                                    @let sum = scalar.sum(get);
+                                    td { (share(sum.rate())) small { (counts(sum.rate())) (apart(&sum)) } }
                                 }
                             }
                         }

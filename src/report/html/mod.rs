@@ -22,7 +22,7 @@ use room::Room;
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use view::View;
-use words::shortened;
+use words::{code, shortened};
 
 /// A report has fewer bytes.
 const LIMIT: usize = 9_800_000;
@@ -195,6 +195,9 @@ fn foot(record: &Record) -> Markup {
             dl.about {
                 dt { "Tool" } dd { (shortened(&provenance.tool, 200)) }
                 dt { "Plan" } dd { code { (shortened(&plan.hash, 200)) } }
+                @if let Some(flags) = &provenance.plan_flags {
+                    dt { "Run again" } dd { (code(&flags.command(&flags.kernels))) }
+                }
                 dt { "Target" } dd { (shortened(&provenance.target, 200)) }
                 dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
                 @if !provenance.parts.is_empty() {

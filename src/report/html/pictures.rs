@@ -1,4 +1,4 @@
-//! What goes wrong, seen: maps float by float, and the worst witnesses drawn.
+//! Pictures of what goes wrong: maps float by float, and drawings of the worst witnesses.
 
 use super::room::Room;
 use super::view::{InScalar, Kind, Row};
@@ -6,13 +6,12 @@ use super::words::code;
 use crate::arith::Float;
 use crate::audit;
 use crate::case::Case;
-use crate::contract::NAMED;
+use crate::epsilon::SPANNING;
 use crate::kernel::Scalar;
 use crate::map::{self, Ink};
 use crate::report::record::*;
 use crate::report::worst::severity;
 use crate::report::{MapPart, Record, group_digits};
-use crate::response::SPANNING;
 use maud::{Markup, PreEscaped, html};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -103,7 +102,7 @@ fn figure(map: &MapPart) -> Markup {
 
 /// In each scalar the worst of each kind that can be drawn, if the kernel is known here.
 fn drawings(row: &Row) -> Vec<Markup> {
-    let Some(run) = runnable(row.part) else { return Vec::new() };
+    let Ok(run) = row.part.spec().row() else { return Vec::new() };
     let mut all = Vec::new();
     for scalar in &row.scalars {
         for kind in Kind::ALL {
@@ -150,18 +149,6 @@ fn worst<'a>(scalar: &InScalar<'a>, kind: Kind) -> Option<(&'a str, &'a FindingP
 fn drawn<F: Scalar>(row: &audit::Row, bits: &str) -> Option<String> {
     let case = case_of::<F>(bits)?;
     catch_unwind(AssertUnwindSafe(|| map::drawing(&case, row).ok())).ok().flatten()
-}
-
-/// The row of a kernel that this program has, under the contract that the record names.
-fn runnable(part: &RowPart) -> Option<audit::Row> {
-    let epsilons: Vec<String> =
-        part.epsilons.iter().map(|(gate, value)| format!("{gate}={value}")).collect();
-    let epsilons = (!epsilons.is_empty()).then(|| epsilons.join(","));
-    std::iter::once("own").chain(NAMED.iter().map(|named| named.name)).find_map(|contract| {
-        let mut row = audit::Row::named(&part.kernel, epsilons.as_deref(), contract).ok()?;
-        row.set = part.set.clone();
-        (row.contract.describe() == part.contract).then_some(row)
-    })
 }
 
 /// A case from its bits, as `Case::hex` writes them.

@@ -1,4 +1,4 @@
-//! How much may still be written: a report stays below its limit whatever the record holds.
+//! The space that a report has left: it stays below its limit whatever the record holds.
 
 /// A number of bytes that is left.
 pub(super) struct Room {

@@ -52,6 +52,7 @@ fn finding(class: &str, first: Vec<Example>) -> FindingPart {
 /// Rows of these names on sources of those, with the same findings each.
 fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> Record {
     let row = |kernel: &String| RowPart {
+        contract_words: "own".to_owned(),
         kernel: kernel.clone(),
         selector: format!("--kernel {kernel}"),
         set: "source".to_owned(),

@@ -1,5 +1,6 @@
 //! A record by kernel row, as the report walks through it.
 
+use crate::report::pool::Pool;
 use crate::report::record::*;
 use std::collections::HashMap;
 
@@ -111,12 +112,12 @@ impl Row<'_> {
 
 impl InScalar<'_> {
     /// The sum of a rate over the sources.
-    pub fn sum(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Rate {
-        Rate::sum(self.results.iter().filter_map(|result| rate(result)))
+    pub fn sum(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Pool {
+        Pool::of(self.results.iter().filter_map(|result| rate(result)))
     }
 
     /// The sum of one kind.
-    pub fn all(&self, kind: Kind) -> Rate {
+    pub fn all(&self, kind: Kind) -> Pool {
         self.sum(|result| Some(kind.rate(&result.total)))
     }
 }

@@ -1,5 +1,6 @@
 //! Numbers, links and code in the report.
 
+use crate::report::pool::Pool;
 use crate::report::record::Rate;
 use crate::report::{group_digits, text};
 use maud::{Markup, html};
@@ -32,6 +33,11 @@ pub(super) fn share(rate: &Rate) -> String {
 /// `1,597 of 10,092`.
 pub(super) fn counts(rate: &Rate) -> String {
     format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
+}
+
+/// `; stored cases 3 of 57`, where a sum holds a sample and whole sets.
+pub(super) fn apart(sum: &Pool) -> String {
+    sum.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"))
 }
 
 /// Text that people wrote, as a link if it is an address of the web.

@@ -1,36 +1,29 @@
 //! From the sums of a mesh audit to its record.
 
-use super::geometry::Offender;
 use super::record::*;
 use crate::arith::Float;
-use crate::audit::{Row, Trials, quoted};
-use crate::corpus::mesh::Mesh;
+use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
+use crate::audit::{GroupCount, Row, Trials, quoted};
+use crate::mesh::{Noted, Part, Surface, Targets, Topology};
 use crate::report::build::{promised, provenance_of, row_part};
 use crate::report::{Context, Rate};
-use crate::watertight::{
-    CLASSES, ClassSums, Found, Noted, Part, Plan, RowFound, Tally, Targets, Topology,
-};
 use std::collections::BTreeMap;
+use std::marker::PhantomData;
 
 const FACES: [&str; 5] = ["sound", "collapsed", "without_area", "duplicated", "out_of_range"];
 const EDGES: [&str; 5] = ["shared", "open", "inconsistent", "non_manifold", "unsound"];
 const VERTICES: [&str; 4] = ["closed_fan", "open_fan", "several_fans", "irregular"];
 
-/// Makes the report of a mesh audit. The file is named as the user did.
-pub fn build(
-    mesh: &Mesh,
-    file: &str,
-    plan: &Plan,
-    found: &[Found],
-    context: &Context,
-) -> MeshReport {
+/// Makes the report of a mesh audit.
+pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context) -> MeshReport {
     let (mut scalars, mut offenders) = (Vec::new(), Vec::new());
+    let mesh = surface.mesh();
     let mut provenance = provenance_of(context);
     for found in found {
         if found.scalar == f32::NAME {
-            add_scalar::<f32>(mesh, file, plan, found, (&mut scalars, &mut offenders));
+            add_scalar::<f32>(surface, plan, found, &mut scalars, &mut offenders);
         } else {
-            add_scalar::<f64>(mesh, file, plan, found, (&mut scalars, &mut offenders));
+            add_scalar::<f64>(surface, plan, found, &mut scalars, &mut offenders);
         }
         let layers = found.layers.named().map(|(name, count)| (name.to_owned(), count));
         provenance.oracle_layers.insert(found.scalar.to_owned(), BTreeMap::from(layers));
@@ -43,7 +36,7 @@ pub fn build(
     }
     let result = MeshResult {
         mesh: MeshPart {
-            file: file.to_owned(),
+            file: surface.path().to_owned(),
             digest: mesh.digest.clone(),
             triangles: mesh.triangles.len() as u64,
             vertices: mesh.positions_f64.len() as u64,
@@ -59,17 +52,22 @@ pub fn build(
 }
 
 fn add_scalar<F: Float>(
-    mesh: &Mesh,
-    file: &str,
+    surface: &Surface,
     plan: &Plan,
     found: &Found,
-    (scalars, offenders): (&mut Vec<ScalarPart>, &mut Vec<Offender>),
+    scalars: &mut Vec<ScalarPart>,
+    offenders: &mut Vec<Offender>,
 ) {
-    let targets = Targets::new::<F>(mesh, &found.topology, plan.seed, plan.unit_direction);
-    let builder = Builder::<F> { mesh, file, targets: &targets, scalar: std::marker::PhantomData };
+    let parameters = plan.parameters();
+    let (Some(targets), Some(topology)) =
+        (surface.targets::<F>(&parameters, plan.seed), surface.topology::<F>())
+    else {
+        return;
+    };
+    let builder = Builder::<F> { surface, plan, targets: &targets, scalar: PhantomData };
     scalars.push(ScalarPart {
         scalar: F::NAME,
-        topology: builder.topology(&found.topology),
+        topology: builder.topology(topology),
         rays: Part::ALL.map(|part| targets.count(part) * plan.directions),
         cases: found.cases,
         offenders: found.offences.len() as u64,
@@ -85,10 +83,10 @@ fn add_scalar<F: Float>(
 }
 
 struct Builder<'a, F> {
-    mesh: &'a Mesh,
-    file: &'a str,
+    surface: &'a Surface,
+    plan: &'a Plan,
     targets: &'a Targets<'a>,
-    scalar: std::marker::PhantomData<F>,
+    scalar: PhantomData<F>,
 }
 
 impl<F: Float> Builder<'_, F> {
@@ -99,7 +97,10 @@ impl<F: Float> Builder<'_, F> {
     fn topology(&self, topology: &Topology) -> TopologyPart {
         let noted = |noted: &Noted| NotedPart {
             count: noted.count,
-            first_line: noted.first.as_ref().map(|(face, _)| self.mesh.lines[*face as usize]),
+            first_line: noted
+                .first
+                .as_ref()
+                .map(|(face, _)| self.surface.mesh().lines[*face as usize]),
             first_points: noted
                 .first
                 .as_ref()
@@ -130,14 +131,14 @@ impl<F: Float> Builder<'_, F> {
     }
 
     fn part(&self, row: &Row, part: Part, tally: &Tally, cracked: u64) -> MeshPartResult {
-        let class = |sums: &ClassSums| MeshClassResult {
+        let class = |sums: &GroupCount| MeshClassResult {
             rates: rates(std::slice::from_ref(sums)),
-            first_cracks: self.examples(row, part, &sums.groups.first_cracks),
-            first_doubles: self.examples(row, part, &sums.groups.first_doubles),
+            first_cracks: self.examples(row, part, &sums.first_cracks),
+            first_doubles: self.examples(row, part, &sums.first_doubles),
             first_odd_folds: self.examples(row, part, &sums.first_odd_folds),
             first_elsewhere: self.examples(row, part, &sums.first_elsewhere),
-            crack_digest: sums.groups.crack_digest.to_string(),
-            double_digest: sums.groups.double_digest.to_string(),
+            crack_digest: sums.crack_digest.to_string(),
+            double_digest: sums.double_digest.to_string(),
         };
         MeshPartResult {
             cracked,
@@ -151,13 +152,14 @@ impl<F: Float> Builder<'_, F> {
 
     fn examples(&self, row: &Row, part: Part, indices: &[u64]) -> Vec<MeshExample> {
         let example = |index: &u64| {
-            let id = self.targets.id::<F>(part, *index).to_string();
+            let Plan { seed, .. } = *self.plan;
+            let id = self.surface.id::<F>(part, &self.plan.parameters(), seed, *index).to_string();
             let (target, _) = self.targets.place(part, *index);
             let faces = self.targets.faces(part, target).iter();
-            let arguments = format!("{} --mesh {}", quoted(&id), quoted(self.file));
+            let arguments = format!("{} --mesh {}", quoted(&id), quoted(self.surface.path()));
             MeshExample {
                 points: self.points(&self.targets.points(part, target)),
-                lines: faces.map(|face| self.mesh.lines[*face as usize]).collect(),
+                lines: faces.map(|face| self.surface.mesh().lines[*face as usize]).collect(),
                 command: row.explain_command(&arguments),
                 id,
             }
@@ -167,17 +169,17 @@ impl<F: Float> Builder<'_, F> {
 }
 
 /// The rates of some classes together.
-fn rates(classes: &[ClassSums]) -> AcrossRates {
-    let sum = |count: fn(&ClassSums) -> u64| -> u64 { classes.iter().map(count).sum() };
-    let crossings = sum(|sums| sums.groups.crossings);
-    let folds = sum(|sums| sums.groups.folds);
+fn rates(classes: &[GroupCount]) -> AcrossRates {
+    let sum = |count: fn(&GroupCount) -> u64| -> u64 { classes.iter().map(count).sum() };
+    let crossings = sum(|sums| sums.crossings);
+    let folds = sum(|sums| sums.folds);
     let rate = |count: u64, of: u64| Rate::new(Trials::independent(count, of), true);
     AcrossRates {
-        cracks: rate(sum(|sums| sums.groups.cracks), crossings),
+        cracks: rate(sum(|sums| sums.cracks), crossings),
         elsewhere: rate(sum(|sums| sums.elsewhere), crossings),
-        doubles: rate(sum(|sums| sums.groups.doubles), crossings),
+        doubles: rate(sum(|sums| sums.doubles), crossings),
         even_crossings: rate(sum(|sums| sums.even), crossings),
-        odd_folds: rate(sum(|sums| sums.groups.odd_folds), folds),
-        missed_folds: rate(sum(|sums| sums.groups.missed_folds), folds),
+        odd_folds: rate(sum(|sums| sums.odd_folds), folds),
+        missed_folds: rate(sum(|sums| sums.missed_folds), folds),
     }
 }

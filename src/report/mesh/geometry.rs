@@ -1,26 +1,10 @@
 //! The offending edges and vertices as PLY and OBJ files, to open in a viewer.
 
-use super::record::MeshReport;
+use super::record::{MeshReport, Offender};
 use crate::corpus::mesh::number_text;
 use crate::report::Style;
 use std::collections::HashMap;
 use std::io::{self, Write};
-
-/// An edge (two points) or a vertex (one) where rows went wrong, with how many rays of all rows together
-/// say so. Cracks count for every row, doubles and folds for rows that promise exactly one hit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Offender {
-    /// `f32` or `f64`.
-    pub scalar: &'static str,
-    /// Two ends, or one vertex.
-    pub points: Vec<[f64; 3]>,
-    /// Rays that no triangle reported.
-    pub cracks: u32,
-    /// Rays that two triangles or more reported where one is right.
-    pub doubles: u32,
-    /// Rays over a fold with the wrong parity.
-    pub odd_folds: u32,
-}
 
 impl Offender {
     /// The worst that it is, cracks first.

@@ -7,7 +7,6 @@ mod record;
 mod text;
 
 pub use build::build;
-pub use geometry::Offender;
 pub use record::*;
 
 use super::Style;

@@ -1,6 +1,5 @@
 //! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
 
-use super::geometry::Offender;
 use crate::report::{Provenance, Rate, RowPart};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -66,7 +65,7 @@ pub struct ScalarPart {
     pub scalar: &'static str,
     /// What the mesh is in this scalar.
     pub topology: TopologyPart,
-    /// Rays at edges and at vertices: those asked, times the directions.
+    /// Rays at edges and at vertices: how many of each are tested, times the directions.
     pub rays: [u64; 2],
     /// Rays with the triangles that they were put to.
     pub cases: u64,
@@ -100,7 +99,7 @@ pub struct NotedPart {
     pub count: u64,
     /// The line of a face of the first.
     pub first_line: Option<u32>,
-    /// The first's points; infinities, which JSON has not, as null.
+    /// The first's points; infinities as null, because JSON has none.
     pub first_points: Vec<[f64; 3]>,
 }
 
@@ -124,7 +123,7 @@ pub struct MeshRowResult {
 pub struct MeshPartResult {
     /// How many of them some ray found a crack at.
     pub cracked: u64,
-    /// How many were asked about.
+    /// How many were tested.
     pub of: u64,
     /// All classes together.
     pub total: AcrossRates,
@@ -184,4 +183,20 @@ pub struct MeshExample {
     pub lines: Vec<u32>,
     /// The command that shows it again.
     pub command: String,
+}
+
+/// An edge (two points) or a vertex (one) where rows went wrong, with how many rays of all rows together
+/// say so. Cracks count for every row, doubles and folds for rows that promise exactly one hit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Offender {
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Two ends, or one vertex.
+    pub points: Vec<[f64; 3]>,
+    /// Rays that no triangle reported.
+    pub cracks: u32,
+    /// Rays that two triangles or more reported where one is right.
+    pub doubles: u32,
+    /// Rays over a fold with the wrong parity.
+    pub odd_folds: u32,
 }

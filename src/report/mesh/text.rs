@@ -2,7 +2,7 @@
 
 use super::record::*;
 use crate::report::text::{share_column, short_count};
-use crate::report::{Rate, Style, group_digits};
+use crate::report::{Rate, Style, group_digits, number_of};
 use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
@@ -11,20 +11,20 @@ pub(super) fn write(report: &MeshReport, style: Style, out: &mut dyn Write) -> i
     let (result, provenance) = (&record.result, &record.provenance);
     writeln!(
         out,
-        "{}, {}: {} triangles, {} vertices, digest {}",
+        "{}, {}: {}, {}, digest {}",
         provenance.tool,
         result.mesh.file,
-        group_digits(result.mesh.triangles),
-        group_digits(result.mesh.vertices),
+        number_of(result.mesh.triangles, "triangle", "triangles"),
+        number_of(result.mesh.vertices, "vertex", "vertices"),
         result.mesh.digest
     )?;
     writeln!(
         out,
-        "{} rays at each edge and vertex{}, seed {}, {} threads, {:.1} s",
-        result.directions,
+        "{} at each edge and vertex{}, seed {}, {}, {:.1} s",
+        number_of(result.directions, "ray", "rays"),
         if result.unit_directions { " with unit directions" } else { "" },
         result.seed,
-        provenance.threads,
+        number_of(provenance.threads as u64, "thread", "threads"),
         provenance.seconds
     )?;
     result.scalars.iter().try_for_each(|part| write_scalar(record, part, style, out))

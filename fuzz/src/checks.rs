@@ -1,0 +1,194 @@
+//! What must hold for every input, whatever its kernel gets wrong: the parts of this crate agree with
+//! each other. A kernel's own disagreements are told apart from these.
+
+use hairline::internals::arith::Float;
+use hairline::internals::audit::{CorpusSet, Source, Unobserved};
+use hairline::internals::case::{Case, Draw};
+use hairline::internals::corpus::lines::AnyCase;
+use hairline::internals::epsilon::{Axis, Question, Request, run, tunable_gates};
+use hairline::internals::explore::inputs::{Input, of_kernel};
+use hairline::internals::explore::{Signature, mutate};
+use hairline::internals::judge::{self, Obligation};
+use hairline::internals::kernel::{Scalar, Subject, Verdict, refused_by};
+use hairline::internals::oracle::{self, Layers};
+use hairline::internals::orientation::{
+    self, Points, ScaledPoints, default_rows, defined_determinant,
+};
+use num_rational::BigRational;
+use num_traits::Zero;
+use std::fmt;
+
+/// Two parts of this crate disagree: a bug in one of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contradiction(String);
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Contradiction {}
+
+fn agree<T: PartialEq + fmt::Debug>(
+    about: &dyn fmt::Display,
+    left: T,
+    right: T,
+) -> Result<(), Contradiction> {
+    if left == right {
+        return Ok(());
+    }
+    Err(Contradiction(format!("{about}: {left:?} and {right:?}")))
+}
+
+/// The oracle, one by one and in lanes, gives the truth of its definition in rationals.
+pub fn check_oracle<F: Float>(case: &Case<F>) -> Result<(), Contradiction> {
+    let defined = oracle::define(case).truth;
+    let about = format!("{} {}", F::NAME, case.hex());
+    agree(&format!("the oracle and its definition on {about}"), oracle::truth(case), defined)?;
+    // More than one group of lanes, and a rest; the neighbours need other layers.
+    let others = (0..16).map(|i| mutate(case, &mut Draw::new("lanes", 1, i)));
+    let cases: Vec<Case<F>> = std::iter::once(*case).chain(others).collect();
+    let (mut truths, mut layers) = (Vec::new(), Layers::default());
+    oracle::truths(&cases, &mut truths, &mut layers);
+    let single: Vec<_> = cases.iter().map(oracle::truth).collect();
+    agree(&format!("truths in lanes and one by one about {about}"), truths, single)
+}
+
+/// The orientation predicates' exact sign is that of the definition on the points of a case, and
+/// `robust` gives it where it promises to.
+pub fn check_orientation<F: Float + orientation::Scalar>(
+    case: &Case<F>,
+) -> Result<(), Contradiction> {
+    let [o, d, a, b, c] = case.vectors();
+    let projected = |axes: [usize; 2], points: [[F; 3]; 3]| {
+        Points::two(points.map(|point| axes.map(|axis| point[axis])))
+    };
+    for points in [
+        Points::three([o, a, b, c]),
+        Points::three([a, d, c, b]),
+        projected([0, 1], [a, b, c]),
+        projected([1, 2], [a, b, o]),
+        projected([2, 0], [o, b, c]),
+    ] {
+        check_points(&points)?;
+    }
+    Ok(())
+}
+
+fn check_points<F: Float + orientation::Scalar>(points: &Points<F>) -> Result<(), Contradiction> {
+    let defined = defined_determinant(points);
+    let exact = ScaledPoints::new(points).map(|scaled| scaled.determinant());
+    let about = format!("the exact determinant and its definition on {points:?}");
+    agree(&about, exact.as_ref().map(|exact| exact.to_rational()), defined.clone())?;
+    let Some(defined) = defined else { return Ok(()) };
+    let sign = defined.cmp(&BigRational::zero());
+    let (low, high) = (2f64.powi(-250), 2f64.powi(250));
+    let in_range = |x: &F| x.is_zero() || (low..=high).contains(&x.to_f64().abs());
+    if !points.iter().flatten().all(in_range) {
+        return Ok(());
+    }
+    for row in default_rows(&[]) {
+        if let Some((_, answer)) = row.answer(points) {
+            let finding = orientation::judge(answer, sign);
+            agree(&format!("{} on {points:?}", row.label()), finding, None)?;
+        }
+    }
+    Ok(())
+}
+
+fn verdict<F: Float>(subject: &dyn Subject<F>, case: &Case<F>, epsilons: &[F]) -> Verdict<F> {
+    let mut verdict = [Verdict::miss(None)];
+    subject.run(std::slice::from_ref(case), epsilons, &mut verdict);
+    verdict[0]
+}
+
+/// A kernel's run agrees with its margins: at the given epsilons, at each margin and just above it.
+pub fn check_kernel<F: Scalar>(input: &Input<F>) -> Result<(), Contradiction> {
+    let Input { entry, epsilons, case } = input;
+    let (subject, gated) = of_kernel::<F>(entry);
+    let about = format!("{} {} {epsilons:?} on {}", entry.info.name, F::NAME, case.hex());
+    let measured = gated.measure(case);
+    let margins = &measured.margins;
+    let refusal = |epsilons: &[F]| {
+        let verdict = verdict(subject, case, epsilons);
+        (verdict.hit, verdict.refused_by.map(usize::from))
+    };
+    let told = |epsilons: &[F]| {
+        let refused = refused_by(margins, epsilons);
+        (refused.is_none(), refused)
+    };
+    agree(&format!("run and margins of {about}"), refusal(epsilons), told(epsilons))?;
+    let most = F::infinity().offset_ulps(-1);
+    let at: Vec<F> = margins.iter().map(|m| if most < *m { most } else { *m }).collect();
+    if at.iter().any(|margin| *margin < -most) {
+        return Ok(());
+    }
+    agree(&format!("margins accept {about}"), refusal(&at), (true, None))?;
+    for gate in (0..at.len()).filter(|&gate| margins[gate] < most) {
+        let mut above = at.clone();
+        above[gate] = above[gate].offset_ulps(1);
+        let about = format!("above the margin of gate {gate} of {about}");
+        agree(&about, refusal(&above), (false, Some(gate)))?;
+    }
+    Ok(())
+}
+
+/// What the kernel of an input gets wrong under its own contract; none if nothing.
+pub fn disagreement<F: Scalar>(input: &Input<F>) -> Option<Signature> {
+    Signature::of(&input.row(), &input.case)
+}
+
+/// The response of a kernel on a case and some of its neighbours says, gate by gate, how often it is
+/// wrong when it is run: at the given epsilon, at each case's margin and beside it. Any axis does; to
+/// make one takes longer than the check.
+pub fn check_response<F: Scalar>(input: &Input<F>, axis: &Axis<F>) -> Result<(), Contradiction>
+where
+    AnyCase: From<Case<F>>,
+{
+    let Input { entry, epsilons, case } = input;
+    let mut cases = vec![*case];
+    cases.extend((0..7).map(|i| mutate(case, &mut Draw::new("response", 1, i))));
+    let (row, (subject, gated)) = (input.row(), of_kernel::<F>(entry));
+    let asked = |case| judge::asked(case, &oracle::truth(case), &row.contract, false);
+    let asked: Vec<Obligation> = cases.iter().map(asked).collect();
+    let sources = [Source::Corpus(stored(&cases))];
+    let gates = tunable_gates(entry.info.gates);
+    let request = Request { row: &row, gated, gates: &gates, axis, exact: true, relative: false };
+    for response in &run(&request, &sources, &Unobserved)[0].gates {
+        let gate = response.gate;
+        let margin = |case: &Case<F>| gated.measure(case).margins[gate];
+        let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());
+        let about = margins.flat_map(|m| [m.offset_ulps(-1), m, m.offset_ulps(1)]);
+        let lowest = hairline::internals::epsilon::floor::<F>(&entry.info.gates[gate]);
+        for epsilon in about.chain([epsilons[gate]]).filter(|e| lowest <= *e && e.is_finite()) {
+            let mut at = epsilons.clone();
+            at[gate] = epsilon;
+            let wrong = |obligation: Obligation, hit: bool| {
+                let all = cases.iter().zip(&asked).filter(|(_, asked)| **asked == obligation);
+                all.filter(|(case, _)| verdict(subject, case, &at).hit == hit).count() as u64
+            };
+            let run = [wrong(Obligation::MustHit, false), wrong(Obligation::MustMiss, true)];
+            let told = [Question::FalseMiss, Question::FalseHit]
+                .map(|question| response.curve(question).wrong(epsilon).exact());
+            let name = entry.info.name;
+            let about = format!("response and run of {name} at {at:?} about {}", case.hex());
+            agree(&about, told, run.map(Some))?;
+        }
+    }
+    Ok(())
+}
+
+fn stored<F: Float>(cases: &[Case<F>]) -> CorpusSet
+where
+    AnyCase: From<Case<F>>,
+{
+    let mut set = CorpusSet { file: "fuzz".to_owned(), ..CorpusSet::default() };
+    for case in cases {
+        match AnyCase::from(*case) {
+            AnyCase::F32(case) => set.f32.push((String::new(), case)),
+            AnyCase::F64(case) => set.f64.push((String::new(), case)),
+        }
+    }
+    set
+}

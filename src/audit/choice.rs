@@ -1,0 +1,294 @@
+//! How epsilons are chosen: as sources have them, from a published library, or given.
+
+use super::epsilon_text::EpsilonText;
+use super::row::{PlanError, Row, RowSpec};
+use crate::contract::Contract;
+use crate::kernel::{Entry, Gate, PRESETS, Preset, Tunable, find};
+use crate::suggest::did_you_mean;
+
+/// How a plan's epsilons are chosen.
+#[derive(Clone, Debug)]
+pub enum EpsilonChoice {
+    /// As the sources have it; two rows where a source gives no value.
+    Source,
+    /// A published library's.
+    Preset(String),
+    /// `gate=value` pairs, the other gates as the source has them.
+    Given(Vec<(String, String)>),
+}
+
+impl EpsilonChoice {
+    /// From `gate=value,...`; no gate twice.
+    pub fn parse(text: &str) -> Result<EpsilonChoice, PlanError> {
+        let pairs = text.split(',').map(|pair| {
+            let (gate, value) = pair.split_once('=').ok_or_else(|| {
+                PlanError(format!("'{pair}' is not GATE=VALUE, as parallel=1e-6"))
+            })?;
+            Ok((gate.trim().to_owned(), value.trim().to_owned()))
+        });
+        let pairs: Vec<(String, String)> = pairs.collect::<Result<_, PlanError>>()?;
+        if let Some(i) = (1..pairs.len()).find(|&i| pairs[..i].iter().any(|p| p.0 == pairs[i].0)) {
+            return Err(PlanError(format!("gate '{}' is given twice", pairs[i].0)));
+        }
+        Ok(EpsilonChoice::Given(pairs))
+    }
+
+    /// The rows of some kernels under this choice; a contract in words ([`Contract::from_words`])
+    /// overrides each kernel's own.
+    pub fn rows(
+        &self,
+        entries: &[&'static Entry],
+        contract: Option<&str>,
+    ) -> Result<Vec<Row>, PlanError> {
+        let words = contract.unwrap_or("own");
+        let mut rows = Vec::new();
+        // Each given epsilon must reach a gate of some kernel.
+        let missing = |(name, _): &(String, String)| Err(unknown_gate(name, entries));
+        let mut applied: Vec<Result<(), PlanError>> = self.given().iter().map(missing).collect();
+        for entry in entries {
+            let contract =
+                Contract::from_words(words, Some(&entry.info.contract)).map_err(PlanError)?;
+            let decimals = |values: &[&str]| -> Vec<EpsilonText> {
+                let text = |text: &&str| EpsilonText::of(text).expect("the kernel's own epsilons");
+                values.iter().map(text).collect()
+            };
+            let sets = entry.info.epsilon_sets;
+            match self {
+                EpsilonChoice::Source => rows.extend(sets.iter().map(|set| Row {
+                    entry,
+                    set: set.name.to_owned(),
+                    epsilons: decimals(set.values),
+                    contract,
+                })),
+                EpsilonChoice::Preset(name) => {
+                    let preset = find_preset(name)?;
+                    let mut epsilons = decimals(sets[0].values);
+                    if preset.entries.is_empty() {
+                        epsilons.fill(EpsilonText::Decimal("0".to_owned()));
+                    }
+                    let mut fits = preset.entries.is_empty();
+                    let mut taken = Vec::new();
+                    for (gate, epsilon) in entry.info.gates.iter().zip(&mut epsilons) {
+                        if let Some(found) = preset.entries.iter().find(|entry| entry.fits(gate)) {
+                            *epsilon = found.value.into();
+                            taken.push(gate.name);
+                            fits = true;
+                        }
+                    }
+                    if fits {
+                        let set = if taken.is_empty() {
+                            name.clone()
+                        } else {
+                            format!("{name}: {}", taken.join("+"))
+                        };
+                        rows.push(Row { entry, set, epsilons, contract });
+                    }
+                }
+                EpsilonChoice::Given(pairs) => {
+                    let mut epsilons = decimals(sets[0].values);
+                    let mut words = Vec::new();
+                    for (i, (name, text)) in pairs.iter().enumerate() {
+                        let Some(k) = entry.info.gates.iter().position(|gate| gate.name == name)
+                        else {
+                            continue;
+                        };
+                        match checked(entry.info.name, &entry.info.gates[k], text) {
+                            Ok(epsilon) => {
+                                epsilons[k] = epsilon;
+                                applied[i] = Ok(());
+                                words.push(format!("{name}={text}"));
+                            }
+                            // Another kernel may take it.
+                            Err(error) if applied[i].is_err() => applied[i] = Err(error),
+                            Err(_) => {}
+                        }
+                    }
+                    let set =
+                        if words.is_empty() { sets[0].name.to_owned() } else { words.join(",") };
+                    rows.push(Row { entry, set, epsilons, contract });
+                }
+            }
+        }
+        applied.into_iter().collect::<Result<(), PlanError>>()?;
+        if rows.is_empty() {
+            let EpsilonChoice::Preset(name) = self else { return Ok(rows) };
+            return Err(PlanError(format!(
+                "preset '{name}' fits no selected kernel: no gate has its name and dimension"
+            )));
+        }
+        Ok(rows)
+    }
+
+    fn given(&self) -> &[(String, String)] {
+        match self {
+            EpsilonChoice::Given(pairs) => pairs,
+            _ => &[],
+        }
+    }
+}
+
+/// The preset of a name.
+fn find_preset(name: &str) -> Result<&'static Preset, PlanError> {
+    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
+        let names = PRESETS.iter().map(|preset| preset.name);
+        let advice = did_you_mean(name, names, "hairline list presets");
+        PlanError(format!("unknown epsilon preset '{name}'{advice}"))
+    })
+}
+
+/// An epsilon that a gate can take.
+fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanError> {
+    let epsilon = EpsilonText::of(text)
+        .ok_or_else(|| PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
+    let Some(value) = epsilon.value::<f64>() else {
+        let name = gate.name;
+        return Err(PlanError(format!(
+            "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON"
+        )));
+    };
+    match gate.epsilon {
+        Tunable::Fixed => {
+            Err(PlanError(format!("gate '{}' of {kernel} takes no epsilon", gate.name)))
+        }
+        Tunable::NonNegative if value < 0.0 => Err(PlanError(format!(
+            "gate '{}' of {kernel} refuses where {}: below 0 that is the same as 0, so {text} means nothing",
+            gate.name, gate.refuses
+        ))),
+        _ => Ok(epsilon),
+    }
+}
+
+fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
+    let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
+    let advice = did_you_mean(name, gates, "hairline list kernels");
+    PlanError(format!("no selected kernel has a gate '{name}'{advice}"))
+}
+
+impl Row {
+    /// The row of a kernel, its epsilons as [`Row::epsilon_argument`] writes them (none: as the source
+    /// has them), and a contract in the words of [`Contract::from_words`].
+    pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, PlanError> {
+        let entry = find(kernel).ok_or_else(|| PlanError(format!("unknown kernel '{kernel}'")))?;
+        let choice = match epsilons {
+            Some(text) => EpsilonChoice::parse(text)?,
+            None => EpsilonChoice::Source,
+        };
+        Ok(choice.rows(&[entry], Some(contract))?.swap_remove(0))
+    }
+}
+
+impl RowSpec {
+    /// The row, if this program has its kernel.
+    pub fn row(&self) -> Result<Row, PlanError> {
+        let row = Row::named(&self.kernel, self.epsilons.as_deref(), &self.contract)?;
+        Ok(Row { set: self.set.clone().unwrap_or(row.set), ..row })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{KERNELS, find};
+
+    fn rows(names: &[&str], choice: EpsilonChoice) -> Result<Vec<Row>, PlanError> {
+        let entries: Vec<_> = names.iter().map(|name| find(name).unwrap()).collect();
+        choice.rows(&entries, None)
+    }
+
+    fn given(pairs: &[(&str, &str)]) -> EpsilonChoice {
+        EpsilonChoice::Given(
+            pairs.iter().map(|(g, v)| ((*g).to_owned(), (*v).to_owned())).collect(),
+        )
+    }
+
+    #[test]
+    fn the_default_plan_has_two_rows_where_a_source_gives_no_value() {
+        let all: Vec<_> = KERNELS.iter().collect();
+        let rows = EpsilonChoice::Source.rows(&all, None).unwrap();
+        let of = |name: &str| rows.iter().filter(|row| row.entry.info.name == name).count();
+        assert_eq!((of("plane-unit-normal"), of("moller-trumbore")), (2, 1));
+    }
+
+    #[test]
+    fn epsilons_go_to_the_gates_that_have_them() {
+        let rows =
+            rows(&["moller-trumbore", "half-space"], given(&[("parallel", "1e-9")])).unwrap();
+        assert_eq!(rows[0].epsilons::<f32>(), [1e-9, 0.0]);
+        assert_eq!(rows[0].set, "parallel=1e-9");
+        assert_eq!(rows[1].set, "source");
+    }
+
+    #[test]
+    fn bad_epsilons_are_refused_with_a_reason() {
+        let message =
+            |names: &[&str], pairs: &[(&str, &str)]| rows(names, given(pairs)).err().unwrap().0;
+        assert!(
+            message(&["moller-trumbore"], &[("paralel", "0")]).contains("did you mean 'parallel'?")
+        );
+        assert!(message(&["moller-trumbore"], &[("parallel", "-1e-6")]).contains("means nothing"));
+        assert!(message(&["moller-trumbore"], &[("edge", "small")]).contains("is not an epsilon"));
+        assert!(message(&["moller-trumbore"], &[("edge", "1e309")]).contains("is not an epsilon"));
+        assert!(message(&["havel-herout"], &[("u", "0")]).contains("takes no epsilon"));
+        assert!(
+            message(&["moller-trumbore"], &[("edge", "nan*EPSILON")]).contains("is not an epsilon")
+        );
+        // A kernel that cannot take a value does not keep the others from taking it.
+        let rows = rows(&["havel-herout", "cramer"], given(&[("t", "1e-6")])).unwrap();
+        assert_eq!((rows[0].set.as_str(), rows[1].set.as_str()), ("source", "t=1e-6"));
+    }
+
+    #[test]
+    fn an_epsilon_that_a_scalar_has_not_is_refused_there() {
+        let row = |text: &str| rows(&["moller-trumbore"], given(&[("parallel", text)])).unwrap();
+        let in_f32 = |text: &str| row(text)[0].check::<f32>().map_err(|error| error.0);
+        assert!(in_f32("1e39").unwrap_err().contains("1e39 is beyond the range of f32"));
+        assert!(in_f32("1e-60").unwrap_err().contains("1e-60 is 0 in f32"));
+        for fine in ["0", "0.0e5", "1e-45", "3e38", "EPSILON"] {
+            assert_eq!(in_f32(fine), Ok(()), "{fine}");
+        }
+        assert_eq!(row("1e-60")[0].check::<f64>(), Ok(()));
+        assert!(row("1e-400")[0].check::<f64>().is_err());
+    }
+
+    #[test]
+    fn presets_go_only_where_the_dimension_is_the_same() {
+        let bvh = EpsilonChoice::Preset("bvh".to_owned());
+        let taken = rows(&["moller-trumbore", "cramer", "woop-watertight"], bvh).unwrap();
+        assert_eq!(taken.len(), 2, "woop's determinant has another dimension");
+        assert_eq!(taken[1].epsilons::<f32>(), [f32::EPSILON, f32::EPSILON, 0.0]);
+        let bullet = EpsilonChoice::Preset("bullet".to_owned());
+        assert!(
+            rows(&["moller-trumbore"], bullet).err().unwrap().0.contains("fits no selected kernel")
+        );
+    }
+
+    #[test]
+    fn a_command_names_all_that_a_row_is() {
+        let contract = "closed-ray,coplanar=free";
+        let mut row = Row::named("moller-trumbore", Some("parallel=1e-6"), contract).unwrap();
+        let command = row.explain_command("'x'");
+        let expected = "hairline explain 'x' --kernel moller-trumbore \
+                        --epsilon 'parallel=1e-6,edge=0' --contract closed-ray,coplanar=free";
+        assert_eq!(command, expected);
+        row.contract.band = "4ulps".parse().ok();
+        assert_eq!(row.explain_command("'x'"), format!("{expected} --band 4ulps"));
+    }
+
+    #[test]
+    fn a_row_comes_back_from_its_text() {
+        for (kernel, epsilons, contract) in [
+            ("moller-trumbore", None, "own"),
+            ("moller-trumbore+fma", Some("parallel=16*EPSILON,edge=-1e-7"), "own,band=4ulps"),
+            ("half-space", None, "front-closed-ray,invalid=free,band=1e-3"),
+        ] {
+            let row = Row::named(kernel, epsilons, contract).unwrap();
+            let text = serde_json::to_string(&row.spec()).unwrap();
+            let again = serde_json::from_str::<RowSpec>(&text).unwrap().row().unwrap();
+            assert_eq!(again.spec(), row.spec());
+            assert_eq!((again.epsilons, again.contract), (row.epsilons, row.contract), "{text}");
+        }
+        let unknown =
+            RowSpec { kernel: "x".into(), set: None, epsilons: None, contract: "own".into() };
+        assert_eq!(unknown.row().err().unwrap().0, "unknown kernel 'x'");
+    }
+}

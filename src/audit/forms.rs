@@ -1,0 +1,75 @@
+//! How values are written that serde or JSON has no form for.
+
+/// `f32` or `f64`. Written out, serde would take it for text to borrow from its input.
+pub(super) type ScalarName = &'static str;
+
+/// A scalar by its name.
+pub(super) mod scalar_name {
+    use crate::arith::Float;
+    use serde::{Deserialize, Deserializer, Serializer, de};
+
+    pub fn serialize<S: Serializer>(name: &&'static str, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(name)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D::Error> {
+        let text = String::deserialize(from)?;
+        let known = [f32::NAME, f64::NAME].into_iter().find(|name| *name == text);
+        known.ok_or_else(|| de::Error::custom(format!("unknown scalar '{text}'")))
+    }
+}
+
+/// A float by its bits: JSON has no infinity.
+pub(super) mod bits {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_u64(value.to_bits())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        u64::deserialize(from).map(f64::from_bits)
+    }
+}
+
+/// A place with its score.
+pub(super) mod scored {
+    use crate::audit::Place;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(
+        value: &Option<(f64, Place)>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.map(|(score, place)| (score.to_bits(), place)).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Option<(f64, Place)>, D::Error> {
+        let stored = Option::<(u64, Place)>::deserialize(from)?;
+        Ok(stored.map(|(score, place)| (f64::from_bits(score), place)))
+    }
+}
+
+/// A map whose keys are no strings, as a list of pairs.
+pub(super) mod pairs {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::collections::BTreeMap;
+
+    pub fn serialize<K: Serialize, V: Serialize, S: Serializer>(
+        map: &BTreeMap<K, V>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_seq(map)
+    }
+
+    pub fn deserialize<'de, K, V, D>(from: D) -> Result<BTreeMap<K, V>, D::Error>
+    where
+        K: Deserialize<'de> + Ord,
+        V: Deserialize<'de>,
+        D: Deserializer<'de>,
+    {
+        Ok(Vec::<(K, V)>::deserialize(from)?.into_iter().collect())
+    }
+}

@@ -1,0 +1,98 @@
+//! What the verdicts of one row on the groups of a chunk come to.
+
+use super::chunk::Chunk;
+use super::group_count::Judged;
+use super::rows::{RowIn, verdicts_of};
+use super::source::Source;
+use crate::case::Case;
+use crate::contract::Contract;
+use crate::judge::{GroupTruth, may_be_elsewhere};
+use crate::kernel::{Scalar, Verdict};
+use crate::oracle::{self, Layers};
+use crate::truth::Facing;
+
+/// Neighbours of crossings without a hit that go through together, about.
+const NEIGHBOURS: usize = 4096;
+
+impl<F: Scalar> RowIn<F> {
+    /// Judges the groups of a chunk, of which a contract asks `truths`. Those on which the kernel failed
+    /// come as their index alone.
+    pub fn judge_groups<'c>(
+        &self,
+        source: &Source,
+        chunk: &'c Chunk<F>,
+        (contract, truths): (&Contract, &'c [GroupTruth]),
+        verdicts: &'c [Verdict<F>],
+    ) -> impl Iterator<Item = Result<Judged, u64>> + use<'c, F> {
+        let elsewhere = match source.has_neighbours() {
+            true => self.elsewhere(source, chunk, (contract, truths), verdicts),
+            false => Vec::new(),
+        };
+        chunk.groups().zip(truths).map(move |((index, cases), truth)| {
+            let verdicts = &verdicts[cases.clone()];
+            if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
+                return Err(index);
+            }
+            let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
+            let elsewhere = elsewhere.binary_search(&index).is_ok();
+            Ok(Judged { index, cases, truth: *truth, hits, elsewhere })
+        })
+    }
+
+    /// Of crossings without a hit, by index, those whose hit may be among the neighbours.
+    fn elsewhere(
+        &self,
+        source: &Source,
+        chunk: &Chunk<F>,
+        (contract, truths): (&Contract, &[GroupTruth]),
+        verdicts: &[Verdict<F>],
+    ) -> Vec<u64> {
+        let missed = chunk.groups().zip(truths).filter(|((_, cases), truth)| {
+            let mut verdicts = verdicts[cases.clone()].iter();
+            **truth == GroupTruth::Crossing
+                && verdicts.all(|verdict| !verdict.hit && verdict.failure.is_none())
+        });
+        let (mut elsewhere, mut cases, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
+        for ((index, group), _) in missed {
+            let Some(crossing) = chunk.truths[group.start].crossing() else { continue };
+            // Where the neighbours are too many to be tried, nobody is accused.
+            let Some(more) = source.neighbours::<F>(index) else {
+                elsewhere.push(index);
+                continue;
+            };
+            cases.extend(more);
+            waiting.push((index, crossing.facing, cases.len()));
+            if cases.len() >= NEIGHBOURS {
+                elsewhere.extend(self.with_hit_nearby(contract, &cases, &waiting));
+                cases.clear();
+                waiting.clear();
+            }
+        }
+        elsewhere.extend(self.with_hit_nearby(contract, &cases, &waiting));
+        elsewhere.sort_unstable();
+        elsewhere
+    }
+
+    /// The indices whose hit may be among the neighbours: each with the side that its group faces, and
+    /// where its neighbours end.
+    fn with_hit_nearby(
+        &self,
+        contract: &Contract,
+        cases: &[Case<F>],
+        waiting: &[(u64, Facing, usize)],
+    ) -> Vec<u64> {
+        let mut truths = Vec::with_capacity(cases.len());
+        oracle::truths(cases, &mut truths, &mut Layers::default());
+        let mut verdicts = vec![Verdict::miss(None); cases.len()];
+        if !cases.is_empty() {
+            verdicts_of(self.subject, cases, &self.epsilons, &mut verdicts);
+        }
+        let mut start = 0;
+        let found = waiting.iter().filter_map(|(index, facing, end)| {
+            let around = std::mem::replace(&mut start, *end)..*end;
+            let (truths, verdicts) = (&truths[around.clone()], &verdicts[around.clone()]);
+            may_be_elsewhere(*facing, &cases[around], truths, verdicts, contract).then_some(*index)
+        });
+        found.collect()
+    }
+}

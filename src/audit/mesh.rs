@@ -1,0 +1,275 @@
+//! `hairline mesh`: the groups at a mesh's edges and vertices by class of ray, and which edges and
+//! vertices are at fault.
+
+use super::chunk::{Chunk, SourceSummary};
+use super::group_count::{GroupCount, Outcome};
+use super::row::Row;
+use super::rows::{Rows, verdicts_of};
+use super::source::Source;
+use crate::case::Parameters;
+use crate::contract::Across;
+use crate::engine::{self, Merge, Observer};
+use crate::kernel::{Scalar, Verdict};
+use crate::mesh::{Aim, Part, Surface};
+use crate::oracle::Layers;
+use crate::truth::Truth;
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+
+/// What to run on a mesh.
+pub struct Plan {
+    /// The kernels with their epsilons and contracts.
+    pub rows: Vec<Row>,
+    /// Rays at each edge and vertex.
+    pub directions: u64,
+    /// Which random rays.
+    pub seed: u64,
+    /// Whether directions are replaced by their rounded unit vectors.
+    pub unit_direction: bool,
+    /// How many examples of each class and kind to keep, by index.
+    pub examples: usize,
+}
+
+impl Plan {
+    /// What the cases are put through.
+    pub fn parameters(&self) -> Parameters {
+        Parameters { unit_direction: self.unit_direction, ..Parameters::default() }
+    }
+
+    /// The groups at a part of a mesh.
+    fn source(&self, surface: &Arc<Surface>, part: Part) -> Source {
+        Source::MeshPart {
+            surface: surface.clone(),
+            part,
+            parameters: self.parameters(),
+            seed: self.seed,
+            directions: self.directions,
+        }
+    }
+}
+
+/// What a run in one scalar found.
+pub struct Found {
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// The rows whose kernels run in this scalar.
+    pub rows: Vec<RowFound>,
+    /// What some row did wrong, by part and target.
+    pub offences: Vec<Offence>,
+    /// Cases that went through the oracle: a ray and a triangle each.
+    pub cases: u64,
+    /// Which layer of the oracle decided.
+    pub layers: Layers,
+}
+
+/// What one row did.
+pub struct RowFound {
+    /// The row's place in the plan.
+    pub row: usize,
+    /// By [`Part::ALL`].
+    pub tallies: [Tally; 2],
+    /// How many edges, and how many vertices, have a crack.
+    pub cracked: [u64; 2],
+    /// Time spent in the kernel, over all threads.
+    pub nanoseconds: u64,
+}
+
+/// The classes of rays, by how they meet their target: whether exactly, as the oracle says, and
+/// whether they were made to graze a triangle.
+pub const CLASSES: [&str; 4] = ["exact", "exact-grazing", "near", "near-grazing"];
+
+/// Everything that is added up for one row at one part of a mesh in one scalar.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// By [`CLASSES`].
+    pub classes: [GroupCount; 4],
+    /// Rays on which the kernel gave no verdict on some triangle: they are not judged.
+    pub failures: u64,
+    /// The first of them, by index.
+    pub first_failures: Vec<u64>,
+}
+
+/// An edge or vertex with a crack of some row, whatever its contract, or with a double or a wrong fold
+/// of one that promises exactly one hit; and how many rays of all rows together say so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Offence {
+    /// Edge or vertex.
+    pub part: Part,
+    /// Which: its place among the targets.
+    pub target: u32,
+    /// Cracks.
+    pub cracks: u32,
+    /// Doubles, of rows that promise exactly one hit.
+    pub doubles: u32,
+    /// Folds of wrong parity, of rows that promise exactly one hit.
+    pub odd_folds: u32,
+}
+
+/// Runs a plan on a mesh in one scalar, which the surface has. The sums do not depend on the number of
+/// threads.
+pub fn run<F: Scalar>(surface: &Arc<Surface>, plan: &Plan, observer: &dyn Observer) -> Found {
+    let rows = Rows::<F>::new(&plan.rows);
+    let [edges, vertices] = Part::ALL.map(|part| {
+        let source = plan.source(surface, part);
+        let targets = source.count::<F>() / plan.directions;
+        let run = Run { plan, part, source, rows: &rows, observer };
+        (part, run.sums(Marks::new(targets, rows.each.len())))
+    });
+    let parts = [&edges, &vertices];
+    let found = rows.each.iter().enumerate().map(|(i, row)| RowFound {
+        row: row.number,
+        tallies: parts.map(|(_, (_, sums))| sums.rows[i].0.clone()),
+        cracked: parts.map(|(_, (marks, _))| marks.cracked(i)),
+        nanoseconds: parts.iter().map(|(_, (_, sums))| sums.rows[i].1).sum(),
+    });
+    let mut layers = Layers::default();
+    parts.iter().for_each(|(_, (_, sums))| layers.merge(&sums.summary.layers));
+    Found {
+        scalar: F::NAME,
+        rows: found.collect(),
+        offences: parts.iter().flat_map(|(part, (marks, _))| marks.offences(*part)).collect(),
+        cases: parts.iter().map(|(_, (_, sums))| sums.summary.cases).sum(),
+        layers,
+    }
+}
+
+/// One part of a mesh.
+struct Run<'a, F: 'static> {
+    plan: &'a Plan,
+    part: Part,
+    source: Source,
+    rows: &'a Rows<F>,
+    observer: &'a dyn Observer,
+}
+
+/// What chunks add up to.
+struct Sums {
+    summary: SourceSummary,
+    rows: Vec<(Tally, u64)>,
+    examples: usize,
+}
+
+impl Merge for Sums {
+    fn merge(&mut self, other: Sums) {
+        self.summary.merge(&other.summary);
+        for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
+            for (groups, more) in tally.classes.iter_mut().zip(more.classes) {
+                groups.merge(more, self.examples);
+            }
+            tally.failures += more.failures;
+            tally.first_failures.extend(more.first_failures);
+            tally.first_failures.sort_unstable();
+            tally.first_failures.truncate(self.examples);
+            *time += more_time;
+        }
+    }
+}
+
+impl<F: Scalar> Run<'_, F> {
+    fn sums(&self, marks: Marks) -> (Marks, Sums) {
+        let empty = || Sums {
+            summary: SourceSummary::new(0, F::NAME),
+            rows: vec![Default::default(); self.rows.each.len()],
+            examples: self.plan.examples,
+        };
+        let add = |sums: &mut Sums, indices| self.add_chunk(indices, &marks, sums);
+        let indices = 0..self.source.count::<F>();
+        let sums = engine::sum(indices, self.source.chunk(), self.observer, empty, add);
+        (marks, sums)
+    }
+
+    fn add_chunk(&self, indices: Range<u64>, marks: &Marks, sums: &mut Sums) {
+        let limit = self.plan.examples;
+        let chunk = Chunk::<F>::make(&self.source, indices, self.observer, &mut sums.summary);
+        let contracts = &self.rows.contracts;
+        let truths: Vec<_> = contracts.iter().map(|c| chunk.group_truths(c)).collect();
+        let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
+        for (number, (row, (tally, time))) in self.rows.each.iter().zip(&mut sums.rows).enumerate()
+        {
+            let start = self.observer.now();
+            verdicts_of(row.subject, &chunk.cases, &row.epsilons, &mut verdicts);
+            *time += self.observer.now() - start;
+            let asked = (&contracts[row.contract], &truths[row.contract][..]);
+            for judged in row.judge_groups(&self.source, &chunk, asked, &verdicts) {
+                let group = match judged {
+                    Ok(group) => group,
+                    Err(index) => {
+                        tally.failures += 1;
+                        if tally.first_failures.len() < limit {
+                            tally.first_failures.push(index);
+                        }
+                        continue;
+                    }
+                };
+                let target = group.index % marks.targets.len() as u64;
+                let aim = Aim::of(group.index / marks.targets.len() as u64);
+                let near = !is_on_target(self.part, &chunk.truths[group.cases.clone()]);
+                let class = &mut tally.classes[2 * usize::from(near) + usize::from(aim.grazing)];
+                let outcome = class.add(&group, limit);
+                marks.note(number, target as usize, outcome, asked.0.across);
+            }
+        }
+    }
+}
+
+/// Whether the exact line meets the edge that the triangles share, or the centre of the fan.
+fn is_on_target(part: Part, truths: &[Truth]) -> bool {
+    truths.iter().all(|truth| {
+        truth.crossing().is_some_and(|crossing| match part {
+            Part::Edges => crossing.feature.is_edge(),
+            Part::Vertices => crossing.feature.is_vertex(),
+        })
+    })
+}
+
+/// Which targets have what: shared by all threads. Additions and unions commute.
+struct Marks {
+    targets: Vec<[AtomicU32; 3]>,
+    /// For each row a bit a target: whether it has a crack.
+    cracked: Vec<Vec<AtomicU64>>,
+}
+
+impl Marks {
+    fn new(targets: u64, rows: usize) -> Marks {
+        let words = || (0..targets.div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
+        Marks {
+            targets: (0..targets).map(|_| Default::default()).collect(),
+            cracked: (0..rows).map(|_| words()).collect(),
+        }
+    }
+
+    fn note(&self, row: usize, target: usize, outcome: Outcome, across: Across) {
+        let kind = match outcome {
+            Outcome::Right | Outcome::Elsewhere => return,
+            Outcome::Crack => {
+                self.cracked[row][target / 64].fetch_or(1 << (target % 64), Ordering::Relaxed);
+                0
+            }
+            // Who does not promise it is not blamed for it.
+            _ if across != Across::ExactlyOne => return,
+            Outcome::Double => 1,
+            Outcome::OddFold => 2,
+        };
+        self.targets[target][kind].fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn cracked(&self, row: usize) -> u64 {
+        let ones = |word: &AtomicU64| u64::from(word.load(Ordering::Relaxed).count_ones());
+        self.cracked[row].iter().map(ones).sum()
+    }
+
+    fn offences(&self, part: Part) -> impl Iterator<Item = Offence> + '_ {
+        let counts = |marks: &[AtomicU32; 3]| marks.each_ref().map(|n| n.load(Ordering::Relaxed));
+        (0..).zip(&self.targets).filter_map(move |(target, marks)| {
+            let [cracks, doubles, odd_folds] = counts(marks);
+            (cracks + doubles + odd_folds > 0).then_some(Offence {
+                part,
+                target,
+                cracks,
+                doubles,
+                odd_folds,
+            })
+        })
+    }
+}

@@ -1,0 +1,57 @@
+//! What the flags of several commands share: headings of the help, names in tables, numbers.
+
+use super::exit::Failure;
+use crate::suggest::did_you_mean;
+use std::fmt::Display;
+
+/// Headings of the help: which cases and rows a run has, how they are judged, and what is written. The
+/// flags that matter most stand under none, and so come first.
+pub const RUNNING: &str = "What to run";
+/// Likewise.
+pub const JUDGING: &str = "How to judge";
+/// Likewise.
+pub const OUTPUT: &str = "Output";
+
+/// The error for a name that is not in a table.
+pub fn unknown<'a>(
+    what: &str,
+    name: &str,
+    names: impl IntoIterator<Item = &'a str>,
+    list: &str,
+) -> Failure {
+    Failure::usage(format!("unknown {what} '{name}'{}", did_you_mean(name, names, list)))
+}
+
+/// The most cases of one family: beyond it a run would take years.
+const MOST_CASES: u64 = 1_000_000_000_000;
+
+/// A number of cases.
+pub fn case_count(text: &str) -> Result<u64, &'static str> {
+    let count = text.replace('_', "").parse().ok();
+    let count = count.filter(|count| (1..=MOST_CASES).contains(count));
+    count.ok_or("not a number of cases from 1 to 10^12")
+}
+
+/// An error if a flag names something twice.
+pub fn refuse_twice<T: PartialEq + Display>(flag: &str, named: &[T]) -> Result<(), Failure> {
+    match (1..named.len()).find(|&i| named[..i].contains(&named[i])) {
+        Some(i) => Err(Failure::usage(format!("{flag}: '{}' is given twice", named[i]))),
+        None => Ok(()),
+    }
+}
+
+/// Whether `f32`, and whether `f64`, is named.
+pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
+    let mut scalars = [false; 2];
+    for name in names {
+        match name.as_str() {
+            "f32" => scalars[0] = true,
+            "f64" => scalars[1] = true,
+            other => {
+                let message = format!("unknown scalar '{other}': there are f32 and f64");
+                return Err(Failure::usage(message));
+            }
+        }
+    }
+    Ok(scalars)
+}

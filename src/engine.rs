@@ -1,0 +1,114 @@
+//! Floor 0: the run engine. Indices go in chunks to all threads, and everything found becomes one sum.
+
+#![forbid(unsafe_code)]
+
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What a run tells while it goes on, and where it reads a clock.
+pub trait Observer: Sync {
+    /// This many more indices are done.
+    fn advance(&self, indices: u64);
+    /// Nanoseconds since some moment.
+    fn now(&self) -> u64;
+}
+
+/// Watches nothing and times nothing.
+pub struct Unobserved;
+
+impl Observer for Unobserved {
+    fn advance(&self, _: u64) {}
+
+    fn now(&self) -> u64 {
+        0
+    }
+}
+
+/// A sum that comes out the same however it is split: merging is associative and commutative, and an
+/// empty sum changes nothing.
+pub trait Merge: Send {
+    /// Adds another part.
+    fn merge(&mut self, other: Self);
+}
+
+/// The sum over a range of indices. Every thread has one sum of its own and takes the next chunk when
+/// it is done with the last, so memory grows neither with the range nor with the chunks.
+pub fn sum<S: Merge>(
+    indices: Range<u64>,
+    chunk: u64,
+    observer: &dyn Observer,
+    empty: impl Fn() -> S + Sync,
+    add: impl Fn(&mut S, Range<u64>) + Sync,
+) -> S {
+    let Range { start, end } = indices;
+    let chunks = end.saturating_sub(start).div_ceil(chunk);
+    let next = AtomicU64::new(0);
+    let take = || {
+        let number = next.fetch_add(1, Ordering::Relaxed);
+        let first = (number < chunks).then(|| start + number * chunk)?;
+        Some(first..end.min(first + chunk))
+    };
+    let of_thread = |_| {
+        let mut sum = empty();
+        while let Some(indices) = take() {
+            let count = indices.end - indices.start;
+            add(&mut sum, indices);
+            observer.advance(count);
+        }
+        sum
+    };
+    let merged = |mut sum: S, more: S| {
+        sum.merge(more);
+        sum
+    };
+    let threads = (0..rayon::current_num_threads()).into_par_iter().with_max_len(1);
+    threads.map(of_thread).reduce_with(merged).unwrap_or_else(&empty)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[derive(Default)]
+    struct Seen(BTreeSet<u64>, u64);
+
+    impl Merge for Seen {
+        fn merge(&mut self, other: Seen) {
+            self.0.extend(other.0);
+            self.1 += other.1;
+        }
+    }
+
+    struct Counter(AtomicU64);
+
+    impl Observer for Counter {
+        fn advance(&self, indices: u64) {
+            self.0.fetch_add(indices, Ordering::Relaxed);
+        }
+
+        fn now(&self) -> u64 {
+            0
+        }
+    }
+
+    #[test]
+    fn every_index_goes_through_once_on_any_number_of_threads() {
+        for threads in [1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            for range in [0..0, 7..8, 3..1027, 0..10_000, u64::MAX - 70..u64::MAX] {
+                let counter = Counter(AtomicU64::new(0));
+                let add = |seen: &mut Seen, indices: Range<u64>| {
+                    assert!(indices.end - indices.start <= 64);
+                    seen.1 += indices.end - indices.start;
+                    seen.0.extend(indices);
+                };
+                let seen = pool.install(|| sum(range.clone(), 64, &counter, Seen::default, add));
+                assert!(seen.0.iter().copied().eq(range.clone()), "{range:?}");
+                assert_eq!(seen.1, range.end - range.start);
+                assert_eq!(counter.0.into_inner(), range.end - range.start);
+            }
+        }
+    }
+}

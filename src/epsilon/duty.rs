@@ -1,0 +1,92 @@
+//! Which cases each gate of a kernel is there to reject.
+
+use crate::contract::{Contract, Extent, Sides};
+use crate::judge::Class;
+use crate::kernel::{Gate, Role, Tunable};
+
+/// Which cases that must be missed a gate is there to refuse.
+///
+/// By its [`Role`]: a gate on t guards the ends of the extent; a gate on the determinant or on n·d guards
+/// rays parallel to the plane and triangles without area, and with a sign the side as well; the others
+/// guard everything else, and whatever has no gate of its own.
+#[derive(Clone, Debug)]
+pub struct Duty {
+    /// By [`Class::number`].
+    classes: [bool; Class::COUNT],
+    guards_start: bool,
+}
+
+impl Duty {
+    /// Of one of a kernel's gates under a contract.
+    pub fn of(gates: &[Gate], gate: usize, contract: &Contract) -> Duty {
+        let has = |role: Role| gates.iter().any(|gate| gate.role == role);
+        let is_culling =
+            |gate: &Gate| gate.role == Role::Parallel && gate.epsilon == Tunable::Signed;
+        let culls = gates.iter().any(is_culling);
+        let role = gates[gate].role;
+        let mut classes = [false; Class::COUNT];
+        for class in Class::all() {
+            let off_the_ends = class.is_off_the_interval() && contract.extent != Extent::Line;
+            let from_behind = class.is_back() && contract.sides == Sides::Front;
+            let within = !class.is_flat() && !off_the_ends && !from_behind;
+            // Inside the triangle nothing must be missed but what lies on an open end.
+            let at_an_end = within && class.part() == "interior" && contract.extent != Extent::Line;
+            let outside = within && class.part() != "interior" || class.part() == "outside";
+            classes[class.number()] = match role {
+                Role::Parallel => class.is_flat() || from_behind && culls,
+                Role::T => off_the_ends || at_an_end,
+                Role::Edge | Role::Other => {
+                    outside
+                        || class.is_flat() && !has(Role::Parallel)
+                        || (off_the_ends || at_an_end) && !has(Role::T)
+                        || from_behind && !culls
+                }
+            };
+        }
+        // The epsilon of a gate on t keeps a ray from hitting the triangle that it starts on.
+        Duty { classes, guards_start: role == Role::T && contract.extent != Extent::Line }
+    }
+
+    /// Whether the gate guards a class.
+    pub fn guards(&self, class: Class) -> bool {
+        self.classes[class.number()]
+    }
+
+    /// Whether it is there to keep a ray from hitting the triangle that it starts on.
+    pub fn guards_start(&self) -> bool {
+        self.guards_start
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::find;
+
+    fn guarded(kernel: &str, gate: &str) -> Vec<String> {
+        let info = find(kernel).unwrap().info;
+        let gate = info.gates.iter().position(|known| known.name == gate).unwrap();
+        let duty = Duty::of(info.gates, gate, &info.contract);
+        Class::all().filter(|class| duty.guards(*class)).map(Class::name).collect()
+    }
+
+    #[test]
+    fn each_class_is_guarded_by_the_gate_that_asks_about_it() {
+        let flat = ["parallel", "coplanar", "degenerate"];
+        assert_eq!(guarded("moller-trumbore", "parallel"), flat);
+        assert!(guarded("plane-inside-out", "t").contains(&"interior/front/before".to_owned()));
+        assert!(!guarded("plane-inside-out", "t").contains(&"outside/front/within".to_owned()));
+        let at_an_open_end = "interior/front/within".to_owned();
+        assert!(guarded("plane-inside-out", "t").contains(&at_an_open_end));
+        assert!(!guarded("plane-inside-out", "edge").contains(&at_an_open_end));
+        assert!(guarded("plane-inside-out", "edge").contains(&"outside/back/before".to_owned()));
+        // Culling by the determinant's sign; by the edges' where there is no determinant.
+        let culled = "interior/back/within".to_owned();
+        assert!(guarded("moller-trumbore-culling", "parallel").contains(&culled));
+        assert!(guarded("scalar-triple", "edge").contains(&culled));
+        assert!(
+            flat.iter()
+                .all(|class| guarded("scalar-triple", "edge").contains(&(*class).to_owned()))
+        );
+    }
+}

@@ -1,0 +1,29 @@
+//! Floor 4: what a kernel does at every epsilon.
+//!
+//! A gate accepts up to its margin, so the margins of one pass over the cases decide every epsilon.
+//! Margins are counted in cells. The counts are exact at the edges of the cells, at marks and at the
+//! decisive margins; between these they are bracketed.
+
+#![forbid(unsafe_code)]
+
+mod advice;
+mod axis;
+mod curve;
+mod duty;
+mod map;
+mod relative;
+mod run;
+mod scaling;
+mod sketch;
+mod study;
+
+pub use advice::{Side, Trade, candidates, decades, total};
+pub use axis::Axis;
+pub use curve::{Bracket, Cell, Curve, Question};
+pub use duty::Duty;
+pub use map::{Map, map};
+pub use relative::{scale_free_form, unit_of_length};
+pub use run::{Request, Response, SourceResponse, floor, run, tunable_gates};
+pub use scaling::{AtScale, at_scales, common, scaled, slope};
+pub use sketch::{SPANNING, Sketch, few, sketch};
+pub use study::{GateStudy, LEAST_SUM, Price, Study, StudyPlan, own_false_hits, study};

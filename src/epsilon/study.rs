@@ -1,0 +1,230 @@
+//! A study of a kernel's epsilons: the responses, what follows from them, and what the most interesting
+//! epsilons cost when the kernel is run with them.
+
+use super::advice::{Trade, candidates, decades, total};
+use super::axis::Axis;
+use super::curve::Question;
+use super::duty::Duty;
+use super::map::{Map, map};
+use super::run::{Request, Response, SourceResponse, run};
+use super::scaling::{AtScale, at_scales};
+use crate::arith::Float;
+use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_scalar};
+use crate::judge::{Class, Finding};
+use crate::kernel::{Gate, Gated, PRESETS, Preset, Scalar};
+
+/// What to study.
+pub struct StudyPlan<'a, F: 'static> {
+    /// The kernel, its contract, and the epsilons of the gates that are not varied.
+    pub row: &'a Row,
+    /// The kernel's gates.
+    pub gated: &'static dyn Gated<F>,
+    /// The gates, each varied alone.
+    pub gates: Vec<usize>,
+    /// Further epsilons to weigh.
+    pub at: Vec<F>,
+    /// Keep every margin.
+    pub exact: bool,
+    /// Epsilons are multiplied by each case's size.
+    pub relative: bool,
+    /// Exponents of two by which positions are multiplied in turn.
+    pub scales: Vec<i32>,
+    /// The most indices of a source at each scale.
+    pub scale_count: u64,
+    /// Weigh the first two gates against each other.
+    pub map: bool,
+}
+
+/// A study's results.
+pub struct Study<F> {
+    /// By source.
+    pub responses: Vec<SourceResponse<F>>,
+    /// By gate of the plan.
+    pub gates: Vec<GateStudy<F>>,
+    /// The first two gates against each other.
+    pub map: Option<Map<F>>,
+}
+
+/// A study's results for one gate.
+pub struct GateStudy<F> {
+    /// The gate's place in the kernel's chain.
+    pub gate: usize,
+    /// All sources together.
+    pub total: Response<F>,
+    /// What an epsilon trades.
+    pub trade: Trade<F>,
+    /// Epsilons with names: the row's own, presets.
+    pub marks: Vec<(String, F)>,
+    /// What epsilons cost, in order; none for relative epsilons, which no kernel takes.
+    pub prices: Vec<Price<F>>,
+    /// By scale, with absolute epsilons and with relative ones.
+    pub scales: [Vec<AtScale<F>>; 2],
+}
+
+/// What the audit found with one epsilon.
+pub struct Price<F> {
+    /// The epsilon.
+    pub epsilon: F,
+    /// The kernel's row with it.
+    pub row: Row,
+    /// By source.
+    pub tallies: Vec<Tally>,
+}
+
+/// What the epsilon with the least sum of both shares is called.
+pub const LEAST_SUM: &str = "least sum of both";
+
+/// Powers of ten to weigh, beside the limits, presets and given epsilons.
+const DECADES_WEIGHED: usize = 12;
+
+/// Runs a study. The error is a disagreement between a response and the audit: a fault of this tool.
+pub fn study<F: Scalar>(
+    plan: &StudyPlan<'_, F>,
+    sources: &[Source],
+    observer: &dyn Observer,
+) -> Result<Study<F>, String> {
+    let gates = plan.row.entry.info.gates;
+    let own: Vec<F> = plan.row.epsilons();
+    let marks_of = |gate: usize| {
+        // A published epsilon is no multiple of a case's size.
+        if plan.relative { Vec::new() } else { marks(&gates[gate], plan.row, own[gate]) }
+    };
+    let mut edges: Vec<F> = decades().chain(plan.at.iter().copied()).collect();
+    edges.extend(plan.gates.iter().flat_map(|gate| marks_of(*gate)).map(|(_, epsilon)| epsilon));
+    let axis = Axis::new(&edges);
+    let request = Request {
+        row: plan.row,
+        gated: plan.gated,
+        gates: &plan.gates,
+        axis: &axis,
+        exact: plan.exact,
+        relative: plan.relative,
+    };
+    let responses = run(&request, sources, observer);
+    let scales = |relative: bool| {
+        let request = Request { exact: false, relative, ..request };
+        at_scales(&request, sources, &plan.scales, plan.scale_count, observer)
+    };
+    let scales = [scales(false), scales(true)];
+    let mut studies = Vec::new();
+    for (n, &gate) in plan.gates.iter().enumerate() {
+        let duty = Duty::of(gates, gate, &plan.row.contract);
+        let trade = Trade::new(&gates[gate], &duty, n, sources, &responses);
+        let mut marks = marks_of(gate);
+        let mut weighed = candidates(&trade, DECADES_WEIGHED);
+        weighed.extend(marks.iter().map(|(_, epsilon)| *epsilon).chain(plan.at.iter().copied()));
+        weighed.retain(|epsilon| trade.floor <= *epsilon);
+        if let (None, Some(knee)) = (trade.settled(), trade.knee(axis.edges())) {
+            weighed.push(knee);
+            marks.push((LEAST_SUM.to_owned(), knee));
+            marks.sort_by_key(|(_, epsilon)| epsilon.place());
+        }
+        weighed.sort_by_key(|epsilon| epsilon.place());
+        weighed.dedup_by(|a, b| a == b);
+        let total = total(n, &responses).ok_or("no source")?;
+        let prices = if plan.relative {
+            Vec::new()
+        } else {
+            prices(plan.row, gate, &weighed, sources, observer)
+        };
+        check(&prices, &duty, n, &responses)?;
+        let scales = scales.each_ref().map(|scales| scales[n].clone());
+        studies.push(GateStudy { gate, total, trade, marks, prices, scales });
+    }
+    let map = plan.map.then(|| {
+        let epsilons = [0, 1].map(|k| {
+            let study: &GateStudy<F> = &studies[k];
+            study.prices.iter().map(|price| price.epsilon).collect()
+        });
+        map(&request, epsilons, sources, observer)
+    });
+    Ok(Study { responses, gates: studies, map })
+}
+
+/// The epsilons of a gate that have names, by value.
+fn marks<F: Scalar>(gate: &Gate, row: &Row, own: F) -> Vec<(String, F)> {
+    let preset = |preset: &Preset| {
+        let entry = preset.entries.iter().find(|entry| entry.fits(gate))?;
+        let value = EpsilonText::from(entry.value).value::<F>()?;
+        Some((preset.name.to_owned(), value))
+    };
+    let mut marks = vec![(format!("this row: {}", row.set), own)];
+    marks.extend(PRESETS.iter().filter_map(preset));
+    marks.sort_by_key(|(_, epsilon)| epsilon.place());
+    marks
+}
+
+fn prices<F: Scalar>(
+    row: &Row,
+    gate: usize,
+    epsilons: &[F],
+    sources: &[Source],
+    observer: &dyn Observer,
+) -> Vec<Price<F>> {
+    let rows: Vec<Row> = epsilons
+        .iter()
+        .map(|epsilon| {
+            let mut row = row.clone();
+            row.epsilons[gate] = EpsilonText::Decimal(format!("{epsilon:e}"));
+            row
+        })
+        .collect();
+    let mut prices: Vec<Price<F>> = epsilons
+        .iter()
+        .zip(&rows)
+        .map(|(epsilon, row)| Price { epsilon: *epsilon, row: row.clone(), tallies: Vec::new() })
+        .collect();
+    let mut audit = Audit::default();
+    let scalars = [F::NAME == f32::NAME, F::NAME == f64::NAME];
+    let plan = Plan { rows, sources: sources.to_vec(), scalars, examples: 0, attribute: 0 };
+    run_scalar::<F>(&plan, observer, &mut audit);
+    for cell in audit.cells {
+        prices[cell.row].tallies.push(cell.tally);
+    }
+    prices
+}
+
+/// The false hits that a gate is there to refuse, and of how many.
+pub fn own_false_hits(duty: &Duty, tally: &Tally) -> (u64, u64) {
+    if duty.guards_start() && tally.self_hits.rays > 0 {
+        return (tally.self_hits.hits, tally.self_hits.rays);
+    }
+    let guarded = Class::all().filter(|class| duty.guards(*class));
+    let counts = guarded.map(|class| &tally.classes[class.number()]);
+    counts.fold((0, 0), |(count, of), class| {
+        (count + class.of(Finding::FalseHit), of + class.trials(Finding::FalseHit))
+    })
+}
+
+/// Compares the responses with what the audit counted.
+fn check<F: Scalar>(
+    prices: &[Price<F>],
+    duty: &Duty,
+    n: usize,
+    responses: &[SourceResponse<F>],
+) -> Result<(), String> {
+    for price in prices {
+        for (tally, response) in price.tallies.iter().zip(responses) {
+            let total = tally.total();
+            let counts = [
+                (Question::FalseMiss, total.of(Finding::FalseMiss)),
+                (Question::FalseHit, total.of(Finding::FalseHit)),
+                (Question::Crack, tally.groups.cracks),
+                (Question::Double, tally.groups.doubles),
+                (Question::SelfHit, tally.self_hits.hits),
+                (Question::OwnFalseHit, own_false_hits(duty, tally).0),
+            ];
+            for (question, count) in counts {
+                let wrong = response.gates[n].curve(question).wrong(price.epsilon);
+                if !(wrong.low..=wrong.high).contains(&count) {
+                    let (epsilon, name) = (price.epsilon, question.name());
+                    return Err(format!(
+                        "the response says {} to {} {name} at e = {epsilon:e}, the run {count}",
+                        wrong.low, wrong.high
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}

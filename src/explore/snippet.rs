@@ -1,0 +1,107 @@
+//! A finding as source code to paste into a test.
+
+use super::objective::verdict_and_finding;
+use super::signature::Signature;
+use super::simplify::odd_and_exponent;
+use crate::arith::Float;
+use crate::audit::Row;
+use crate::case::Case;
+use crate::judge::Finding;
+use crate::kernel::Scalar;
+
+/// A test in Rust on this library: it passes as long as the kernel shows the finding.
+pub fn rust_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature) -> String {
+    let epsilons: Vec<F> = row.epsilons();
+    let (truth, verdict, _) = verdict_and_finding(row, &epsilons, case);
+    let scalar = F::NAME;
+    let [origin, direction, a, b, c] = case.vectors().map(|v| rust_list(&v));
+    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
+    let interval = if t_min.to_bits() == 0 && t_max == F::infinity() {
+        String::new()
+    } else {
+        format!("\n    let case = case.on({}, {});", rust_number(t_min), rust_number(t_max))
+    };
+    let (kernel, finding) = (signature.kernel, signature.finding.name());
+    let name =
+        format!("{kernel}_{scalar}_{finding}").replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    format!(
+        "/// {signature}.
+/// Contract: {contract}.
+#[test]
+fn {name}() {{
+    use hairline::{{Case, Scalar, Verdict, find, truth}};
+    let triangle = [{a}, {b}, {c}];
+    let case = Case::<{scalar}>::new({origin}, {direction}, triangle);{interval}
+    let kernel = {scalar}::subject(find(\"{kernel}\").unwrap()).unwrap();
+    let mut verdict = [Verdict::miss(None)];
+    kernel.run(&[case], &{epsilons}, &mut verdict);
+    assert_eq!(truth(&case).to_string(), \"{truth}\");
+    // {asked}
+    assert!({not}verdict[0].hit);
+}}
+",
+        contract = row.contract.describe(),
+        epsilons = rust_list(&epsilons),
+        asked = asked(signature.finding),
+        not = if verdict.hit { "" } else { "!" },
+    )
+}
+
+/// The numbers in C, as hexadecimal floats, for a test of whatever kernel.
+pub fn c_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature) -> String {
+    let epsilons: Vec<F> = row.epsilons();
+    let (truth, ..) = verdict_and_finding(row, &epsilons, case);
+    let scalar = if F::NAME == "f32" { "float" } else { "double" };
+    let mut text = format!(
+        "/* {signature}.\n   Contract: {}.\n   Truth: {truth}. */\n",
+        row.contract.describe()
+    );
+    if !(case.ray.t_min.is_finite() && case.ray.t_max.is_finite()) {
+        text.push_str("#include <math.h>\n");
+    }
+    for (name, vector) in ["origin", "direction", "a", "b", "c"].into_iter().zip(case.vectors()) {
+        let numbers = vector.map(c_number).join(", ");
+        text.push_str(&format!("static const {scalar} {name}[3] = {{{numbers}}};\n"));
+    }
+    let (t_min, t_max) = (c_number(case.ray.t_min), c_number(case.ray.t_max));
+    text.push_str(&format!("static const {scalar} t_min = {t_min}, t_max = {t_max};\n"));
+    let hit = i32::from(signature.finding != Finding::FalseHit);
+    text.push_str(&format!("static const int hit = {hit}; /* {} */\n", asked(signature.finding)));
+    text
+}
+
+fn asked(finding: Finding) -> &'static str {
+    match finding {
+        Finding::FalseMiss => "The contract asks a hit; the kernel misses.",
+        Finding::FalseHit => "The contract asks a miss; the kernel hits.",
+        _ => "A hit is right; a value that the kernel reports with it is not.",
+    }
+}
+
+fn rust_list<F: Float>(numbers: &[F]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(|x| rust_number(*x)).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// The shortest literal that is the number; a NaN by its bits.
+fn rust_number<F: Float>(x: F) -> String {
+    if x.is_nan() {
+        format!("{}::from_bits(0x{})", F::NAME, x.hex())
+    } else if x.is_finite() {
+        format!("{x:?}")
+    } else {
+        format!("{}{}::INFINITY", if x.is_sign_negative() { "-" } else { "" }, F::NAME)
+    }
+}
+
+/// An exact hexadecimal literal: `-0x3p-1f`.
+fn c_number<F: Float>(x: F) -> String {
+    let sign = if x.is_sign_negative() { "-" } else { "" };
+    let suffix = if F::NAME == "f32" { "f" } else { "" };
+    match odd_and_exponent(x) {
+        Some((digits, exponent)) => format!("{sign}0x{digits:x}p{exponent}{suffix}"),
+        None if x.is_zero() => format!("{sign}0x0p0{suffix}"),
+        None if x.is_nan() => "NAN".to_owned(),
+        None => format!("{sign}INFINITY"),
+    }
+}

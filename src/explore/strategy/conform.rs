@@ -1,0 +1,98 @@
+//! Judges a user's kernel by a contract, case by case.
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::contract::{Across, Contract};
+use crate::corpus::lines::{AnyCase, StoredCase, write_case};
+use crate::family::Grouping;
+use crate::judge::{Finding, GroupTruth, asked, group_obligation, judge};
+use crate::kernel::{Gives, Verdict};
+use crate::oracle;
+use crate::truth::Truth;
+use std::fmt;
+
+/// What a kernel got wrong, with all that is needed to see it again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Disagreement {
+    /// `false-miss`, `false-hit`, `bad-value`, `crack` or `double`.
+    pub finding: &'static str,
+    text: String,
+}
+
+impl fmt::Display for Disagreement {
+    /// Several lines.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", self.finding, self.text)
+    }
+}
+
+impl std::error::Error for Disagreement {}
+
+/// Whether a kernel, which gives t of a hit, does on a case what a contract demands. Values other than t
+/// are not judged, t only for being finite.
+pub fn conforms<F: Float>(
+    kernel: impl Fn(&Case<F>) -> Option<F>,
+    contract: &Contract,
+    case: &Case<F>,
+) -> Result<(), Disagreement>
+where
+    AnyCase: From<Case<F>>,
+{
+    let (truth, t) = (oracle::truth(case), kernel(case));
+    let asked = asked(case, &truth, contract, false);
+    let gives = Gives { t: true, uv: false, facing: false };
+    let found = judge(asked, &truth, gives, &verdict(t));
+    let Some(finding) = found.map(Finding::name) else { return Ok(()) };
+    let contract = contract.describe();
+    let text = format!("contract {contract}\n{}", describe(case, &truth, t));
+    Err(Disagreement { finding, text })
+}
+
+/// The same of two triangles on one edge and one ray, each alone and both together. If they face the ray
+/// alike and the line passes through the inside of their union, [`Across::AtLeastOne`] demands a hit of
+/// one of them, and [`Across::ExactlyOne`] that the other does not hit too. A contract with
+/// [`Boundary::Free`](crate::contract::Boundary::Free) leaves the edge to the two together.
+pub fn conforms_together<F: Float>(
+    kernel: impl Fn(&Case<F>) -> Option<F>,
+    contract: &Contract,
+    cases: &[Case<F>; 2],
+) -> Result<(), Disagreement>
+where
+    AnyCase: From<Case<F>>,
+{
+    for case in cases {
+        conforms(&kernel, contract, case)?;
+    }
+    let (truths, answers) = (cases.each_ref().map(oracle::truth), cases.each_ref().map(kernel));
+    let hits = answers.iter().flatten().count();
+    let owed = group_obligation(cases, &truths, contract, Grouping::SharedEdge);
+    let finding = match (owed, contract.across) {
+        (GroupTruth::Crossing, Across::AtLeastOne | Across::ExactlyOne) if hits == 0 => "crack",
+        (GroupTruth::Crossing, Across::ExactlyOne) if hits == 2 => "double",
+        _ => return Ok(()),
+    };
+    let each = |i: usize| describe(&cases[i], &truths[i], answers[i]);
+    let contract = contract.describe();
+    Err(Disagreement { finding, text: format!("contract {contract}\n{}\n{}", each(0), each(1)) })
+}
+
+fn verdict<F: Float>(t: Option<F>) -> Verdict<F> {
+    match t {
+        Some(t) => Verdict { hit: true, t, ..Verdict::miss(None) },
+        None => Verdict::miss(None),
+    }
+}
+
+fn describe<F: Float>(case: &Case<F>, truth: &Truth, t: Option<F>) -> String
+where
+    AnyCase: From<Case<F>>,
+{
+    let exact = oracle::define(case).exact.t.map_or(String::new(), |t| format!(", t = {t}"));
+    let stored = StoredCase::of(*case);
+    let kernel = t.map_or("miss".to_owned(), |t| format!("hit, t = {t:e}"));
+    format!(
+        "truth    {truth}{exact}\nkernel   {kernel}\nbits     {}\nexplain  hairline explain '{}'",
+        case.hex(),
+        write_case(&stored)
+    )
+}

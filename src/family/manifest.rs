@@ -1,0 +1,162 @@
+//! The manifest: generated sets and meshes, each by what makes it again and a digest that proves it
+//! is the same.
+
+use super::{FAMILIES, Family};
+use crate::case::Parameters;
+use crate::corpus::lines::LONGEST_LINE;
+use crate::corpus::mesh::write_obj;
+use crate::corpus::shapes::{self, POLYGONS_OBJ};
+use crate::corpus::text_lines::TextLines;
+use crate::corpus::{InputError, hex};
+use crate::kernel::Scalar;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::io::BufRead;
+
+/// A line of a manifest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ManifestLine {
+    /// A generated set of cases.
+    Set(SetLine),
+    /// A mesh beside the manifest.
+    Mesh(MeshLine),
+}
+
+/// A generated set of cases.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SetLine {
+    /// The family's name.
+    pub family: String,
+    /// The family's version.
+    pub version: u32,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// What the cases are put through, as in case ids.
+    pub parameters: String,
+    /// The seed.
+    pub seed: u64,
+    /// How many indices from 0.
+    pub count: u64,
+    /// SHA-256 of the cases' bits, little-endian, in the order of their hexadecimal form.
+    pub digest: String,
+}
+
+/// A mesh that the project makes itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshLine {
+    /// The file's name.
+    pub mesh: String,
+    /// What is hard about it.
+    pub about: String,
+    /// SHA-256 of the file's bytes.
+    pub digest: String,
+}
+
+/// How many cases of each family a manifest covers.
+const SET_SIZE: u64 = 10_000;
+
+/// The manifest of this version of the program.
+pub fn current() -> Vec<ManifestLine> {
+    let sets =
+        FAMILIES.iter().flat_map(|family| [set_line::<f32>(family), set_line::<f64>(family)]);
+    let meshes = meshes().into_iter().map(|(name, about, text)| {
+        ManifestLine::Mesh(MeshLine { mesh: name, about, digest: digest_of(text.as_bytes()) })
+    });
+    sets.map(ManifestLine::Set).chain(meshes).collect()
+}
+
+/// The project's own meshes: file name, what is hard about it, OBJ text.
+pub fn meshes() -> Vec<(String, String, String)> {
+    let mut meshes: Vec<(String, String, String)> = shapes::all()
+        .iter()
+        .map(|shape| {
+            let mut text = Vec::new();
+            write_obj(shape, &mut text).expect("writing to memory");
+            let text = String::from_utf8(text).expect("OBJ text");
+            (format!("{}.obj", shape.name), shape.about.to_owned(), text)
+        })
+        .collect();
+    let about = "quads, pentagons, a concave polygon, groups and negative indices".to_owned();
+    meshes.push(("polygons.obj".to_owned(), about, POLYGONS_OBJ.to_owned()));
+    meshes
+}
+
+fn set_line<F: Scalar>(family: &Family) -> SetLine {
+    let parameters = Parameters::default();
+    SetLine {
+        family: family.name.to_owned(),
+        version: family.version,
+        scalar: F::NAME.to_owned(),
+        parameters: parameters.to_string(),
+        seed: 1,
+        count: SET_SIZE,
+        digest: set_digest::<F>(family, &parameters, 1, SET_SIZE),
+    }
+}
+
+fn set_digest<F: Scalar>(
+    family: &Family,
+    parameters: &Parameters,
+    seed: u64,
+    count: u64,
+) -> String {
+    let mut hash = Sha256::new();
+    for index in 0..count {
+        for case in family.make::<F>(parameters, seed, index).cases() {
+            case.bits().iter().for_each(|bits| hash.update(bits.to_le_bytes()));
+        }
+    }
+    hex(&hash.finalize())
+}
+
+fn digest_of(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
+}
+
+/// The lines of a manifest. Blank lines are skipped.
+pub fn read(reader: impl BufRead, file: &str) -> Result<Vec<(usize, ManifestLine)>, InputError> {
+    let mut lines = Vec::new();
+    for line in TextLines::new(reader, file, LONGEST_LINE) {
+        let (number, line) = line?;
+        let parsed = serde_json::from_str(&line).map_err(|_| {
+            let sets = "family, version, scalar, parameters, seed, count, digest";
+            let expected = format!("expected {{{sets}}} or {{mesh, about, digest}}");
+            InputError::at(file, number, format!("not a manifest line: {expected}"))
+        })?;
+        lines.push((number, parsed));
+    }
+    Ok(lines)
+}
+
+/// Makes a line's set again, or digests the bytes of its mesh, and compares.
+pub fn verify(line: &ManifestLine, mesh: &[u8]) -> Result<(), String> {
+    let (stored, found) = match line {
+        ManifestLine::Set(line) => (&line.digest, digest_again(line)?),
+        ManifestLine::Mesh(line) => (&line.digest, digest_of(mesh)),
+    };
+    if *stored == found {
+        Ok(())
+    } else {
+        Err(format!("the digest is {found}, the manifest says {stored}"))
+    }
+}
+
+fn digest_again(line: &SetLine) -> Result<String, String> {
+    let family =
+        super::find(&line.family).ok_or_else(|| format!("unknown family '{}'", line.family))?;
+    if family.version != line.version {
+        return Err(format!(
+            "family '{}' is at version {}, the manifest has {}",
+            line.family, family.version, line.version
+        ));
+    }
+    let parameters: Parameters = line.parameters.parse()?;
+    match line.scalar.as_str() {
+        "f32" => Ok(set_digest::<f32>(family, &parameters, line.seed, line.count)),
+        "f64" => Ok(set_digest::<f64>(family, &parameters, line.seed, line.count)),
+        other => Err(format!("unknown scalar '{other}'")),
+    }
+}

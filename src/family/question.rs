@@ -1,0 +1,59 @@
+//! What a family asks of a kernel: the columns of the audit's screen.
+
+/// One question, which several families put together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Question {
+    /// Hits and misses that are clear.
+    Inside,
+    /// On an edge, or some ulps from it.
+    Edges,
+    /// On a vertex, or some ulps from it.
+    Vertices,
+    /// The ray is nearly or exactly parallel to the plane, or the triangle has no area.
+    Flat,
+    /// The hit is at, near or beyond the start of the ray or an end of the interval.
+    Ends,
+    /// Coordinates with many zeros: rays along an axis, points of a small integer grid.
+    Grid,
+    /// Tiny, huge, far and thin triangles; short and long directions.
+    Sizes,
+    /// Exponents that have nothing to do with each other, or at the ends of the range.
+    Range,
+    /// NaN, infinities, a zero direction, an impossible interval.
+    Invalid,
+}
+
+impl Question {
+    /// The head of the column.
+    pub fn label(self) -> &'static str {
+        match self {
+            Question::Inside => "inside",
+            Question::Edges => "edges",
+            Question::Vertices => "vertex",
+            Question::Flat => "flat",
+            Question::Ends => "ends",
+            Question::Grid => "grid",
+            Question::Sizes => "sizes",
+            Question::Range => "range",
+            Question::Invalid => "invalid",
+        }
+    }
+
+    /// What is in the column, where its head does not say it.
+    pub fn about(self) -> &'static str {
+        match self {
+            Question::Inside | Question::Edges | Question::Vertices => "",
+            Question::Flat => "in or near the plane",
+            Question::Ends => "start or end of the ray",
+            Question::Grid => "small integers",
+            Question::Sizes => "tiny, huge, far, thin",
+            Question::Range => "extreme exponents",
+            Question::Invalid => "NaN, infinities",
+        }
+    }
+
+    /// Whether its cases are of sizes that occur: magnitudes from 2^-60 to 2^60, not mixed at random.
+    pub fn is_ordinary(self) -> bool {
+        !matches!(self, Question::Range | Question::Invalid)
+    }
+}

@@ -1,0 +1,39 @@
+//! The modules behind the library, for this project's own tests, benches, fuzz targets and league. All
+//! of it may change at any time.
+
+macro_rules! open {
+    ($($module:ident),* $(,)?) => {
+        $(pub mod $module {
+            pub use crate::$module::*;
+        })*
+    };
+}
+
+open!(
+    arith,
+    audit,
+    case,
+    contract,
+    corpus,
+    epsilon,
+    explore,
+    family,
+    judge,
+    kernel,
+    map,
+    mesh,
+    oracle,
+    orientation,
+    report,
+    selfcheck,
+    truth,
+);
+
+#[cfg(feature = "cli")]
+open!(expect, plugin);
+
+#[cfg(feature = "cli")]
+pub mod cli {
+    pub use crate::cli::check::read_settings;
+    pub use crate::cli::exit::{Failure, Status};
+}

@@ -1,0 +1,183 @@
+//! Verdicts by question: the columns of the screen and of the summary in Markdown.
+
+use super::record::*;
+use super::text::RowView;
+use crate::audit::{Trials, is_of_mesh};
+use crate::family::{self, Question};
+
+/// The sources of one question, all of them samples or all of them complete sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Column {
+    topic: Topic,
+    /// Whether its sources are whole sets, which have counts, and no interval.
+    pub(super) complete: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Topic {
+    Families(Question),
+    Mesh,
+    Stored,
+}
+
+impl Column {
+    /// The column of a source by its name.
+    fn of(family: &str, complete: bool) -> Column {
+        let topic = match family::find(family) {
+            Some(family) => Topic::Families(family.question),
+            None if is_of_mesh(family) => Topic::Mesh,
+            None => Topic::Stored,
+        };
+        Column { topic, complete }
+    }
+
+    /// The columns of a record in which some kernel must give a verdict, in order.
+    pub(super) fn all(record: &Record) -> Vec<Column> {
+        let mut all: Vec<Column> = Vec::new();
+        for result in &record.result.results {
+            let total = &result.total;
+            if 0 < total.false_misses.of + total.false_hits.of {
+                all.push(Column::of(&result.family, is_complete(&record.result.sources, result)));
+            }
+        }
+        all.sort();
+        all.dedup();
+        all
+    }
+
+    /// Its head.
+    pub(super) fn label(self) -> &'static str {
+        match self.topic {
+            Topic::Families(Question::Grid) if self.complete => "lattice",
+            Topic::Families(question) => question.label(),
+            Topic::Mesh => "mesh",
+            Topic::Stored => "stored",
+        }
+    }
+
+    /// What is in it, where its head does not say it.
+    pub(super) fn about(self) -> &'static str {
+        match self.topic {
+            Topic::Families(Question::Grid) if self.complete => "every case of the lattice",
+            Topic::Families(question) => question.about(),
+            Topic::Mesh | Topic::Stored => "",
+        }
+    }
+
+    /// Whether its cases are of sizes that occur.
+    pub(super) fn is_ordinary(self) -> bool {
+        !matches!(self.topic, Topic::Families(question) if !question.is_ordinary())
+    }
+
+    /// One row's results in it.
+    pub(super) fn results<'a>(self, row: &RowView<'a>) -> Vec<&'a KernelResult> {
+        let of = |part: &&KernelResult| Column::of(&part.family, is_complete(row.sources, part));
+        row.results.iter().copied().filter(|part| self == of(part)).collect()
+    }
+}
+
+/// Whether a result's source is a whole set rather than a random sample.
+pub(super) fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
+    let of = |source: &&SourcePart| source.scalar == part.scalar && source.family == part.family;
+    sources.iter().find(of).is_some_and(|source| !source.sample)
+}
+
+/// The verdicts of one row in one column.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cell {
+    /// False misses and false hits among the cases on which the contract demands a verdict.
+    pub(super) wrong: Trials,
+    /// Wrong verdicts that are off by [`FAR`] longest edges or more.
+    pub(super) far: u64,
+}
+
+/// A wrong verdict that can be seen: 2^-10 longest edges, about a thousandth.
+const FAR: i32 = -10;
+
+impl Cell {
+    /// Whether more than one verdict in a thousand is wrong and [`FAR`] off.
+    pub(super) fn is_far(&self) -> bool {
+        self.wrong.of < 1000 * self.far
+    }
+
+    /// The sum of results.
+    pub(super) fn sum(results: &[&KernelResult]) -> Cell {
+        let mut cell = Cell::default();
+        for result in results {
+            let total = &result.total;
+            for rate in [&total.false_misses, &total.false_hits] {
+                cell.wrong.merge(&rate.trials());
+            }
+            cell.far +=
+                ["false-miss", "false-hit"].map(|kind| far(result, kind)).iter().sum::<u64>();
+        }
+        cell
+    }
+}
+
+/// The findings of a kind that are off by [`FAR`] longest edges or more.
+pub(super) fn far(result: &KernelResult, kind: &str) -> u64 {
+    let Some(severity) = result.severity.get(kind) else { return 0 };
+    let is_far = |octave: &str| match octave.strip_prefix("2^") {
+        Some(exponent) => exponent.parse::<i32>().is_ok_and(|exponent| FAR <= exponent),
+        None => octave == "inf",
+    };
+    severity.edges.octaves.iter().filter(|(octave, _)| is_far(octave)).map(|(_, n)| n).sum()
+}
+
+/// What the triangles of groups did together, of one row.
+#[derive(Clone, Debug)]
+pub(super) struct Across {
+    /// `nothing`, `at-least-one`, `exactly-one`.
+    promised: String,
+    /// Crossings without a hit: how many, of how many.
+    pub(super) cracks: [u64; 2],
+    /// Crossings with two hits or more.
+    pub(super) doubles: [u64; 2],
+}
+
+impl Across {
+    /// The sum of a row's results; none without a crossing.
+    pub(super) fn of(row: &RowView) -> Option<Across> {
+        let parts = || row.results.iter().filter_map(|result| result.across.as_ref());
+        let sum = |rate: fn(&AcrossPart) -> &Rate| {
+            parts().fold([0, 0], |[n, of], part| [n + rate(part).count, of + rate(part).of])
+        };
+        let [cracks, doubles] = [sum(|part| &part.cracks), sum(|part| &part.doubles)];
+        let promised = parts().next()?.promised.clone();
+        (0 < cracks[1]).then_some(Across { promised, cracks, doubles })
+    }
+
+    /// Whether the contract rules out cracks, and doubles.
+    pub(super) fn rules_out(&self) -> [bool; 2] {
+        [self.promised != "nothing", self.promised == "exactly-one"]
+    }
+
+    /// Whether it happened nevertheless.
+    pub(super) fn is_broken(&self) -> bool {
+        let [no_crack, no_double] = self.rules_out();
+        no_crack && 0 < self.cracks[0] || no_double && 0 < self.doubles[0]
+    }
+
+    /// What is promised, and whether that was kept.
+    pub(super) fn words(&self) -> String {
+        let promise = match self.promised.as_str() {
+            "nothing" => return "nothing".to_owned(),
+            "at-least-one" => ">= 1",
+            _ => "= 1",
+        };
+        format!("{promise}: {}", if self.is_broken() { "BROKEN" } else { "kept" })
+    }
+}
+
+/// A share in percent in four characters: `0`, `<0.1`, `12.3`, `100`.
+pub(super) fn short_percent([count, of]: [u64; 2]) -> String {
+    let tenths = (count as f64 / of as f64 * 1000.0).round();
+    match count {
+        _ if of == 0 => "-".to_owned(),
+        0 => "0".to_owned(),
+        _ if count == of => "100".to_owned(),
+        _ if tenths < 1.0 => "<0.1".to_owned(),
+        _ => format!("{:.1}", tenths.min(999.0) / 10.0),
+    }
+}

@@ -1,0 +1,161 @@
+//! The three worst findings of a record, in words, each with the command that shows it.
+
+use super::columns::Column;
+use super::record::*;
+use super::screen::{Line, write_wrapped};
+use super::worst::severity_of;
+use super::{Style, group_digits};
+use crate::audit::Attribution;
+use std::io::{self, Write};
+
+/// How many are shown.
+const MOST: usize = 3;
+
+/// The worst case of one class of findings.
+struct Extreme<'a> {
+    line: &'a Line<'a>,
+    part: &'a FindingPart,
+    /// In longest edges of the triangle, and whether that is along the ray.
+    distance: (f64, bool),
+    cause: Option<Attribution>,
+}
+
+/// Writes a promise across triangles that was broken, and the worst verdicts in ordinary sizes.
+pub(super) fn write(
+    columns: &[Column],
+    lines: &[Line],
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let broken = lines.iter().find_map(|line| Some((line, broken_promise(line)?)));
+    let worst = chosen(all(columns, lines), MOST - usize::from(broken.is_some()));
+    if broken.is_none() && worst.is_empty() {
+        return Ok(());
+    }
+    let is_all = columns.iter().all(|column| column.is_ordinary());
+    let place = if is_all { "" } else { " in ordinary sizes" };
+    writeln!(
+        out,
+        "{bold}Worst{plain}{place}, in longest edges of the triangle, of different causes and kernels:"
+    )?;
+    let commands = broken.into_iter().map(|(line, (text, command))| {
+        (format!("{}, {}: {text}", line.label(), line.scalar), command)
+    });
+    let worst =
+        worst.iter().map(|extreme| (extreme.describe(), extreme.part.worst.command.clone()));
+    for (number, (text, command)) in commands.chain(worst).enumerate() {
+        write_wrapped(&format!("{}. {text}", number + 1), out)?;
+        writeln!(out, "   {command}")?;
+    }
+    Ok(())
+}
+
+/// What a row did although it promises otherwise across triangles, and the command that shows the first.
+fn broken_promise(line: &Line) -> Option<(String, String)> {
+    let across = line.across.as_ref().filter(|across| across.is_broken())?;
+    let first = |ids: fn(&AcrossPart) -> &[String]| {
+        let first = |result: &KernelResult| Some(ids(result.across.as_ref()?).first()?.clone());
+        line.row.results.iter().find_map(|result| Some((*result, first(result)?)))
+    };
+    let [no_crack, _] = across.rules_out();
+    let (what, [count, of], (result, id)) = if no_crack && 0 < across.cracks[0] {
+        ("no triangle reports", across.cracks, first(|part| &part.first_cracks)?)
+    } else {
+        ("two triangles report", across.doubles, first(|part| &part.first_doubles)?)
+    };
+    let (count, of) = (group_digits(count), group_digits(of));
+    let text = format!("broken promise, {what} {count} of {of} crossings");
+    Some((text, line.row.part.explain_group(result, &id)))
+}
+
+/// The worst of each class of false misses and false hits in ordinary sizes. A triangle without area may
+/// be a point, which has no edge to measure by.
+fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
+    let mut all = Vec::new();
+    for line in lines {
+        for column in columns.iter().filter(|column| column.is_ordinary()) {
+            let results = column.results(&line.row).into_iter();
+            let parts = results.flat_map(|result| &result.findings).filter(|part| {
+                matches!(&*part.finding, "false-miss" | "false-hit") && part.class != "degenerate"
+            });
+            all.extend(parts.filter(|part| part.worst.severity.is_some()).map(|part| Extreme {
+                line,
+                part,
+                distance: severity_of(part),
+                cause: main_cause(part),
+            }));
+        }
+    }
+    all
+}
+
+/// What most of a class's findings come from, as far as is known.
+fn main_cause(part: &FindingPart) -> Option<Attribution> {
+    let by = &part.causes.as_ref()?.by;
+    let share =
+        |cause: &Attribution| by.get(cause.name()).and_then(|rate| rate.rate).unwrap_or(0.0);
+    let most = Attribution::ALL.into_iter().max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    (0.0 < share(&most)).then_some(most)
+}
+
+/// The worst first; then the worst of what differs from those before it.
+fn chosen(mut all: Vec<Extreme>, most: usize) -> Vec<Extreme> {
+    all.sort_by(|a, b| b.distance.0.total_cmp(&a.distance.0));
+    let mut chosen: Vec<Extreme> = Vec::new();
+    while chosen.len() < most {
+        let is_new = |differs: &dyn Fn(&Extreme, &Extreme) -> bool| {
+            all.iter().position(|one| chosen.iter().all(|other| differs(one, other)))
+        };
+        let cause = |a: &Extreme, b: &Extreme| group(a.cause) != group(b.cause);
+        let kernel = |a: &Extreme, b: &Extreme| {
+            let is_other = a.line.row.part.kernel != b.line.row.part.kernel;
+            is_other && a.part.worst.case != b.part.worst.case
+        };
+        let kind = |a: &Extreme, b: &Extreme| a.part.finding != b.part.finding;
+        let next = is_new(&|a, b| cause(a, b) && kernel(a, b))
+            .or_else(|| is_new(&cause))
+            .or_else(|| is_new(&kernel))
+            .or_else(|| is_new(&kind));
+        let Some(next) = next else { break };
+        chosen.push(all.remove(next));
+    }
+    chosen
+}
+
+/// Causes that are alike: rounding, overflow and underflow are all the arithmetic.
+fn group(cause: Option<Attribution>) -> Option<Attribution> {
+    cause.map(|cause| if cause == Attribution::Range { Attribution::Rounding } else { cause })
+}
+
+impl Extreme<'_> {
+    /// What is wrong, by how much, and why.
+    fn describe(&self) -> String {
+        let is_hit = self.part.finding == "false-hit";
+        let distance = match self.distance.0 {
+            d if (0.01..1000.0).contains(&d) => format!("{d:.2}"),
+            d => format!("{d:.1e}"),
+        };
+        let class = &self.part.class;
+        let touches =
+            ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
+        let what = match (is_hit, self.distance.1) {
+            (true, true) if class.ends_with("/before") => {
+                format!("a hit {distance} edges behind the start of the ray")
+            }
+            (true, true) => format!("a hit {distance} edges beyond the end of the ray"),
+            (true, false) if touches => "a hit on the side that must be missed".to_owned(),
+            (true, false) => format!("a hit, but the ray passes {distance} edges away"),
+            (false, true) => format!("a miss, but the ray ends {distance} edges behind the hit"),
+            (false, false) => format!("a miss, but the ray hits {distance} edges inside"),
+        };
+        let cause = match self.cause {
+            None => "",
+            Some(Attribution::Convention) => "; cause: the formula",
+            Some(Attribution::Epsilon) => "; cause: the epsilon",
+            Some(Attribution::Rounding) => "; cause: rounding",
+            Some(Attribution::Range) => "; cause: overflow or underflow",
+        };
+        format!("{}, {}: {what}{cause}", self.line.label(), self.line.scalar)
+    }
+}

@@ -1,0 +1,63 @@
+//! Sums over sources. A random sample has an interval; stored cases, and all cases of a finite family,
+//! are the whole of what they are: they have counts, and are never added to a sample.
+
+use super::group_digits;
+use super::record::Rate;
+
+/// A sum over the sources that are random samples, and one over the others.
+#[derive(Clone, Debug)]
+pub(super) struct Pool {
+    sample: Rate,
+    complete: Rate,
+}
+
+impl Pool {
+    /// The sums of rates. A rate without an interval is of a complete set.
+    pub(super) fn of<'a>(rates: impl Iterator<Item = &'a Rate>) -> Pool {
+        let (sample, complete): (Vec<_>, Vec<_>) = rates.partition(|rate| rate.interval.is_some());
+        Pool { sample: Rate::sum(sample), complete: Rate::sum(complete) }
+    }
+
+    /// Of the samples; where there is none, of the complete sets.
+    pub(super) fn rate(&self) -> &Rate {
+        if self.sample.of == 0 { &self.complete } else { &self.sample }
+    }
+
+    /// What [`Pool::rate`] leaves out: `3 of 57`.
+    pub(super) fn apart(&self) -> Option<String> {
+        let Rate { count, of, .. } = self.complete;
+        let both = 0 < of && 0 < self.sample.of;
+        both.then(|| format!("{} of {}", group_digits(count), group_digits(of)))
+    }
+
+    /// Of both, without an interval.
+    pub(super) fn counts(&self) -> [u64; 2] {
+        [self.sample.count + self.complete.count, self.sample.of + self.complete.of]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::Trials;
+
+    fn rate(count: u64, of: u64, sample: bool) -> Rate {
+        Rate::new(Trials::independent(count, of), sample)
+    }
+
+    #[test]
+    fn stored_cases_stay_out_of_a_samples_interval() {
+        let [sample, stored] = [rate(10, 500, true), rate(3, 57, false)];
+        let pool = Pool::of([&sample, &stored].into_iter());
+        assert_eq!((pool.rate().count, pool.rate().of), (10, 500));
+        assert_eq!(pool.rate().interval, sample.interval);
+        assert_eq!(pool.apart().as_deref(), Some("3 of 57"));
+        assert_eq!(pool.counts(), [13, 557]);
+        let pool = Pool::of(std::iter::once(&stored));
+        assert_eq!((pool.rate().count, pool.rate().of), (3, 57));
+        assert!(pool.rate().interval.is_none() && pool.apart().is_none());
+        // A sample without a trial has no interval either, and counts for nothing.
+        let none = rate(0, 0, true);
+        assert_eq!(Pool::of(std::iter::once(&none)).counts(), [0, 0]);
+    }
+}

@@ -1,0 +1,382 @@
+//! What `hairline audit` prints: the answer, a table with a column for each question, the worst
+//! findings, and what to do next. Everything else is behind `--details`.
+
+use super::columns::{Across, Cell, Column, short_percent};
+use super::record::*;
+use super::text::{ALL_INVALID, RowView, is_all_invalid, write_failures};
+use super::{Style, close_up, extremes, group_digits, number_of};
+use crate::family;
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+/// Characters in a line, where words can be wrapped.
+const WIDTH: usize = 119;
+
+/// Of no more rows than this the screen shows each by itself.
+const MOST_CLOSE_UPS: usize = 2;
+
+/// One row in one scalar.
+pub(super) struct Line<'a> {
+    pub(super) scalar: &'a str,
+    pub(super) row: RowView<'a>,
+    /// One a column.
+    pub(super) cells: Vec<Cell>,
+    pub(super) across: Option<Across>,
+}
+
+impl Line<'_> {
+    /// `kernel (epsilons)`.
+    pub(super) fn label(&self) -> String {
+        format!("{} ({})", self.row.part.kernel, self.row.part.set)
+    }
+}
+
+/// Every row in every scalar.
+pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
+    let in_scalar = |scalar: &'a String| {
+        let rows = RowView::all(record, scalar).into_iter();
+        rows.map(move |row| Line {
+            scalar,
+            cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
+            across: Across::of(&row),
+            row,
+        })
+    };
+    record.result.plan.scalars.iter().flat_map(in_scalar).collect()
+}
+
+/// Writes the screen.
+pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let columns = Column::all(record);
+    let lines = lines(record, &columns);
+    write_head(record, out)?;
+    write_answer(record, &columns, &lines, out)?;
+    for scalar in &record.result.plan.scalars {
+        let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);
+        let cases = cases.map(|source| source.cases).sum();
+        if 0 < cases && is_all_invalid(&RowView::all(record, scalar), cases) {
+            writeln!(out, "{scalar}: {ALL_INVALID}")?;
+        }
+    }
+    if record.result.plan.rows.len() <= MOST_CLOSE_UPS {
+        close_up::write(record, &columns, &lines, style, out)?;
+    } else {
+        write_cell_legend(&columns, &lines, out)?;
+        writeln!(out)?;
+        write_table(&columns, &lines, style, out)?;
+        write_wrapped(&column_legend(&columns, &lines), out)?;
+    }
+    for scalar in &record.result.plan.scalars {
+        let rows = lines.iter().filter(|line| line.scalar == scalar).map(|line| &line.row);
+        write_failures(&rows.collect::<Vec<_>>(), out)?;
+    }
+    extremes::write(&columns, &lines, style, out)?;
+    write_next(&lines, style, out)
+}
+
+/// What was run.
+fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
+    let (result, provenance) = (&record.result, &record.provenance);
+    let cases = |scalar: &String| {
+        let sources = result.sources.iter().filter(|source| source.scalar == *scalar);
+        sources.map(|source| source.cases).sum::<u64>()
+    };
+    // Usually as many in each scalar.
+    let mut counts: Vec<(u64, Vec<&str>)> = Vec::new();
+    for scalar in &result.plan.scalars {
+        match counts.last_mut() {
+            Some((count, names)) if *count == cases(scalar) => names.push(scalar),
+            _ => counts.push((cases(scalar), vec![scalar])),
+        }
+    }
+    let counts = counts.iter().map(|(count, names)| {
+        format!("{} in {}", number_of(*count, "case", "cases"), names.join(" and in "))
+    });
+    let sources = &result.plan.sources;
+    let is_family = |source: &PlannedSource| family::find(&source.family).is_some();
+    let (one, many) = match sources.iter().all(is_family) {
+        true => ("family", "families"),
+        false => ("source of cases", "sources of cases"),
+    };
+    let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
+    writeln!(
+        out,
+        "{}: {} ({}) on {}, {}, {:.1} s, plan {}",
+        provenance.tool,
+        number_of(result.plan.rows.len() as u64, "row", "rows"),
+        number_of(kernels.len() as u64, "kernel", "kernels"),
+        number_of(sources.len() as u64, one, many),
+        counts.collect::<Vec<_>>().join(", "),
+        provenance.seconds,
+        result.plan.hash,
+    )
+}
+
+/// How one row did in all scalars, in the columns of ordinary sizes.
+struct Standing {
+    label: String,
+    /// The mean of the cells' shares.
+    share: f64,
+    wrong: u64,
+    far: u64,
+}
+
+fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standing> {
+    // Stored cases stay out of the mean of samples.
+    let all_complete = columns.iter().all(|column| column.complete);
+    let of_row = |part: &RowPart| {
+        let lines = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
+        let cells: Vec<(&Column, &Cell)> = lines
+            .flat_map(|line| columns.iter().zip(&line.cells))
+            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)
+            .collect();
+        let meant = cells.iter().filter(|(column, _)| column.complete == all_complete);
+        let shares: Vec<f64> = meant.filter_map(|(_, cell)| cell.wrong.share()).collect();
+        (!shares.is_empty()).then(|| Standing {
+            label: format!("{} ({})", part.kernel, part.set),
+            share: shares.iter().sum::<f64>() / shares.len() as f64,
+            wrong: cells.iter().map(|(_, cell)| cell.wrong.count).sum(),
+            far: cells.iter().map(|(_, cell)| cell.far).sum(),
+        })
+    };
+    record.result.plan.rows.iter().filter_map(of_row).collect()
+}
+
+/// The answer in words.
+fn write_answer(
+    record: &Record,
+    columns: &[Column],
+    lines: &[Line],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let standings = standings(record, columns, lines);
+    let special: Vec<&str> = columns
+        .iter()
+        .filter(|column| !column.is_ordinary())
+        .map(|column| column.label())
+        .collect();
+    let place = match &special[..] {
+        [] => String::new(),
+        special => format!(" in ordinary sizes (all columns but {})", special.join(" and ")),
+    };
+    let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
+    let mean = if 1 < meant { ", on average over these columns" } else { "" };
+    let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
+    let text = match &standings[..] {
+        [] if columns.is_empty() => {
+            "No contract demands a verdict on any of these cases, so no verdict is wrong."
+                .to_owned()
+        }
+        [] => "No case is of ordinary size.".to_owned(),
+        [only] if only.wrong == 0 => format!("{}: every verdict is right{place}.", only.label),
+        [only] => format!(
+            "{} is wrong on {} % of the cases{place}{mean}, {} times by over 1/1000 of the triangle's longest edge.",
+            only.label,
+            percent(only.share),
+            group_digits(only.far),
+        ),
+        all => {
+            // Of equals the first.
+            let first = |order: fn(&Standing, &Standing) -> Ordering| {
+                all.iter().min_by(|a, b| order(a, b)).expect("several rows")
+            };
+            let least = first(|a, b| a.share.total_cmp(&b.share));
+            let most = first(|a, b| b.share.total_cmp(&a.share));
+            let [near, far] = [first(|a, b| a.far.cmp(&b.far)), first(|a, b| b.far.cmp(&a.far))];
+            let far = match far.far {
+                0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
+                most => format!(
+                    "Wrong by over 1/1000 of the longest edge, least: {}, {} times; most: {}, {}.",
+                    near.label,
+                    group_digits(near.far),
+                    far.label,
+                    group_digits(most),
+                ),
+            };
+            format!(
+                "{} of {} rows were right on every case{place}. Wrong least{mean}: {}, {} %; most: {}, {} %. {far}",
+                all.iter().filter(|row| row.wrong == 0).count(),
+                all.len(),
+                least.label,
+                percent(least.share),
+                most.label,
+                percent(most.share),
+            )
+        }
+    };
+    write_wrapped(&text, out)?;
+    if let Some(partial) = &record.result.partial {
+        writeln!(out, "A part of a run: {}; all numbers are of this part.", partial.in_words())?;
+    }
+    Ok(())
+}
+
+/// What a cell is.
+fn write_cell_legend(columns: &[Column], lines: &[Line], out: &mut dyn Write) -> io::Result<()> {
+    let sampled = lines.iter().flat_map(|line| columns.iter().zip(&line.cells));
+    let wide = sampled
+        .filter(|(column, cell)| !column.complete && 0 < cell.wrong.of)
+        .map(|(_, cell)| cell.wrong.interval())
+        .map(|interval| (interval.high - interval.low) / 2.0)
+        .fold(0.0, f64::max);
+    let contracts: BTreeSet<&str> = lines.iter().map(|line| &*line.row.part.contract).collect();
+    let contract = match contracts.len() {
+        1 => "the contract given",
+        _ => "what the row's source promises",
+    };
+    let within = match wide {
+        0.0 => String::new(),
+        wide => format!(" (95 % intervals: ±{:.1} at most)", wide * 100.0 + 0.05),
+    };
+    let free = lines.iter().flat_map(|line| &line.cells).any(|cell| cell.wrong.of == 0);
+    let free = if free { "; - nothing demanded" } else { "" };
+    let stored = columns.iter().any(|column| column.complete);
+    let stored = if stored { "; of whole sets: wrong/all" } else { "" };
+    let text = format!(
+        "Cells: % of wrong verdicts, false misses and false hits, by {contract}, on cases chosen to be \
+         hard{within}; * over 0.1 % are wrong by over 1/1000 of the longest edge{stored}{free}."
+    );
+    write_wrapped(&text, out)
+}
+
+fn write_table(
+    columns: &[Column],
+    lines: &[Line],
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    let text = |column: &Column, cell: &Cell| {
+        let share = match column.complete {
+            true if cell.wrong.of == 0 => "-".to_owned(),
+            true => format!("{}/{}", group_digits(cell.wrong.count), group_digits(cell.wrong.of)),
+            false => short_percent([cell.wrong.count, cell.wrong.of]),
+        };
+        format!("{share}{}", if cell.is_far() { '*' } else { ' ' })
+    };
+    let cells = |line: &Line| -> Vec<String> {
+        columns.iter().zip(&line.cells).map(|(column, cell)| text(column, cell)).collect()
+    };
+    let width = |i: usize| {
+        let longest = lines.iter().map(|line| cells(line)[i].len()).max();
+        longest.unwrap_or(0).max(columns[i].label().len() + 1).max(5)
+    };
+    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let first = lines.iter().map(|line| line.label().chars().count()).max().unwrap_or(0).max(22);
+    let has_groups = lines.iter().any(|line| line.across.is_some());
+    let mut scalar = "";
+    for line in lines {
+        if scalar != line.scalar {
+            scalar = line.scalar;
+            write!(out, "{bold}{:<first$}", format!("{scalar} kernel (epsilons)"))?;
+            for (column, width) in columns.iter().zip(&widths) {
+                write!(out, " {:>width$}", format!("{} ", column.label()))?;
+            }
+            let groups = if has_groups { " cracks doubles  promised" } else { "" };
+            writeln!(out, "{groups}{plain}")?;
+        }
+        let mut text = format!("{:<first$}", line.label());
+        for ((cell, share), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
+            let share = format!("{share:>width$}");
+            let color = if cell.wrong.of == 0 { "" } else { colour(style, cell.wrong.count) };
+            text.push(' ');
+            text.push_str(&painted(&share, color));
+        }
+        if has_groups {
+            text.push_str(&across_text(line.across.as_ref(), style));
+        }
+        writeln!(out, "{}", text.trim_end())?;
+    }
+    Ok(())
+}
+
+/// Cracks and doubles, and what is promised of them.
+fn across_text(across: Option<&Across>, style: Style) -> String {
+    let Some(across) = across else { return format!(" {:>6} {:>7}  -", "-", "-") };
+    let rate = |rate: [u64; 2], ruled_out: bool, width: usize| {
+        let color = if ruled_out { colour(style, rate[0]) } else { "" };
+        painted(&format!("{:>width$}", short_percent(rate)), color)
+    };
+    let [no_crack, no_double] = across.rules_out();
+    let color = if no_crack { colour(style, u64::from(across.is_broken())) } else { "" };
+    format!(
+        " {} {}  {}",
+        rate(across.cracks, no_crack, 6),
+        rate(across.doubles, no_double, 7),
+        painted(&across.words(), color)
+    )
+}
+
+/// Green for nothing wrong, red for something.
+fn colour(style: Style, wrong: u64) -> &'static str {
+    match (style.color, wrong) {
+        (false, _) => "",
+        (true, 0) => "\x1b[32m",
+        (true, _) => "\x1b[31m",
+    }
+}
+
+fn painted(text: &str, color: &str) -> String {
+    if color.is_empty() { text.to_owned() } else { format!("{color}{text}\x1b[0m") }
+}
+
+/// What the columns hold.
+pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
+    let told = columns.iter().filter(|column| !column.about().is_empty());
+    let mut parts: Vec<String> =
+        told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
+    if lines.iter().any(|line| line.across.is_some()) {
+        parts.push(
+            "cracks, doubles: % of rays at shared edges with no hit, with two; promised: how many"
+                .to_owned(),
+        );
+    }
+    parts.join("; ")
+}
+
+/// What to do next.
+fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+    // The kernel of `judge` cannot be chosen by a flag.
+    let rows: Vec<&RowPart> =
+        lines.iter().map(|line| line.row.part).filter(|row| !row.selector.is_empty()).collect();
+    let Some(first) = rows.first() else {
+        return writeln!(out, "{bold}Everything:{plain} --details");
+    };
+    let tuned = rows.iter().find(|row| !row.epsilons.is_empty());
+    let is_alone = rows.iter().all(|row| row.selector == first.selector);
+    // Many rows leave less room.
+    let (only, after) = match is_alone {
+        true => (format!(" {}", first.selector), "\n"),
+        false => (String::new(), "   "),
+    };
+    if !is_alone {
+        let one = tuned.unwrap_or(first);
+        write!(out, "{bold}One kernel:{plain} hairline audit {}{after}", one.selector)?;
+    }
+    writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
+    if let Some(tuned) = tuned {
+        write!(out, "{bold}Choose an epsilon:{plain} hairline epsilon {}{after}", tuned.selector)?;
+    }
+    writeln!(out, "{bold}Gate a CI:{plain} hairline check{only}, the first time with --bless")
+}
+
+/// Writes words in lines of [`WIDTH`] at most.
+pub(super) fn write_wrapped(text: &str, out: &mut dyn Write) -> io::Result<()> {
+    if text.is_empty() {
+        return Ok(());
+    }
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if WIDTH < line.chars().count() + 1 + word.chars().count() && !line.trim().is_empty() {
+            writeln!(out, "{line}")?;
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    writeln!(out, "{line}")
+}

@@ -1,0 +1,639 @@
+//! The program as a user runs it: output, exit codes, bad input.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A folder of its own for each test.
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn hairline_in(folder: &Path, arguments: &[&str], input: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("NO_COLOR")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A program that stops at bad arguments does not read.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn hairline(arguments: &[&str]) -> Output {
+    hairline_in(Path::new(env!("CARGO_MANIFEST_DIR")), arguments, "")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("ended by itself")
+}
+
+/// Runs, expects an exit code and nothing on standard output, and returns the one line of error.
+fn refused(folder: &Path, arguments: &[&str], expected: i32) -> String {
+    let output = hairline_in(folder, arguments, "");
+    let error = text(&output.stderr);
+    assert_eq!(code(&output), expected, "{arguments:?}: {error}");
+    assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    let lines: Vec<&str> = error.lines().filter(|line| line.starts_with("hairline: ")).collect();
+    assert_eq!(lines.len(), 1, "{arguments:?}: {error}");
+    lines[0].to_owned()
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    assert_eq!(code(output), 0, "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_audit_lists_every_kernel_scalar_and_family() {
+    let record = json(&hairline(&["audit", "--count", "50", "--format", "json", "--quiet"]));
+    assert_eq!(record["schema"], "hairline-record/1");
+    let results = record["result"]["results"].as_array().unwrap();
+    let distinct = |key: &str| {
+        results
+            .iter()
+            .map(|r| r[key].as_str().unwrap())
+            .collect::<std::collections::BTreeSet<_>>()
+            .len()
+    };
+    assert_eq!((distinct("kernel"), distinct("scalar"), distinct("family")), (16, 2, 28));
+    for source in record["result"]["sources"].as_array().unwrap() {
+        assert_eq!(source["promise_broken"], 0, "{source}");
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_number_of_threads() {
+    let result = |threads: &str| {
+        let arguments = [
+            "audit",
+            "-n",
+            "3000",
+            "--family",
+            "edge-near,fan,respawn,range-ends",
+            "--format",
+            "json",
+            "--threads",
+            threads,
+        ];
+        serde_json::to_string(&json(&hairline(&arguments))["result"]).unwrap()
+    };
+    let one = result("1");
+    assert_eq!(one, result("2"));
+    assert_eq!(one, result("7"));
+}
+
+#[test]
+fn the_text_table_names_the_kernel_the_place_the_cost_and_the_command() {
+    let output = hairline(&[
+        "audit",
+        "-n",
+        "2000",
+        "--kernel",
+        "moller-trumbore",
+        "--family",
+        "tiny,edge-near",
+        "--details",
+    ]);
+    let table = text(&output.stdout);
+    assert_eq!(code(&output), 0);
+    for expected in [
+        "moller-trumbore (source)",
+        "ns/ray",
+        "tiny",
+        "contract: line",
+        "false-miss",
+        "hairline explain '",
+    ] {
+        assert!(table.contains(expected), "{expected}: {table}");
+    }
+    // The command that it prints shows the same disagreement again.
+    let command = table.lines().find(|line| line.contains("hairline explain")).unwrap();
+    let words: Vec<&str> =
+        command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+    let explained = hairline(&words);
+    assert_eq!(code(&explained), 0, "{}", text(&explained.stderr));
+    let explained = text(&explained.stdout);
+    assert!(explained.contains("FALSE-"), "{explained}");
+    assert!(explained.contains("exactly"), "{explained}");
+    assert!(explained.contains("<- decides") || explained.contains(": hit;"), "{explained}");
+}
+
+#[test]
+fn epsilons_and_presets_change_the_verdict() {
+    let misses = |extra: &[&str]| {
+        let mut arguments = vec![
+            "audit",
+            "-n",
+            "500",
+            "--kernel",
+            "moller-trumbore",
+            "--scalar",
+            "f32",
+            "--family",
+            "tiny",
+            "--format",
+            "json",
+        ];
+        arguments.extend(extra);
+        json(&hairline(&arguments))["result"]["results"][0]["total"]["false_misses"]["count"]
+            .as_u64()
+            .unwrap()
+    };
+    assert!(misses(&[]) > 200);
+    assert!(misses(&["--epsilon", "parallel=0"]) < 50);
+    assert!(misses(&["--epsilon-preset", "zero"]) < 50);
+    assert!(misses(&["--epsilon-preset", "godot"]) > 200);
+    // A scalar that has no such number cannot be asked; one that has it can.
+    let tiny = ["audit", "-n", "20", "--family", "tiny", "--epsilon", "parallel=1e-60"];
+    let in_f64 = ["--scalar", "f64", "--kernel", "moller-trumbore"];
+    let error = refused(Path::new("."), &tiny, 2);
+    assert!(error.contains("1e-60 is 0 in f32 (see --scalar)"), "{error}");
+    assert_eq!(code(&hairline(&[&tiny[..], &in_f64].concat())), 0);
+    // A tolerance on the edges takes more hits than none.
+    assert!(
+        misses(&["--epsilon", "parallel=0,edge=-1e-3"])
+            < misses(&["--epsilon", "parallel=0,edge=1e-3"])
+    );
+}
+
+#[test]
+fn a_table_of_nothing_says_why() {
+    let plan = ["audit", "-n", "20", "--kernel", "cramer", "--threads", "1"];
+    let far = [&plan[..], &["--family", "tiny,far", "--offset", "1e60:0:0"]].concat();
+    let screen = text(&hairline(&far).stdout);
+    assert!(
+        screen.contains("\nf32: All are invalid: ") && !screen.contains("f64: All"),
+        "{screen}"
+    );
+    let far = [&far[..], &["--details"]].concat();
+    let table = text(&hairline(&far).stdout);
+    let [f32, f64] = table.split_once("\nf64, 40 cases").map(<[&str; 2]>::from).unwrap();
+    assert!(f32.contains("1 kernel row, 2 families, 1 thread, "), "{table}");
+    assert!(f32.contains("f32, 40 cases for each kernel\nAll are invalid: "), "{table}");
+    assert!(!f64.contains("All are invalid"), "{table}");
+    let folder = scratch("one-scalar");
+    fs::write(folder.join("one.jsonl"), format!("{CASE}\n")).unwrap();
+    let one = ["audit", "--corpus", "one.jsonl", "--kernel", "cramer", "--details"];
+    let table = hairline_in(&folder, &one, "");
+    assert!(text(&table.stdout).contains("f32, 1 case for each kernel\nkernel"), "{table:?}");
+    assert!(text(&table.stdout).ends_with("f64, 0 cases for each kernel\n"), "{table:?}");
+}
+
+#[test]
+fn one_contract_for_all_changes_what_is_asked() {
+    let of = |contract: &str| {
+        let arguments = [
+            "audit",
+            "-n",
+            "300",
+            "--kernel",
+            "moller-trumbore",
+            "--family",
+            "behind",
+            "--scalar",
+            "f64",
+            "--format",
+            "json",
+            "--contract",
+            contract,
+        ];
+        json(&hairline(&arguments))["result"]["results"][0]["total"]["false_hits"]["of"]
+            .as_u64()
+            .unwrap()
+    };
+    assert_eq!(of("closed-line"), 0);
+    assert_eq!(of("closed-ray"), 300);
+}
+
+#[test]
+fn formats_go_to_their_outputs_whole() {
+    let folder = scratch("formats");
+    let arguments = [
+        "audit",
+        "-n",
+        "20",
+        "--family",
+        "tiny",
+        "--format",
+        "text,json",
+        "-o",
+        "table.txt",
+        "-o",
+        "record.json",
+    ];
+    let output = hairline_in(&folder, &arguments, "");
+    assert_eq!((code(&output), text(&output.stdout)), (0, String::new()));
+    assert!(fs::read_to_string(folder.join("table.txt")).unwrap().contains("Worst findings"));
+    let record: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
+    assert_eq!(record["result"]["plan"]["sources"][0]["family"], "tiny");
+    let left: Vec<_> = fs::read_dir(&folder).unwrap().collect();
+    assert_eq!(left.len(), 2, "nothing left beside them");
+}
+
+#[test]
+fn colour_obeys_the_flag_and_no_color() {
+    let table = |color: &str| {
+        text(&hairline(&["audit", "-n", "20", "--family", "tiny", "--color", color]).stdout)
+    };
+    assert!(table("always").contains('\x1b'));
+    assert!(!table("never").contains('\x1b'));
+    assert!(!table("auto").contains('\x1b'), "a pipe is no terminal");
+}
+
+const CASE: &str = r#"{"name":"mid","scalar":"f32","origin":[1,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":["2","0x0p0",0],"c":[0,2,0]}"#;
+
+#[test]
+fn truth_prints_one_json_line_a_case() {
+    let folder = scratch("truth");
+    let coplanar = r#"{"scalar":"f64","origin":[-1,1,0],"direction":[1,0,0],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0],"t_max":2}"#;
+    let output = hairline_in(&folder, &["truth", "-"], &format!("{CASE}\n\n{coplanar}\n"));
+    assert_eq!(code(&output), 0);
+    let lines: Vec<serde_json::Value> =
+        text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let expected = serde_json::json!({
+        "name": "mid", "class": "transversal", "facing": "front", "t": "within", "feature": "edge_ab",
+        "contact": null, "hits_closed": true, "t_exact": "1/1", "u_exact": "1/2", "v_exact": "0/1"
+    });
+    assert_eq!(lines[0], expected);
+    let contact = serde_json::json!({"kind": "segment", "feature": null, "t": ["1/1", "2/1"]});
+    assert_eq!((&lines[1]["class"], &lines[1]["contact"]), (&"coplanar".into(), &contact));
+    assert_eq!(
+        (&lines[1]["name"], &lines[1]["t"]),
+        (&serde_json::Value::Null, &serde_json::Value::Null)
+    );
+}
+
+#[test]
+fn bad_corpus_lines_are_refused_with_file_line_and_field() {
+    let folder = scratch("bad-corpus");
+    let wrong = CASE.replacen('{', r#"{"truth":{"feature":"vertex_a"},"#, 1);
+    for (content, message) in [
+        ("not json".to_owned(), "bad.jsonl:1: "),
+        (
+            format!("{CASE}\n{}", CASE.replace("origin", "orign")),
+            "bad.jsonl:2: unknown field 'orign'",
+        ),
+        (CASE.replace(r#""a":[0,0,0],"#, ""), "bad.jsonl:1: missing field 'a'"),
+        (CASE.replace("[1,0,1]", "[1,0,1e39]"), "bad.jsonl:1: origin[2]: '1e39' overflows f32"),
+        (
+            wrong,
+            "bad.jsonl:1: stored truth is wrong: feature is 'vertex_a', the oracle says 'edge_ab'",
+        ),
+    ] {
+        fs::write(folder.join("bad.jsonl"), content).unwrap();
+        let output = hairline_in(&folder, &["truth", "bad.jsonl"], "");
+        assert_eq!(code(&output), 65);
+        assert!(
+            text(&output.stderr).starts_with(&format!("hairline: {message}")),
+            "{}",
+            text(&output.stderr)
+        );
+        assert!(refused(&folder, &["audit", "--corpus", "bad.jsonl"], 65).contains(message));
+        // To a file: nothing half-written.
+        assert_eq!(code(&hairline_in(&folder, &["truth", "bad.jsonl", "-o", "out.jsonl"], "")), 65);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+    }
+}
+
+#[test]
+fn bad_meshes_are_refused_with_file_and_line() {
+    let folder = scratch("bad-meshes");
+    for (content, message) in [
+        (&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"[..], "bad.obj:4: face names vertex 4"),
+        (b"v 0 0 0\nv 1 0 nan\n", "bad.obj:2: "),
+        (b"v 0 0 0\nv 1 0\n", "bad.obj:2: "),
+        (b"v 0 0 0\n\xff\xfe\n", "bad.obj:2: "),
+        (b"", "bad.obj: "),
+        (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "bad.obj: "),
+        (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "bad.obj:4: "),
+    ] {
+        fs::write(folder.join("bad.obj"), content).unwrap();
+        assert!(
+            refused(&folder, &["audit", "--mesh", "bad.obj"], 65).contains(message),
+            "{message}"
+        );
+    }
+    assert!(refused(&folder, &["audit", "--mesh", "none.obj"], 74).contains("none.obj: "));
+}
+
+#[test]
+fn a_mesh_and_a_corpus_are_audited() {
+    let arguments = [
+        "audit",
+        "-n",
+        "400",
+        "--mesh",
+        "corpora/meshes/needles.obj",
+        "--corpus",
+        "corpora/curated.jsonl",
+        "--kernel",
+        "woop-watertight",
+        "--details",
+    ];
+    let output = hairline(&arguments);
+    let table = text(&output.stdout);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert!(table.contains("rays meet an edge and"), "{table}");
+    // The curated set holds more than 150 cases, and each is run.
+    let record =
+        json(&hairline(&["audit", "--corpus", "corpora/curated.jsonl", "--format", "json"]));
+    let cases: u64 = record["result"]["sources"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|s| s["cases"].as_u64().unwrap())
+        .sum();
+    assert!(cases >= 150);
+    // A finding on a mesh can be shown again.
+    let command =
+        table.lines().find(|line| line.contains("--mesh")).expect("a finding on the mesh");
+    let words: Vec<&str> =
+        command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+    assert!(text(&hairline(&words).stdout).contains("FALSE-"));
+}
+
+#[test]
+fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (arguments, message) in [
+        (&["audit", "--kernel", "moler-trumbore"][..], "did you mean 'moller-trumbore'?"),
+        (&["audit", "--family", "edge-exat"], "did you mean 'edge-exact'?"),
+        (&["audit", "--epsilon", "paralel=0"], "did you mean 'parallel'?"),
+        (&["audit", "--epsilon", "parallel"], "is not GATE=VALUE"),
+        (&["audit", "--epsilon-preset", "gdot"], "did you mean 'godot'?"),
+        (&["audit", "--contract", "closed-rai"], "did you mean 'closed-ray'?"),
+        (&["audit", "--format", "jsn"], "did you mean 'json'?"),
+        (&["audit", "--scalar", "f16"], "unknown scalar 'f16'"),
+        (&["audit", "--scale", "3"], "write 2^k"),
+        (&["audit", "--offset", "1:2"], "write x:y:z"),
+        (&["audit", "--threads", "0"], "not from 1"),
+        (&["explain", "nonsense"], "is not a case id"),
+        (&["explain", "edge-near@1/f32/-/1/3", "--kernel", "x"], "unknown kernel 'x'"),
+    ] {
+        assert!(
+            refused(here, arguments, 2).contains(message),
+            "{arguments:?}: {}",
+            refused(here, arguments, 2)
+        );
+    }
+    assert_eq!(code(&hairline(&["audit", "--no-such-flag"])), 2);
+    assert_eq!(code(&hairline(&[])), 2);
+    assert_eq!(code(&hairline(&["--help"])), 0);
+    let help = |words: &[&str]| text(&hairline(&[words, &["--help"]].concat()).stdout);
+    // A band is listed where it means something.
+    for (words, listed) in [
+        (&["audit"][..], true),
+        (&["check"], true),
+        (&["epsilon"], true),
+        (&["mesh"], false),
+        (&["fuzz"], false),
+        (&["fuzz", "triage"], false),
+        (&["fuzz", "worst"], false),
+    ] {
+        let help = help(words);
+        assert!(help.contains("Usage: hairline"), "{help}");
+        assert_eq!(help.contains("--band"), listed, "{words:?}: {help}");
+    }
+    // The old names of commands still run them, and are not listed.
+    let all = help(&[]);
+    for (old, new) in [("config --print-default", "check config"), ("schema", "check schema")] {
+        let run = |words: &str| hairline(&words.split(' ').collect::<Vec<_>>()).stdout;
+        assert_eq!(run(old), run(new));
+    }
+    for old in ["triage", "shrink", "worst", "config", "schema"] {
+        assert!(!all.contains(&format!("\n  {old} ")), "{all}");
+        assert_eq!(code(&hairline(&[old, "--help"])), 0);
+    }
+    for count in ["0", "-5", "99999999999999999999"] {
+        let output = hairline(&["audit", "--count", count]);
+        let error = text(&output.stderr);
+        assert!(code(&output) == 2 && error.contains("not a number of cases from 1"), "{error}");
+    }
+}
+
+#[test]
+fn nothing_selected_bad_data_and_failed_output_have_codes_of_their_own() {
+    let folder = scratch("codes");
+    fs::write(folder.join("empty.jsonl"), "\n").unwrap();
+    assert!(refused(&folder, &["audit", "--corpus", "empty.jsonl"], 4).contains("no case"));
+    assert!(refused(&folder, &["truth", "empty.jsonl"], 4).contains("no cases"));
+    fs::create_dir(folder.join("bare")).unwrap();
+    assert!(refused(&folder, &["audit", "--corpus", "bare"], 4).contains("no .jsonl files"));
+    assert!(refused(&folder, &["explain", "edge-near@9/f32/-/1/3"], 65).contains("version 9"));
+    let unwritable = ["audit", "-n", "5", "--family", "tiny", "-o", "no/such/folder/file.txt"];
+    assert!(refused(&folder, &unwritable, 74).contains("no/such/folder/file.txt: "));
+    assert!(refused(&folder, &["truth", "missing.jsonl"], 74).contains("missing.jsonl: "));
+    assert!(
+        refused(&folder, &["audit", "-n", "5", "--family", "tiny", "-o", "."], 74)
+            .contains("directory")
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_reported_and_a_closed_pipe_is_no_error() {
+    let arguments = ["audit", "-n", "5", "--family", "tiny", "-o", "/dev/full"];
+    assert!(refused(Path::new("/"), &arguments, 74).contains("/dev/full: "));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .args(["corpus", "generate", "--family", "edge-near", "-n", "20000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((code(&output), text(&output.stderr)), (0, String::new()));
+}
+
+#[test]
+fn every_kernel_family_contract_and_preset_is_listed() {
+    let list = |what: &str| text(&hairline(&["list", what]).stdout);
+    for entry in hairline::internals::kernel::KERNELS {
+        assert!(list("kernels").contains(entry.info.name));
+    }
+    for family in hairline::internals::family::FAMILIES {
+        assert!(
+            list("families").contains(family.name) && list("families").contains(family.promise)
+        );
+    }
+    assert!(list("contracts").contains("front-closed-ray"));
+    assert!(list("presets").contains("three-mesh-bvh"));
+}
+
+#[test]
+fn the_corpora_verify_and_a_changed_digest_does_not() {
+    let folder = scratch("corpora");
+    assert_eq!(code(&hairline_in(&folder, &["corpus", "generate", "made"], "")), 0);
+    let manifest = fs::read_to_string(folder.join("made/manifest.jsonl")).unwrap();
+    let stored =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/manifest.jsonl"))
+            .unwrap();
+    assert_eq!(manifest, stored, "the committed manifest is the program's own");
+    let output = hairline(&["corpus", "verify"]);
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("stored truths right"));
+    fs::copy(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/curated.jsonl"),
+        folder.join("made/curated.jsonl"),
+    )
+    .unwrap();
+    fs::write(folder.join("made/meshes/torus.obj"), "v 0 0 0\n").unwrap();
+    assert!(refused(&folder, &["corpus", "verify", "made"], 65).contains("manifest.jsonl:"));
+    fs::write(folder.join("empty.jsonl"), "").unwrap();
+    let error = refused(&folder, &["corpus", "verify", "empty.jsonl"], 4);
+    assert!(error.contains("empty.jsonl: no case to verify"), "{error}");
+}
+
+#[test]
+fn generated_cases_carry_truths_that_verify() {
+    let folder = scratch("generated");
+    let made = hairline(&["corpus", "generate", "--family", "fan", "--scalar", "f64", "-n", "30"]);
+    fs::write(folder.join("fan.jsonl"), &made.stdout).unwrap();
+    let output = hairline_in(&folder, &["truth", "fan.jsonl"], "");
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert!(text(&output.stdout).lines().count() >= 30 * 4);
+}
+
+#[test]
+fn exact_margins_are_right_where_a_factor_leaves_the_range_of_f64() {
+    let explain = |case: &str| {
+        let output = hairline(&["explain", case, "--kernel", "plane-unit-normal"]);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        let lines = text(&output.stdout);
+        let words = lines.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+        words.collect::<Vec<_>>().join("\n")
+    };
+    let gate = |out: &str, gate: &str| {
+        let start = format!("{gate} margin ");
+        out.lines().find(|line| line.starts_with(&start)).expect("a line a gate").to_owned()
+    };
+    // The normal has length 1e-320, a double with few digits, and n·d is still 1.
+    let case = r#"{"scalar":"f64","origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[1e-160,0,0],"c":[0,1e-160,0]}"#;
+    let out = explain(case);
+    assert!(gate(&out, "parallel").contains("(exactly 1.000000e0)"), "{out}");
+    let out = explain("range-ends@1/f64/-/424242/70");
+    assert!(out.contains("(exactly 6.470441e-93)") && !out.contains("NaN)"), "{out}");
+    // The product of two edges is beyond the doubles.
+    let wide = case.replace("1e-160", "1e200").replace("[0,0,1]", "[1e199,1e199,1]");
+    let out = explain(&wide);
+    assert!(gate(&out, "edge").contains("e399)"), "{out}");
+}
+
+#[test]
+fn explain_shows_on_which_side_of_the_epsilon_a_margin_lies() {
+    // The determinant is 2.9955555e-19, whose first seven digits are below it.
+    let case = r#"{"scalar":"f32","origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[2.9955555e-19,0,0],"c":[0,1,0]}"#;
+    let parallel = |kernel: &str, epsilon: &str| {
+        let epsilon = format!("parallel={epsilon}");
+        let out =
+            text(&hairline(&["explain", case, "--kernel", kernel, "--epsilon", &epsilon]).stdout);
+        let line = out.lines().find(|line| line.starts_with("    parallel"));
+        line.expect("a gate").split("   [").next().unwrap().to_owned()
+    };
+    for (kernel, epsilon, expected) in [
+        (
+            "moller-trumbore",
+            "2.9955555e-19",
+            "margin 2.9955555e-19 (exactly 2.9955555e-19) at e = 2.9955555e-19: passes",
+        ),
+        (
+            "moller-trumbore",
+            "2.9955552e-19",
+            "margin 2.99555549e-19 (exactly 2.99555549e-19) at e = 2.9955552e-19: passes",
+        ),
+        // A gate that refuses x <= e accepts what is below x.
+        (
+            "cramer",
+            "2.9955555e-19",
+            "margin 2.995555e-19 (exactly below 2.9955555e-19) at e = 2.9955555e-19: refuses",
+        ),
+        ("moller-trumbore", "1e-6", "margin 2.995555e-19 (exactly 2.995555e-19) at e = 1e-6: ref"),
+    ] {
+        let line = parallel(kernel, epsilon);
+        let words = line.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(expected), "{expected}: {line}");
+    }
+}
+
+#[test]
+fn a_stored_case_is_explained_by_name_and_a_given_one_by_its_json() {
+    let named = hairline(&[
+        "explain",
+        "front-edge_ab-within",
+        "--corpus",
+        "corpora",
+        "--kernel",
+        "scalar-triple-two-sided",
+        "--contract",
+        "closed-line",
+    ]);
+    assert!(text(&named.stdout).contains("FALSE-MISS"), "{}", text(&named.stdout));
+    let given = hairline(&["explain", CASE, "--kernel", "moller-trumbore"]);
+    assert!(text(&given.stdout).contains("edge_ab"), "{}", text(&given.stderr));
+    let group =
+        text(&hairline(&["explain", "shared-edge@1/f32/-/1/3", "--kernel", "plucker"]).stdout);
+    assert!(group.contains("triangle 1 of 2"), "{group}");
+}
+
+#[test]
+fn the_readme_lists_the_exit_codes_of_the_program() {
+    let readme =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    use hairline::internals::cli::Status;
+    for status in [
+        Status::Success,
+        Status::Disagreements,
+        Status::Usage,
+        Status::Stale,
+        Status::NothingSelected,
+        Status::BadInput,
+        Status::SelfCheck,
+        Status::InputOutput,
+    ] {
+        let row = format!("| {} |", status as u8);
+        assert!(readme.contains(&row), "{row}");
+    }
+}
+
+#[test]
+fn the_record_says_why_how_far_and_how_accurately_and_a_band_frees() {
+    let audit = |more: &[&str]| {
+        let arguments = ["audit", "-n", "2000", "--scalar", "f32", "--kernel", "woop-watertight"];
+        let rest = ["--family", "edge-near", "--format", "json", "--quiet"];
+        json(&hairline(&[&arguments[..], &rest, more].concat()))
+    };
+    let record = audit(&[]);
+    let result = &record["result"]["results"][0];
+    let finding = &result["findings"][0];
+    assert_eq!(finding["causes"]["by"]["rounding"]["rate"], 1.0, "{finding}");
+    let severity = &record["result"]["totals"][0]["severity"]["false-miss"];
+    let [median, worst] = ["median", "worst"].map(|key| severity["ulps"][key].as_f64().unwrap());
+    assert!(0.0 < median && median < worst && worst < 10.0, "{severity}");
+    assert_eq!(severity["ulps"]["count"], result["total"]["false_misses"]["count"]);
+    let t = &result["accuracy"]["t"];
+    assert!(t["count"].as_u64().unwrap() > 20 && t["median"].as_f64().unwrap() < 4.0, "{t}");
+    assert!(
+        audit(&["--attribute", "0"])["result"]["results"][0]["findings"][0]["causes"].is_null()
+    );
+    // A band as wide as the worst finding leaves none, and makes cases free.
+    let banded = audit(&["--band", "10ulps"]);
+    let total = &banded["result"]["results"][0]["total"];
+    assert_eq!(total["false_misses"]["count"], 0, "{total}");
+    assert!(total["free"].as_u64().unwrap() > result["total"]["free"].as_u64().unwrap());
+    let error = refused(Path::new("."), &["audit", "--band", "wide"], 2);
+    assert!(error.contains("'wide' is not a band"), "{error}");
+}

@@ -1,0 +1,117 @@
+//! `hairline diff` of real records: better and worse on the same cases, and by intervals on others.
+
+use crate::program;
+
+use program::{ends, scratch};
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+
+fn audit(folder: &Path, file: &str, more: &[&str]) {
+    let plan = ["audit", "-q", "--kernel", "cramer", "--epsilon-preset", "bvh", "--scalar", "f32"];
+    let rest = ["-n", "2000", "--attribute", "0", "--format", "json", "-o", file];
+    ends(folder, &[&plan[..], &rest, more].concat(), 0);
+}
+
+#[test]
+fn the_same_cases_differ_by_count_and_other_cases_by_intervals() {
+    let folder = scratch("diff");
+    audit(&folder, "one.json", &["--family", "edge-near,tiny"]);
+    audit(&folder, "seed.json", &["--family", "edge-near,tiny", "--seed", "2"]);
+    let (same, _) = ends(&folder, &["diff", "one.json", "one.json"], 0);
+    assert!(same.contains("the same cases"), "{same}");
+    assert!(
+        same.ends_with("\n0 worse, 0 better, 0 on other cases, 0 too little to tell\n"),
+        "{same}"
+    );
+    let (seed, _) = ends(&folder, &["diff", "one.json", "seed.json"], 0);
+    assert!(
+        seed.contains("intervals") && seed.contains("\n0 worse, 0 better, 0 on other"),
+        "{seed}"
+    );
+    assert!(!seed.contains(" 0 too little"), "{seed}");
+
+    // One kernel row with other cases: every triangle of `tiny` is smaller still, and missed.
+    audit(&folder, "scaled.json", &["--family", "edge-near", "--scale", "2^-30"]);
+    let (worse, _) = ends(&folder, &["diff", "one.json", "scaled.json"], 0);
+    let line = "Worse\ncramer (bvh: parallel+t) f32 edge-near: false-miss of ";
+    assert!(worse.contains(line), "{worse}");
+    assert!(
+        worse.contains(" now\n    hairline explain 'edge-near@1/f32/scale=2^-30/1/"),
+        "{worse}"
+    );
+    assert!(worse.contains("that only the old record has"), "{worse}");
+    let (better, _) = ends(&folder, &["diff", "scaled.json", "one.json"], 0);
+    assert!(
+        better.contains("Better\ncramer") && better.contains("only the new record has"),
+        "{better}"
+    );
+}
+
+#[test]
+fn one_case_more_on_the_same_cases_is_worse() {
+    let folder = scratch("diff-one");
+    audit(&folder, "one.json", &["--family", "edge-near"]);
+    let text = std::fs::read_to_string(folder.join("one.json")).unwrap();
+    let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+    // The class as a whole, and its finding: both say how often.
+    let result = &mut record["result"]["results"][0];
+    let class = result["findings"][0]["class"].as_str().unwrap().to_owned();
+    let kind = result["findings"][0]["finding"].as_str().unwrap().replace('-', "_");
+    let field = format!("{kind}{}", if kind == "false_miss" { "es" } else { "s" });
+    let count = result["findings"][0]["rate"]["count"].as_u64().unwrap() + 1;
+    result["findings"][0]["rate"]["count"] = count.into();
+    result["classes"][&class][&field]["count"] = count.into();
+    std::fs::write(folder.join("more.json"), record.to_string()).unwrap();
+    let counted = |old: &str, new: &str| {
+        let (json, _) = ends(&folder, &["diff", old, new, "--format", "json"], 0);
+        let comparison: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let changes = comparison["differences"].as_array().unwrap();
+        changes.iter().map(|d| d["change"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(counted("one.json", "more.json"), ["worse"]);
+    assert_eq!(counted("more.json", "one.json"), ["better"]);
+    // A family more does not make the cases of the others other ones.
+    audit(&folder, "two.json", &["--family", "edge-near,behind"]);
+    let (json, _) = ends(&folder, &["diff", "more.json", "two.json", "--format", "json"], 0);
+    let comparison: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(comparison["same_cases"], true, "{json}");
+    assert_eq!(comparison["differences"][0]["change"], "better", "{json}");
+    // The same kernel under another contract answers another question.
+    audit(&folder, "open.json", &["--family", "edge-near", "--contract", "open-ray"]);
+    let (open, _) = ends(&folder, &["diff", "one.json", "open.json"], 0);
+    assert!(open.contains("cramer (bvh: parallel+t) is judged by another contract"), "{open}");
+    let (same, _) = ends(&folder, &["diff", "one.json", "one.json"], 0);
+    assert!(!same.contains("another contract"), "{same}");
+    // Nothing in common is no agreement.
+    audit(&folder, "other.json", &["--family", "behind"]);
+    let (_, error) = ends(&folder, &["diff", "one.json", "other.json"], 4);
+    assert!(error.contains("nothing to compare"), "{error}");
+    // Another version, or no record at all.
+    std::fs::write(folder.join("bad.json"), "{}").unwrap();
+    ends(&folder, &["diff", "one.json", "bad.json"], 65);
+    ends(&folder, &["diff", "one.json", "none.json"], 74);
+}
+
+#[test]
+fn triangles_of_one_ray_that_are_wrong_together_are_no_difference() {
+    let folder = scratch("diff-rays");
+    let plan = ["audit", "-q", "--kernel", "plane-unit-normal", "--epsilon", "edge=1e-6"];
+    let family = ["--family", "polygon", "-n", "400", "--scalar", "f32", "--attribute", "0"];
+    for seed in ["27", "77"] {
+        let file = format!("{seed}.json");
+        let rest = ["--seed", seed, "--format", "json", "-o", &file];
+        ends(&folder, &[&plan[..], &family, &rest].concat(), 0);
+    }
+    // As independent trials, 162 of 166 false misses at a vertex differ from 122 of 145.
+    let (out, _) = ends(&folder, &["diff", "27.json", "77.json"], 0);
+    assert!(out.contains("\n0 worse, 0 better, 0 on other cases, 4 too little"), "{out}");
+    // Trials with a ray of their own have nothing to say about it.
+    let record = fs::read_to_string(folder.join("27.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&record).unwrap();
+    let result = &record["result"]["results"][0];
+    let rays = &result["classes"]["vertex/back/within"]["false_misses"]["rays"];
+    let products = json!({ "count_squared": 468, "count_times_of": 474, "of_squared": 484 });
+    assert_eq!(rays, &products);
+    assert_eq!(result["across"]["cracks"].get("rays"), None);
+}

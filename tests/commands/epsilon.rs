@@ -1,0 +1,258 @@
+//! `hairline epsilon` as a user runs it.
+
+use hairline::internals::report::epsilon::{CurvePart, EpsilonRecord, GatePart};
+use std::process::{Command, Output};
+
+fn hairline(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .args(arguments)
+        .env_remove("NO_COLOR")
+        .output()
+        .expect("the program starts")
+}
+
+fn told(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+}
+
+fn record(arguments: &[&str]) -> EpsilonRecord {
+    let mut all = vec!["epsilon", "--format", "json", "-q", "-n", "2000"];
+    all.extend(arguments);
+    serde_json::from_str(&told(&hairline(&all))).expect("a record")
+}
+
+fn only(record: EpsilonRecord) -> GatePart {
+    let [part] = record.result.gates.try_into().expect("one gate");
+    part
+}
+
+fn number(epsilon: &str) -> f64 {
+    epsilon.parse().expect("a number")
+}
+
+/// Raising an epsilon can only refuse more.
+fn assert_monotone(curve: &CurvePart) {
+    for pair in curve.points.windows(2) {
+        let ((from, before), (to, after)) = (&pair[0], &pair[1]);
+        assert!(number(from) < number(to), "{}: {from} {to}", curve.family);
+        let [misses, hits, cracks, doubles, self_hits, own] =
+            std::array::from_fn(|k| (before[k], after[k]));
+        assert!(misses.0 <= misses.1 && cracks.0 <= cracks.1, "{}: {from} {to}", curve.family);
+        let falling = [hits, doubles, self_hits, own];
+        assert!(falling.iter().all(|(a, b)| a >= b), "{}: {from} {to}", curve.family);
+    }
+}
+
+#[test]
+fn curves_are_monotone_and_families_add_up() {
+    let part =
+        only(record(&["--kernel", "plane-unit-normal", "--gate", "edge", "--scalar", "f32"]));
+    part.curves.iter().for_each(assert_monotone);
+    let (all, families) = part.curves.split_first().expect("a curve of all");
+    for k in 0..6 {
+        let sum: u64 = families.iter().map(|curve| curve.asked[k]).sum();
+        assert_eq!(all.asked[k], sum);
+    }
+    assert!(all.points.len() > 300, "{} points", all.points.len());
+}
+
+#[test]
+fn limits_move_with_scale_by_the_power_of_the_gates_dimension() {
+    for (kernel, gate, power) in [
+        ("plane-inside-out", "parallel", 2.0),
+        ("plane-inside-out", "edge", 4.0),
+        ("plane-unit-normal", "parallel", 0.0),
+        ("plane-unit-normal", "t", 1.0),
+        ("plane-unit-normal", "edge", 2.0),
+        ("moller-trumbore", "edge", 0.0),
+    ] {
+        // In f64 no product of these sizes leaves the range.
+        let arguments = ["--kernel", kernel, "--gate", gate, "--scalar", "f64"];
+        // The other gates at zero: an absolute epsilon of theirs would take part in the scaling.
+        let preset = ["--epsilon-preset", "zero"];
+        let part = only(record(&[&arguments[..], &preset].concat()));
+        let scaling = part.scaling.expect("scales by default");
+        assert_eq!(f64::from(scaling.predicted), power, "{kernel} {gate}");
+        let slope = scaling.misses.expect("a slope");
+        assert!((slope - power).abs() < 0.01, "{kernel} {gate}: {slope}");
+        let limits: Vec<String> =
+            scaling.relative.rows.into_iter().filter_map(|row| row.misses_up_to).collect();
+        assert_eq!(limits.len(), 5, "{kernel} {gate}");
+        let first = number(&limits[0]);
+        let same = limits.iter().all(|limit| (number(limit) / first - 1.0).abs() < 1e-6);
+        assert!(same, "{kernel} {gate}: {limits:?}");
+    }
+}
+
+#[test]
+fn the_limits_of_a_settled_gate_are_where_the_counts_change() {
+    let part = only(record(&[
+        "--kernel",
+        "moller-trumbore",
+        "--gate",
+        "parallel",
+        "--scalar",
+        "f32",
+        "--exact",
+    ]));
+    assert!(part.exact);
+    let [from, to] = part.trade.settled.clone().expect("any tiny epsilon will do");
+    let at =
+        |epsilon: &str| part.prices.iter().find(|price| price.epsilon == epsilon).expect("weighed");
+    for epsilon in [&from, &to] {
+        assert_eq!((at(epsilon).lost.count, at(epsilon).let_through.count), (0, 0), "{epsilon}");
+        assert!(at(epsilon).on_front);
+    }
+    // Zero refuses no parallel ray; a published epsilon loses hits.
+    assert!(at("0").let_through.count > 0 && !at("0").on_front);
+    let bvh =
+        part.prices.iter().find(|price| price.names.iter().any(|name| name == "bvh")).unwrap();
+    assert!(bvh.lost.count > 0 && bvh.let_through.count == 0 && !bvh.on_front);
+    // One ulp above the limit a hit is lost.
+    let all = &part.curves[0];
+    let (misses_at_limit, above): (Vec<_>, Vec<_>) = all
+        .points
+        .iter()
+        .filter(|(epsilon, _)| number(epsilon) >= number(&to))
+        .map(|(_, counts)| counts[0])
+        .partition(|misses| *misses == part.trade.misses.unavoidable);
+    assert_eq!(misses_at_limit.len(), 1, "exact: the next point is one ulp above");
+    assert!(!above.is_empty());
+}
+
+#[test]
+fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
+    let part = only(record(&["--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"]));
+    let zero = part.prices.iter().find(|price| price.epsilon == "0").unwrap();
+    let respawn = zero.families.iter().find(|family| family.family == "respawn").unwrap();
+    assert!(respawn.let_through.rate.unwrap() > 0.3, "self-hits at 0: {respawn:?}");
+    assert_eq!(respawn.lost.of, 0);
+    let near = |epsilon: &str| {
+        let price = part.prices.iter().find(|price| price.epsilon == epsilon).unwrap();
+        price.families.iter().find(|family| family.family == "origin-near").unwrap().lost.count
+    };
+    assert!(near(&part.trade.hits.limit) > near("0"), "near contacts are the price");
+}
+
+#[test]
+fn a_gate_is_on_t_by_its_role_whatever_its_dimension() {
+    // Of dimension length / |d|, length³ / |d| and length³.
+    for kernel in ["cramer", "woop-watertight", "plucker"] {
+        let family = ["--family", "respawn,interior", "--scales", "none", "--scalar", "f32"];
+        let part = only(record(&[&["--kernel", kernel, "--gate", "t"][..], &family].concat()));
+        let zero = part.prices.iter().find(|price| price.epsilon == "0").expect("weighed");
+        let respawn = zero.families.iter().find(|family| family.family == "respawn").unwrap();
+        // Every ray that starts on its triangle is this gate's to keep off it.
+        assert_eq!((respawn.lost.of, respawn.let_through.of), (0, 2000), "{kernel}");
+        assert!(respawn.let_through.count > 0, "{kernel}");
+        assert_eq!(zero.lost.of, 2000, "{kernel}: the hits of `interior`");
+    }
+}
+
+#[test]
+fn all_kernels_are_studied_but_those_that_cannot_be() {
+    let cheap = ["--family", "interior", "--scales", "none", "--scalar", "f32", "-n", "20"];
+    let run = |arguments: &[&str]| {
+        let output = hairline(&[&["epsilon", "--format", "json"], &cheap[..], arguments].concat());
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        let record: EpsilonRecord = serde_json::from_str(&told(&output)).expect("a record");
+        let mut kernels: Vec<String> =
+            record.result.gates.into_iter().map(|gate| gate.kernel).collect();
+        kernels.dedup();
+        (kernels, error)
+    };
+    let (all, notes) = run(&[]);
+    let expected: Vec<&str> = hairline::internals::kernel::KERNELS
+        .iter()
+        .map(|entry| entry.info.name)
+        .filter(|name| *name != "havel-herout")
+        .collect();
+    assert_eq!(all, expected);
+    assert!(notes.contains("left out: havel-herout has no gate that takes an epsilon"), "{notes}");
+    let (some, notes) = run(&["--kernel", "havel-herout,cramer,moller-trumbore", "--gate", "t"]);
+    assert_eq!(some, ["cramer"]);
+    assert!(notes.contains("left out: moller-trumbore has no gate 't'"), "{notes}");
+    let (_, notes) = run(&["--kernel", "havel-herout,cramer", "-q"]);
+    assert!(!notes.contains("left out"), "{notes}");
+}
+
+#[test]
+fn one_is_singular() {
+    let arguments = ["epsilon", "-k", "cramer", "--family", "interior", "--scalar", "f32", "-q"];
+    let text = told(&hairline(&[&arguments[..], &["-n", "1", "--scales", "none"]].concat()));
+    assert!(text.contains("  1 source: 1 case must hit, 0 must miss\n"), "{text}");
+    let output = hairline(&["explain", "interior@1/f32/-/1/0.3"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains("has 1 triangle, counted from 0"), "{error}");
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_number_of_threads() {
+    let run = |threads| {
+        let part = ["--kernel", "cramer", "--gate", "t,edge", "--map", "--threads", threads];
+        serde_json::to_string(&record(&part).result).unwrap()
+    };
+    assert_eq!(run("1"), run("3"));
+}
+
+#[test]
+fn a_map_agrees_with_each_gate_alone() {
+    let record = record(&["--kernel", "cramer", "--gate", "t,edge", "--map", "--scalar", "f32"]);
+    let [map] = &record.result.maps[..] else { panic!("one map") };
+    let [t, edge] = &record.result.gates[..] else { panic!("two gates") };
+    for (part, other, along_first) in [(t, 1, true), (edge, 0, false)] {
+        let zero = map.epsilons[other].iter().position(|e| e == "0").expect("zero is weighed");
+        for price in &part.prices {
+            let here = map.epsilons[1 - other].iter().position(|e| *e == price.epsilon).unwrap();
+            let (i, j) = if along_first { (here, zero) } else { (zero, here) };
+            assert_eq!(map.false_misses[i][j], price.false_misses.count);
+            assert_eq!(map.false_hits[i][j], price.false_hits.count);
+        }
+    }
+}
+
+#[test]
+fn formats_hold_what_they_promise() {
+    let arguments =
+        ["epsilon", "-k", "moller-trumbore", "--gate", "parallel", "--scalar", "f32", "-q"];
+    let with = |more: &[&str]| told(&hairline(&[&arguments[..], more].concat()));
+    let text = with(&[]);
+    for words in ["right epsilons:", "so use an e from", "what an epsilon costs", "bvh, bevy, fcpw"]
+    {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let csv = with(&["--format", "csv"]);
+    let mut lines = csv.lines();
+    let columns = lines.next().unwrap().split(',').count();
+    assert!(lines.all(|line| line.split(',').count() == columns));
+    assert!(csv.contains("\nmoller-trumbore,f32,parallel,grazing,"));
+    let svg = with(&["--format", "svg"]);
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count());
+    assert!(svg.contains("godot, three-mesh-bvh") && svg.len() < 400_000, "{}", svg.len());
+}
+
+#[test]
+fn bad_arguments_are_refused_with_a_reason() {
+    let refused = |arguments: &[&str], words: &str| {
+        let output = hairline(&[&["epsilon"], arguments].concat());
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(error.contains(words) && output.stdout.is_empty(), "{arguments:?}: {error}");
+    };
+    let kernel = ["--kernel", "moller-trumbore"];
+    let with = |more: &[&'static str]| [&kernel[..], more].concat();
+    refused(&with(&["--gate", "paralel"]), "did you mean 'parallel'?");
+    refused(&with(&["--gate", "edge,edge"]), "given twice");
+    refused(&["--kernel", "havel-herout"], "havel-herout has no gate that takes an epsilon");
+    refused(&["--gate", "paralel"], "did you mean 'parallel'?");
+    refused(&with(&["--map"]), "name two gates");
+    refused(&with(&["--at", "nan"]), "not a finite number");
+    refused(&with(&["--gate", "parallel", "--at", "-1"]), "means nothing");
+    refused(&with(&["--relative", "--at", "1"]), "nothing to show");
+    refused(&with(&["--family", "interior,interior"]), "given twice");
+    refused(&with(&["--scales", "3"]), "not a scale");
+    refused(&with(&["--format", "pdf"]), "unknown format 'pdf'");
+    refused(&with(&["-n", "0"]), "number of cases");
+}

@@ -1,0 +1,147 @@
+//! `--format html` as a user meets it: what is in the file, whatever the threads and the shards, and what
+//! happens where it cannot be written. tests/browser looks at it in a browser.
+
+use crate::program;
+
+use program::{ends, scratch};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const PLAN: &[&str] = &[
+    "-q",
+    "--kernel",
+    "moller-trumbore,havel-herout",
+    "--family",
+    "edge-near,tiny,fan",
+    "-n",
+    "300",
+    "--attribute",
+    "5",
+];
+
+fn read_json(file: &Path) -> Value {
+    serde_json::from_slice(&fs::read(file).unwrap()).unwrap()
+}
+
+#[test]
+fn the_pictures_are_the_same_whatever_the_threads_and_the_shards() {
+    let folder = scratch("html-same");
+    let audit = |more: &[&str]| {
+        ends(&folder, &[&["audit"], PLAN, more].concat(), 0);
+    };
+    let both = ["--format", "html,json"];
+    audit(&[&both[..], &["-o", "1.html", "-o", "1.json", "--threads", "1"]].concat());
+    audit(&[&both[..], &["-o", "2.html", "-o", "2.json", "--threads", "2"]].concat());
+    audit(&["--format", "json", "-o", "plain.json"]);
+    audit(&["--format", "json", "-o", "always.json", "--illustrate", "always"]);
+    audit(&["--format", "html", "-o", "never.html", "--illustrate", "never"]);
+    for shard in ["0/2", "1/2"] {
+        let file = format!("shard-{}.json", &shard[..1]);
+        let more = ["--format", "html,json", "-o", "part.html", "-o", &file, "--shard", shard];
+        audit(&more);
+        assert!(read_json(&folder.join(&file)).get("illustrations").is_none());
+    }
+    let merge = ["merge", "-q", "shard-0.json", "shard-1.json", "--format", "html,json"];
+    ends(&folder, &[&merge[..], &["-o", "merged.html", "-o", "merged.json"]].concat(), 0);
+
+    let first = read_json(&folder.join("1.json"));
+    let pictures = &first["illustrations"];
+    // Two gates of the one kernel that has any, in two scalars; three maps of both.
+    assert_eq!(pictures["responses"].as_array().unwrap().len(), 4);
+    assert_eq!(pictures["maps"].as_array().unwrap().len(), 2 * 2 * 3);
+    for other in ["2.json", "always.json", "merged.json"] {
+        let other = read_json(&folder.join(other));
+        assert_eq!(&other["illustrations"], pictures);
+        assert_eq!(other["result"], first["result"]);
+    }
+    let plain = read_json(&folder.join("plain.json"));
+    assert!(plain.get("illustrations").is_none());
+    assert_eq!(plain["result"], first["result"], "the result does not depend on the pictures");
+
+    let page = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    // All but times and threads.
+    let kept = |name: &str| -> String {
+        let text = page(name);
+        let end = text.find("<footer").unwrap();
+        let times = text[..end].split("ns a ray</th>");
+        times.map(|part| part.split_once("</tr>").map_or(part, |pair| pair.1)).collect()
+    };
+    assert_eq!(kept("1.html"), kept("2.html"));
+    assert_eq!(kept("1.html"), kept("merged.html"));
+    assert!(page("1.html").contains("data:image/png;base64,"));
+    assert!(page("part.html").contains("This is a part of a run: 1 of 2 shards."));
+    assert!(!page("never.html").contains("data:image/png;base64,"));
+}
+
+#[test]
+fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
+    let folder = scratch("html-numbers");
+    let outputs = ["--format", "html,json", "-o", "r.html", "-o", "r.json"];
+    ends(&folder, &[&["audit"], PLAN, &outputs[..]].concat(), 0);
+    let page = fs::read_to_string(folder.join("r.html")).unwrap();
+    let record = read_json(&folder.join("r.json"));
+    let escaped = |text: &Value| text.as_str().unwrap().replace('&', "&amp;").replace('<', "&lt;");
+    let mut examples = 0;
+    for result in record["result"]["results"].as_array().unwrap() {
+        for kind in ["false_misses", "false_hits"] {
+            let rate = &result["total"][kind];
+            if rate["of"] != 0 && rate["of"].as_u64().unwrap() < 1000 {
+                let counts = format!("{} of {}", rate["count"], rate["of"]);
+                assert!(page.contains(&counts), "{counts}");
+            }
+        }
+        for finding in result["findings"].as_array().unwrap() {
+            let all = finding["first"].as_array().unwrap().iter().chain([&finding["worst"]]);
+            for example in all {
+                for part in ["command", "bits"] {
+                    let text = format!("<code>{}</code>", escaped(&example[part]));
+                    assert!(page.contains(&text), "{text}");
+                }
+                examples += 1;
+            }
+        }
+    }
+    assert!(20 < examples, "{examples}");
+    // The verdict of a check.
+    let (out, _) = ends(&folder, &["check", "--record", "r.json", "--format", "html", "-q"], 1);
+    assert!(out.contains("<h1>✕ Does not conform: "), "{}", &out[..6000]);
+}
+
+#[test]
+fn records_from_before_and_from_anybody_are_shown() {
+    let folder = scratch("html-records");
+    ends(&folder, &[&["audit"], PLAN, &["--format", "json", "-o", "r.json"]].concat(), 0);
+    let text = fs::read_to_string(folder.join("r.json")).unwrap();
+    let show = |name: &str, text: &str| {
+        fs::write(folder.join(name), text).unwrap();
+        ends(&folder, &["check", "--record", name, "--format", "html", "-q"], 1).0
+    };
+    let old = show("old.json", &text);
+    assert!(old.contains("moller-trumbore") && !old.contains("Every epsilon"));
+    let hostile = text.replace("moller-trumbore", "<script>alert(1)</script>");
+    let page = show("hostile.json", &hostile.replace("edge-near", "\\\"><img src=x>"));
+    assert_eq!(page.matches("<script").count(), 1);
+    assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
+    assert!(!page.contains("<img"));
+}
+
+#[test]
+fn a_page_that_cannot_be_written_is_an_error_and_leaves_nothing() {
+    let folder = scratch("html-target");
+    fs::create_dir(folder.join("taken")).unwrap();
+    let mut targets = vec!["no/such/folder/r.html", "taken"];
+    if Path::new("/dev/full").exists() {
+        targets.push("/dev/full");
+    }
+    for target in targets {
+        let more = ["--format", "html", "-o", target, "--illustrate", "never"];
+        let (out, error) = ends(&folder, &[&["audit"], PLAN, &more[..]].concat(), 74);
+        assert_eq!(out, "");
+        assert!(error.contains(target), "{error}");
+    }
+    let left: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(left, ["taken"]);
+    let error = ends(&folder, &["audit", "--illustrate", "sometimes"], 2).1;
+    assert!(error.contains("sometimes"), "{error}");
+}

@@ -1,0 +1,27 @@
+//! The program `hairline`, command by command, as its users run it. One binary, because each one links
+//! the whole library.
+
+mod attribution;
+mod check;
+mod cli;
+mod diff;
+mod epsilon;
+mod filter;
+mod formats;
+mod found;
+mod fuzz;
+mod html;
+mod io;
+mod json_schema;
+mod map_command;
+mod mesh;
+mod orientation;
+mod own;
+mod plugin;
+mod program;
+mod rows;
+mod screen;
+mod shards;
+mod shrink;
+mod variants;
+mod worst;

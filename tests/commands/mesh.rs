@@ -1,0 +1,376 @@
+//! `hairline mesh` as a user runs it: output, files for viewers, exit codes, bad input.
+
+use crate::program;
+
+use program::{ends, hairline, result_bytes, scratch};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn model(name: &str) -> String {
+    format!("{}/corpora/meshes/{name}.obj", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn record(folder: &Path, arguments: &[&str]) -> Value {
+    let mut all = vec!["mesh", "--format", "json", "--quiet"];
+    all.extend(arguments);
+    serde_json::from_str(&ends(folder, &all, 0).0).unwrap()
+}
+
+/// A folder with an OBJ file.
+fn with_obj(name: &str, text: &str) -> PathBuf {
+    let folder = scratch(name);
+    fs::write(folder.join("a.obj"), text).unwrap();
+    folder
+}
+
+#[test]
+fn the_table_says_what_the_mesh_is_and_where_rays_slip_through() {
+    let folder = scratch("mesh-table");
+    let file = model("torus");
+    let arguments = ["mesh", &file, "--kernel", "moller-trumbore,woop-watertight"];
+    let (out, error) = ends(&folder, &arguments, 0);
+    for line in [
+        "  faces      2,304 sound",
+        "  edges      3,456 between two faces",
+        "  vertices   1,152 inside a closed fan",
+        "             a closed surface, wound consistently",
+        "  asked      27,648 rays at edges, 9,216 at vertices",
+        "woop-watertight (source): nowhere",
+    ] {
+        assert!(out.lines().any(|other| other == line), "{line}\n{out}");
+    }
+    assert!(error.contains("2 kernel rows on 36864 rays in f32"), "{error}");
+    // The first crack is shown again by its command.
+    let command = out.lines().find(|line| line.trim_start().starts_with("hairline explain"));
+    let words: Vec<&str> = command.unwrap().split_whitespace().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
+    let shown = ends(&folder, &words, 0).0;
+    let last = shown.lines().last().unwrap();
+    assert_eq!(
+        last,
+        "moller-trumbore (parallel=1e-6,edge=0): 0 of 2 triangles hit; one hit is right: CRACK"
+    );
+}
+
+#[test]
+fn a_hit_that_a_neighbour_reports_is_shown_apart() {
+    let folder = scratch("mesh-elsewhere");
+    let file = model("heightfield");
+    let arguments = ["mesh", &file, "--kernel", "woop-watertight", "--details"];
+    let (out, _) = ends(&folder, &arguments, 0);
+    assert!(out.lines().any(|line| line.contains(" elsewhere ")), "{out}");
+    let first = out.lines().position(|line| line.trim_start().starts_with("elsewhere, "));
+    let command = out.lines().nth(first.unwrap() + 1).unwrap();
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
+    let shown = ends(&folder, &words, 0).0;
+    let last = shown.lines().last().unwrap();
+    assert!(last.contains(": 0 of 2 triangles hit; one hit is right, and rounding may"), "{last}");
+    let record = record(&folder, &[&file, "--kernel", "woop-watertight"]);
+    let row = &record["result"]["scalars"][0]["results"][0];
+    let sum = |what: &str| -> u64 {
+        let count = |part: &str| row[part]["total"][what]["count"].as_u64().unwrap();
+        count("edges") + count("vertices")
+    };
+    assert_eq!([sum("cracks"), sum("elsewhere")], [0, 2]);
+}
+
+#[test]
+fn the_record_does_not_depend_on_threads_and_its_findings_are_the_files() {
+    let folder = scratch("mesh-files");
+    let file = model("icosphere");
+    let run = |threads: &str, name: &str| {
+        let outputs = [format!("{name}.json"), format!("{name}.ply"), format!("{name}.obj")];
+        let mut arguments =
+            vec!["mesh", &file, "--kernel", "moller-trumbore", "--threads", threads];
+        arguments.extend(["--scalar", "f32,f64", "--format", "json,ply,obj", "--quiet"]);
+        outputs.iter().for_each(|output| arguments.extend(["-o", output]));
+        ends(&folder, &arguments, 0);
+        outputs.map(|output| folder.join(output))
+    };
+    let [json, ply, obj] = run("1", "one");
+    let [other_json, other_ply, _] = run("3", "three");
+    assert_eq!(result_bytes(&json), result_bytes(&other_json));
+    assert_eq!(fs::read(&ply).unwrap(), fs::read(&other_ply).unwrap());
+
+    let record: Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    assert_eq!(record["schema"], "hairline-mesh/1");
+    let scalars = record["result"]["scalars"].as_array().unwrap();
+    let sum = |part: &str, count: fn(&Value) -> &Value| -> u64 {
+        scalars.iter().map(|s| count(&s["results"][0][part]).as_u64().unwrap()).sum()
+    };
+    let [edges, vertices] = ["edges", "vertices"].map(|part| sum(part, |p| &p["cracked"]));
+    let cracks = |part| sum(part, |p| &p["total"]["cracks"]["count"]);
+    assert!(edges > 100 && vertices > 10, "{edges}, {vertices}");
+
+    // The PLY file, read by hand: its counts are the record's.
+    let text = fs::read_to_string(&ply).unwrap();
+    let (header, body) = text.split_once("end_header\n").unwrap();
+    assert!(header.starts_with("ply\nformat ascii 1.0\n"));
+    let count = |element: &str| -> usize {
+        let line = header.lines().find_map(|line| line.strip_prefix(element)).unwrap();
+        line.trim().parse().unwrap()
+    };
+    let rows: Vec<Vec<f64>> = body
+        .lines()
+        .map(|line| line.split(' ').map(|word| word.parse().unwrap()).collect())
+        .collect();
+    let points = count("element vertex");
+    assert_eq!(count("element edge") as u64, edges);
+    assert_eq!(rows.len() as u64, points as u64 + edges);
+    let (points, lines) = rows.split_at(points);
+    assert!(points.iter().all(|row| row.len() == 10) && lines.iter().all(|row| row.len() == 9));
+    assert_eq!(points.iter().filter(|row| row[6] > 0.0).count() as u64, vertices);
+    assert_eq!(points.iter().map(|row| row[6]).sum::<f64>() as u64, cracks("vertices"));
+    assert_eq!(lines.iter().map(|row| row[5]).sum::<f64>() as u64, cracks("edges"));
+    let pairs: BTreeSet<[usize; 2]> =
+        lines.iter().map(|row| [row[0] as usize, row[1] as usize]).collect();
+    assert_eq!(pairs.len() as u64, edges);
+    for [from, to] in pairs {
+        let length: f64 = (0..3).map(|i| (points[from][i] - points[to][i]).powi(2)).sum();
+        assert!(length.sqrt() < 0.2, "an edge of the icosphere");
+    }
+
+    // The OBJ file has the same points, lines and vertices.
+    let text = fs::read_to_string(&obj).unwrap();
+    let of_kind = |kind: &str| text.lines().filter(|line| line.starts_with(kind)).count() as u64;
+    assert_eq!(
+        [of_kind("v "), of_kind("l "), of_kind("p ")],
+        [points.len() as u64, edges, vertices]
+    );
+    for line in text.lines().filter(|line| line.starts_with("l ")) {
+        let ends = line[2..].split(' ').map(|word| word.parse::<usize>().unwrap());
+        assert!(ends.clone().count() == 2 && ends.clone().all(|i| (1..=points.len()).contains(&i)));
+    }
+    assert!(text.contains("\ng cracks_f32\n"));
+}
+
+#[test]
+fn what_cannot_be_asked_is_reported_with_its_line() {
+    // A cube's side and what meshes have: three faces on an edge, a copy, a needle without area.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nv 2 0 0\n\
+                f 1 2 3\nf 1 3 4\nf 1 3 5\nf 1 2 6\nf 2 1 6\nf 1 2 7\n";
+    let folder = with_obj("mesh-odd", text);
+    let (out, error) = ends(&folder, &["mesh", "a.obj", "--kernel", "cramer"], 4);
+    assert!(out.contains("1 without area (first at line 13)"), "{out}");
+    assert!(out.contains("2 duplicated (first at line 11)"), "{out}");
+    assert!(out.contains("1 non-manifold (first at line 8)"), "{out}");
+    assert!(error.contains("nothing to ask"), "{error}");
+}
+
+#[test]
+fn one_triangle_and_faces_without_area_ask_nothing() {
+    for (name, text, word) in [
+        ("mesh-one", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "3 open"),
+        ("mesh-flat", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 2 1 3\n", "2 without area"),
+        ("mesh-far", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n", "1 out of range"),
+    ] {
+        let folder = with_obj(name, text);
+        let (out, error) = ends(&folder, &["mesh", "a.obj"], 4);
+        assert!(out.contains(word), "{out}");
+        assert!(error.contains("hairline: a.obj: nothing to ask"), "{error}");
+        assert!(!error.contains("panicked"));
+    }
+}
+
+#[test]
+fn bad_input_ends_with_its_exit_code() {
+    for (name, text, message) in [
+        ("mesh-empty", "", "a.obj: "),
+        ("mesh-nan", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj:1: "),
+        ("mesh-index", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "a.obj:4: "),
+    ] {
+        let (_, error) = ends(&with_obj(name, text), &["mesh", "a.obj"], 65);
+        assert!(error.contains(message), "{error}");
+    }
+    let folder = with_obj("mesh-usage", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 2 1 4\n");
+    let refused = |arguments: &[&str], code: i32, message: &str| {
+        let mut all = vec!["mesh"];
+        all.extend(arguments);
+        let (out, error) = ends(&folder, &all, code);
+        assert!(error.contains(message) && out.is_empty(), "{arguments:?}: {error}");
+    };
+    refused(&["missing.obj"], 74, "missing.obj");
+    refused(&["."], 74, "directory");
+    refused(
+        &["a.obj", "--directions", "0"],
+        2,
+        "'0' for '--directions <N>': 0 is not in 1..=65536",
+    );
+    refused(&["a.obj", "--directions", "-1"], 2, "'-1' for '--directions <N>'");
+    refused(&["a.obj", "--direction", "up"], 2, "[possible values: unit]");
+    refused(&["a.obj", "--band", "4ulps"], 2, "--band: every ray goes to an edge or a vertex");
+    refused(&["a.obj", "--kernel", "moler-trumbore"], 2, "did you mean 'moller-trumbore'?");
+    refused(&["a.obj", "--format", "stl"], 2, "unknown format 'stl'");
+    refused(&["a.obj", "--format", "json,ply"], 2, "2 formats but 0 outputs");
+    refused(&["a.obj", "--threads", "0"], 2, "--threads");
+    refused(&["a.obj", "-o", "no/such/folder.txt"], 74, "no/such/folder.txt");
+    refused(&[], 2, "FILE");
+    // Nothing is left of an output that could not be written.
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+#[test]
+fn huge_and_tiny_meshes_are_asked_without_a_panic() {
+    for (name, scale) in [("mesh-huge", "e38"), ("mesh-tiny", "e-44"), ("mesh-large", "e300")] {
+        let solid = "v 0 0 0\nv 3S 0 0\nv 0 3S 0\nv 0 0 3S\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+        let folder = with_obj(name, &solid.replace('S', scale));
+        let scalar = if name == "mesh-large" { "f64" } else { "f32" };
+        let arguments =
+            ["mesh", "a.obj", "--scalar", scalar, "--directions", "40", "--format", "json"];
+        let output = hairline(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        let record: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let part = &record["result"]["scalars"][0];
+        assert_eq!(part["topology"]["closed_manifold"], true);
+        assert!(part["results"][0]["edges"]["total"]["cracks"]["of"].as_u64().unwrap() > 0);
+    }
+}
+
+#[test]
+fn contracts_epsilons_and_directions_reach_the_run() {
+    let folder = scratch("mesh-flags");
+    let file = model("far");
+    let crossings = |more: &[&str]| {
+        let mut arguments = vec![file.as_str(), "--kernel", "moller-trumbore"];
+        arguments.extend(more);
+        record(&folder, &arguments)["result"]["scalars"][0]["results"][0]["edges"]["total"].clone()
+    };
+    let of = |rates: &Value| rates["cracks"]["of"].as_u64().unwrap();
+    let cracks = |rates: &Value| rates["cracks"]["count"].as_u64().unwrap();
+    let both = crossings(&[]);
+    let front = crossings(&["--contract", "front-closed-ray"]);
+    assert!(of(&front) * 3 < of(&both) * 2 && of(&front) > 0);
+    // An epsilon that no determinant passes leaves nothing but cracks.
+    let none = crossings(&["--epsilon", "parallel=1e30"]);
+    // But for those that may have passed beside a silhouette.
+    let elsewhere = none["elsewhere"]["count"].as_u64().unwrap();
+    assert_eq!(cracks(&none) + elsewhere, of(&none));
+    assert!(elsewhere * 20 < of(&none));
+    assert!(of(&crossings(&["--directions", "16"])) > of(&both) * 3 / 2);
+    assert_ne!(crossings(&["--seed", "2"]), both);
+    assert_ne!(crossings(&["--direction", "unit"]), both);
+}
+
+#[test]
+fn ids_of_other_meshes_versions_and_triangles_are_refused() {
+    let folder = scratch("mesh-ids");
+    let file = model("far");
+    let digest = "5050ce53d9c1ee33";
+    let explain = |id: &str, code| {
+        let arguments = ["explain", id, "--mesh", &file, "--kernel", "cramer"];
+        ends(&folder, &arguments, code)
+    };
+    let id = |rest: &str| format!("mesh-vertices@1/f32/mesh={digest}/1/{rest}");
+    assert!(explain(&id("7"), 0).0.contains("together"));
+    assert!(!explain(&id("7.2"), 0).0.contains("together"));
+    assert!(explain(&id("7.99"), 2).1.contains("counted from 0"));
+    assert!(explain(&id("7").replace("@1", "@2"), 65).1.contains("another version"));
+    assert!(explain(&id("7").replace(digest, "0123456789abcdef"), 65).1.contains("digest"));
+}
+
+/// The parts of a record about one source, by kernel.
+fn across(record: &Value, family: &str) -> Vec<(String, Value)> {
+    let results = record["result"]["results"].as_array().unwrap();
+    let of_family = results.iter().filter(|part| part["family"] == family);
+    of_family.map(|part| (part["kernel"].to_string(), part["across"].clone())).collect()
+}
+
+#[test]
+fn an_audit_with_a_mesh_counts_what_the_mesh_audit_counts() {
+    let folder = scratch("mesh-audit");
+    for name in ["torus", "icosphere", "far", "heightfield", "needles", "polygons"] {
+        let file = model(name);
+        let flags = ["--kernel", "moller-trumbore,woop-watertight,plucker", "--directions", "4"];
+        let flags = [&flags[..], &["--scalar", "f32"]].concat();
+        let of_mesh = record(&folder, &[&[file.as_str()], &flags[..]].concat());
+        let run = ["audit", "--quiet", "-n", "10", "--format", "json", "--mesh", &file];
+        let (out, _) = ends(&folder, &[&run[..], &flags[..]].concat(), 0);
+        let of_audit: Value = serde_json::from_str(&out).unwrap();
+        for part in ["edges", "vertices"] {
+            let counted = across(&of_audit, &format!("mesh-{part}:{name}.obj"));
+            let rows = of_mesh["result"]["scalars"][0]["results"].as_array().unwrap();
+            assert_eq!(counted.len(), rows.len());
+            for (row, (kernel, counted)) in rows.iter().zip(&counted) {
+                assert_eq!(row["kernel"].to_string(), *kernel);
+                for kind in ["cracks", "doubles", "odd_folds", "missed_folds", "elsewhere"] {
+                    let (expected, found) = (&row[part]["total"][kind], &counted[kind]);
+                    assert!(expected["count"].is_u64());
+                    assert_eq!(expected, found, "{name} {part} {kernel} {kind}");
+                }
+            }
+            let total = |kind: &str| -> u64 {
+                counted.iter().map(|(_, counted)| counted[kind]["count"].as_u64().unwrap()).sum()
+            };
+            let is_smooth = ["torus", "icosphere", "heightfield"].contains(&name);
+            assert!(!is_smooth || 0 < total("cracks"), "{name} {part}");
+        }
+    }
+}
+
+#[test]
+fn the_screen_has_a_meshs_edges_in_its_column_and_a_command_for_a_crack() {
+    let folder = scratch("mesh-screen");
+    let file = model("icosphere");
+    let audit = ["audit", "--quiet", "--mesh", &file, "-n", "10", "--scalar", "f32"];
+    let (out, _) = ends(&folder, &[&audit[..], &["--kernel", "plucker"]].concat(), 0);
+    assert!(out.lines().any(|line| line.starts_with("mesh ")) && !out.contains("stored"), "{out}");
+    let mut lines = out.lines().skip_while(|line| !line.contains("no triangle reports"));
+    assert!(lines.next().is_some(), "{out}");
+    let words: Vec<&str> = lines.next().unwrap().split_whitespace().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
+    let (shown, _) = ends(&folder, &words, 0);
+    assert!(shown.trim_end().ends_with("one hit is right: CRACK"), "{shown}");
+}
+
+#[test]
+fn parts_of_an_audit_with_a_mesh_merge_to_the_bytes_of_the_whole() {
+    let folder = scratch("mesh-shards");
+    let run = |file: &str, more: &[&str]| {
+        let mesh = model("icosphere");
+        let run = ["audit", "--quiet", "--mesh", &mesh, "-n", "50", "--directions", "3"];
+        let how = ["--kernel", "moller-trumbore,plucker", "--format", "json", "-o", file];
+        ends(&folder, &[&run[..], &how[..], more].concat(), 0);
+    };
+    run("whole.json", &["--threads", "2"]);
+    for shard in ["0/3", "1/3", "2/3"] {
+        run(&format!("{}.json", &shard[..1]), &["--shard", shard]);
+    }
+    let merge = ["merge", "--quiet", "0.json", "2.json", "1.json", "--format", "json", "-o"];
+    ends(&folder, &[&merge[..], &["merged.json"]].concat(), 0);
+    let result = |file: &str| result_bytes(&folder.join(file));
+    assert_eq!(result("merged.json"), result("whole.json"));
+    assert!(result("whole.json").contains("mesh-vertices:icosphere.obj"));
+}
+
+#[test]
+fn a_check_with_a_mesh_is_red_when_an_epsilon_makes_cracks() {
+    let folder = scratch("mesh-check");
+    fs::copy(model("torus"), folder.join("torus.obj")).unwrap();
+    let settings = "kernel = [\"woop-watertight\"]\nscalar = \"f32\"\nfamily = [\"interior\"]\n\
+                    count = 100\nmesh = [\"torus.obj\"]\ndirections = 2\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    ends(&folder, &["check", "--quiet", "--bless"], 0);
+    ends(&folder, &["check", "--quiet"], 0);
+    let formats = ["--format", "text,junit,sarif,markdown,html,json"];
+    let files = ["text", "junit", "sarif", "markdown", "html", "json"];
+    let outputs: Vec<&str> = files.iter().flat_map(|file| ["-o", *file]).collect();
+    let check = ["check", "--quiet", "--epsilon", "edge=1e-3"];
+    ends(&folder, &[&check[..], &formats[..], &outputs[..]].concat(), 1);
+    for file in files {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(text.contains("crack") && text.contains("mesh-edges:torus.obj"), "{file}");
+    }
+    // The command of a crack shows it.
+    let text = fs::read_to_string(folder.join("text")).unwrap();
+    let mut lines =
+        text.lines().skip_while(|line| !line.contains("mesh-edges:torus.obj: crack of"));
+    assert!(lines.next().is_some(), "{text}");
+    let command = lines.find(|line| line.contains("hairline explain")).unwrap();
+    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
+    let (shown, _) = ends(&folder, &words, 0);
+    assert!(shown.trim_end().ends_with("one hit is right: CRACK"), "{shown}");
+}

@@ -1,0 +1,304 @@
+//! Kernels of one's own: in the registry, in every command's tables, and from a test.
+
+use hairline::internals::arith::{Real, Vector};
+use hairline::internals::audit::{self, EpsilonChoice, PlanError};
+use hairline::internals::case::{Case, Parameters, Ray, Triangle};
+use hairline::internals::contract::{Across, Boundary, Contract, Demand, Extent, Sides};
+use hairline::internals::kernel::{
+    Entry, EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Scalar, Sink, all, find,
+    register,
+};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Signed volumes, in every arithmetic, with an epsilon on the determinant.
+struct Volumes;
+
+impl Kernel for Volumes {
+    const INFO: KernelInfo = KernelInfo {
+        gates: &[
+            Gate::non_negative(Role::Parallel, "abs(det) < e", 2, 1),
+            Gate::signed(Role::Edge, "min(u, v, w) < e, all of det's sign", 2, 1),
+        ],
+        epsilon_sets: &[EpsilonSet { name: "own", values: &["1e-3", "0"] }],
+        gives: Gives { t: true, uv: true, facing: false },
+        hits_nan: true,
+        ..KernelInfo::own(
+            "volumes",
+            Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Closed)
+                .with_flat(Demand::Free, Demand::Free),
+        )
+    };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    fn test<V: Vector, S: Sink<V::Real>>(
+        Triangle { a, b, c }: &Triangle<V>,
+        Ray { origin, direction, .. }: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let [a, b, c] = [a, b, c].map(|vertex| vertex.minus(origin));
+        let volume = |p: &V, q: &V| direction.dot(&p.cross(q));
+        let (u, v, w) = (volume(&b, &c), volume(&c, &a), volume(&a, &b));
+        let det = u.clone() + &v + &w;
+        if !sink.one(0, Refuse::Below, &det.abs()) {
+            return None;
+        }
+        let sign = if det.is_sign_negative() { -V::Real::one() } else { V::Real::one() };
+        for volume in [&u, &v, &w] {
+            if !sink.one(1, Refuse::Below, &(volume.clone() * &sign)) {
+                return None;
+            }
+        }
+        let normal = b.minus(&a).cross(&c.minus(&a));
+        let t = normal.dot(&a) / normal.dot(direction);
+        Some(Hit { t: Some(t), uv: Some((v / &det, w / &det)), facing: None })
+    }
+}
+
+/// Hits whatever the ray does.
+fn always<F: Scalar>(_: &Case<F>, _: &[F]) -> Option<Hit<F>> {
+    Some(Hit::at(F::zero()))
+}
+
+const ALWAYS: KernelInfo = KernelInfo::own("always", Contract::CLOSED_RAY);
+
+#[test]
+fn a_kernel_for_every_arithmetic_has_margins_and_exact_runs() {
+    let kernel = Entry::of::<Volumes>();
+    assert_eq!(kernel.scalars(), [true, true]);
+    // On integers its float run is its exact run.
+    hairline::audit(&kernel).families(["lattice"]).count(20_000).assert_conforms();
+    let case = Case::<f32>::new([1., 1., 3.], [0., 0., -2.], [[0.; 3], [4., 0., 0.], [0., 4., 0.]]);
+    let gated = f32::subject(&kernel).unwrap().gated().expect("shows its gates");
+    // det = d·((b-a)×(c-a)) up to sign: 2·16; the smallest volume belongs to a = b = c's weight 1/4.
+    assert_eq!(gated.measure(&case).margins, [32.0, 8.0]);
+    assert_eq!(gated.run_exact(&case, &[33.0, 8.0]).unwrap().passed, [false, true]);
+}
+
+#[test]
+fn a_kernel_in_one_scalar_runs_in_that_one_alone() {
+    let kernel = Entry::new(&ALWAYS).f64(always::<f64>);
+    let outcome = hairline::audit(&kernel).families(["interior", "outside"]).run().unwrap();
+    let results = &outcome.record.result.results;
+    assert!(results.iter().all(|result| result.scalar == "f64"));
+    let count = |family: &str| {
+        let result = results.iter().find(|result| result.family == family).unwrap();
+        (result.total.false_misses.count, result.total.false_hits.count, result.total.hits)
+    };
+    assert_eq!(count("interior"), (0, 0, 2000));
+    assert_eq!(count("outside"), (0, 2000, 2000));
+}
+
+/// Watches nothing.
+struct Silent;
+
+impl audit::Observer for Silent {
+    fn advance(&self, _: u64) {}
+    fn now(&self) -> u64 {
+        0
+    }
+}
+
+#[test]
+fn rows_of_different_scalars_keep_their_places() {
+    const NEVER: KernelInfo = KernelInfo::own("never", Contract::CLOSED_RAY);
+    let leak = |entry: Entry| -> &'static Entry { Box::leak(Box::new(entry)) };
+    let entries = [
+        leak(Entry::new(&ALWAYS).f64(always::<f64>)),
+        leak(Entry::new(&NEVER).f32(|_: &Case<f32>, _: &[f32]| None)),
+        leak(Entry::new(&ALWAYS).f32(always::<f32>)),
+    ];
+    let plan = audit::Plan {
+        rows: EpsilonChoice::Source.rows(&entries, None).unwrap(),
+        sources: vec![audit::Source::Family {
+            family: hairline::internals::family::find("interior").unwrap(),
+            parameters: Parameters::default(),
+            seed: 1,
+            count: 10,
+            exhaustive: false,
+        }],
+        scalars: [true, true],
+        examples: 1,
+        attribute: 0,
+    };
+    let cells = audit::run(&plan, &Silent).cells;
+    let hits: Vec<_> =
+        cells.iter().map(|cell| (cell.row, cell.scalar, cell.tally.total().hits)).collect();
+    assert_eq!(hits, [(1, "f32", 0), (2, "f32", 10), (0, "f64", 10)]);
+}
+
+#[test]
+fn a_registered_kernel_is_in_every_table_and_its_name_is_taken() {
+    const INFO: KernelInfo = KernelInfo::own("registered-mine", Contract::CLOSED_RAY);
+    let kernel = Entry::new(&INFO).f32(always::<f32>);
+    let entry = register(kernel).unwrap();
+    assert!(find("registered-mine").is_some() && all().len() > 16);
+    assert_eq!(entry.selector(), "--kernel registered-mine");
+    assert!(register(kernel).err().unwrap().contains("two kernels of the name"));
+    const TAKEN: KernelInfo = KernelInfo::own("cramer", Contract::CLOSED_RAY);
+    assert!(register(Entry::new(&TAKEN)).err().unwrap().contains("'cramer'"));
+    const TWO_WORDS: KernelInfo = KernelInfo::own("two words", Contract::CLOSED_RAY);
+    assert!(register(Entry::new(&TWO_WORDS)).err().unwrap().contains("is no name"));
+}
+
+#[test]
+fn a_failed_assertion_reads_like_this() {
+    let kernel = Entry::new(&ALWAYS).f32(always::<f32>);
+    let request = hairline::audit(&kernel).families(["behind"]).count(3).seed(7);
+    let panic = catch_unwind(AssertUnwindSafe(|| request.assert_conforms())).unwrap_err();
+    let message = panic.downcast_ref::<String>().unwrap();
+    let lines: Vec<&str> = message.lines().collect();
+    assert_eq!(
+        lines[0],
+        "always (own) breaks its contract: ray, both sides, closed, coplanar miss, degenerate miss, invalid miss"
+    );
+    // 0.025^(1/2) = 0.158…: the closed form of the interval of 2 of 2.
+    let vertices =
+        "f32 behind (own): false-hit vertex/back/before: 2 of 2 (100.0% [15.8%, 100.0%])";
+    assert!(lines.contains(&vertices) && message.contains("\n        o=42000000,"), "{message}");
+    assert!(message.contains("\n    hairline explain 'behind@1/f32/-/7/"), "{message}");
+    let passes = hairline::audit(&kernel).families(["interior"]).count(50);
+    passes.assert_conforms();
+    assert!(passes.run().unwrap().to_string().contains("always (own) keeps its contract"));
+}
+
+#[test]
+fn a_panic_is_a_finding_and_the_run_goes_on() {
+    let sometimes = |case: &Case<f32>, _: &[f32]| {
+        let [origin, ..] = case.vectors();
+        assert!(origin[0] >= 0.0, "not this one");
+        Some(Hit::at(1.0))
+    };
+    let kernel = Entry::new(&ALWAYS).f32(sometimes);
+    let outcome = hairline::audit(&kernel).families(["interior"]).count(400).run().unwrap();
+    let total = &outcome.record.result.results[0].total;
+    assert!((100..300).contains(&total.panics), "{}", total.panics);
+    assert_eq!(total.panics + total.hits, 400);
+    // Where there is no verdict it is not wrong, nor right.
+    assert_eq!((total.false_misses.of, total.false_misses.count), (total.hits, 0));
+}
+
+#[test]
+fn a_promise_across_triangles_is_part_of_the_contract() {
+    const NEVER: KernelInfo = KernelInfo::own(
+        "never",
+        Contract { boundary: Boundary::Free, ..Contract::CLOSED_RAY }
+            .with_across(Across::AtLeastOne),
+    );
+    let kernel = Entry::new(&NEVER).f32(|_: &Case<f32>, _: &[f32]| None);
+    let outcome = hairline::audit(&kernel).families(["fan"]).count(200).run().unwrap();
+    assert!(!outcome.conforms());
+    assert!(outcome.to_string().contains("fan (own): crack in "), "{outcome}");
+}
+
+/// Signed volumes that panic on every polygon of five corners.
+struct NoPentagons;
+
+impl Kernel for NoPentagons {
+    const INFO: KernelInfo =
+        KernelInfo { name: "no-pentagons", polygons: true, ..<Volumes as Kernel>::INFO };
+
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    fn test<V: Vector, S: Sink<V::Real>>(
+        triangle: &Triangle<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        Volumes::test(triangle, ray, sink)
+    }
+
+    fn test_polygon<V: Vector, S: Sink<V::Real>>(
+        vertices: &[V],
+        _: &Ray<V>,
+        _: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        assert_ne!(vertices.len(), 5);
+        None
+    }
+}
+
+#[test]
+fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
+    let kernel = Entry::of::<NoPentagons>();
+    let outcome = hairline::audit(&kernel).families(["polygon"]).count(300).run().unwrap();
+    let family = hairline::internals::family::find("polygon").unwrap();
+    // A pentagon is a fan of three triangles.
+    let made = (0..300).map(|i| family.make::<f32>(&Parameters::default(), 1, i).cases().len());
+    let pentagons: Vec<usize> = (0..).zip(made).filter(|(_, n)| *n == 3).map(|(i, _)| i).collect();
+    assert!(pentagons.len() > 10);
+    let found = hairline::internals::report::disagreements(&outcome.record.result);
+    let panics = found.iter().find(|found| {
+        let key = &found.key;
+        (key.scalar.as_str(), key.class.as_str(), key.finding.as_str())
+            == ("f32", "polygon", "panic")
+    });
+    let panics = panics.expect("panics on polygons");
+    assert_eq!((panics.rate.count, panics.rate.of), (pentagons.len() as u64, 300));
+    let example = panics.example.as_ref().expect("a place");
+    assert_eq!(example.case, format!("polygon@1/f32/-/1/{}", pentagons[0]));
+    assert!(example.command.starts_with(&format!("hairline explain '{}'", example.case)));
+    assert!(outcome.to_string().contains("panic"), "{outcome}");
+}
+
+#[test]
+fn names_and_epsilons_that_there_are_none_of_are_errors() {
+    let kernel = Entry::of::<Volumes>();
+    let error = |error: Result<_, PlanError>| error.map(|_: hairline::Outcome| ()).unwrap_err().0;
+    let family = error(hairline::audit(&kernel).families(["edge-nera"]).run());
+    assert_eq!(family, "unknown family 'edge-nera'; did you mean 'edge-near'?");
+    let gate = error(hairline::audit(&kernel).epsilons(&[("paralel", "0")]).run());
+    assert!(gate.contains("did you mean 'parallel'?"), "{gate}");
+    let given = EpsilonChoice::Given(vec![("parallel".to_owned(), "1e-2".to_owned())]);
+    let leaked: &'static Entry = Box::leak(Box::new(kernel));
+    assert_eq!(given.rows(&[leaked], None).unwrap()[0].epsilons::<f32>(), [1e-2, 0.0]);
+}
+
+#[test]
+fn the_example_is_the_whole_program_with_two_kernels_in_it() {
+    let program = std::path::Path::new(env!("CARGO_BIN_EXE_hairline"));
+    let program = program.with_file_name("examples").join("own_kernel");
+    if !program.exists() {
+        // `cargo test` builds the examples, `cargo test --test commands` does not.
+        eprintln!("NOT TESTED: {} is not built", program.display());
+        return;
+    }
+    let run = |arguments: &[&str]| {
+        let output = std::process::Command::new(&program).args(arguments).output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (_, listed, _) = run(&["list", "kernels"]);
+    assert!(listed.contains("\nmine\n") && listed.contains("moller-trumbore\n"), "{listed}");
+    let (code, _, error) = run(&["audit", "--kernel", "bounding-bx"]);
+    assert!(code == Some(2) && error.contains("did you mean 'bounding-box'?"), "{error}");
+    let kernels = "mine,bounding-box,cramer";
+    let (code, table, _) =
+        run(&["audit", "--details", "--kernel", kernels, "-n", "300", "--family", "interior"]);
+    assert_eq!(code, Some(0));
+    // Each in its own scalar: mine in f32, the box in f64, the built-in one in both.
+    let count = |label: &str| table.lines().filter(|line| line.starts_with(label)).count();
+    let sections = 2; // the table, and the worst findings
+    assert_eq!(count("mine (own)"), sections);
+    assert_eq!(count("bounding-box (own)"), sections);
+    assert!(count("cramer (source)") == 2 * sections, "{table}");
+    let (code, _, error) = run(&["audit", "--kernel", "mine", "--scalar", "f64"]);
+    assert!(
+        code == Some(4) && error.contains("no selected kernel runs in the chosen scalars"),
+        "{error}"
+    );
+    let (_, shown, _) = run(&["explain", "interior@1/f64/-/1/1", "--kernel", "mine,bounding-box"]);
+    assert!(shown.contains("mine (own): does not run in f64"), "{shown}");
+    assert!(shown.contains("bounding-box (own): hit;"), "{shown}");
+    let (code, _, error) =
+        run(&["epsilon", "--kernel", "mine", "--family", "interior", "-n", "10"]);
+    assert!(code == Some(2) && error.contains("mine does not show its gates"), "{error}");
+}

@@ -1,0 +1,528 @@
+//! Kernels in processes of their own: libraries that misbehave, and commands that speak the protocol
+//! well or badly.
+
+#![cfg(unix)]
+
+use hairline::internals::case::Parameters;
+use hairline::internals::family;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+const HERE: &str = env!("CARGO_MANIFEST_DIR");
+
+fn hairline(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hairline")).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Whether a program runs here; says loudly what is left out if not.
+fn has(program: &str) -> bool {
+    let found = Command::new(program).arg("--version").output().is_ok();
+    if !found {
+        eprintln!("NOT TESTED: there is no '{program}' on this machine");
+    }
+    found
+}
+
+/// A library built by `cc`; none if there is no `cc`.
+fn library(source: &Path, name: &str, flags: &[&str]) -> Option<String> {
+    if !has("cc") {
+        return None;
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("libraries");
+    fs::create_dir_all(&folder).unwrap();
+    let path = folder.join(format!("lib{name}.so"));
+    let include = format!("-I{HERE}/include");
+    let built = Command::new("cc")
+        .args(["-O1", "-ffp-contract=off", "-shared", "-fPIC", &include])
+        .args(flags)
+        .arg("-o")
+        .args([&path, source])
+        .arg("-lm")
+        .output()
+        .unwrap();
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    Some(path.to_str().unwrap().to_owned())
+}
+
+fn misbehaving(fault: &str) -> Option<String> {
+    let source = PathBuf::from(HERE).join("tests/kernels/misbehave.c");
+    library(&source, &fault.to_lowercase(), &[&format!("-DFAULT={fault}")])
+}
+
+/// An audit's record, and what it wrote to standard error.
+fn record(arguments: &[&str]) -> (Value, String) {
+    let mut all = vec!["audit", "--format", "json", "--quiet"];
+    all.extend(arguments);
+    let output = hairline(&all);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {error}");
+    (serde_json::from_slice(&output.stdout).unwrap(), error)
+}
+
+/// Runs, expects bad input or failed output, and returns the line that says why.
+fn refused(arguments: &[&str], code: i32) -> String {
+    let output = hairline(arguments);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
+    assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    let line = error.lines().find(|line| line.starts_with("hairline: "));
+    line.unwrap_or_else(|| panic!("no message: {error}")).to_owned()
+}
+
+const COUNT: u64 = 1500;
+const FLAGS: [&str; 6] = ["--family", "interior", "-n", "1500", "--scalar", "f64"];
+
+/// On how many cases of the run below tests/kernels/misbehave.c misbehaves.
+fn faulty_cases() -> u64 {
+    let interior = family::find("interior").unwrap();
+    let is_faulty = |index: &u64| {
+        let made = interior.make::<f64>(&Parameters::default(), 1, *index);
+        let [origin, ..] = made.cases()[0].vectors();
+        (origin[0].to_bits() >> 20).is_multiple_of(64)
+    };
+    (0..COUNT).filter(is_faulty).count() as u64
+}
+
+fn count(record: &Value, pointer: &str) -> u64 {
+    let pointer = format!("/result/results/0/total/{pointer}");
+    record.pointer(&pointer).and_then(Value::as_u64).unwrap_or_else(|| panic!("{pointer}"))
+}
+
+#[test]
+fn a_library_that_crashes_exits_or_writes_where_it_must_not_is_a_finding_case_by_case() {
+    let faulty = faulty_cases();
+    assert!((5..60).contains(&faulty), "{faulty}");
+    for (fault, word) in [
+        ("SEGFAULT", "died of signal 11 (SIGSEGV)"),
+        ("ABORT", "died of signal 6 (SIGABRT)"),
+        ("EXIT", "ended its process with exit code 0"),
+        ("WRITE_PAST", "touched memory outside its buffers"),
+        ("WRITE_BEFORE", "touched memory outside its buffers"),
+        ("WRITE_INPUT", "touched memory outside its buffers"),
+        ("READ_PAST", "touched memory outside its buffers"),
+    ] {
+        let Some(library) = misbehaving(fault) else { return };
+        let flags = [&["--kernel-lib", &library][..], &FLAGS].concat();
+        let (record, _) = record(&flags);
+        assert_eq!(count(&record, "crashes"), faulty, "{fault}");
+        assert_eq!(count(&record, "timeouts"), 0, "{fault}");
+        // Everywhere else it misses what it must hit: the run went on.
+        assert_eq!(count(&record, "false_misses/count"), COUNT - faulty, "{fault}");
+        assert_eq!(
+            count(&record, "false_misses/of"),
+            COUNT - faulty,
+            "{fault}: no verdict, no trial"
+        );
+        let table = text(&hairline(&[&["audit"][..], &flags].concat()).stdout);
+        assert!(table.contains(&format!("misbehave (own): {faulty} crashes")), "{table}");
+        // The command in the table shows it again, with what it died of.
+        let findings = record.pointer("/result/results/0/findings").unwrap().as_array().unwrap();
+        let crash = findings.iter().find(|finding| finding["finding"] == "crash").unwrap();
+        let command = crash["worst"]["command"].as_str().unwrap();
+        assert!(command.contains("--kernel-lib '"), "{command}");
+        let words: Vec<&str> =
+            command.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+        let shown = text(&hairline(&words).stdout);
+        assert!(shown.contains(&format!("misbehave (own): {word}; ")), "{fault}: {shown}");
+        assert!(shown.contains(": CRASH"), "{fault}: {shown}");
+    }
+}
+
+#[test]
+fn a_library_that_hangs_is_a_finding_and_the_run_ends() {
+    let Some(library) = misbehaving("HANG") else { return };
+    let start = Instant::now();
+    let flags = ["--kernel-timeout", "0.4", "--kernel-lib", &library];
+    let (record, _) = record(&[&flags[..], &FLAGS].concat());
+    assert_eq!(count(&record, "timeouts"), faulty_cases());
+    assert_eq!(count(&record, "false_misses/count"), COUNT - faulty_cases());
+    assert!(start.elapsed() < Duration::from_secs(60));
+    // One that also shuts its pipes and lives on.
+    let Some(library) = misbehaving("CLOSE_PIPES") else { return };
+    let flags = ["audit", "--kernel-timeout", "0.1", "--kernel-failures", "0", "--kernel-lib"];
+    let error = refused(&[&flags[..], &[&library], &FLAGS].concat(), 65);
+    assert!(error.contains("gave no answer in time on o="), "{error}");
+}
+
+#[test]
+fn too_many_failures_end_the_run_with_the_first_of_them() {
+    let Some(library) = misbehaving("ABORT") else { return };
+    let flags = ["audit", "--kernel-failures", "3", "--kernel-lib", &library];
+    let error = refused(&[&flags[..], &FLAGS].concat(), 65);
+    assert!(error.contains("kernel 'misbehave': it failed on more than 3 cases"), "{error}");
+    assert!(error.contains("first: died of signal 6 (SIGABRT) on o="), "{error}");
+}
+
+#[test]
+fn prints_and_bad_values_of_a_library_do_no_harm() {
+    let Some(library) = misbehaving("PRINT") else { return };
+    let (printing, error) = record(&[&["--kernel-lib", &library][..], &FLAGS].concat());
+    assert_eq!(count(&printing, "false_misses/count"), COUNT);
+    assert!(error.contains("case 0 of "), "its prints are on standard error");
+    let Some(library) = misbehaving("RETURN_NAN") else { return };
+    let (nan, _) = record(&[&["--kernel-lib", &library][..], &FLAGS].concat());
+    assert_eq!(count(&nan, "bad_values/count"), faulty_cases());
+}
+
+#[test]
+fn crashes_are_expected_once_they_are_blessed() {
+    let Some(library) = misbehaving("SEGFAULT") else { return };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-blessed");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("e.toml");
+    let file = file.to_str().unwrap();
+    let check = |more: &[&str]| {
+        let plan = ["check", "-q", "--expectations", file, "--family", "interior", "-n", "300"];
+        hairline(&[&plan[..], &["--scalar", "f64"], more].concat())
+    };
+    let own = ["--kernel-lib", &library];
+    assert_eq!(check(&[&own[..], &["--bless"]].concat()).status.code(), Some(0));
+    assert!(fs::read_to_string(file).unwrap().contains("\"crash\""));
+    let output = check(&own);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    // Without its library the kernel is not known, and what would make it so is said.
+    let output = check(&["--kernel", "plucker"]);
+    assert_eq!(output.status.code(), Some(65));
+    assert!(text(&output.stderr).contains("--kernel-lib or --kernel-cmd"), "{output:?}");
+}
+
+#[test]
+fn a_crash_that_no_single_case_repeats_is_said() {
+    let Some(library) = misbehaving("ONLY_IN_BATCHES") else { return };
+    let (record, error) = record(&[&["--kernel-lib", &library][..], &FLAGS].concat());
+    assert_eq!(count(&record, "crashes"), 0);
+    assert!(error.contains("note: kernel 'misbehave': asked "), "{error}");
+    assert!(
+        error.contains("cases at once it died of signal 6 (SIGABRT); asked one by one"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_library_that_is_no_kernel_or_answers_nonsense_is_refused() {
+    for (fault, message) in [
+        ("NO_ANSWER", "kernel 'misbehave': verdict "),
+        ("WRONG_ANSWER", "hit is 7, expected 0 or 1"),
+        ("OTHER_ABI", "it was built with version 2 of hairline.h, this program has version 1"),
+        ("NULL_DESCRIPTION", "hairline_describe returned NULL"),
+        ("CRASH_IN_DESCRIBE", "before its hello was over it died of signal 6 (SIGABRT)"),
+        ("BAD_CONTRACT", "contract: 'closed ray' is no contract"),
+    ] {
+        let Some(library) = misbehaving(fault) else { return };
+        let error = refused(&[&["audit", "--kernel-lib", &library][..], &FLAGS].concat(), 65);
+        assert!(error.contains(message), "{fault}: {error}");
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("no-kernels");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("empty.c"), "int unused;\n").unwrap();
+    let Some(empty) = library(&folder.join("empty.c"), "empty", &[]) else { return };
+    let error = refused(&["list", "kernels", "--kernel-lib", &empty], 65);
+    assert!(error.contains("libempty.so: it has no function hairline_abi"), "{error}");
+    let abi = "#include \"hairline.h\"\nuint32_t hairline_abi(void) { return HAIRLINE_ABI; }\n";
+    fs::write(folder.join("bare.c"), abi).unwrap();
+    let Some(bare) = library(&folder.join("bare.c"), "bare", &[]) else { return };
+    let error = refused(&["list", "kernels", "--kernel-lib", &bare], 65);
+    assert!(error.contains("it has neither hairline_test_f32 nor hairline_test_f64"), "{error}");
+    let this = format!("{HERE}/Cargo.toml");
+    assert!(refused(&["audit", "--kernel-lib", &this], 65).contains("Cargo.toml: "));
+    assert!(refused(&["audit", "--kernel-lib", "no.so"], 74).contains("no.so: No such file"));
+}
+
+#[test]
+fn the_example_in_c_is_moller_trumbore_bit_for_bit() {
+    let source = PathBuf::from(HERE).join("examples/c/moller_trumbore.c");
+    let Some(library) = library(&source, "moller_trumbore", &["-Wall", "-Wextra", "-Werror"])
+    else {
+        return;
+    };
+    let families = "edge-near,tiny,range-ends,invalid,fan,direction-length";
+    let flags = ["--kernel-lib", &library, "--kernel", "moller-trumbore", "--family", families];
+    let (record, _) = record(&[&flags[..], &["-n", "2500"]].concat());
+    let results = record["result"]["results"].as_array().unwrap();
+    let of = |kernel: &str| -> Vec<(Value, Value)> {
+        let of_kernel = results.iter().filter(|result| result["kernel"] == kernel);
+        of_kernel.map(|result| (result["total"].clone(), result["across"].clone())).collect()
+    };
+    let (mine, built_in) = (of("c-moller-trumbore"), of("moller-trumbore"));
+    assert_eq!(mine.len(), 12);
+    assert_eq!(mine, built_in);
+    let listed = text(&hairline(&["list", "kernels", "--kernel-lib", &library]).stdout);
+    assert!(listed.contains("c-moller-trumbore\n    source: Moller and Trumbore"), "{listed}");
+    // Its epsilon is a gate like any other, and what is not shown is said.
+    let tight =
+        ["explain", "tiny@1/f32/-/1/0", "--epsilon", "parallel=0", "--kernel-lib", &library];
+    let shown = text(&hairline(&tight).stdout);
+    assert!(shown.contains("c-moller-trumbore (parallel=0): hit;"), "{shown}");
+    assert!(shown.contains("it does not show its gates"), "{shown}");
+}
+
+/// A kernel in `sh` with these lines after its hello; `$1` is `case`, `end` and so on.
+fn shell(body: &str) -> String {
+    let hello =
+        "printf 'hairline-kernel 1\\nname sh\\nscalars f64\\ncontract closed-ray\\nready\\n'";
+    // The quotes are the ones that Program::parse takes away.
+    format!("sh -c '{}'", format!("{hello}; {body}").replace('\'', "'\\''"))
+}
+
+const MISSES: &str = "while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id;; esac; done";
+
+#[test]
+fn a_kernel_in_a_shell_is_audited_over_its_pipe() {
+    let misses = shell(MISSES);
+    let (record, _) = record(&[&["--kernel-cmd", &misses][..], &FLAGS].concat());
+    assert_eq!(count(&record, "false_misses/count"), COUNT);
+    let selector = &record["result"]["plan"]["rows"][0]["selector"];
+    let line = format!("--kernel-cmd '{}'", misses.replace('\'', "'\\''"));
+    assert_eq!(selector, &Value::from(line));
+}
+
+#[test]
+fn a_campaign_on_a_command_goes_on_and_its_finds_are_told_again() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign-on-a-command");
+    let _ = fs::remove_dir_all(&folder);
+    let folder = folder.to_str().unwrap();
+    let misses = shell(MISSES);
+    let fuzz = |flags: &[&str]| {
+        let output = hairline(&[&["fuzz", folder, "--evaluations", "3000", "-q"], flags].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        fs::read_to_string(format!("{folder}/finds.jsonl")).unwrap()
+    };
+    let begun = fuzz(&["--kernel-cmd", &misses]);
+    assert!(begun.contains("\"kernel\":\"sh\""), "{begun}");
+    // The campaign knows its kernel, and every find is of a kind of its own.
+    let more = fuzz(&[]);
+    assert!(more.starts_with(&begun), "{more}");
+    let kind = |line: &str| {
+        let find: Value = serde_json::from_str(line).unwrap();
+        find["found"]["signature"].to_string()
+    };
+    let mut kinds: Vec<String> = more.lines().map(kind).collect();
+    kinds.sort();
+    kinds.dedup();
+    assert_eq!(kinds.len(), more.lines().count());
+    let first: Value = serde_json::from_str(begun.lines().next().unwrap()).unwrap();
+    let name = first["name"].as_str().unwrap();
+    let corpus = format!("{folder}/finds.jsonl");
+    let shown = hairline(&["explain", name, "--corpus", &corpus, "--kernel-cmd", &misses]);
+    assert!(text(&shown.stdout).contains("sh (own): miss;"), "{}", text(&shown.stdout));
+
+    let twice = refused(&["list", "kernels", "--kernel-cmd", &misses, "--kernel-cmd", &misses], 2);
+    assert!(twice.contains("is given twice"), "{twice}");
+}
+
+#[test]
+fn a_campaign_goes_on_however_often_a_kernel_crashes() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("campaign-of-crashes");
+    let _ = fs::remove_dir_all(&folder);
+    let flags = ["fuzz", folder.to_str().unwrap(), "-n", "1500", "-q", "--kernel-cmd"];
+    let output = hairline(&[&flags[..], &[&shell("read line; exit 3")]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let finds = fs::read_to_string(folder.join("finds.jsonl")).unwrap();
+    assert!(finds.contains("crash"), "{finds}");
+}
+
+#[test]
+fn a_command_that_is_no_kernel_is_refused_with_what_was_found_and_expected() {
+    let cases: &[(&str, i32, &str)] = &[
+        ("no-such-program-anywhere", 74, "no-such-program-anywhere: it cannot be started: "),
+        (
+            "sh -c 'x",
+            2,
+            "--kernel-cmd 'sh -c 'x': a quotation mark or a backslash in it is not closed",
+        ),
+        ("true", 65, "true: before its hello was over it ended its process with exit code 0"),
+        ("false", 65, "exit code 1"),
+        ("sh -c 'kill -9 $$'", 65, "before its hello was over it died of signal 9 (SIGKILL)"),
+        ("echo hello", 65, "its first line is 'hello', expected 'hairline-kernel 1'"),
+        ("echo hairline-kernel 2", 65, "it speaks protocol '2', this program speaks 1"),
+        ("echo error no three here", 65, "echo error no three here: no three here"),
+        ("sleep 100", 65, "it said no hello within 0.4 s"),
+        (
+            "sh -c 'head -c 100000 /dev/zero; sleep 100'",
+            65,
+            "more than 65536 bytes without a newline",
+        ),
+    ];
+    let start = Instant::now();
+    for (command, code, message) in cases {
+        let flags = ["audit", "--kernel-timeout", "0.4", "--kernel-cmd", command];
+        let error = refused(&[&flags[..], &FLAGS].concat(), *code);
+        assert!(error.contains(message), "{command}: {error}");
+    }
+    assert!(start.elapsed() < Duration::from_secs(30));
+    let taken = shell(MISSES).replace("name sh", "name cramer");
+    let error = refused(&["list", "kernels", "--kernel-cmd", &taken], 65);
+    assert!(error.contains("there are two kernels of the name 'cramer'"), "{error}");
+}
+
+#[test]
+fn answers_that_are_none_end_the_run_and_never_hang_it() {
+    for (body, message) in [
+        ("read -r line; echo hello world", "expected 'ID miss', 'ID hit "),
+        ("read -r line; echo 7 miss", "expected the verdict on case 0 of "),
+        (
+            "while read -r word id rest; do case $word in end) echo 0 miss; echo end $id;; esac; done",
+            "expected the verdict on case 1 of ",
+        ),
+        (
+            "while read -r word id rest; do case $word in case) echo $id miss;; end) echo end 3;; esac; done",
+            "verdicts expected 'end ",
+        ),
+        (
+            "while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id; echo more;; esac; done",
+            "more",
+        ),
+        ("printf '\\377\\n'; cat >/dev/null", "it wrote a line that is not UTF-8"),
+    ] {
+        let command = shell(body);
+        let mut more =
+            vec!["audit", "--kernel-timeout", "3", "--kernel-cmd", &command, "--threads", "1"];
+        more.extend(FLAGS);
+        let output = hairline(&more);
+        let error = text(&output.stderr);
+        // What came too late to be seen after one batch is seen in the next.
+        assert_eq!(output.status.code(), Some(65), "{body}: {error}");
+        assert!(
+            error.contains("hairline: kernel 'sh': ") && error.contains(message),
+            "{body}: {error}"
+        );
+    }
+}
+
+#[test]
+fn a_command_that_dies_or_is_silent_on_a_case_is_a_finding() {
+    // Every case whose origin's first number has a 77 in it; the same in Rust.
+    let interior = family::find("interior").unwrap();
+    const FEW: u64 = 200; // a shell reads byte by byte
+    let unlucky = (0..FEW).filter(|index| {
+        let made = interior.make::<f64>(&Parameters::default(), 1, *index);
+        let line = hairline::internals::plugin::text::case_line(0, &made.cases()[0]);
+        line.split(' ').nth(3).unwrap().contains("77")
+    });
+    let unlucky = unlucky.count() as u64;
+    assert!((2..50).contains(&unlucky), "{unlucky}");
+    for (what, field) in [("exit 3", "crashes"), ("kill -9 $$", "crashes")] {
+        let body = format!(
+            "while read -r word id scalar x rest; do case $word in end) echo end $id;; case) case $x in *77*) {what};; esac; echo $id miss;; esac; done"
+        );
+        let command = shell(&body);
+        let few =
+            ["--family", "interior", "--scalar", "f64", "-n", "200", "--kernel-cmd", &command];
+        let (record, _) = record(&few);
+        assert_eq!(count(&record, field), unlucky, "{what}");
+        assert_eq!(count(&record, "false_misses/count"), FEW - unlucky, "{what}");
+    }
+    let silent =
+        shell("while read -r word id rest; do case $word in end) echo end $id;; esac; done");
+    let flags = ["explain", "interior@1/f64/-/1/3", "--kernel-timeout", "0.2", "--kernel-cmd"];
+    let error = refused_after_output(&[&flags[..], &[&silent]].concat());
+    assert!(error.contains("expected the verdict on case 0 of 1, found 'end 1'"), "{error}");
+    // Killed with what it started: `sleep` would hold this test's pipes.
+    let start = Instant::now();
+    let deaf = shell("sleep 100; echo");
+    let shown = text(&hairline(&[&flags[..], &[&deaf]].concat()).stdout);
+    assert!(
+        shown.contains("sh (own): gave no answer in time; its contract asks a hit: TIMEOUT"),
+        "{shown}"
+    );
+    assert!(start.elapsed() < Duration::from_secs(50));
+}
+
+/// What a command that prints before it fails says on standard error; exit code 65.
+fn refused_after_output(arguments: &[&str]) -> String {
+    let output = hairline(arguments);
+    assert_eq!(output.status.code(), Some(65), "{}", text(&output.stderr));
+    text(&output.stderr)
+}
+
+#[test]
+fn the_example_in_python_is_the_same_over_the_pipe_and_as_a_filter() {
+    if !has("python3") {
+        return;
+    }
+    let kernel = format!("python3 {HERE}/examples/python/moller_trumbore.py");
+    let flags = ["--family", "edge-near,fan,invalid,lattice", "-n", "1100", "--scalar", "f64"];
+    let (piped, _) = record(&[&["--kernel-cmd", &kernel][..], &flags].concat());
+    let filter = format!(
+        "set -o pipefail; '{0}' generate {1} | {kernel} | '{0}' judge --format json",
+        env!("CARGO_BIN_EXE_hairline"),
+        flags.join(" ")
+    );
+    let output = Command::new("bash").args(["-c", &filter]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "it disagrees: {}", text(&output.stderr));
+    let judged: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let totals = |record: &Value| -> Vec<(Value, Value, Value)> {
+        let results = record["result"]["results"].as_array().unwrap().iter();
+        results.map(|r| (r["family"].clone(), r["classes"].clone(), r["across"].clone())).collect()
+    };
+    assert_eq!(totals(&piped), totals(&judged));
+    assert_eq!(piped["result"]["sources"], judged["result"]["sources"]);
+    // An epsilon on the command line reaches it: no determinant is that large.
+    let flags = ["--epsilon", "parallel=1e30", "--family", "interior", "-n", "50"];
+    let (tight, _) = record(&[&["--kernel-cmd", &kernel][..], &flags].concat());
+    assert_eq!(count(&tight, "false_misses/count"), 50);
+    // The command of a judged filter shows its case.
+    let command = judged.pointer("/result/results/0/findings/0/worst/command").unwrap();
+    let words: Vec<&str> =
+        command.as_str().unwrap().split(' ').skip(1).map(|word| word.trim_matches('\'')).collect();
+    assert_eq!(hairline(&words).status.code(), Some(0), "{command}");
+}
+
+#[test]
+fn a_kernel_may_speak_binary() {
+    if !has("python3") {
+        return;
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("binary");
+    fs::create_dir_all(&folder).unwrap();
+    let script = folder.join("kernel.py");
+    // Hits where t_max is infinite and the first coordinate is positive; t is the epsilon.
+    fs::write(
+        &script,
+        r#"
+import struct, sys
+sys.stdout.write("hairline-kernel 1\nname binary\nscalars f32 f64\ncontract closed-ray\ngives t facing\n"
+                 "epsilon t 0.5 1 -1 signed\nencoding binary\nready\n")
+sys.stdout.flush()
+read, write = sys.stdin.buffer, sys.stdout.buffer
+while head := read.read(16):
+    magic, bits, count, epsilons = struct.unpack("<4sIII", head)
+    assert magic == b"HLB1"
+    real = {32: "f", 64: "d"}[bits]
+    size = bits // 8
+    epsilon, = struct.unpack(f"<{real}", read.read(epsilons * size))
+    write.write(struct.pack("<4sI", b"HLA1", count))
+    for _ in range(count):
+        case = struct.unpack(f"<17{real}", read.read(17 * size))
+        hit = case[0] > 0 and case[16] == float("inf")
+        write.write(struct.pack(f"<ii3{real}", hit, 1, epsilon, 0, 0))
+    write.flush()
+"#,
+    )
+    .unwrap();
+    let kernel = format!("python3 '{}'", script.display());
+    let flags = ["--family", "interior", "-n", "600", "--kernel-cmd", &kernel];
+    let (record, _) = record(&flags);
+    let interior = family::find("interior").unwrap();
+    let positive = |index: &u64| {
+        interior.make::<f32>(&Parameters::default(), 1, *index).cases()[0].vectors()[0][0] > 0.0
+    };
+    assert_eq!(count(&record, "hits"), (0..600).filter(positive).count() as u64);
+    let flags = ["explain", "interior@1/f32/-/1/0", "--epsilon", "t=0.25", "--kernel-cmd", &kernel];
+    let mut shown = text(&hairline(&flags).stdout);
+    if !positive(&0) {
+        let index = (0..600).find(positive).unwrap();
+        let id = format!("interior@1/f32/-/1/{index}");
+        shown = text(&hairline(&[&["explain", &id][..], &flags[2..]].concat()).stdout);
+    }
+    assert!(shown.contains("binary (t=0.25): hit;"), "{shown}");
+    assert!(shown.contains("reports t = 2.5e-1, facing front"), "{shown}");
+}

@@ -1,0 +1,50 @@
+//! The program run as a user runs it, for the tests of several commands.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own for each test.
+pub fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Runs the program in a folder with variables, away from those of the machine that count.
+pub fn hairline_with(folder: &Path, arguments: &[&str], variables: &[(&str, &str)]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("GITHUB_ACTIONS")
+        .env_remove("GITHUB_STEP_SUMMARY")
+        .env_remove("NO_COLOR")
+        .envs(variables.iter().copied())
+        .output()
+        .unwrap()
+}
+
+/// Runs the program in a folder.
+pub fn hairline(folder: &Path, arguments: &[&str]) -> Output {
+    hairline_with(folder, arguments, &[])
+}
+
+/// Runs the program, expects an exit code, and returns both streams, standard output first.
+pub fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
+    let output = hairline(folder, arguments);
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    let (out, error) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}\n{out}\n{error}");
+    (out, error)
+}
+
+/// A record's `result`, byte for byte.
+pub fn result_bytes(file: &Path) -> String {
+    #[derive(serde::Deserialize)]
+    struct Parts {
+        result: Box<serde_json::value::RawValue>,
+    }
+    let parts: Parts = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+    parts.result.get().to_owned()
+}

@@ -1,0 +1,259 @@
+//! What `hairline audit` prints on a terminal: short, in columns that are questions, its numbers those of
+//! the record.
+
+use crate::program;
+
+use program::{ends, scratch};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The columns, each with its families. A family that is missing here has no column.
+const COLUMNS: [(&str, &[&str]); 8] = [
+    ("inside", &["interior", "outside"]),
+    ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
+    ("vertex", &["vertex-exact", "vertex-near", "fan"]),
+    ("flat", &["parallel-off", "coplanar", "grazing", "degenerate"]),
+    ("ends", &["origin-on", "origin-near", "respawn", "behind", "interval-ends"]),
+    ("grid", &["axis-aligned", "lattice"]),
+    ("sizes", &["sliver", "tiny", "huge", "far", "direction-length"]),
+    ("range", &["mixed-scale", "range-ends"]),
+];
+
+/// Runs an audit, and returns what it prints and its record.
+fn audit(folder: &Path, arguments: &[&str]) -> (String, Value) {
+    let outputs = ["--quiet", "--format", "text,json", "-o", "screen.txt", "-o", "record.json"];
+    ends(folder, &[&["audit"], arguments, &outputs].concat(), 0);
+    let record = serde_json::from_slice(&fs::read(folder.join("record.json")).unwrap()).unwrap();
+    (fs::read_to_string(folder.join("screen.txt")).unwrap(), record)
+}
+
+/// A row's results of some families in a scalar.
+fn results<'a>(record: &'a Value, row: &Value, scalar: &str, families: &[&str]) -> Vec<&'a Value> {
+    let all = record["result"]["results"].as_array().unwrap().iter();
+    let is_asked = |result: &&Value| {
+        let family = result["family"].as_str().unwrap();
+        result["kernel"] == row["kernel"]
+            && result["set"] == row["set"]
+            && result["scalar"] == scalar
+            && (families.is_empty() || families.contains(&family))
+    };
+    all.filter(is_asked).collect()
+}
+
+fn sum(results: &[&Value], paths: &[&str]) -> u64 {
+    let of = |result: &&Value| {
+        paths.iter().filter_map(|path| result.pointer(path)?.as_u64()).sum::<u64>()
+    };
+    results.iter().map(of).sum()
+}
+
+/// Percent as the screen writes it, in integers: rounded to tenths, 0 and 100 only where they are exact.
+fn percent(count: u64, of: u64) -> String {
+    if of == 0 {
+        return "-".to_owned();
+    }
+    if count == 0 || count == of {
+        return if count == 0 { "0" } else { "100" }.to_owned();
+    }
+    match (count * 2000 + of) / (2 * of) {
+        0 => "<0.1".to_owned(),
+        tenths => format!("{}.{}", tenths.min(999) / 10, tenths.min(999) % 10),
+    }
+}
+
+/// A cell, from the record: wrong verdicts of all that are demanded, and a mark if one in a thousand is far off.
+fn cell(results: &[&Value]) -> String {
+    let [misses, hits] = ["/total/false_misses", "/total/false_hits"];
+    let of = |what: &str| sum(results, &[&format!("{misses}{what}"), &format!("{hits}{what}")]);
+    let octaves = results.iter().flat_map(|result| {
+        let kinds = result["severity"].as_object().unwrap().values();
+        kinds.flat_map(|severity| severity["edges"]["octaves"].as_object().unwrap())
+    });
+    let is_far = |octave: &str| match octave.strip_prefix("2^") {
+        Some(exponent) => -10 <= exponent.parse::<i32>().unwrap(),
+        None => octave == "inf",
+    };
+    let far = octaves.filter(|(octave, _)| is_far(octave)).map(|(_, n)| n.as_u64().unwrap());
+    let is_far = of("/of") < 1000 * far.sum::<u64>();
+    format!("{}{}", percent(of("/count"), of("/of")), if is_far { "*" } else { "" })
+}
+
+#[test]
+fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
+    let folder = scratch("screen-default");
+    let (screen, record) = audit(&folder, &["-n", "150"]);
+    let lines: Vec<&str> = screen.lines().collect();
+    assert!(lines.len() <= 60, "{} lines:\n{screen}", lines.len());
+    let words = lines.iter().filter(|line| !line.starts_with("   hairline explain "));
+    let longest = words.max_by_key(|line| line.chars().count()).unwrap();
+    assert!(longest.chars().count() <= 120, "{longest}");
+    let rows = record["result"]["plan"]["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 20);
+    for scalar in ["f32", "f64"] {
+        let head =
+            lines.iter().position(|line| line.starts_with(&format!("{scalar} kernel"))).unwrap();
+        let heads: Vec<&str> = lines[head].split_whitespace().skip(3).collect();
+        let names = COLUMNS.iter().map(|(name, _)| *name);
+        assert_eq!(heads, names.chain(["cracks", "doubles", "promised"]).collect::<Vec<_>>());
+        for (row, line) in rows.iter().zip(&lines[head + 1..]) {
+            let [kernel, set] = ["kernel", "set"].map(|key| row[key].as_str().unwrap());
+            let label = format!("{kernel} ({set})");
+            let cells = line.strip_prefix(&label).unwrap_or_else(|| panic!("{label}: {line}"));
+            let cells: Vec<&str> = cells.split_whitespace().collect();
+            for ((name, families), shown) in COLUMNS.iter().zip(&cells) {
+                let expected = cell(&results(&record, row, scalar, families));
+                assert_eq!(*shown, expected, "{label} {scalar} {name}");
+            }
+            let all = results(&record, row, scalar, &[]);
+            let share = |what: &str| {
+                let [count, of] =
+                    ["count", "of"].map(|n| sum(&all, &[&format!("/across/{what}/{n}")]));
+                (count, percent(count, of))
+            };
+            let [cracks, doubles] = ["cracks", "doubles"].map(share);
+            assert_eq!(cells[8..10], [cracks.1, doubles.1], "{label} {scalar}");
+            let promised = match kernel {
+                "woop-watertight" | "plucker" if cracks.0 == 0 => ">= 1: kept",
+                _ => "nothing",
+            };
+            assert_eq!(cells[10..].join(" "), promised, "{label} {scalar}");
+        }
+    }
+    // Everything else is behind the flag.
+    let everything = ends(&folder, &["audit", "-q", "-n", "150", "--details"], 0).0;
+    for expected in ["ns/ray", "values in ulps", "on NaN", "bad-value", "half within", " why: "] {
+        assert!(everything.contains(expected), "{expected}");
+    }
+    assert!(500 < everything.lines().count());
+}
+
+#[test]
+fn the_worst_findings_are_of_ordinary_sizes_and_their_commands_show_them() {
+    let folder = scratch("screen-worst");
+    let (screen, record) = audit(&folder, &["-n", "300"]);
+    let commands: Vec<&str> =
+        screen.lines().filter_map(|line| line.strip_prefix("   hairline explain ")).collect();
+    assert_eq!(commands.len(), 3, "{screen}");
+    let mut kernels = Vec::new();
+    for command in commands {
+        for family in ["range-ends", "mixed-scale", "invalid", "degenerate"] {
+            assert!(!command.contains(&format!("'{family}@")), "{command}");
+        }
+        let words: Vec<&str> =
+            command.split_whitespace().map(|word| word.trim_matches('\'')).collect();
+        let (shown, _) = ends(&folder, &[&["explain"], &words[..]].concat(), 0);
+        assert!(shown.contains("FALSE-"), "{command}: {shown}");
+        kernels.push(words[2].to_owned());
+    }
+    kernels.dedup();
+    assert_eq!(kernels.len(), 3, "of different kernels: {kernels:?}");
+    // No false verdict in an ordinary family is farther off than the first, of those that can be measured.
+    let ordinary: Vec<&str> =
+        COLUMNS[..7].iter().flat_map(|(_, families)| *families).copied().collect();
+    let mut farthest = 0.0_f64;
+    for result in record["result"]["results"].as_array().unwrap() {
+        let is_ordinary = ordinary.contains(&result["family"].as_str().unwrap());
+        for finding in result["findings"].as_array().unwrap().iter().filter(|_| is_ordinary) {
+            let [kind, class] = ["finding", "class"].map(|key| finding[key].as_str().unwrap());
+            let severity = &finding["worst"]["severity"];
+            let Some(in_space) = severity["in_space"].as_f64() else { continue };
+            let along = severity["along"].as_f64();
+            let off_end = class.ends_with("/before") || class.ends_with("/beyond");
+            let distance = match (kind, along) {
+                (_, _) if class == "degenerate" => continue,
+                // Either would make the verdict right.
+                ("false-miss", along) => in_space.min(along.unwrap_or(in_space)),
+                // Both must change.
+                ("false-hit", Some(along)) if off_end && class.starts_with("outside") => {
+                    in_space.max(along)
+                }
+                ("false-hit", Some(along)) if off_end => along,
+                ("false-hit", _) => in_space,
+                _ => continue,
+            };
+            farthest = farthest.max(distance);
+        }
+    }
+    let first = screen.lines().find(|line| line.starts_with("1. ")).unwrap();
+    assert!(first.contains(&format!(" {farthest:.2} edges ")), "{farthest}: {screen}");
+}
+
+#[cfg(unix)]
+#[test]
+fn cracks_under_a_promise_are_marked_and_shown_first() {
+    let folder = scratch("screen-promise");
+    let misses = "printf 'hairline-kernel 1\\nname holes\\nscalars f64\\ncontract closed-ray,across=at-least-one\\nready\\n'; \
+        while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id;; esac; done";
+    fs::write(folder.join("holes.sh"), misses).unwrap();
+    let family = ["--family", "shared-edge,interior", "-n", "60", "--scalar", "f64"];
+    let command = ["--kernel-cmd", "sh holes.sh"];
+    // Alone, and among others.
+    let (alone, record) = audit(&folder, &[&family[..], &command].concat());
+    let cracks = sum(&[&record["result"]["results"][1]], &["/across/cracks/count"])
+        + sum(&[&record["result"]["results"][0]], &["/across/cracks/count"]);
+    assert!(0 < cracks);
+    assert!(alone.contains("100 % cracks and 0 % doubles; promised: >= 1: BROKEN"), "{alone}");
+    let others = ["--kernel", "holes,cramer,half-space,woop-watertight,plucker"];
+    let (table, _) = audit(&folder, &[&family[..], &command, &others].concat());
+    let row = |name: &str| table.lines().find(|line| line.starts_with(name)).unwrap();
+    assert!(row("holes (own)").ends_with(" 100       0  >= 1: BROKEN"), "{table}");
+    assert!(row("woop-watertight").ends_with(" >= 1: kept"), "{table}");
+    assert!(row("half-space").ends_with(" nothing"), "{table}");
+    for screen in [alone, table] {
+        let first = screen.lines().find(|line| line.starts_with("1. ")).unwrap();
+        let expected = format!(
+            "1. holes (own), f64: broken promise, no triangle reports {cracks} of {cracks} crossings"
+        );
+        assert_eq!(first, expected, "{screen}");
+    }
+}
+
+#[test]
+fn stored_cases_are_counted_apart_and_have_no_interval() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = scratch("screen-stored");
+    let corpus = root.join("corpora/curated.jsonl");
+    let plan = ["--kernel", "cramer", "--scalar", "f32", "--corpus", corpus.to_str().unwrap()];
+    let plan = [&plan[..], &["--family", "edge-near", "-n", "500"]].concat();
+    let (screen, record) = audit(&folder, &plan);
+    let results = record["result"]["results"].as_array().unwrap();
+    let [sample, stored] = ["edge-near", "corpus:"].map(|name| {
+        results.iter().find(|result| result["family"].as_str().unwrap().starts_with(name)).unwrap()
+    });
+    let misses = |result: &Value| {
+        let rate = &result["total"]["false_misses"];
+        ["count", "of"].map(|key| rate[key].as_u64().unwrap())
+    };
+    let [count, of] = misses(stored);
+    assert!(0 < count && count < of);
+    // The interval of the sample alone, as the record has it.
+    let ends_of = &sample["total"]["false_misses"]["interval"];
+    let [low, high] = [0, 1].map(|i| format!("{:.1}", ends_of[i].as_f64().unwrap() * 100.0));
+    let line = |text: &str, start: &str| {
+        text.lines()
+            .find(|line| line.starts_with(start))
+            .unwrap_or_else(|| panic!("{text}"))
+            .to_owned()
+    };
+    assert!(line(&screen, "edges ").contains(&format!("[{low}, {high}]")), "{screen}");
+    let stored_line = line(&screen, "stored ");
+    assert!(stored_line.contains(&format!(" {count} of {of} ")), "{stored_line}");
+    assert!(!stored_line.contains('['), "{stored_line}");
+    let all = [&["audit", "-q"], &plan[..]].concat();
+    let print = |more: &[&str]| ends(&folder, &[&all[..], more].concat(), 0).0;
+    let details = print(&["--details"]);
+    assert!(line(&details, "cramer (source)").contains(&format!("[{low}, {high}]")), "{details}");
+    let apart = format!("    stored or exhaustive cases, apart: false misses {count} of {of}\n");
+    assert!(details.contains(&apart), "{details}");
+    let html = print(&["--format", "html", "--illustrate", "never"]);
+    assert!(html.contains(&format!("; stored cases {count} of {of}")));
+    let markdown = print(&["--format", "markdown"]);
+    let [wrong, demanded] = ["count", "of"].map(|key| {
+        sum(
+            &[stored],
+            &[&format!("/total/false_misses/{key}"), &format!("/total/false_hits/{key}")],
+        )
+    });
+    assert!(markdown.contains(&format!("| {wrong} of {demanded} |")), "{markdown}");
+}

@@ -1,0 +1,163 @@
+//! Parts of a run and their merging: byte for byte the run without parts, and nothing else.
+
+use crate::program;
+
+use program::{ends, result_bytes, scratch};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Groups, values beyond the range, an own hit point, a mesh and stored cases of one scalar.
+const PLAN: &[&str] = &[
+    "--kernel",
+    "moller-trumbore,plane-unit-normal,convex-polygon",
+    "--family",
+    "edge-near,fan,polygon,respawn,range-ends,mixed-scale,invalid",
+    "--mesh",
+    "m.obj",
+    "--corpus",
+    "c.jsonl",
+    "-n",
+    "1500",
+    "--attribute",
+    "20",
+    "-q",
+    "--format",
+    "json",
+];
+
+fn folder(name: &str) -> PathBuf {
+    let folder = scratch(name);
+    fs::write(folder.join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\nf 1 2 3\nf 2 4 3\n")
+        .unwrap();
+    let line = |x: f64| {
+        format!(
+            "{{\"scalar\":\"f32\",\"origin\":[{x},0,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[2,0,0],\"c\":[0,2,0]}}\n"
+        )
+    };
+    fs::write(folder.join("c.jsonl"), line(1.0) + &line(3.0)).unwrap();
+    folder
+}
+
+fn audit(folder: &Path, more: &[&str]) {
+    ends(folder, &[&["audit"], PLAN, more].concat(), 0);
+}
+
+/// Writes the records of all shards; returns their names.
+fn shards(folder: &Path, of: u64) -> Vec<String> {
+    let shard = |k: u64| {
+        let file = format!("{k}-of-{of}.json");
+        audit(folder, &["--shard", &format!("{k}/{of}"), "-o", &file]);
+        file
+    };
+    (0..of).map(shard).collect()
+}
+
+fn merge(folder: &Path, files: &[&str], more: &[&str], code: i32) -> String {
+    ends(folder, &[&["merge", "--format", "json"], more, files].concat(), code).1
+}
+
+#[test]
+fn the_merged_result_is_byte_for_byte_that_of_one_run() {
+    let folder = folder("shards-merge");
+    audit(&folder, &["-o", "whole.json"]);
+    let whole = result_bytes(&folder.join("whole.json"));
+    assert!(whole.contains("\"causes\": {") && whole.contains("\"crack_digest\""));
+    for of in [2, 3, 7] {
+        let files = shards(&folder, of);
+        assert_ne!(result_bytes(&folder.join(&files[0])), whole);
+        // In any order.
+        let mut files: Vec<&str> = files.iter().map(String::as_str).collect();
+        files.rotate_left(1);
+        merge(&folder, &files, &["-o", "merged.json"], 0);
+        assert_eq!(result_bytes(&folder.join("merged.json")), whole, "{of} shards");
+        let merged = fs::read_to_string(folder.join("merged.json")).unwrap();
+        let merged: serde_json::Value = serde_json::from_str(&merged).unwrap();
+        let parts = merged["provenance"]["parts"].as_array().unwrap();
+        assert_eq!(parts.len() as u64, of);
+        assert!(merged.get("shard").is_none());
+    }
+}
+
+#[test]
+fn gaps_are_refused_or_said_and_can_be_filled_later() {
+    let folder = folder("shards-gaps");
+    let files = shards(&folder, 3);
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    let error = merge(&folder, &[files[0], files[2]], &[], 65);
+    assert_eq!(
+        error,
+        "hairline: merge: shards 1 of 3 are missing (--allow-partial goes without)\n"
+    );
+    merge(&folder, &[files[0], files[2]], &["--allow-partial", "-o", "partial.json"], 0);
+    let partial = result_bytes(&folder.join("partial.json"));
+    let value: serde_json::Value = serde_json::from_str(&partial).unwrap();
+    assert_eq!(value["partial"], serde_json::json!({ "of": 3, "present": [0, 2] }));
+    let both = ["merge", files[0], files[2], "--allow-partial", "--format", "text,markdown"];
+    ends(&folder, &[&both[..], &["-o", "p.txt", "-o", "p.md"]].concat(), 0);
+    for file in ["p.txt", "p.md"] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(text.contains("shards 0, 2 of 3 only"), "{text}");
+    }
+    merge(&folder, &["partial.json", files[1]], &["-o", "merged.json"], 0);
+    audit(&folder, &["-o", "whole.json"]);
+    assert_eq!(result_bytes(&folder.join("merged.json")), result_bytes(&folder.join("whole.json")));
+    let (whole, _) = ends(&folder, &[&["merge", "partial.json"], &[files[1]][..]].concat(), 0);
+    assert!(!whole.contains("a part of a run"), "{whole}");
+}
+
+#[test]
+fn what_is_no_part_of_the_same_run_is_refused_by_name() {
+    let folder = folder("shards-refused");
+    let files = shards(&folder, 2);
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    audit(&folder, &["-o", "whole.json"]);
+    audit(&folder, &["--shard", "1/2", "--seed", "9", "-o", "seed.json"]);
+    audit(&folder, &["--shard", "1/3", "-o", "third.json"]);
+    audit(&folder, &["--shard", "1/2", "--examples", "1", "-o", "examples.json"]);
+    let text = fs::read_to_string(folder.join(files[1])).unwrap();
+    let count = text.find("must_hit").unwrap() + 13;
+    let spoiled = text.replacen(&text[count - 13..count + 1], "must_hit\\\":77", 1);
+    assert_ne!(spoiled, text);
+    fs::write(folder.join("damaged.json"), spoiled).unwrap();
+    fs::write(folder.join("truncated.json"), &text[..text.len() / 3]).unwrap();
+    for (second, expected) in [
+        ("whole.json", "whole.json: not a part of a run"),
+        ("seed.json", "seed.json: of another plan: "),
+        ("examples.json", "examples.json: of another plan: "),
+        ("third.json", "third.json: cut in 3, expected 2"),
+        (files[0], "0-of-2.json: shard 0/2 is given twice"),
+        ("damaged.json", "damaged.json: damaged: "),
+        ("truncated.json", "truncated.json:"),
+    ] {
+        let error = merge(&folder, &[files[0], second], &["-o", "no.json"], 65);
+        assert!(error.starts_with(&format!("hairline: {expected}")), "{expected}: {error}");
+        assert!(!folder.join("no.json").exists());
+    }
+    // The mesh is another by now.
+    fs::write(folder.join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n").unwrap();
+    let error = merge(&folder, &files, &["-q"], 65);
+    assert!(error.contains("a mesh or a corpus has changed"), "{error}");
+    merge(&folder, &["missing.json"], &[], 74);
+    for bad in ["2/2", "x", "1/0"] {
+        let error = ends(&folder, &["audit", "--shard", bad], 2).1;
+        assert!(error.contains("write k/n with k from 0 below n"), "{error}");
+    }
+}
+
+#[test]
+fn a_check_in_parts_is_judged_when_they_are_merged() {
+    let folder = scratch("shards-check");
+    let settings = "kernel = \"plucker\"\nfamily = [\"tiny\", \"edge-near\"]\ncount = 400\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    ends(&folder, &["check", "-q", "--bless"], 0);
+    for shard in ["0/2", "1/2"] {
+        let file = format!("{}.json", &shard[..1]);
+        ends(&folder, &["check", "-q", "--shard", shard, "--format", "json", "-o", &file], 0);
+    }
+    let error = ends(&folder, &["check", "-q", "--record", "0.json"], 65).1;
+    assert!(error.contains("0.json: holds 1 of 2 shards"), "{error}");
+    merge(&folder, &["0.json", "1.json"], &["-o", "merged.json"], 0);
+    let (out, _) = ends(&folder, &["check", "-q", "--record", "merged.json"], 0);
+    assert!(out.contains("compared case by case"), "{out}");
+    ends(&folder, &["check", "-q", "--bless", "--shard", "0/2"], 2);
+}

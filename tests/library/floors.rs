@@ -1,0 +1,142 @@
+//! DESIGN's picture is the code's: the `use` lines of each module name only floors below it and
+//! neighbours, in no circle, and no two files of a folder import each other.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn source() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// Every file under a folder.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+/// A file's text without comments and without what only tests compile.
+fn code(file: &Path) -> String {
+    let text = fs::read_to_string(file).unwrap();
+    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+    let lines = text.lines().map(|line| line.split("//").next().unwrap());
+    lines.collect::<Vec<_>>().join("\n").replace("$crate::", "")
+}
+
+/// The names that stand after `prefix`, one or several in braces.
+fn names_after(text: &str, prefix: &str) -> BTreeSet<String> {
+    let word = |text: &str| -> String {
+        text.chars().take_while(|c| c.is_ascii_lowercase() || "_0123456789".contains(*c)).collect()
+    };
+    let mut names = BTreeSet::new();
+    for rest in text.split(prefix).skip(1) {
+        let Some(list) = rest.strip_prefix('{') else {
+            names.insert(word(rest));
+            continue;
+        };
+        let (mut depth, mut start) = (0, true);
+        for (i, c) in list.char_indices() {
+            match c {
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                ',' if depth == 0 => start = true,
+                c if start && !c.is_whitespace() => {
+                    names.insert(word(&list[i..]));
+                    start = false;
+                }
+                _ => {}
+            }
+        }
+    }
+    names.remove("");
+    names
+}
+
+/// The floors of `src/lib.rs`, the lowest first: its `mod` lines, in blocks between blank lines.
+fn floors() -> Vec<BTreeSet<String>> {
+    let text = code(&source().join("lib.rs"));
+    let module = |line: &str| {
+        let line = line.strip_prefix("pub ").unwrap_or(line);
+        Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
+    };
+    let blocks = text.split("\n\n").map(|block| block.lines().filter_map(module).collect());
+    let mut floors: Vec<BTreeSet<String>> = blocks.collect();
+    floors.iter_mut().for_each(|floor| floor.retain(|name| name != "internals"));
+    floors.retain(|floor| !floor.is_empty());
+    floors
+}
+
+/// What each module uses of the others.
+fn uses() -> BTreeMap<String, BTreeSet<String>> {
+    let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for file in files(&source()).iter().filter(|file| file.extension().is_some_and(|e| e == "rs")) {
+        let place = file.strip_prefix(source()).unwrap();
+        let top = place.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
+        if ["lib", "main", "internals"].contains(&top) || place.ends_with("tests.rs") {
+            continue;
+        }
+        uses.entry(top.to_owned()).or_default().extend(names_after(&code(file), "crate::"));
+    }
+    for (module, used) in &mut uses {
+        used.remove(module);
+    }
+    uses
+}
+
+#[test]
+fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
+    let (floors, uses) = (floors(), uses());
+    assert!(floors.len() > 5 && floors[0].contains("arith"), "{floors:?}");
+    assert_eq!(floors.iter().map(BTreeSet::len).sum::<usize>(), uses.len(), "{floors:?}");
+    let floor = |name: &str| floors.iter().position(|floor| floor.contains(name));
+    for (module, used) in &uses {
+        for other in used {
+            assert!(floor(other).is_some(), "{module} uses crate::{other}, which is no module");
+            assert!(floor(other) <= floor(module), "{module} uses {other}, which is above it");
+        }
+    }
+    // Whatever a module reaches does not reach it.
+    for module in uses.keys() {
+        let mut reached = BTreeSet::new();
+        let mut next: Vec<&String> = uses[module].iter().collect();
+        while let Some(other) = next.pop() {
+            if reached.insert(other) {
+                next.extend(&uses[other]);
+            }
+        }
+        assert!(!reached.contains(module), "{module} uses itself by way of others");
+    }
+}
+
+#[test]
+fn names_are_found_alone_and_in_braces() {
+    let text = "use crate::one::Two;\nuse crate::{three, four::{Five, six}, seven::Eight};";
+    let names: Vec<String> = names_after(text, "crate::").into_iter().collect();
+    assert_eq!(names, ["four", "one", "seven", "three"]);
+}
+
+#[test]
+fn below_the_command_line_nothing_prints_opens_files_or_reads_a_clock() {
+    let forbidden = [
+        "println!",
+        "print!(",
+        "eprint",
+        "File::open",
+        "File::create",
+        "fs::",
+        "Instant::now",
+        "SystemTime",
+    ];
+    for file in files(&source()).iter().filter(|file| file.extension().is_some_and(|e| e == "rs")) {
+        let place = file.strip_prefix(source()).unwrap();
+        // A kernel's process is a kernel: it has pipes, patience and a clock.
+        if place.starts_with("cli") || place.starts_with("plugin") || place.ends_with("main.rs") {
+            continue;
+        }
+        let code = code(file);
+        for word in forbidden {
+            assert!(!code.contains(word), "{}: {word}", place.display());
+        }
+    }
+}

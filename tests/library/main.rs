@@ -1,0 +1,18 @@
+//! The library through its public items, against definitions, laws and published facts. One binary,
+//! because each one links the whole library.
+
+mod accuracy;
+mod arithmetic;
+mod contradictions;
+mod drawing;
+mod facts;
+mod families;
+mod floors;
+mod map;
+mod margins;
+mod oracle;
+mod response;
+mod severity;
+mod strategy;
+mod trials;
+mod watertight;
