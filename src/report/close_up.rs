@@ -2,10 +2,10 @@
 //! hits and what most of them come from.
 
 use super::columns::{Column, far, short_percent};
+use super::lines::{Line, column_legend, write_wrapped};
 use super::pool::Pool;
+use super::rate::{percent, share_column};
 use super::record::*;
-use super::screen::{Line, column_legend, write_wrapped};
-use super::text::{percent, share_column};
 use super::why::cause_shares;
 use super::{Style, group_digits};
 use crate::kernel;

@@ -1,7 +1,7 @@
 //! Verdicts by question: the columns of the screen and of the summary in Markdown.
 
 use super::record::*;
-use super::text::RowView;
+use super::row_view::RowView;
 use crate::audit::{Trials, is_of_mesh};
 use crate::family::{self, Question};
 
@@ -77,7 +77,7 @@ impl Column {
 }
 
 /// Whether a result's source is a whole set rather than a random sample.
-pub(super) fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
+fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
     let of = |source: &&SourcePart| source.scalar == part.scalar && source.family == part.family;
     sources.iter().find(of).is_some_and(|source| !source.sample)
 }

@@ -1,8 +1,8 @@
 //! The record as Markdown, for a summary on a forge: the verdict, what deviates, and the rates.
 
 use super::columns::{Column, short_percent};
-use super::screen::{Line, column_legend, lines};
-use super::text::percent;
+use super::lines::{Line, column_legend, lines};
+use super::rate::percent;
 use super::{Conformance, Deviation, Rate, Record, Style, group_digits};
 use std::io::{self, Write};
 

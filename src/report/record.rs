@@ -5,8 +5,9 @@
 
 use super::conformance::Conformance;
 use super::illustration::Illustrations;
+pub use super::rate::Rate;
 use super::shard::{PartialPart, ShardPart};
-use crate::audit::{RayProducts, Trials};
+use crate::audit::Trials;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -228,56 +229,6 @@ impl Counts {
             "timeout" => failures(self.timeouts),
             _ => None,
         }
-    }
-}
-
-/// A count of a number of trials, with its 95 % interval if the trials are a random sample.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Rate {
-    /// How many.
-    pub count: u64,
-    /// Of how many.
-    pub of: u64,
-    /// `count / of`; none of nothing.
-    pub rate: Option<f64>,
-    /// Clopper-Pearson, 95 %, with the ray as the unit of trial.
-    pub interval: Option<[f64; 2]>,
-    /// Sums over the rays of products of the findings k and the trials n on each; left out where each ray
-    /// has one trial.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rays: Option<RayProducts>,
-}
-
-impl Rate {
-    /// With an interval if the trials are a random sample.
-    pub(crate) fn new(trials: Trials, sample: bool) -> Rate {
-        let Trials { count, of, products } = trials;
-        let interval = (sample && 0 < of).then(|| trials.interval());
-        Rate {
-            count,
-            of,
-            rate: trials.share(),
-            interval: interval.map(|interval| [interval.low, interval.high]),
-            rays: (products != RayProducts::of_single(count, of)).then_some(products),
-        }
-    }
-
-    /// The sum, with an interval if all that have a trial are random samples.
-    pub(crate) fn sum<'a>(rates: impl IntoIterator<Item = &'a Rate>) -> Rate {
-        let (mut sum, mut sample) = (Trials::default(), true);
-        for rate in rates {
-            sum.merge(&rate.trials());
-            sample &= rate.interval.is_some() || rate.of == 0;
-        }
-        Rate::new(sum, sample)
-    }
-
-    /// The trials, of which an interval of any width can be had.
-    pub(crate) fn trials(&self) -> Trials {
-        let products = self.rays.unwrap_or_else(|| RayProducts::of_single(self.count, self.of));
-        Trials { count: self.count, of: self.of, products }
     }
 }
 

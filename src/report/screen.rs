@@ -2,49 +2,17 @@
 //! findings, and what to do next. Everything else is behind `--details`.
 
 use super::columns::{Across, Cell, Column, short_percent};
+use super::lines::{Line, column_legend, lines, write_wrapped};
 use super::record::*;
-use super::text::{ALL_INVALID, RowView, is_all_invalid, write_failures};
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::{Style, close_up, extremes, group_digits, number_of};
 use crate::family;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-/// Characters in a line, where words can be wrapped.
-const WIDTH: usize = 119;
-
 /// Of no more rows than this the screen shows each by itself.
 const MOST_CLOSE_UPS: usize = 2;
-
-/// One row in one scalar.
-pub(super) struct Line<'a> {
-    pub(super) scalar: &'a str,
-    pub(super) row: RowView<'a>,
-    /// One a column.
-    pub(super) cells: Vec<Cell>,
-    pub(super) across: Option<Across>,
-}
-
-impl Line<'_> {
-    /// `kernel (epsilons)`.
-    pub(super) fn label(&self) -> String {
-        format!("{} ({})", self.row.part.kernel, self.row.part.set)
-    }
-}
-
-/// Every row in every scalar.
-pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
-    let in_scalar = |scalar: &'a String| {
-        let rows = RowView::all(record, scalar).into_iter();
-        rows.map(move |row| Line {
-            scalar,
-            cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
-            across: Across::of(&row),
-            row,
-        })
-    };
-    record.result.plan.scalars.iter().flat_map(in_scalar).collect()
-}
 
 /// Writes the screen.
 pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -321,20 +289,6 @@ fn painted(text: &str, color: &str) -> String {
     if color.is_empty() { text.to_owned() } else { format!("{color}{text}\x1b[0m") }
 }
 
-/// What the columns hold.
-pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
-    let told = columns.iter().filter(|column| !column.about().is_empty());
-    let mut parts: Vec<String> =
-        told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
-    if lines.iter().any(|line| line.across.is_some()) {
-        parts.push(
-            "cracks, doubles: % of rays at shared edges with no hit, with two; promised: how many"
-                .to_owned(),
-        );
-    }
-    parts.join("; ")
-}
-
 /// What to do next.
 fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
@@ -360,23 +314,4 @@ fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<(
         write!(out, "{bold}Choose an epsilon:{plain} hairline epsilon {}{after}", tuned.selector)?;
     }
     writeln!(out, "{bold}Gate a CI:{plain} hairline check{only}, the first time with --bless")
-}
-
-/// Writes words in lines of [`WIDTH`] at most.
-pub(super) fn write_wrapped(text: &str, out: &mut dyn Write) -> io::Result<()> {
-    if text.is_empty() {
-        return Ok(());
-    }
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if WIDTH < line.chars().count() + 1 + word.chars().count() && !line.trim().is_empty() {
-            writeln!(out, "{line}")?;
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    writeln!(out, "{line}")
 }

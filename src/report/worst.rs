@@ -2,8 +2,9 @@
 
 use super::disagreement::polygons;
 use super::pool::Pool;
+use super::rate::interval_of;
 use super::record::{FindingPart, KernelResult, Rate, RowPart};
-use super::text::{RowView, interval_of};
+use super::row_view::RowView;
 use super::why::{causes_text, severity_text};
 use super::{Style, group_digits};
 use crate::audit::{RowSpec, flags};
