@@ -8,7 +8,7 @@ use crate::contract::Contract;
 use crate::engine::Unobserved;
 use crate::family::{FAMILIES, Family, find};
 use crate::kernel::{Entry, kept};
-use crate::report::{Context, FindingPart, KernelResult, Rate, Record, build, interval_of};
+use crate::report::{Context, FindingPart, Key, Rate, Record, build, disagreements, interval_of};
 use crate::suggest::did_you_mean;
 use std::fmt::{self, Write};
 
@@ -173,23 +173,9 @@ impl Outcome {
     }
 }
 
-/// Whether every kernel of a record kept its contract, across triangles too.
+/// Whether every kernel of a record kept its contract, on polygons and across triangles too.
 pub(crate) fn conforms(record: &Record) -> bool {
-    record.result.results.iter().all(|result| {
-        result.findings.is_empty() && broken_across(result).iter().all(|(_, r, _)| r.count == 0)
-    })
-}
-
-/// What a contract promises across triangles, what broke it and its first groups.
-fn broken_across(result: &KernelResult) -> Vec<(&'static str, &Rate, &[String])> {
-    let Some(across) = &result.across else { return Vec::new() };
-    let cracks = ("crack", &across.cracks, &across.first_cracks[..]);
-    let doubles = ("double", &across.doubles, &across.first_doubles[..]);
-    match across.promised.as_str() {
-        "at-least-one" => vec![cracks],
-        "exactly-one" => vec![cracks, doubles],
-        _ => Vec::new(),
-    }
+    disagreements(&record.result).is_empty()
 }
 
 /// How many findings a message shows in full.
@@ -203,14 +189,20 @@ impl fmt::Display for Outcome {
             for part in &result.findings {
                 parts.push(describe(&at, part)?);
             }
-            for (kind, rate, first) in broken_across(result).into_iter().filter(|b| b.1.count > 0) {
-                let share = interval_of(rate);
-                let mut text = format!("{at}: {kind} in {} of {}{share}\n", rate.count, rate.of);
-                for id in first {
-                    writeln!(text, "    hairline explain '{id}'")?;
-                }
-                parts.push(text);
+        }
+        // What single cases do not show: polygons, and what is promised across triangles.
+        let across = disagreements(&self.record.result);
+        for found in across.iter().filter(|found| !found.is_of_cases()) {
+            let Key { kernel: _, set, scalar, family, class, finding } = &found.key;
+            let Rate { count, of, .. } = found.rate;
+            let share = interval_of(found.rate);
+            let mut text = format!(
+                "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
+            );
+            if let Some(example) = &found.example {
+                writeln!(text, "    {}", example.command)?;
             }
+            parts.push(text);
         }
         for row in &self.record.result.plan.rows {
             let breaks = if parts.is_empty() { "keeps" } else { "breaks" };

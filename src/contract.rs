@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+use crate::suggest::nearest_name;
 use std::fmt;
 use std::str::FromStr;
 
@@ -262,9 +263,14 @@ impl Contract {
         if named.is_none() {
             if !words[0].contains('=') {
                 let names: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
-                let names = names.join(", ");
-                let example = "extent=ray,sides=both,boundary=closed";
-                return Err(format!("'{}' is no contract: write {names}, or {example}", words[0]));
+                let advice = match nearest_name(words[0], names.iter().copied()) {
+                    Some(near) => format!("; did you mean '{near}'?"),
+                    None => {
+                        let names = names.join(", ");
+                        format!(": write {names}, or extent=ray,sides=both,boundary=closed")
+                    }
+                };
+                return Err(format!("'{}' is no contract{advice}", words[0]));
             }
             if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !has(key)) {
                 return Err(format!("'{text}' does not say {key}=…"));

@@ -47,7 +47,7 @@ pub fn sum<S: Merge>(
     let take = || {
         let number = next.fetch_add(1, Ordering::Relaxed);
         let first = (number < chunks).then(|| start + number * chunk)?;
-        Some(first..end.min(first + chunk))
+        Some(first..end.min(first.saturating_add(chunk)))
     };
     let of_thread = |_| {
         let mut sum = empty();

@@ -10,7 +10,7 @@ use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;
 use crate::expect::{self, Expectations};
-use crate::report::{Conformance, PartialPart, Record, SCHEMA, Verdict};
+use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
@@ -25,6 +25,13 @@ pub struct CheckArguments {
     #[command(subcommand)]
     command: Option<CheckCommand>,
 
+    #[command(flatten)]
+    flags: CheckFlags,
+}
+
+/// The flags, each of which may be a setting.
+#[derive(Args)]
+struct CheckFlags {
     /// The settings [default: hairline.toml, if there is one]
     #[arg(long, value_name = "FILE")]
     config: Option<String>,
@@ -67,7 +74,7 @@ impl CheckCommand {
     pub fn run(&self) -> Result<Status, Failure> {
         let text = match self {
             CheckCommand::Config { .. } => settings::default_file(&words_command()),
-            CheckCommand::Schema => SCHEMA.to_owned(),
+            CheckCommand::Schema => JSON_SCHEMA.to_owned(),
         };
         write_result("-", |out| out.write_all(text.as_bytes()))?;
         Ok(Status::Success)
@@ -76,7 +83,7 @@ impl CheckCommand {
 
 /// The flags of `check` on their own, to read settings as words.
 fn words_command() -> clap::Command {
-    CheckArguments::augment_args_for_update(clap::Command::new("check").no_binary_name(true))
+    CheckFlags::augment_args_for_update(clap::Command::new("check").no_binary_name(true))
 }
 
 /// What words of settings say, without the defaults of all other flags.
@@ -111,8 +118,9 @@ pub fn read_settings(text: &str, file: &str) -> Result<Vec<String>, String> {
 }
 
 /// Runs the command; `matches` says which flags the command line has.
-pub fn run(mut arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
-    if let Some(command) = &arguments.command {
+pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
+    let CheckArguments { command, flags: mut arguments } = arguments;
+    if let Some(command) = command {
         return command.run();
     }
     let given = arguments.settings(matches)?;
@@ -155,7 +163,7 @@ pub fn run(mut arguments: CheckArguments, matches: Option<&ArgMatches>) -> Resul
 
 /// A part of a run is written for `merge`, and says nothing about conformance.
 fn part_only(
-    arguments: &CheckArguments,
+    arguments: &CheckFlags,
     partial: &PartialPart,
     write: impl FnOnce() -> Result<(), Failure>,
 ) -> Result<Status, Failure> {
@@ -189,8 +197,8 @@ fn blame(failure: Failure, given: &[Given]) -> Failure {
 }
 
 /// The arguments of `check` on an empty command line.
-fn defaults() -> Result<CheckArguments, clap::Error> {
-    CheckArguments::from_arg_matches(&words_command().try_get_matches_from([""; 0])?)
+fn defaults() -> Result<CheckFlags, clap::Error> {
+    CheckFlags::from_arg_matches(&words_command().try_get_matches_from([""; 0])?)
 }
 
 /// The expectations; none if the file is not there, unless the command line names it to be read.
@@ -226,7 +234,7 @@ fn blessed(
     Ok(expectations)
 }
 
-impl CheckArguments {
+impl CheckFlags {
     fn plan(&self) -> Result<Plan, Failure> {
         self.run.plan(self.attribute)
     }
@@ -269,6 +277,6 @@ mod tests {
             .collect();
         // Two flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 17, "{words:?}");
+        assert_eq!(words.len(), 18, "{words:?}");
     }
 }

@@ -84,11 +84,11 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         &arguments.format,
         &arguments.output,
     )?;
+    let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;
-    let threads = set_threads(arguments.threads)?;
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
     // What is wrong with the flags shows before the first study runs.
     let sources = &sources;

@@ -117,11 +117,9 @@ const GROUPS: [(&str, &[&str]); 5] = [
 fn command() -> clap::Command {
     let mut command = Arguments::command();
     for parent in ["fuzz", "check"] {
-        let names = command.find_subcommand(parent).into_iter().flat_map(|c| c.get_subcommands());
-        let names: Vec<String> = names.map(|child| child.get_name().to_owned()).collect();
-        command = names
-            .into_iter()
-            .fold(command, |command, name| command.mut_subcommand(name, |old| old.hide(true)));
+        for name in commands_of(&command, parent) {
+            command = command.mut_subcommand(name, |old| old.hide(true));
+        }
     }
     let styles = Styles::default();
     let (header, name_style) = (styles.get_header(), styles.get_literal());
@@ -131,12 +129,20 @@ fn command() -> clap::Command {
         for name in names {
             let about = command.find_subcommand(name).and_then(clap::Command::get_about);
             let about = about.map(ToString::to_string).unwrap_or_default();
-            help.push_str(&format!("  {name_style}{name:<9}{name_style:#}  {about}\n"));
+            let own = commands_of(&command, name).join(", ");
+            let own = if own.is_empty() { own } else { format!(" [{own}]") };
+            help.push_str(&format!("  {name_style}{name:<9}{name_style:#}  {about}{own}\n"));
         }
     }
     help.push_str(&format!("\n{header}Options:{header:#}\n{{options}}\n"));
     help.push_str("\n`hairline COMMAND --help` describes a command.");
     command.help_template(help)
+}
+
+/// The names of a command's own commands.
+fn commands_of(command: &clap::Command, parent: &str) -> Vec<String> {
+    let all = command.find_subcommand(parent).into_iter().flat_map(|c| c.get_subcommands());
+    all.map(|child| child.get_name().to_owned()).collect()
 }
 
 /// Runs the program on the process's arguments.

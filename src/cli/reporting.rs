@@ -124,6 +124,8 @@ pub struct RunArguments {
 impl RunArguments {
     /// The plan of the flags, with this many findings of each class attributed.
     pub fn plan(&self, attribute: usize) -> Result<Plan, Failure> {
+        // Before anything runs on all threads, as the reading of a mesh does.
+        set_threads(self.threads)?;
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
         let sources = self.sources.sources(self.report.quiet, |_| true)?;
@@ -152,7 +154,7 @@ impl RunArguments {
             .map(str::parse)
             .transpose()
             .map_err(|error| Failure::usage(format!("--shard: {error}")))?;
-        let threads = set_threads(self.threads)?;
+        let threads = rayon::current_num_threads();
         let total = total_indices(&plan.sources, plan.scalars)?;
         if !self.report.quiet {
             let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");

@@ -19,9 +19,6 @@ pub struct KernelArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     kernel: Vec<String>,
 
-    #[command(flatten)]
-    plugins: PluginArguments,
-
     /// The arithmetic in which kernels compute, or several side by side: ieee, fma, ftz, fma-ftz (see
     /// `hairline list arithmetics`); for one kernel alone write its name with +fma
     /// [default: as each kernel's name says]
@@ -52,6 +49,9 @@ pub struct KernelArguments {
     /// the triangle, as 1e-6, or in ulps of its largest coordinate, as 4ulps
     #[arg(long, value_name = "DISTANCE", help_heading = JUDGING)]
     band: Option<String>,
+
+    #[command(flatten)]
+    plugins: PluginArguments,
 }
 
 impl KernelArguments {

@@ -83,7 +83,15 @@ pub fn default_file(check: &clap::Command) -> String {
             _ if value.parse::<u64>().is_ok() && *key != "scale" => value.to_owned(),
             _ => quoted(value),
         };
-        text.push_str(&format!("\n# {about}.\n{sign}{key} = {value}\n"));
+        let (mut comment, mut width) = ("#".to_owned(), 1);
+        for word in format!("{about}.").split(' ') {
+            if 99 < width + word.len() {
+                (comment, width) = (comment + "\n#", 1);
+            }
+            comment += &format!(" {word}");
+            width += 1 + word.len();
+        }
+        text += &format!("\n{comment}\n{sign}{key} = {value}\n");
     }
     text
 }

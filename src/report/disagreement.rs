@@ -75,6 +75,13 @@ pub struct Disagreement<'a> {
     pub example: Option<Example>,
 }
 
+impl Disagreement<'_> {
+    /// Whether it is about single cases, not about groups or polygons.
+    pub fn is_of_cases(&self) -> bool {
+        !matches!(self.key.class.as_str(), "group" | "polygon")
+    }
+}
+
 /// Every disagreement of a record that a contract does not allow, in the order of the record.
 pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
     let rows: BTreeMap<(&str, &str), &RowPart> =

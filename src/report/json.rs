@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 /// The JSON Schema of the record. The tests derive it from the types; the program only prints it.
 #[cfg(feature = "cli")]
-pub const SCHEMA: &str = include_str!("../../docs/schema/record.json");
+pub const JSON_SCHEMA: &str = include_str!("../../docs/schema/record.json");
 
 /// Writes the record and a newline.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {

@@ -46,7 +46,7 @@ pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of}
 pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ResponsePart};
 #[cfg(feature = "cli")]
-pub use json::SCHEMA;
+pub use json::JSON_SCHEMA;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub(crate) use rate::interval_of;
 pub use record::*;

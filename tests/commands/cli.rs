@@ -227,6 +227,7 @@ fn formats_go_to_their_outputs_whole() {
         "20",
         "--family",
         "tiny",
+        "--details",
         "--format",
         "text,json",
         "-o",

@@ -177,7 +177,8 @@ fn a_name_breaks_no_column() {
     for file in ["a\tb\nc.jsonl", long.as_str()] {
         fs::write(folder.join(file), case("x", "f32")).unwrap();
         let plan = ["audit", "--corpus", file, "--kernel", "moller-trumbore", "--scalar", "f32"];
-        let (table, _) = ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9"]].concat(), 0);
+        let (table, _) =
+            ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9", "--details"]].concat(), 0);
         let lines: Vec<&str> = table.lines().collect();
         let head = lines.iter().position(|line| line.starts_with("kernel (epsilons)")).unwrap();
         let width = |line: &str| line.chars().count();
@@ -471,6 +472,6 @@ fn a_thousand_files_are_read_one_after_the_other() {
     let line = "ulimit -n 64; hairline audit --corpus . --kernel cramer --scalar f32 --quiet";
     let (code, out, error) = shell(&folder, line);
     assert_eq!(code, 0, "{error}");
-    assert!(out.contains("1,500 families"), "{out}");
+    assert!(out.contains("1,500 sources of cases"), "{out}");
     assert_eq!(hairline(&folder, &["explain", "x", "--corpus", "."]).status.code(), Some(2));
 }

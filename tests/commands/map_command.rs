@@ -136,7 +136,7 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["map", "--at", "collinear", "--epsilon", "t=1"], 2, "is not a finite number in f64"),
         (&["map", "--at", "collinear", "--contract", "open-ray"], 2, "is not for points"),
         (&["map", "--at", "collinear", "--drawing"], 2, "not of points"),
-        (&["map", "--at", "collinear", "--vary", "d"], 2, "is none of a, b, c"),
+        (&["map", "--at", "collinear", "--vary", "d"], 2, "unknown point 'd': there are a, b, c"),
     ];
     let with_kernel: &[(&[&str], i32, &str)] = &[
         (&["--size", "0"], 2, "sides from 1 to 2048"),
@@ -148,7 +148,7 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["--step", "2^9999"], 2, "--step: '2^9999'"),
         (&["--axes", "x"], 2, "are not two of x, y, z"),
         (&["--axes", "x,x"], 2, "two different"),
-        (&["--vary", "d"], 2, "is none of origin, direction, a, b, c"),
+        (&["--vary", "d"], 2, "unknown point 'd': there are origin, direction, a, b, c"),
         (&["--dots", "0", "-o", "a.png"], 2, "2^26"),
         (&["--format", "gif"], 2, "unknown format 'gif'"),
         (&["-o", "map.gif"], 2, "does not end in .svg, .png or .txt"),

@@ -105,7 +105,8 @@ fn the_command_of_a_report_runs_the_same_plan_again() {
 fn a_contract_that_is_none_is_refused_with_what_there_is() {
     let folder = scratch("rows-bad");
     for (contract, expected) in [
-        ("closed-rai", "'closed-rai' is no contract: write closed-line, "),
+        ("closed-rai", "'closed-rai' is no contract; did you mean 'closed-ray'?"),
+        ("strict", "'strict' is no contract: write closed-line, "),
         ("own,coplanar=perhaps", "'coplanar=perhaps': there are miss, hit, free"),
         ("extent=ray", "'extent=ray' does not say sides=…"),
     ] {

@@ -210,7 +210,7 @@ impl Read for Broken<'_> {
 fn errors_of_the_reader_are_passed_on() {
     let broken = io::BufReader::new(Broken(SQUARE.as_bytes()));
     let error = read_obj(broken, "teapot.obj", &mut |_| {}).expect_err("broken");
-    assert_eq!(error.to_string(), "teapot.obj: the disk is gone");
+    assert_eq!(error.to_string(), "teapot.obj:5: cannot read: the disk is gone");
 }
 
 #[test]
