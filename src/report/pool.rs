@@ -60,4 +60,20 @@ mod tests {
         let none = rate(0, 0, true);
         assert_eq!(Pool::of(std::iter::once(&none)).counts(), [0, 0]);
     }
+
+    #[test]
+    fn triangles_of_one_ray_stay_together_in_a_sum() {
+        let mut trials = Trials::default();
+        (0..40).for_each(|ray| trials.add_ray(if ray < 4 { 3 } else { 0 }, 3));
+        let rate = Rate::new(trials, true);
+        let pool = Pool::of([&rate, &rate].into_iter());
+        let mut twice = trials;
+        twice.merge(&trials);
+        assert_eq!(pool.rate().rays, Some(twice.products));
+        // As wide as that of 8 of 80 rays, not that of 24 of 240 triangles.
+        let width = |[low, high]: [f64; 2]| high - low;
+        let of = |count, of| width(self::rate(count, of, true).interval.unwrap());
+        assert!((width(pool.rate().interval.unwrap()) - of(8, 80)).abs() < 1e-12);
+        assert!(1.5 * of(24, 240) < of(8, 80));
+    }
 }
