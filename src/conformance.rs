@@ -195,7 +195,7 @@ impl fmt::Display for Outcome {
         for found in across.iter().filter(|found| !found.is_of_cases()) {
             let Key { kernel: _, set, scalar, family, class, finding } = &found.key;
             let Rate { count, of, .. } = found.rate;
-            let share = interval_of(*count, *of);
+            let share = interval_of(found.rate);
             let mut text = format!(
                 "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
             );
@@ -219,7 +219,7 @@ impl fmt::Display for Outcome {
 /// A class of findings with its rate and its first cases.
 fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
     let Rate { count, of, .. } = part.rate;
-    let share = interval_of(count, of);
+    let share = interval_of(&part.rate);
     let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
     for example in &part.first {
         writeln!(text, "    hairline explain '{}'\n        {}", example.case, example.bits)?;

@@ -5,6 +5,7 @@ use super::digest::Place;
 use super::rows::RowIn;
 use super::source::Source;
 use super::tally::Tally;
+use super::trials::Trials;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding, asked};
@@ -16,32 +17,35 @@ use std::collections::BTreeMap;
 /// How often each cause was to blame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Causes {
-    by: [u64; Attribution::ALL.len()],
+    by: [Trials; Attribution::ALL.len()],
     /// Findings of kernels that do not run in exact arithmetic.
     pub untold: u64,
 }
 
 impl Causes {
-    /// The count of one.
-    pub fn of(&self, attribution: Attribution) -> u64 {
+    /// How often one was, among the findings whose cause is known.
+    pub fn of(&self, attribution: Attribution) -> Trials {
         self.by[attribution as usize]
     }
 
-    /// Findings whose cause is known.
-    pub fn told(&self) -> u64 {
-        self.by.iter().sum()
-    }
-
-    fn add(&mut self, attribution: Option<Attribution>) {
-        match attribution {
-            Some(attribution) => self.by[attribution as usize] += 1,
-            None => self.untold += 1,
+    /// Of the findings on one ray.
+    fn of_ray(attributions: impl Iterator<Item = Option<Attribution>>) -> Causes {
+        let mut causes = Causes::default();
+        let mut by = [0; Attribution::ALL.len()];
+        for attribution in attributions {
+            match attribution {
+                Some(attribution) => by[attribution as usize] += 1,
+                None => causes.untold += 1,
+            }
         }
+        let told = by.iter().sum();
+        causes.by.iter_mut().zip(by).for_each(|(trials, count)| trials.add_ray(count, told));
+        causes
     }
 
     fn merged(mut self, other: Causes) -> Causes {
-        for (count, more) in self.by.iter_mut().zip(other.by) {
-            *count += more;
+        for (trials, more) in self.by.iter_mut().zip(&other.by) {
+            trials.merge(more);
         }
         self.untold += other.untold;
         self
@@ -57,19 +61,20 @@ pub(super) fn causes<F: Scalar>(
     most: usize,
 ) -> BTreeMap<(Class, Finding), Causes> {
     let respawned = source.grouping() == Grouping::Respawn;
-    let of_place = |place: &Place| {
-        let made = source.make::<F>(place.index);
-        let case = &made.cases()[place.triangle as usize];
-        let truth = oracle::truth(case);
-        let asked = asked(case, &truth, contract, respawned);
-        let mut causes = Causes::default();
-        causes.add(attribute(row.subject, case, &row.epsilons, &truth, asked));
-        causes
+    let of_ray = |places: &[Place]| {
+        let made = source.make::<F>(places[0].index);
+        Causes::of_ray(places.iter().map(|place| {
+            let case = &made.cases()[place.triangle as usize];
+            let truth = oracle::truth(case);
+            let asked = asked(case, &truth, contract, respawned);
+            attribute(row.subject, case, &row.epsilons, &truth, asked)
+        }))
     };
     let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];
-        (key, places.par_iter().map(of_place).reduce(Causes::default, Causes::merged))
+        let rays = places.par_chunk_by(|a, b| a.index == b.index);
+        (key, rays.map(of_ray).reduce(Causes::default, Causes::merged))
     });
     if most == 0 { BTreeMap::new() } else { counted.collect() }
 }

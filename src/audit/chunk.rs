@@ -140,7 +140,7 @@ impl<F: Scalar> Chunk<F> {
 
     /// What a contract asks of each group; empty if the source's cases stand alone.
     pub fn group_truths(&self, contract: &Contract) -> Vec<GroupTruth> {
-        if matches!(self.grouping, Grouping::Single | Grouping::Respawn) {
+        if !self.grouping.shares_a_ray() {
             return Vec::new();
         }
         let ask = |(_, range): (u64, Range<usize>)| {

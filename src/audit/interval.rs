@@ -11,34 +11,29 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// What is left out at each end of a 95 % interval.
-const TAIL: f64 = 0.025;
-
-/// The 95 % interval of Clopper and Pearson (1934) for `successes` of `trials`: it covers the true
-/// rate at least that often. Without a trial it is [0, 1].
+/// The interval of Clopper and Pearson (1934) for k successes of n trials, with this share left out at
+/// each end: it covers the true rate at least that often. Without a trial it is [0, 1].
 ///
-/// Its ends are the quantiles of Beta(k, n-k+1) at 2.5 % and of Beta(k+1, n-k) at 97.5 %.
-pub fn clopper_pearson(successes: u64, trials: u64) -> Interval {
-    clopper_pearson_at(successes, trials, TAIL)
-}
-
-/// The same with another share left out at each end.
-pub fn clopper_pearson_at(successes: u64, trials: u64, tail: f64) -> Interval {
-    let (k, n) = (successes as f64, trials as f64);
+/// Its ends are the quantiles of Beta(k, n-k+1) at `tail` and of Beta(k+1, n-k) at 1 - `tail`, which k
+/// and n need not be whole for.
+pub(super) fn clopper_pearson(k: f64, n: f64, tail: f64) -> Interval {
     // With no success (or no failure) the beta distribution has a closed form.
     let all_of_one_kind = -expm1(log(tail) / n);
-    Interval {
-        low: match successes {
-            0 => 0.0,
-            _ if successes == trials => 1.0 - all_of_one_kind,
-            _ => beta_quantile(k, n - k + 1.0, tail),
-        },
-        high: match successes {
-            _ if successes >= trials => 1.0,
-            0 => all_of_one_kind,
-            _ => beta_quantile(k + 1.0, n - k, 1.0 - tail),
-        },
-    }
+    let low = if k <= 0.0 {
+        0.0
+    } else if n <= k {
+        1.0 - all_of_one_kind
+    } else {
+        beta_quantile(k, n - k + 1.0, tail)
+    };
+    let high = if n <= k {
+        1.0
+    } else if k <= 0.0 {
+        all_of_one_kind
+    } else {
+        beta_quantile(k + 1.0, n - k, 1.0 - tail)
+    };
+    Interval { low, high }
 }
 
 /// The x at which the regularised incomplete beta function of (a, b) is p: Newton's method, held in
@@ -110,22 +105,26 @@ mod tests {
         assert!((interval.high - high).abs() < 5e-5, "{interval:?}");
     }
 
+    fn at_95(k: u64, n: u64) -> Interval {
+        clopper_pearson(k as f64, n as f64, 0.025)
+    }
+
     #[test]
     fn published_intervals_come_out() {
         // Closed forms: 0 of n ends at 1 - (α/2)^(1/n); n of n starts at (α/2)^(1/n).
         let tail = 0.025f64.powf(1.0 / 2175.0);
-        assert_near(clopper_pearson(0, 2175), 0.0, 1.0 - tail);
-        assert!(clopper_pearson(0, 2175).high < 1.7e-3);
-        assert_near(clopper_pearson(2175, 2175), tail, 1.0);
+        assert_near(at_95(0, 2175), 0.0, 1.0 - tail);
+        assert!(at_95(0, 2175).high < 1.7e-3);
+        assert_near(at_95(2175, 2175), tail, 1.0);
         // Clopper and Pearson's table: 5 of 10 and 1 of 20.
-        assert_near(clopper_pearson(5, 10), 0.18709, 0.81291);
-        assert_near(clopper_pearson(1, 20), 0.00127, 0.24873);
-        assert_near(clopper_pearson(0, 0), 0.0, 1.0);
+        assert_near(at_95(5, 10), 0.18709, 0.81291);
+        assert_near(at_95(1, 20), 0.00127, 0.24873);
+        assert_near(at_95(0, 0), 0.0, 1.0);
         // Less left out is wider: 1 - (10^-5)^(1/100).
-        assert_near(clopper_pearson_at(0, 100, 1e-5), 0.0, 1.0 - 1e-5f64.powf(0.01));
+        assert_near(clopper_pearson(0.0, 100.0, 1e-5), 0.0, 1.0 - 1e-5f64.powf(0.01));
         // Where n is large the normal approximation agrees to its own accuracy.
         for (k, n) in [(3_000_000u64, 10_000_000u64), (40_000_000, 100_000_000_000)] {
-            let Interval { low, high } = clopper_pearson(k, n);
+            let Interval { low, high } = at_95(k, n);
             let p = k as f64 / n as f64;
             let half = 1.959964 * (p * (1.0 - p) / n as f64).sqrt();
             assert!(
@@ -138,7 +137,7 @@ mod tests {
     fn the_tails_of_the_binomial_agree_at_the_ends() {
         // P(X >= k | low) = P(X <= k | high) = 0.025, summed directly.
         let (k, n) = (3u64, 40u64);
-        let Interval { low, high } = clopper_pearson(k, n);
+        let Interval { low, high } = at_95(k, n);
         let term = |p: f64, j: u64| {
             let choose = (0..j).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64);
             choose * p.powi(j as i32) * (1.0 - p).powi((n - j) as i32)

@@ -6,7 +6,8 @@ use super::digest::Digest;
 use super::rows::RowIn;
 use super::run::Asked;
 use super::source::Source;
-use super::tally::Tally;
+use super::tally::{ClassCount, Tally};
+use super::trials::RayProducts;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
@@ -54,6 +55,8 @@ impl<F: Scalar> RowIn<F> {
         for &i in &asked.expectations.free {
             hits[class(i).number()] += u64::from(verdicts[i].hit);
         }
+        let shares_a_ray = chunk.grouping.shares_a_ray();
+        let mut found = Vec::new();
         for &i in suspects {
             let (verdict, truth, obligation) =
                 (&verdicts[i], &chunk.truths[i], asked.expectations.of[i].obligation());
@@ -74,7 +77,13 @@ impl<F: Scalar> RowIn<F> {
                 if finding.is_failure() {
                     tally.classes[number].fail(obligation);
                 }
+                if shares_a_ray {
+                    found.push((i, finding));
+                }
             }
+        }
+        if shares_a_ray {
+            add_rays(chunk, asked, verdicts, &found, tally);
         }
         tally.hits(&hits);
         if chunk.grouping == Grouping::Respawn {
@@ -115,6 +124,58 @@ impl<F: Scalar> RowIn<F> {
             let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
             let finding = judge::judge(owed, &polygon_truth(truths), self.info.gives, &verdict);
             tally.polygon(index, (owed, verdict.hit, finding));
+        }
+    }
+}
+
+/// Adds up, ray by ray, what was found on the triangles of each.
+fn add_rays<F: Scalar>(
+    chunk: &Chunk<F>,
+    asked: &Asked,
+    verdicts: &[Verdict<F>],
+    found: &[(usize, Finding)],
+    tally: &mut Tally,
+) {
+    const FINDINGS: usize = Finding::ALL.len();
+    // The last is of all classes together.
+    let mut sums = [[RayProducts::default(); FINDINGS]; Class::COUNT + 1];
+    let mut found = found.iter().peekable();
+    let mut counts: Vec<(usize, ClassCount)> = Vec::new();
+    for (_, range) in chunk.groups() {
+        counts.clear();
+        counts.push((Class::COUNT, ClassCount::default()));
+        for i in range {
+            let class = chunk.class(i);
+            let mut count = ClassCount::default();
+            let obligation = asked.expectations.of[i].obligation();
+            count.ask(obligation, 1);
+            count.hits = u64::from(verdicts[i].hit);
+            count.valued_hits = if class.is_invalid() { 0 } else { count.hits };
+            while let Some((_, finding)) = found.next_if(|(at, _)| *at == i) {
+                count.findings[*finding as usize] += 1;
+                if finding.is_failure() {
+                    count.fail(obligation);
+                }
+            }
+            counts[0].1.merge(&count);
+            match counts.iter_mut().find(|(number, _)| *number == class.number()) {
+                Some((_, sum)) => sum.merge(&count),
+                None => counts.push((class.number(), count)),
+            }
+        }
+        for (number, count) in &counts {
+            for finding in Finding::ALL {
+                let sum = &mut sums[*number][finding as usize];
+                sum.add_ray(count.of(finding), count.trials(finding));
+            }
+        }
+    }
+    let keys = Class::all().map(Some).chain([None]);
+    for (class, sums) in keys.zip(sums) {
+        for (finding, sum) in Finding::ALL.into_iter().zip(sums) {
+            if sum.of_squared > 0 {
+                tally.products.entry((class, finding)).or_default().merge(&sum);
+            }
         }
     }
 }

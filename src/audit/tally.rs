@@ -5,6 +5,7 @@ use super::by_finding::ByFinding;
 use super::digest::{Digest, Place};
 use super::group_count::{GroupCount, Judged};
 use super::histogram::Histogram;
+use super::trials::{RayProducts, Trials};
 use crate::judge::{Class, Finding, Obligation};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -188,6 +189,10 @@ impl Severities {
 pub struct Tally {
     /// One a class, by [`Class::number`].
     pub classes: Vec<ClassCount>,
+    /// By class, or of all classes together, and finding: sums over the rays; empty where each ray has one
+    /// triangle.
+    #[serde(with = "super::forms::pairs")]
+    pub products: BTreeMap<(Option<Class>, Finding), RayProducts>,
     /// Examples by class and finding.
     pub examples: ByFinding<Examples>,
     /// How far false misses and false hits are from where the verdict would be right.
@@ -212,6 +217,7 @@ impl Tally {
     pub fn new(examples: usize, attributed: usize) -> Tally {
         Tally {
             classes: vec![ClassCount::default(); Class::COUNT],
+            products: BTreeMap::new(),
             examples: ByFinding::default(),
             severities: BTreeMap::new(),
             accuracy: Accuracy::default(),
@@ -283,6 +289,9 @@ impl Tally {
         for (count, more) in self.classes.iter_mut().zip(&other.classes) {
             count.merge(more);
         }
+        for (key, more) in &other.products {
+            self.products.entry(*key).or_default().merge(more);
+        }
         let limit = self.limit;
         self.examples.merge(other.examples, |examples, more| examples.merge(more, limit));
         for (finding, more) in &other.severities {
@@ -293,6 +302,16 @@ impl Tally {
         self.polygons.merge(other.polygons, self.group_limit);
         self.self_hits.rays += other.self_hits.rays;
         self.self_hits.hits += other.self_hits.hits;
+    }
+
+    /// How often a finding occurred in a class, or in all together.
+    pub fn trials(&self, class: Option<Class>, finding: Finding) -> Trials {
+        let counts = class.map_or_else(|| self.total(), |class| self.classes[class.number()]);
+        let (count, of) = (counts.of(finding), counts.trials(finding));
+        match self.products.get(&(class, finding)) {
+            Some(products) => Trials { count, of, products: *products },
+            None => Trials::independent(count, of),
+        }
     }
 
     /// All classes together.
@@ -319,6 +338,8 @@ mod tests {
                 let severity = Some(((index * 7 % 11) as f64, 2.0));
                 tally.find(class, Finding::FalseMiss, (place, Digest::of(place)), severity);
             }
+            let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
+            products.add_ray(index % 4, 4);
             let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
             tally.group(&Judged { index, cases: 0..2, truth, hits, elsewhere: index % 8 == 4 });
         };

@@ -85,6 +85,8 @@ pub struct Curve<F> {
     pub question: Question,
     /// How many cases or groups the question is about.
     pub total: u64,
+    /// The sum over the rays of the square of how many were asked on each.
+    pub squared: u64,
     /// Of these, refused at every epsilon.
     pub never: u64,
     /// Of these, accepted at every epsilon.
@@ -104,7 +106,8 @@ impl<F: Float> Curve<F> {
     /// Of nothing.
     pub fn new(question: Question, floor: F) -> Curve<F> {
         let (cells, below) = (Vec::new(), vec![0]);
-        Curve { question, total: 0, never: 0, always: 0, cells, below, floor, decisive: None }
+        let (total, squared, never, always) = (0, 0, 0, 0);
+        Curve { question, total, squared, never, always, cells, below, floor, decisive: None }
     }
 
     /// How many are refused under an epsilon.
@@ -146,6 +149,7 @@ impl<F: Float> Curve<F> {
     /// where both are equally decisive.
     pub fn merge(&mut self, other: &Curve<F>) {
         self.total += other.total;
+        self.squared += other.squared;
         self.never += other.never;
         self.always += other.always;
         let mut merged = Vec::with_capacity(self.cells.len() + other.cells.len());
@@ -192,6 +196,9 @@ pub(super) struct Lane<F> {
     question: Question,
     never: u64,
     always: u64,
+    squared: u64,
+    /// The index of the last margin, and how many have come of it.
+    ray: (u64, u64),
     floor: F,
     decisive: Option<(F, Place)>,
     margins: Margins<F>,
@@ -208,11 +215,19 @@ enum Margins<F> {
 impl<F: Float> Lane<F> {
     pub fn new(question: Question, floor: F, keep: bool) -> Lane<F> {
         let margins = if keep { Margins::Kept(Vec::new()) } else { Margins::Counted(Vec::new()) };
-        Lane { question, never: 0, always: 0, floor, decisive: None, margins }
+        let (never, always, squared, ray) = (0, 0, 0, (u64::MAX, 0));
+        Lane { question, never, always, squared, ray, floor, decisive: None, margins }
     }
 
+    /// Adds a margin; those of one index come one after another.
     #[inline]
     pub fn add(&mut self, axis: &Axis<F>, margin: F, place: Place) {
+        if self.ray.0 != place.index {
+            self.ray = (place.index, 0);
+        }
+        // The step from one square to the next.
+        self.squared += 2 * self.ray.1 + 1;
+        self.ray.1 += 1;
         if !margin.is_finite() {
             let count = if margin < F::zero() { &mut self.never } else { &mut self.always };
             *count += 1;
@@ -235,6 +250,7 @@ impl<F: Float> Lane<F> {
     pub fn merge(&mut self, other: Lane<F>) {
         self.never += other.never;
         self.always += other.always;
+        self.squared += other.squared;
         match (&mut self.margins, other.margins) {
             (Margins::Counted(counts), Margins::Counted(more)) if counts.is_empty() => {
                 *counts = more;
@@ -259,6 +275,7 @@ impl<F: Float> Lane<F> {
         Curve {
             question: self.question,
             total,
+            squared: self.squared,
             never: self.never,
             always: self.always,
             below: sums(&cells),

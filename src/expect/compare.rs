@@ -1,7 +1,7 @@
 //! A run beside its expectations.
 
 use super::{Amount, Entry, Expectations};
-use crate::audit::{Interval, clopper_pearson_at};
+use crate::audit::Interval;
 use crate::judge::Finding;
 use crate::report::{
     Conformance, Deviation, Disagreement, KernelResult, Key, Method, Rate, ResultPart, Verdict,
@@ -56,8 +56,7 @@ pub fn compare(
             if planned.leaves_out(key) {
                 conformance.outside_the_plan += 1;
             } else {
-                let nothing = rate_of_nothing();
-                conformance.stale.push(deviation(key, Some(entry), &nothing, None));
+                conformance.stale.push(deviation(key, Some(entry), &Rate::default(), None));
             }
             continue;
         };
@@ -127,18 +126,15 @@ struct Judge {
 impl Judge {
     /// Whether a disagreement without an expectation is one too many.
     fn is_unexpected(&self, found: &Disagreement, expectations: &Expectations) -> bool {
-        let Rate { count, of, interval, .. } = *found.rate;
+        let trials = found.rate.trials();
         let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
         let row_of_found = row(&found.key);
         self.method == Method::CaseByCase
-            || interval.is_none()
+            || found.rate.interval.is_none()
             || found.key.finding == Finding::Panic.name()
             || !expectations.entries.keys().any(|key| row(key) == row_of_found)
-            || self.interval(0, of).high < self.interval(count, of).low
-    }
-
-    fn interval(&self, count: u64, of: u64) -> Interval {
-        clopper_pearson_at(count, of, self.tail)
+            || trials.interval_of_others(0, trials.of, self.tail).high
+                < trials.interval_at(self.tail).low
     }
 
     fn outcome(&self, entry: &Entry, found: &Rate, digest: Option<&str>) -> Outcome {
@@ -163,8 +159,12 @@ impl Judge {
         }
     }
 
+    /// Expectations do not say which trials share a ray, so both intervals have the design effect of
+    /// this run.
     fn rates(&self, count: u64, of: u64, found: &Rate) -> Outcome {
-        let (expected, found) = (self.interval(count, of), self.interval(found.count, found.of));
+        let found = found.trials();
+        let expected = found.interval_of_others(count, of, self.tail);
+        let found = found.interval_at(self.tail);
         if expected.high < found.low {
             Outcome::Worse
         } else if found.high < expected.low {
@@ -178,7 +178,7 @@ impl Judge {
     fn within(&self, bound: f64, found: &Rate) -> Outcome {
         let share = found.rate.unwrap_or(0.0);
         let interval = match found.interval {
-            Some(_) => self.interval(found.count, found.of),
+            Some(_) => found.trials().interval_at(self.tail),
             None => Interval { low: share, high: share },
         };
         if bound < interval.low {
@@ -189,10 +189,6 @@ impl Judge {
             Outcome::Same
         }
     }
-}
-
-fn rate_of_nothing() -> Rate {
-    Rate { count: 0, of: 0, rate: None, interval: None }
 }
 
 fn deviation(
@@ -241,7 +237,7 @@ fn describe(amount: &Amount, found: &Rate, digest: Option<&str>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::rate_between;
+    use crate::audit::Trials;
 
     fn entry(amount: Amount) -> Entry {
         Entry { line: 1, amount, why: None, url: None }
@@ -249,7 +245,7 @@ mod tests {
 
     fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {
         let judge = Judge { method, tail: 1e-5 };
-        let rate = rate_between(found.0, found.1, found.2);
+        let rate = Rate::new(Trials::independent(found.0, found.1), found.2);
         match judge.outcome(&entry(amount), &rate, Some(digest)) {
             Outcome::Better => -1,
             Outcome::Same => 0,

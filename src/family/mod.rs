@@ -74,6 +74,13 @@ pub enum Grouping {
     Polygon,
 }
 
+impl Grouping {
+    /// Whether the triangles of one index share a ray.
+    pub fn shares_a_ray(self) -> bool {
+        !matches!(self, Grouping::Single | Grouping::Respawn)
+    }
+}
+
 /// How a family makes its cases.
 trait Recipe {
     const NAME: &'static str;

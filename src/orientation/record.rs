@@ -3,7 +3,7 @@
 use super::predicate::{Row, Scalar};
 use super::{Answer, Dimension, FAMILIES, Finding, Plan, Points, ScaledPoints, Sums, judge};
 use crate::arith::Float;
-use crate::audit::clopper_pearson;
+use crate::audit::Trials;
 use serde::Serialize;
 
 /// The schema's name and version.
@@ -182,7 +182,7 @@ pub fn build(plan: &Plan, sums: &Sums, seconds: f64, threads: usize) -> Record {
         let rate = |finding: Finding| {
             let (count, of) = (cell.counts.findings[finding as usize], set.trials(finding));
             let first = cell.counts.first[finding as usize];
-            let interval = (of > 0).then(|| clopper_pearson(count, of));
+            let interval = (of > 0).then(|| Trials::independent(count, of).interval());
             Rate {
                 count,
                 of,

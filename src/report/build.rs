@@ -4,8 +4,8 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, ClassCount, CorpusSet, Examples, GroupCount, Place, Plan, PolygonCount, Row,
-    Source, SourceSummary, clopper_pearson, exact_severity,
+    Audit, Cell, CorpusSet, Examples, GroupCount, Place, Plan, PolygonCount, Row, Source,
+    SourceSummary, Tally, Trials, exact_severity,
 };
 use crate::case::Case;
 use crate::contract::Across;
@@ -133,19 +133,14 @@ fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
     }
 }
 
-/// A rate, with its interval if it is of a random sample.
-pub(crate) fn rate(count: u64, of: u64, sample: bool) -> Rate {
-    let interval = (sample && of > 0).then(|| clopper_pearson(count, of));
-    Rate {
-        count,
-        of,
-        rate: (of > 0).then(|| count as f64 / of as f64),
-        interval: interval.map(|interval| [interval.low, interval.high]),
-    }
+/// A rate of which each ray is one trial.
+fn rate(count: u64, of: u64, sample: bool) -> Rate {
+    Rate::new(Trials::independent(count, of), sample)
 }
 
-fn counts(count: &ClassCount, sample: bool) -> Counts {
-    let of = |finding| rate(count.of(finding), count.trials(finding), sample);
+fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Counts {
+    let count = class.map_or_else(|| tally.total(), |class| tally.classes[class.number()]);
+    let of = |finding| Rate::new(tally.trials(class, finding), sample);
     Counts {
         cases: count.cases,
         free: count.cases - count.must_hit - count.must_miss,
@@ -164,26 +159,25 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
     let sample = source.is_sample();
     let classes = Class::all()
         .filter(|class| tally.classes[class.number()].cases > 0)
-        .map(|class| (class.name(), counts(&tally.classes[class.number()], sample)));
+        .map(|class| (class.name(), counts(tally, Some(class), sample)));
     let findings = tally.examples.iter().map(|((class, finding), examples)| {
-        let count = &tally.classes[class.number()];
+        let trials = tally.trials(Some(class), finding);
         let causes = cell.causes.get(&(class, finding));
-        let causes = causes.map(|causes| distribution::causes(causes, count.of(finding)));
-        finding_part::<F>(source, row, (class, finding), count, examples, causes)
+        let causes = causes.map(|causes| distribution::causes(causes, trials.count));
+        finding_part::<F>(source, row, (class, finding), trials, examples, causes)
     });
     let grouping = source.grouping();
-    let is_group = !matches!(grouping, Grouping::Single | Grouping::Respawn);
     KernelResult {
         scalar: cell.scalar.to_owned(),
         kernel: row.entry.info.name.to_owned(),
         set: row.set.clone(),
         family: source.name(),
-        total: counts(&tally.total(), sample),
+        total: counts(tally, None, sample),
         classes: classes.collect(),
         findings: findings.collect(),
         severity: distribution::severities(&tally.severities),
         accuracy: distribution::accuracy(&tally.accuracy),
-        across: is_group.then(|| across_part::<F>(source, row, &tally.groups)),
+        across: grouping.shares_a_ray().then(|| across_part::<F>(source, row, &tally.groups)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
             .then(|| polygon_part::<F>(source, &tally.polygons)),
         self_hits: (grouping == Grouping::Respawn)
@@ -195,7 +189,7 @@ fn finding_part<F: Scalar>(
     source: &Source,
     row: &Row,
     (class, finding): (Class, Finding),
-    count: &ClassCount,
+    trials: Trials,
     examples: &Examples,
     causes: Option<CausesPart>,
 ) -> FindingPart {
@@ -203,7 +197,7 @@ fn finding_part<F: Scalar>(
     FindingPart {
         finding: finding.name().to_owned(),
         class: class.name(),
-        rate: rate(count.of(finding), count.trials(finding), source.is_sample()),
+        rate: Rate::new(trials, source.is_sample()),
         causes,
         digest: examples.digest.to_string(),
         worst: example::<F>(source, row, worst, true),

@@ -2,10 +2,10 @@
 //! hits and what most of them come from.
 
 use super::columns::{Column, far, short_percent};
+use super::lines::{Line, column_legend, write_wrapped};
 use super::pool::Pool;
+use super::rate::{percent, share_column};
 use super::record::*;
-use super::screen::{Line, column_legend, write_wrapped};
-use super::text::{percent, share_column};
 use super::why::cause_shares;
 use super::{Style, group_digits};
 use crate::kernel;
@@ -72,7 +72,7 @@ fn write_line(
         "far off, %"
     )?;
     for (column, cell) in columns.iter().zip(&line.cells) {
-        if cell.of == 0 {
+        if cell.wrong.of == 0 {
             continue;
         }
         let results = column.results(&line.row);
@@ -89,7 +89,7 @@ fn write_line(
             write!(out, " {share}  {:<18}", cause(&results, kind))?;
         }
         let far: u64 = results.iter().map(|r| far(r, "false-miss") + far(r, "false-hit")).sum();
-        writeln!(out, " {:>10}", short_percent([far, cell.of]))?;
+        writeln!(out, " {:>10}", short_percent([far, cell.wrong.of]))?;
     }
     write_others(line, out)
 }

@@ -1,8 +1,8 @@
 //! Verdicts by question: the columns of the screen and of the summary in Markdown.
 
 use super::record::*;
-use super::text::RowView;
-use crate::audit::is_of_mesh;
+use super::row_view::RowView;
+use crate::audit::{Trials, is_of_mesh};
 use crate::family::{self, Question};
 
 /// The sources of one question, all of them samples or all of them complete sets.
@@ -77,7 +77,7 @@ impl Column {
 }
 
 /// Whether a result's source is a whole set rather than a random sample.
-pub(super) fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
+fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
     let of = |source: &&SourcePart| source.scalar == part.scalar && source.family == part.family;
     sources.iter().find(of).is_some_and(|source| !source.sample)
 }
@@ -85,10 +85,8 @@ pub(super) fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
 /// The verdicts of one row in one column.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cell {
-    /// False misses and false hits.
-    pub(super) wrong: u64,
-    /// Cases on which the contract demands a verdict.
-    pub(super) of: u64,
+    /// False misses and false hits among the cases on which the contract demands a verdict.
+    pub(super) wrong: Trials,
     /// Wrong verdicts that are off by [`FAR`] longest edges or more.
     pub(super) far: u64,
 }
@@ -99,7 +97,7 @@ const FAR: i32 = -10;
 impl Cell {
     /// Whether more than one verdict in a thousand is wrong and [`FAR`] off.
     pub(super) fn is_far(&self) -> bool {
-        self.of < 1000 * self.far
+        self.wrong.of < 1000 * self.far
     }
 
     /// The sum of results.
@@ -108,8 +106,7 @@ impl Cell {
         for result in results {
             let total = &result.total;
             for rate in [&total.false_misses, &total.false_hits] {
-                cell.wrong += rate.count;
-                cell.of += rate.of;
+                cell.wrong.merge(&rate.trials());
             }
             cell.far +=
                 ["false-miss", "false-hit"].map(|kind| far(result, kind)).iter().sum::<u64>();

@@ -4,7 +4,6 @@ use super::{
     Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
     group_digits, rate_of,
 };
-use crate::audit::clopper_pearson_at;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -186,8 +185,7 @@ impl Judge {
                 std::cmp::Ordering::Equal => Change::Other,
             };
         }
-        let interval = |rate: &Rate| clopper_pearson_at(rate.count, rate.of, self.tail);
-        let (old, new) = (interval(old), interval(new));
+        let [old, new] = [old, new].map(|rate| rate.trials().interval_at(self.tail));
         if old.high < new.low {
             Change::Worse
         } else if new.high < old.low {

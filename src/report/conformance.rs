@@ -1,6 +1,6 @@
 //! The part of a record that says how a run compares with what was expected of it.
 
-use super::record::Rate;
+use super::rate::Rate;
 use super::{Key, group_digits};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,5 @@
 //! A record's findings as one list: what expectations name and formats count by.
 
-use super::rate_between;
 use super::record::*;
 use crate::judge::Finding;
 use std::collections::BTreeMap;
@@ -146,7 +145,6 @@ pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {
 
 /// How often a finding of a class occurred in a result, or could have: nought if it did not.
 pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
-    let none = || rate_between(0, 0, false);
     let together = match class {
         "group" => across(part),
         "polygon" => polygons(part),
@@ -155,16 +153,7 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
     if let Some((_, rate, ..)) = together.into_iter().find(|(name, ..)| *name == finding) {
         return rate.clone();
     }
-    let Some(counts) = part.classes.get(class) else { return none() };
-    match finding {
-        "false-miss" => counts.false_misses.clone(),
-        "false-hit" => counts.false_hits.clone(),
-        "bad-value" => counts.bad_values.clone(),
-        "panic" => rate_between(counts.panics, counts.cases, false),
-        "crash" => rate_between(counts.crashes, counts.cases, false),
-        "timeout" => rate_between(counts.timeouts, counts.cases, false),
-        _ => none(),
-    }
+    part.classes.get(class).and_then(|counts| counts.rate(finding)).unwrap_or_default()
 }
 
 /// The kinds of finding that a result could show.

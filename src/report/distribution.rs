@@ -1,6 +1,5 @@
 //! The parts of a record that are distributions: causes, severities, errors of values.
 
-use super::build::rate;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{Accuracy, Attribution, Audit, Causes, Histogram, Plan, Severities};
@@ -9,9 +8,11 @@ use std::collections::BTreeMap;
 
 /// The causes of the findings of one class.
 pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
-    let told = causes.told();
-    let sample = told + causes.untold < found;
-    let share = |why: Attribution| (why.name().to_owned(), rate(causes.of(why), told, sample));
+    let share = |why: Attribution| {
+        let trials = causes.of(why);
+        let sample = trials.of + causes.untold < found;
+        (why.name().to_owned(), Rate::new(trials, sample))
+    };
     CausesPart { by: Attribution::ALL.map(share).into(), untold: causes.untold }
 }
 

@@ -1,8 +1,8 @@
 //! The three worst findings of a record, in words, each with the command that shows it.
 
 use super::columns::Column;
+use super::lines::{Line, write_wrapped};
 use super::record::*;
-use super::screen::{Line, write_wrapped};
 use super::worst::severity_of;
 use super::{Style, group_digits};
 use crate::audit::Attribution;

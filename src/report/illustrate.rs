@@ -97,6 +97,8 @@ fn response<F: Scalar>(row: &Row, sketch: &Sketch<F>, sample: bool) -> ResponseP
     let own: F = row.epsilons()[sketch.gate];
     let trade = &sketch.trade;
     let points = thinned(curves, &wrong);
+    let asked = curves.map(|curve| curve.total);
+    let squared = curves.map(|curve| curve.squared);
     ResponsePart {
         kernel: row.entry.info.name.to_owned(),
         set: row.set.clone(),
@@ -104,7 +106,8 @@ fn response<F: Scalar>(row: &Row, sketch: &Sketch<F>, sample: bool) -> ResponseP
         gate: row.entry.info.gates[sketch.gate].name.to_owned(),
         epsilon: shortest(own),
         own: wrong(own),
-        asked: curves.map(|curve| curve.total),
+        asked,
+        asked_squared: (squared != asked).then_some(squared),
         sample,
         points: points.into_iter().map(|(e, counts)| (shortest(e), counts)).collect(),
         misses: (trade.misses.unavoidable, shortest(trade.misses.limit)),

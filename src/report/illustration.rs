@@ -1,7 +1,7 @@
 //! What a report's pictures are drawn from: computed beside a run, on few cases, and no part of its
 //! result.
 
-use crate::audit::clopper_pearson;
+use crate::audit::Trials;
 use serde::{Deserialize, Serialize};
 
 /// What pictures are drawn from; only where they were asked for.
@@ -65,6 +65,10 @@ pub struct ResponsePart {
     pub own: [u64; 3],
     /// How many could be wrong: false misses, false hits that this gate is there to refuse, cracks.
     pub asked: [u64; 3],
+    /// Sums over the rays of the squares of how many could be wrong on each; left out where each ray has
+    /// one of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asked_squared: Option<[u64; 3]>,
     /// Whether they are a random sample.
     pub sample: bool,
     /// Epsilons in order, each with how many are wrong; constant before the first and after the last.
@@ -81,11 +85,12 @@ impl ResponsePart {
     /// nothing.
     pub fn share(&self, question: usize, counts: [u64; 3]) -> Option<(f64, Option<[f64; 2]>)> {
         let of = self.asked[question];
-        let count = counts[question].min(of);
+        let of_squared = self.asked_squared.map_or(of, |squared| squared[question]);
+        let trials = Trials::alike_on_each_ray(counts[question].min(of), of, of_squared);
         let interval = || {
-            let interval = clopper_pearson(count, of);
+            let interval = trials.interval();
             [interval.low, interval.high]
         };
-        (0 < of).then(|| (count as f64 / of as f64, self.sample.then(interval)))
+        trials.share().map(|share| (share, self.sample.then(interval)))
     }
 }

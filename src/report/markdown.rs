@@ -1,9 +1,9 @@
 //! The record as Markdown, for a summary on a forge: the verdict, what deviates, and the rates.
 
 use super::columns::{Column, short_percent};
-use super::screen::{Line, column_legend, lines};
-use super::text::percent;
-use super::{Conformance, Deviation, Rate, Record, Style, group_digits, rate_between};
+use super::lines::{Line, column_legend, lines};
+use super::rate::percent;
+use super::{Conformance, Deviation, Rate, Record, Style, group_digits};
 use std::io::{self, Write};
 
 /// A forge's summary holds less than a mebibyte.
@@ -97,7 +97,7 @@ fn scalar_part(columns: &[Column], lines: &[Line], scalar: &str, text: &mut Stri
     ));
     for line in lines.iter().filter(|line| line.scalar == scalar) {
         let cells = columns.iter().zip(&line.cells).map(|(column, cell)| {
-            let rate = rate_between(cell.wrong, cell.of, !column.complete);
+            let rate = Rate::new(cell.wrong, !column.complete);
             format!("{} | ", share(&rate))
         });
         let cells: String = cells.collect();

@@ -22,10 +22,13 @@ mod illustration;
 mod json;
 mod jsonl;
 mod junit;
+mod lines;
 mod markdown;
 pub mod mesh;
 mod pool;
+mod rate;
 mod record;
+mod row_view;
 mod sarif;
 mod screen;
 mod shard;
@@ -34,7 +37,6 @@ mod verdict;
 mod why;
 mod worst;
 
-pub(crate) use build::rate as rate_between;
 pub use build::{Context, build};
 pub use compare::{Change, Comparison, ContractChange, Difference, difference};
 pub use conformance::*;
@@ -46,9 +48,9 @@ pub use illustration::{Illustrations, MapPart, ResponsePart};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
+pub(crate) use rate::interval_of;
 pub use record::*;
 pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
-pub(crate) use text::interval_of;
 
 pub(crate) use crate::plot::group_digits;
 use std::io::{self, Write};

@@ -1,9 +1,8 @@
 //! Sums over sources. A random sample has an interval; stored cases, and all cases of a finite family,
 //! are the whole of what they are: they have counts, and are never added to a sample.
 
+use super::group_digits;
 use super::record::Rate;
-use super::{group_digits, rate_between};
-use std::borrow::Borrow;
 
 /// A sum over the sources that are random samples, and one over the others.
 #[derive(Clone, Debug)]
@@ -14,18 +13,9 @@ pub(super) struct Pool {
 
 impl Pool {
     /// The sums of rates. A rate without an interval is of a complete set.
-    pub(super) fn of(rates: impl Iterator<Item = impl Borrow<Rate>>) -> Pool {
-        let mut sums = [(0, 0); 2];
-        for rate in rates {
-            let rate = rate.borrow();
-            let (count, of) = &mut sums[usize::from(rate.interval.is_none())];
-            (*count, *of) = (*count + rate.count, *of + rate.of);
-        }
-        let [sample, complete] = sums;
-        Pool {
-            sample: rate_between(sample.0, sample.1, true),
-            complete: rate_between(complete.0, complete.1, false),
-        }
+    pub(super) fn of<'a>(rates: impl Iterator<Item = &'a Rate>) -> Pool {
+        let (sample, complete): (Vec<_>, Vec<_>) = rates.partition(|rate| rate.interval.is_some());
+        Pool { sample: Rate::sum(sample), complete: Rate::sum(complete) }
     }
 
     /// Of the samples; where there is none, of the complete sets.
@@ -49,10 +39,15 @@ impl Pool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::audit::Trials;
+
+    fn rate(count: u64, of: u64, sample: bool) -> Rate {
+        Rate::new(Trials::independent(count, of), sample)
+    }
 
     #[test]
     fn stored_cases_stay_out_of_a_samples_interval() {
-        let [sample, stored] = [rate_between(10, 500, true), rate_between(3, 57, false)];
+        let [sample, stored] = [rate(10, 500, true), rate(3, 57, false)];
         let pool = Pool::of([&sample, &stored].into_iter());
         assert_eq!((pool.rate().count, pool.rate().of), (10, 500));
         assert_eq!(pool.rate().interval, sample.interval);
@@ -62,7 +57,23 @@ mod tests {
         assert_eq!((pool.rate().count, pool.rate().of), (3, 57));
         assert!(pool.rate().interval.is_none() && pool.apart().is_none());
         // A sample without a trial has no interval either, and counts for nothing.
-        let none = rate_between(0, 0, true);
+        let none = rate(0, 0, true);
         assert_eq!(Pool::of(std::iter::once(&none)).counts(), [0, 0]);
+    }
+
+    #[test]
+    fn triangles_of_one_ray_stay_together_in_a_sum() {
+        let mut trials = Trials::default();
+        (0..40).for_each(|ray| trials.add_ray(if ray < 4 { 3 } else { 0 }, 3));
+        let rate = Rate::new(trials, true);
+        let pool = Pool::of([&rate, &rate].into_iter());
+        let mut twice = trials;
+        twice.merge(&trials);
+        assert_eq!(pool.rate().rays, Some(twice.products));
+        // As wide as that of 8 of 80 rays, not that of 24 of 240 triangles.
+        let width = |[low, high]: [f64; 2]| high - low;
+        let of = |count, of| width(self::rate(count, of, true).interval.unwrap());
+        assert!((width(pool.rate().interval.unwrap()) - of(8, 80)).abs() < 1e-12);
+        assert!(1.5 * of(24, 240) < of(8, 80));
     }
 }

@@ -5,7 +5,9 @@
 
 use super::conformance::Conformance;
 use super::illustration::Illustrations;
+pub use super::rate::Rate;
 use super::shard::{PartialPart, ShardPart};
+use crate::audit::Trials;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -214,19 +216,20 @@ pub struct Counts {
     pub timeouts: u64,
 }
 
-/// A count of a number of trials, with its 95 % interval if the trials are a random sample.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Rate {
-    /// How many.
-    pub count: u64,
-    /// Of how many.
-    pub of: u64,
-    /// `count / of`; none of nothing.
-    pub rate: Option<f64>,
-    /// Clopper-Pearson, 95 %.
-    pub interval: Option<[f64; 2]>,
+impl Counts {
+    /// How often a finding of a name occurred, or could have; without an interval if it is a failure.
+    pub(crate) fn rate(&self, finding: &str) -> Option<Rate> {
+        let failures = |count| Some(Rate::new(Trials::independent(count, self.cases), false));
+        match finding {
+            "false-miss" => Some(self.false_misses.clone()),
+            "false-hit" => Some(self.false_hits.clone()),
+            "bad-value" => Some(self.bad_values.clone()),
+            "panic" => failures(self.panics),
+            "crash" => failures(self.crashes),
+            "timeout" => failures(self.timeouts),
+            _ => None,
+        }
+    }
 }
 
 /// One finding in one class.

@@ -2,49 +2,17 @@
 //! findings, and what to do next. Everything else is behind `--details`.
 
 use super::columns::{Across, Cell, Column, short_percent};
+use super::lines::{Line, column_legend, lines, write_wrapped};
 use super::record::*;
-use super::text::{ALL_INVALID, RowView, is_all_invalid, write_failures};
-use super::{Style, close_up, extremes, group_digits, number_of, rate_between};
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
+use super::{Style, close_up, extremes, group_digits, number_of};
 use crate::family;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-/// Characters in a line, where words can be wrapped.
-const WIDTH: usize = 119;
-
 /// Of no more rows than this the screen shows each by itself.
 const MOST_CLOSE_UPS: usize = 2;
-
-/// One row in one scalar.
-pub(super) struct Line<'a> {
-    pub(super) scalar: &'a str,
-    pub(super) row: RowView<'a>,
-    /// One a column.
-    pub(super) cells: Vec<Cell>,
-    pub(super) across: Option<Across>,
-}
-
-impl Line<'_> {
-    /// `kernel (epsilons)`.
-    pub(super) fn label(&self) -> String {
-        format!("{} ({})", self.row.part.kernel, self.row.part.set)
-    }
-}
-
-/// Every row in every scalar.
-pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
-    let in_scalar = |scalar: &'a String| {
-        let rows = RowView::all(record, scalar).into_iter();
-        rows.map(move |row| Line {
-            scalar,
-            cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
-            across: Across::of(&row),
-            row,
-        })
-    };
-    record.result.plan.scalars.iter().flat_map(in_scalar).collect()
-}
 
 /// Writes the screen.
 pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -129,14 +97,14 @@ fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standin
         let lines = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
         let cells: Vec<(&Column, &Cell)> = lines
             .flat_map(|line| columns.iter().zip(&line.cells))
-            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.of)
+            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)
             .collect();
         let meant = cells.iter().filter(|(column, _)| column.complete == all_complete);
-        let shares: Vec<f64> = meant.map(|(_, cell)| cell.wrong as f64 / cell.of as f64).collect();
+        let shares: Vec<f64> = meant.filter_map(|(_, cell)| cell.wrong.share()).collect();
         (!shares.is_empty()).then(|| Standing {
             label: format!("{} ({})", part.kernel, part.set),
             share: shares.iter().sum::<f64>() / shares.len() as f64,
-            wrong: cells.iter().map(|(_, cell)| cell.wrong).sum(),
+            wrong: cells.iter().map(|(_, cell)| cell.wrong.count).sum(),
             far: cells.iter().map(|(_, cell)| cell.far).sum(),
         })
     };
@@ -216,9 +184,9 @@ fn write_answer(
 fn write_cell_legend(columns: &[Column], lines: &[Line], out: &mut dyn Write) -> io::Result<()> {
     let sampled = lines.iter().flat_map(|line| columns.iter().zip(&line.cells));
     let wide = sampled
-        .filter(|(column, cell)| !column.complete && 0 < cell.of)
-        .filter_map(|(_, cell)| rate_between(cell.wrong, cell.of, true).interval)
-        .map(|[low, high]| (high - low) / 2.0)
+        .filter(|(column, cell)| !column.complete && 0 < cell.wrong.of)
+        .map(|(_, cell)| cell.wrong.interval())
+        .map(|interval| (interval.high - interval.low) / 2.0)
         .fold(0.0, f64::max);
     let contracts: BTreeSet<&str> = lines.iter().map(|line| &*line.row.part.contract).collect();
     let contract = match contracts.len() {
@@ -229,7 +197,7 @@ fn write_cell_legend(columns: &[Column], lines: &[Line], out: &mut dyn Write) ->
         0.0 => String::new(),
         wide => format!(" (95 % intervals: ±{:.1} at most)", wide * 100.0 + 0.05),
     };
-    let free = lines.iter().flat_map(|line| &line.cells).any(|cell| cell.of == 0);
+    let free = lines.iter().flat_map(|line| &line.cells).any(|cell| cell.wrong.of == 0);
     let free = if free { "; - nothing demanded" } else { "" };
     let stored = columns.iter().any(|column| column.complete);
     let stored = if stored { "; of whole sets: wrong/all" } else { "" };
@@ -249,9 +217,9 @@ fn write_table(
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     let text = |column: &Column, cell: &Cell| {
         let share = match column.complete {
-            true if cell.of == 0 => "-".to_owned(),
-            true => format!("{}/{}", group_digits(cell.wrong), group_digits(cell.of)),
-            false => short_percent([cell.wrong, cell.of]),
+            true if cell.wrong.of == 0 => "-".to_owned(),
+            true => format!("{}/{}", group_digits(cell.wrong.count), group_digits(cell.wrong.of)),
+            false => short_percent([cell.wrong.count, cell.wrong.of]),
         };
         format!("{share}{}", if cell.is_far() { '*' } else { ' ' })
     };
@@ -279,7 +247,7 @@ fn write_table(
         let mut text = format!("{:<first$}", line.label());
         for ((cell, share), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
             let share = format!("{share:>width$}");
-            let color = if cell.of == 0 { "" } else { colour(style, cell.wrong) };
+            let color = if cell.wrong.of == 0 { "" } else { colour(style, cell.wrong.count) };
             text.push(' ');
             text.push_str(&painted(&share, color));
         }
@@ -321,20 +289,6 @@ fn painted(text: &str, color: &str) -> String {
     if color.is_empty() { text.to_owned() } else { format!("{color}{text}\x1b[0m") }
 }
 
-/// What the columns hold.
-pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
-    let told = columns.iter().filter(|column| !column.about().is_empty());
-    let mut parts: Vec<String> =
-        told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
-    if lines.iter().any(|line| line.across.is_some()) {
-        parts.push(
-            "cracks, doubles: % of rays at shared edges with no hit, with two; promised: how many"
-                .to_owned(),
-        );
-    }
-    parts.join("; ")
-}
-
 /// What to do next.
 fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
@@ -360,23 +314,4 @@ fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<(
         write!(out, "{bold}Choose an epsilon:{plain} hairline epsilon {}{after}", tuned.selector)?;
     }
     writeln!(out, "{bold}Gate a CI:{plain} hairline check{only}, the first time with --bless")
-}
-
-/// Writes words in lines of [`WIDTH`] at most.
-pub(super) fn write_wrapped(text: &str, out: &mut dyn Write) -> io::Result<()> {
-    if text.is_empty() {
-        return Ok(());
-    }
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if WIDTH < line.chars().count() + 1 + word.chars().count() && !line.trim().is_empty() {
-            writeln!(out, "{line}")?;
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    writeln!(out, "{line}")
 }

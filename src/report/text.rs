@@ -1,11 +1,13 @@
 //! The record as text for people: the screen, or with `--details` everything: one table a scalar, then
 //! the worst findings with the commands that show them again.
 
-use super::pool::Pool;
+use super::rate::{interval_of, share_column};
 use super::record::*;
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::why::{accuracy_text, causes_text};
 use super::worst::write_worst;
 use super::{Style, group_digits, number_of};
+use crate::audit::Trials;
 use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
@@ -63,78 +65,6 @@ fn write_details(record: &Record, style: Style, out: &mut dyn Write) -> io::Resu
         write_scalar(record, scalar, style, out)?;
     }
     Ok(())
-}
-
-/// All families of one kernel row in one scalar.
-pub(super) struct RowView<'a> {
-    pub(super) part: &'a RowPart,
-    pub(super) total: Option<&'a RowTotal>,
-    pub(super) results: Vec<&'a KernelResult>,
-    pub(super) sources: &'a [SourcePart],
-}
-
-impl<'a> RowView<'a> {
-    /// Every row of a record in a scalar.
-    pub(super) fn all(record: &'a Record, scalar: &str) -> Vec<RowView<'a>> {
-        let of_row = |part: &RowPart, r: &KernelResult| {
-            r.scalar == scalar && r.kernel == part.kernel && r.set == part.set
-        };
-        let total_of = |part: &RowPart, t: &RowTotal| {
-            t.scalar == scalar && t.kernel == part.kernel && t.set == part.set
-        };
-        let view = |part: &'a RowPart| RowView {
-            part,
-            total: record.result.totals.iter().find(|total| total_of(part, total)),
-            results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
-            sources: &record.result.sources,
-        };
-        // A kernel of one scalar has nothing to say in the other.
-        let rows = record.result.plan.rows.iter().map(view);
-        rows.filter(|row| !row.results.is_empty()).collect()
-    }
-
-    /// The sum of a rate over the sources.
-    pub(super) fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Pool {
-        Pool::of(self.results.iter().filter_map(|result| rate(result)))
-    }
-
-    /// Hits on NaN, infinities, zero directions and impossible intervals.
-    fn hits_on_invalid(&self) -> u64 {
-        self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()
-    }
-
-    /// A family's first groups that no triangle reported, by id.
-    pub(super) fn first_cracks(&self) -> Vec<(&KernelResult, &str)> {
-        self.results
-            .iter()
-            .filter_map(|result| {
-                let across = result.across.as_ref()?;
-                Some((*result, across.first_cracks.first()?.as_str()))
-            })
-            .collect()
-    }
-
-    /// The family with the largest share.
-    fn worst_family(&self, rate: impl Fn(&KernelResult) -> &Rate) -> &str {
-        let share = |result: &KernelResult| rate(result).rate.unwrap_or(0.0);
-        self.results
-            .iter()
-            .filter(|result| rate(result).count > 0)
-            .max_by(|x, y| share(x).total_cmp(&share(y)))
-            .map_or("", |result| &result.family)
-    }
-}
-
-/// What is to be said of a scalar without a valid case.
-pub(super) const ALL_INVALID: &str =
-    "All are invalid: a number is infinite or NaN, or the direction is zero.";
-
-/// Whether all cases of rows are invalid.
-pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
-    rows.first().is_some_and(|row| {
-        let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
-        invalid.map(|counts| counts.cases).sum::<u64>() == cases
-    })
 }
 
 fn write_scalar(
@@ -215,29 +145,6 @@ fn write_scalar(
     write_worst(&rows, style, out)
 }
 
-/// The kernels that gave no verdict on some cases.
-pub(super) fn write_failures(rows: &[&RowView], out: &mut dyn Write) -> io::Result<()> {
-    for row in rows {
-        let sum = |count: fn(&Counts) -> u64| -> u64 {
-            row.results.iter().map(|result| count(&result.total)).sum()
-        };
-        let counts = [
-            ("panics", sum(|counts| counts.panics)),
-            ("crashes", sum(|counts| counts.crashes)),
-            ("timeouts", sum(|counts| counts.timeouts)),
-        ];
-        let words = counts.iter().filter(|(_, count)| *count > 0);
-        let words: Vec<String> =
-            words.map(|(what, count)| format!("{} {what}", group_digits(*count))).collect();
-        if !words.is_empty() {
-            let cases = group_digits(sum(|counts| counts.cases));
-            let (kernel, set) = (&row.part.kernel, &row.part.set);
-            writeln!(out, "{kernel} ({set}): {} in {cases} cases", words.join(", "))?;
-        }
-    }
-    Ok(())
-}
-
 /// For each mesh the share of its rays that meet an edge or a vertex exactly.
 fn write_exact_shares(
     record: &Record,
@@ -258,7 +165,8 @@ fn write_exact_shares(
             named.map(|(_, counts)| counts.cases).sum()
         };
         let (edges, vertices) = (of_part("edge/"), of_part("vertex/"));
-        let share = interval_of(edges + vertices, source.cases);
+        let met = Trials::independent(edges + vertices, source.cases);
+        let share = interval_of(&Rate::new(met, true));
         writeln!(
             out,
             "{}: {} rays meet an edge and {} a vertex exactly{share}",
@@ -275,52 +183,6 @@ fn fitted(name: &str, columns: usize) -> String {
     match name.chars().count().saturating_sub(columns) {
         0 => name.to_owned(),
         more => std::iter::once('…').chain(name.chars().skip(more + 1)).collect(),
-    }
-}
-
-/// ` (20.3% [20.0%, 20.6%])`; nothing of nothing.
-pub(crate) fn interval_of(count: u64, of: u64) -> String {
-    if of == 0 {
-        return String::new();
-    }
-    let interval = crate::audit::clopper_pearson(count, of);
-    format!(
-        " ({} [{}, {}])",
-        percent(count as f64 / of as f64),
-        percent(interval.low),
-        percent(interval.high)
-    )
-}
-
-/// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.
-pub(super) fn share_column(rate: &Rate, style: Style) -> String {
-    let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
-    let text = match (rate.rate, rate.interval) {
-        (None, _) => "-".to_owned(),
-        (Some(share), None) => number(share),
-        (Some(share), Some([low, high])) => {
-            format!("{} [{}, {}]", number(share), number(low), number(high))
-        }
-    };
-    let padded = format!("{text:>20}");
-    match (style.color, rate.count) {
-        (true, 1..) => format!("\x1b[31m{padded}\x1b[0m"),
-        (true, 0) => format!("\x1b[32m{padded}\x1b[0m"),
-        _ => padded,
-    }
-}
-
-/// `12.3%`, `0.45%`, `3e-4%`.
-pub(super) fn percent(share: f64) -> String {
-    let value = share * 100.0;
-    if share == 0.0 {
-        "0%".to_owned()
-    } else if value < 0.01 {
-        format!("{value:.0e}%")
-    } else if value < 1.0 {
-        format!("{value:.2}%")
-    } else {
-        format!("{value:.1}%")
     }
 }
 

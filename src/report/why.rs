@@ -1,7 +1,7 @@
 //! Why and how far, in the text: shares of causes, quantiles of severities and of errors.
 
+use super::rate::percent;
 use super::record::*;
-use super::text::percent;
 use crate::audit::Attribution;
 use std::collections::BTreeMap;
 

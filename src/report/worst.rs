@@ -1,12 +1,12 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
-use super::columns::is_complete;
 use super::disagreement::polygons;
 use super::pool::Pool;
-use super::record::{Counts, FindingPart, KernelResult, Rate, RowPart};
-use super::text::{RowView, interval_of};
+use super::rate::interval_of;
+use super::record::{FindingPart, KernelResult, Rate, RowPart};
+use super::row_view::RowView;
 use super::why::{causes_text, severity_text};
-use super::{Style, group_digits, rate_between};
+use super::{Style, group_digits};
 use crate::audit::{RowSpec, flags};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -71,9 +71,9 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
         for ((kind, class), finding) in &worst {
             let pool = row.found(kind, class);
-            let Rate { count, of, interval, .. } = pool.rate();
-            let share = interval.map_or(String::new(), |_| interval_of(*count, *of));
-            let (count, of) = (group_digits(*count), group_digits(*of));
+            let rate = pool.rate();
+            let share = interval_of(rate);
+            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
             let apart =
                 pool.apart().map_or(String::new(), |apart| format!(", stored cases {apart}"));
             let distance = describe_severity(finding);
@@ -120,21 +120,12 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
 impl RowView<'_> {
     /// The findings of a kind, of a class or of all.
     fn found(&self, kind: &str, class: &str) -> Pool {
-        let of = |counts: &Counts| match kind {
-            "false-miss" => [counts.false_misses.count, counts.false_misses.of],
-            "false-hit" => [counts.false_hits.count, counts.false_hits.of],
-            "bad-value" => [counts.bad_values.count, counts.bad_values.of],
-            "panic" => [counts.panics, counts.cases],
-            "crash" => [counts.crashes, counts.cases],
-            _ => [counts.timeouts, counts.cases],
-        };
-        let rates = self.results.iter().filter_map(|result| {
-            let counts =
-                if class.is_empty() { &result.total } else { result.classes.get(class)? };
-            let [count, of] = of(counts);
-            Some(rate_between(count, of, !is_complete(self.sources, result)))
+        let counts = self.results.iter().filter_map(|result| match class {
+            "" => Some(&result.total),
+            class => result.classes.get(class),
         });
-        Pool::of(rates)
+        let rates: Vec<Rate> = counts.filter_map(|counts| counts.rate(kind)).collect();
+        Pool::of(rates.iter())
     }
 }
 

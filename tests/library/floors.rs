@@ -110,6 +110,29 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 }
 
 #[test]
+fn no_two_files_of_a_folder_import_each_other() {
+    let mut uses: BTreeMap<(PathBuf, String), BTreeSet<String>> = BTreeMap::new();
+    for file in files(&source()).iter().filter(|file| file.extension().is_some_and(|e| e == "rs")) {
+        let (folder, stem) = (file.parent().unwrap(), file.file_stem().unwrap().to_str().unwrap());
+        if !["mod", "tests", "lib", "main"].contains(&stem) {
+            uses.insert((folder.to_owned(), stem.to_owned()), names_after(&code(file), "super::"));
+        }
+    }
+    let mutual: Vec<String> = uses
+        .iter()
+        .flat_map(|((folder, one), used)| {
+            let both = used.iter().filter(move |other| one < *other);
+            let both = both.filter(|other| {
+                uses.get(&(folder.clone(), (*other).clone())).is_some_and(|back| back.contains(one))
+            });
+            both.map(|other| format!("{}: {one} and {other}", folder.display())).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(uses.len() > 150);
+    assert_eq!(mutual, Vec::<String>::new());
+}
+
+#[test]
 fn names_are_found_alone_and_in_braces() {
     let text = "use crate::one::Two;\nuse crate::{three, four::{Five, six}, seven::Eight};";
     let names: Vec<String> = names_after(text, "crate::").into_iter().collect();

@@ -14,4 +14,5 @@ mod oracle;
 mod response;
 mod severity;
 mod strategy;
+mod trials;
 mod watertight;

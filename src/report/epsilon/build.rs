@@ -2,7 +2,7 @@
 
 use super::record::*;
 use crate::arith::Float;
-use crate::audit::{Place, Row, Source, Tally, exact_severity};
+use crate::audit::{Place, Row, Source, Tally, Trials, exact_severity};
 use crate::case::Case;
 use crate::epsilon::{
     AtScale, Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study,
@@ -11,7 +11,8 @@ use crate::epsilon::{
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, Scalar};
-use crate::report::build::{explain_command, planned_source, rate};
+use crate::report::Rate;
+use crate::report::build::{explain_command, planned_source};
 
 /// The parts of a record that are about one row in one scalar.
 pub fn parts<F: Scalar>(
@@ -116,6 +117,7 @@ fn curve_part<F: Scalar>(
         family,
         sample,
         asked: Question::ALL.map(|question| response.curve(question).total),
+        asked_squared: Question::ALL.map(|question| response.curve(question).squared),
         points: epsilons.into_iter().filter_map(wrong).collect(),
     }
 }
@@ -191,23 +193,22 @@ impl<'a, F: Scalar> Pricing<'a, F> {
     }
 
     fn part(&self, price: &Price<F>) -> PricePart {
-        let by_source: Vec<[(u64, u64); 4]> =
+        let by_source: Vec<[Trials; 4]> =
             (0..self.sources.len()).map(|i| self.counts(i, &price.tallies[i])).collect();
         let sum = |kind: usize| {
-            let add = |(a, b): (u64, u64), counts: &[(u64, u64); 4]| {
-                (a + counts[kind].0, b + counts[kind].1)
-            };
-            let (count, of) = by_source.iter().fold((0, 0), add);
-            rate(count, of, self.sampled)
+            let mut sum = Trials::default();
+            by_source.iter().for_each(|counts| sum.merge(&counts[kind]));
+            Rate::new(sum, self.sampled)
         };
         let groups = |count: fn(&Tally) -> u64| {
             let of = price.tallies.iter().map(|tally| tally.groups.crossings).sum();
-            rate(price.tallies.iter().map(count).sum(), of, self.sampled)
+            let count = price.tallies.iter().map(count).sum();
+            Rate::new(Trials::independent(count, of), self.sampled)
         };
-        let family = |(source, counts): (&Source, &[(u64, u64); 4])| FamilyPrice {
+        let family = |(source, counts): (&Source, &[Trials; 4])| FamilyPrice {
             family: source.name(),
-            lost: rate(counts[0].0, counts[0].1, source.is_sample()),
-            let_through: rate(counts[1].0, counts[1].1, source.is_sample()),
+            lost: Rate::new(counts[0], source.is_sample()),
+            let_through: Rate::new(counts[1], source.is_sample()),
         };
         let named = self.marks.iter().filter(|(_, epsilon)| *epsilon == price.epsilon);
         PricePart {
@@ -224,7 +225,7 @@ impl<'a, F: Scalar> Pricing<'a, F> {
                 .sources
                 .iter()
                 .zip(&by_source)
-                .filter(|(_, counts)| counts[0].0 > 0 || counts[1].0 > 0)
+                .filter(|(_, counts)| counts[0].count > 0 || counts[1].count > 0)
                 .map(family)
                 .collect(),
             farthest: self.farthest(price),
@@ -232,19 +233,19 @@ impl<'a, F: Scalar> Pricing<'a, F> {
     }
 
     /// On one source: hits that this gate loses, false hits that it lets through, all false misses,
-    /// all false hits.
-    fn counts(&self, source: usize, tally: &Tally) -> [(u64, u64); 4] {
-        let total = tally.total();
-        let [misses, hits] = [Finding::FalseMiss, Finding::FalseHit]
-            .map(|kind| (total.of(kind), total.trials(kind)));
+    /// all false hits. The parts of all cluster on rays as all do.
+    fn counts(&self, source: usize, tally: &Tally) -> [Trials; 4] {
+        let [misses, hits] =
+            [Finding::FalseMiss, Finding::FalseHit].map(|kind| tally.trials(None, kind));
         let respawned = self.sources[source].grouping() == Grouping::Respawn;
         let lost = if self.duty.guards_start() && respawned {
-            (0, 0)
+            Trials::default()
         } else {
             // The study held these counts against each other.
-            (misses.0 - self.refused_by_others[source], misses.1)
+            misses.scaled(misses.count - self.refused_by_others[source], misses.of)
         };
-        [lost, own_false_hits(&self.duty, tally), misses, hits]
+        let (own, guarded) = own_false_hits(&self.duty, tally);
+        [lost, hits.scaled(own, guarded), misses, hits]
     }
 
     /// The false hit farthest outside, by the tallies' approximation; its distance is exact.

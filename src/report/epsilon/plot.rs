@@ -4,7 +4,7 @@
 //! Drawn here, since no plotting library has an axis with zero between two logarithmic halves.
 
 use super::record::{EpsilonRecord, GatePart};
-use crate::audit::clopper_pearson;
+use crate::audit::Trials;
 use crate::epsilon::LEAST_SUM;
 use crate::plot::{Decades, EpsilonAxis, ShareAxis, decades_around, escaped};
 use crate::report::Style;
@@ -190,13 +190,13 @@ impl<'a> Panel<'a> {
 
     /// A question's share by epsilon, with the 95 % interval behind it where it is of a sample.
     fn line(&self, question: usize, stroke: &str, out: &mut dyn Write) -> io::Result<()> {
-        let of = self.part.curves[0].asked[question];
-        let sampled = self.part.curves[0].sample;
+        let all = &self.part.curves[0];
+        let (of, of_squared) = (all.asked[question], all.asked_squared[question]);
         let points = self.ends_and_points().into_iter().map(|(epsilon, counts)| {
-            let count = counts[question];
-            let interval = sampled.then(|| clopper_pearson(count, of));
+            let trials = Trials::alike_on_each_ray(counts[question], of, of_squared);
+            let interval = all.sample.then(|| trials.interval());
             let interval = interval.map(|interval| [interval.low, interval.high]);
-            (self.across.x(epsilon), count as f64 / of as f64, interval)
+            (self.across.x(epsilon), counts[question] as f64 / of as f64, interval)
         });
         let (path, band) = self.down.steps(points, self.across.x(f64::MAX));
         if !band.is_empty() {

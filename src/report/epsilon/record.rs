@@ -102,6 +102,8 @@ pub struct CurvePart {
     /// How many could be wrong, by [`crate::epsilon::Question::ALL`]: false misses, false hits,
     /// cracks, doubles, self-hits, and of the false hits those that this gate is there to refuse.
     pub asked: [u64; 6],
+    /// Sums over the rays of the squares of how many could be wrong on each.
+    pub asked_squared: [u64; 6],
     /// How many are wrong, in order of the epsilon; constant before the first and after the last. What
     /// lies between two points lies between their counts.
     pub points: Vec<(String, [u64; 6])>,

@@ -1,8 +1,8 @@
 //! A study for people at a terminal.
 
 use super::record::*;
+use crate::report::rate::percent;
 use crate::report::record::Rate;
-use crate::report::text::percent;
 use crate::report::{Style, group_digits, number_of};
 use std::io::{self, Write};
 

@@ -173,7 +173,7 @@ fn guide() -> Markup {
                 dt { "False miss, false hit" }
                 dd { "The contract asks for a hit and the kernel reports a miss; it asks for a miss and the kernel reports a hit. What is true is decided exactly on the floats that the kernel was given." }
                 dt { "95 % interval" }
-                dd { "Clopper–Pearson, of a random sample. 0 of 2,175 is a rate below 0.17 %, not a rate of 0. Stored and exhaustive sets have counts and no interval." }
+                dd { "Clopper–Pearson, of a random sample; the triangles of one ray count as the fewer independent trials that they are. 0 of 2,175 is a rate below 0.17 %, not a rate of 0. Stored and exhaustive sets have counts and no interval." }
                 dt { "Cause" }
                 dd { em { "Convention" } ": the formula means something else than the contract. " em { "Epsilon" } ": the tolerance itself is to blame. " em { "Rounding" } ": the formula is right, the floats are not. " em { "Range" } ": as rounding, by overflow or underflow." }
                 dt { "Severity" }

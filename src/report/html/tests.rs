@@ -10,7 +10,8 @@ const HOSTILE: &str = "<script>alert('1')</script>\"><img src=x onerror=alert(2)
 
 fn rate(count: u64, of: u64) -> Rate {
     let interval = (0 < of).then_some([0.25, 0.75]);
-    Rate { count, of, rate: (0 < of).then(|| count as f64 / of as f64), interval }
+    let rate = (0 < of).then(|| count as f64 / of as f64);
+    Rate { count, of, rate, interval, ..Rate::default() }
 }
 
 fn counts(misses: u64) -> Counts {
@@ -151,6 +152,7 @@ fn hostile() -> Record {
             epsilon: name.clone(),
             own: [u64::MAX; 3],
             asked: [1, 2, 0],
+            asked_squared: Some([1, 4, 0]),
             sample: true,
             points: vec![(name.clone(), [1; 3]), ("NaN".to_owned(), [9; 3])],
             misses: (7, name.clone()),

@@ -2,18 +2,18 @@
 
 use crate::report::pool::Pool;
 use crate::report::record::Rate;
-use crate::report::{group_digits, text};
+use crate::report::{group_digits, rate};
 use maud::{Markup, html};
 
 /// `15.8 %`.
 pub(super) fn percent(share: f64) -> String {
-    let number = text::percent(share);
+    let number = rate::percent(share);
     format!("{}\u{a0}%", number.trim_end_matches('%'))
 }
 
 /// `15.1–16.6`, in percent.
 pub(super) fn interval([low, high]: [f64; 2]) -> String {
-    let number = |share: f64| text::percent(share).trim_end_matches('%').to_owned();
+    let number = |share: f64| rate::percent(share).trim_end_matches('%').to_owned();
     format!("{}–{}", number(low), number(high))
 }
 

@@ -3,10 +3,10 @@
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
-use crate::audit::{GroupCount, Row, quoted};
+use crate::audit::{GroupCount, Row, Trials, quoted};
 use crate::mesh::{Noted, Part, Surface, Targets, Topology};
 use crate::report::build::{promised, provenance_of, row_part};
-use crate::report::{Context, Rate, rate_between};
+use crate::report::{Context, Rate};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 
@@ -173,7 +173,7 @@ fn rates(classes: &[GroupCount]) -> AcrossRates {
     let sum = |count: fn(&GroupCount) -> u64| -> u64 { classes.iter().map(count).sum() };
     let crossings = sum(|sums| sums.crossings);
     let folds = sum(|sums| sums.folds);
-    let rate = |count: u64, of: u64| -> Rate { rate_between(count, of, true) };
+    let rate = |count: u64, of: u64| Rate::new(Trials::independent(count, of), true);
     AcrossRates {
         cracks: rate(sum(|sums| sums.cracks), crossings),
         elsewhere: rate(sum(|sums| sums.elsewhere), crossings),

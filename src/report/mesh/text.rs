@@ -1,8 +1,9 @@
 //! The record of a mesh audit as text for people: the mesh, a table a scalar, the first cracks.
 
 use super::record::*;
-use crate::report::text::{share_column, short_count};
-use crate::report::{Style, group_digits, number_of};
+use crate::report::rate::share_column;
+use crate::report::text::short_count;
+use crate::report::{Rate, Style, group_digits, number_of};
 use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
@@ -63,10 +64,8 @@ fn write_scalar(
     for row in &part.results {
         let label = label(row);
         let time = times.and_then(|times| times.get(&label)).copied().unwrap_or(f64::NAN);
-        let both = |rate: fn(&AcrossRates) -> (u64, u64)| {
-            let (count, of) = rate(&row.edges.total);
-            let (more, more_of) = rate(&row.vertices.total);
-            crate::report::rate_between(count + more, of + more_of, true)
+        let both = |rate: fn(&AcrossRates) -> &Rate| {
+            Rate::sum([&row.edges.total, &row.vertices.total].map(rate))
         };
         writeln!(
             out,
@@ -76,10 +75,10 @@ fn write_scalar(
             share_column(&row.vertices.total.cracks, style),
             // What nobody promised is no error.
             share_column(
-                &both(|rates| (rates.doubles.count, rates.doubles.of)),
+                &both(|rates| &rates.doubles),
                 Style { color: style.color && row.promised == "exactly-one", ..style }
             ),
-            share_column(&both(|rates| (rates.odd_folds.count, rates.odd_folds.of)), style),
+            share_column(&both(|rates| &rates.odd_folds), style),
             short_count(row.edges.total.elsewhere.count + row.vertices.total.elsewhere.count),
             short_count(row.edges.cracked),
             short_count(row.vertices.cracked),

@@ -1,0 +1,72 @@
+//! The lines of the screen and of the summary in Markdown: rows with their cells, and words wrapped.
+
+use super::columns::{Across, Cell, Column};
+use super::record::*;
+use super::row_view::RowView;
+use std::io::{self, Write};
+
+/// Characters in a line, where words can be wrapped.
+const WIDTH: usize = 119;
+
+/// One row in one scalar.
+pub(super) struct Line<'a> {
+    pub(super) scalar: &'a str,
+    pub(super) row: RowView<'a>,
+    /// One a column.
+    pub(super) cells: Vec<Cell>,
+    pub(super) across: Option<Across>,
+}
+
+impl Line<'_> {
+    /// `kernel (epsilons)`.
+    pub(super) fn label(&self) -> String {
+        format!("{} ({})", self.row.part.kernel, self.row.part.set)
+    }
+}
+
+/// Every row in every scalar.
+pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
+    let in_scalar = |scalar: &'a String| {
+        let rows = RowView::all(record, scalar).into_iter();
+        rows.map(move |row| Line {
+            scalar,
+            cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
+            across: Across::of(&row),
+            row,
+        })
+    };
+    record.result.plan.scalars.iter().flat_map(in_scalar).collect()
+}
+
+/// What the columns hold.
+pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
+    let told = columns.iter().filter(|column| !column.about().is_empty());
+    let mut parts: Vec<String> =
+        told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
+    if lines.iter().any(|line| line.across.is_some()) {
+        parts.push(
+            "cracks, doubles: % of rays at shared edges with no hit, with two; promised: how many"
+                .to_owned(),
+        );
+    }
+    parts.join("; ")
+}
+
+/// Writes words in lines of [`WIDTH`] at most.
+pub(super) fn write_wrapped(text: &str, out: &mut dyn Write) -> io::Result<()> {
+    if text.is_empty() {
+        return Ok(());
+    }
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if WIDTH < line.chars().count() + 1 + word.chars().count() && !line.trim().is_empty() {
+            writeln!(out, "{line}")?;
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    writeln!(out, "{line}")
+}

@@ -1,0 +1,95 @@
+//! How often something was found, with its interval, and how people read it.
+
+use super::Style;
+use crate::audit::{RayProducts, Trials};
+use serde::{Deserialize, Serialize};
+
+/// A count of a number of trials, with its 95 % interval if the trials are a random sample.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Rate {
+    /// How many.
+    pub count: u64,
+    /// Of how many.
+    pub of: u64,
+    /// `count / of`; none of nothing.
+    pub rate: Option<f64>,
+    /// Clopper-Pearson, 95 %, with the ray as the unit of trial.
+    pub interval: Option<[f64; 2]>,
+    /// Sums over the rays of products of the findings k and the trials n on each; left out where each ray
+    /// has one trial.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rays: Option<RayProducts>,
+}
+
+impl Rate {
+    /// With an interval if the trials are a random sample.
+    pub(crate) fn new(trials: Trials, sample: bool) -> Rate {
+        let Trials { count, of, products } = trials;
+        let interval = (sample && 0 < of).then(|| trials.interval());
+        Rate {
+            count,
+            of,
+            rate: trials.share(),
+            interval: interval.map(|interval| [interval.low, interval.high]),
+            rays: (products != RayProducts::of_single(count, of)).then_some(products),
+        }
+    }
+
+    /// The sum, with an interval if all that have a trial are random samples.
+    pub(crate) fn sum<'a>(rates: impl IntoIterator<Item = &'a Rate>) -> Rate {
+        let (mut sum, mut sample) = (Trials::default(), true);
+        for rate in rates {
+            sum.merge(&rate.trials());
+            sample &= rate.interval.is_some() || rate.of == 0;
+        }
+        Rate::new(sum, sample)
+    }
+
+    /// The trials, of which an interval of any width can be had.
+    pub(crate) fn trials(&self) -> Trials {
+        let products = self.rays.unwrap_or_else(|| RayProducts::of_single(self.count, self.of));
+        Trials { count: self.count, of: self.of, products }
+    }
+}
+
+/// ` (20.3% [20.0%, 20.6%])`; nothing without an interval.
+pub(crate) fn interval_of(rate: &Rate) -> String {
+    let (Some(share), Some([low, high])) = (rate.rate, rate.interval) else {
+        return String::new();
+    };
+    format!(" ({} [{}, {}])", percent(share), percent(low), percent(high))
+}
+
+/// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.
+pub(super) fn share_column(rate: &Rate, style: Style) -> String {
+    let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
+    let text = match (rate.rate, rate.interval) {
+        (None, _) => "-".to_owned(),
+        (Some(share), None) => number(share),
+        (Some(share), Some([low, high])) => {
+            format!("{} [{}, {}]", number(share), number(low), number(high))
+        }
+    };
+    let padded = format!("{text:>20}");
+    match (style.color, rate.count) {
+        (true, 1..) => format!("\x1b[31m{padded}\x1b[0m"),
+        (true, 0) => format!("\x1b[32m{padded}\x1b[0m"),
+        _ => padded,
+    }
+}
+
+/// `12.3%`, `0.45%`, `3e-4%`.
+pub(super) fn percent(share: f64) -> String {
+    let value = share * 100.0;
+    if share == 0.0 {
+        "0%".to_owned()
+    } else if value < 0.01 {
+        format!("{value:.0e}%")
+    } else if value < 1.0 {
+        format!("{value:.2}%")
+    } else {
+        format!("{value:.1}%")
+    }
+}

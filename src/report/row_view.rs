@@ -1,0 +1,101 @@
+//! A record by kernel row, as the text walks through it.
+
+use super::group_digits;
+use super::pool::Pool;
+use super::record::*;
+use std::io::{self, Write};
+
+/// All families of one kernel row in one scalar.
+pub(super) struct RowView<'a> {
+    pub(super) part: &'a RowPart,
+    pub(super) total: Option<&'a RowTotal>,
+    pub(super) results: Vec<&'a KernelResult>,
+    pub(super) sources: &'a [SourcePart],
+}
+
+impl<'a> RowView<'a> {
+    /// Every row of a record in a scalar.
+    pub(super) fn all(record: &'a Record, scalar: &str) -> Vec<RowView<'a>> {
+        let of_row = |part: &RowPart, r: &KernelResult| {
+            r.scalar == scalar && r.kernel == part.kernel && r.set == part.set
+        };
+        let total_of = |part: &RowPart, t: &RowTotal| {
+            t.scalar == scalar && t.kernel == part.kernel && t.set == part.set
+        };
+        let view = |part: &'a RowPart| RowView {
+            part,
+            total: record.result.totals.iter().find(|total| total_of(part, total)),
+            results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
+            sources: &record.result.sources,
+        };
+        // A kernel of one scalar has nothing to say in the other.
+        let rows = record.result.plan.rows.iter().map(view);
+        rows.filter(|row| !row.results.is_empty()).collect()
+    }
+
+    /// The sum of a rate over the sources.
+    pub(super) fn total(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Pool {
+        Pool::of(self.results.iter().filter_map(|result| rate(result)))
+    }
+
+    /// Hits on NaN, infinities, zero directions and impossible intervals.
+    pub(super) fn hits_on_invalid(&self) -> u64 {
+        self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()
+    }
+
+    /// A family's first groups that no triangle reported, by id.
+    pub(super) fn first_cracks(&self) -> Vec<(&KernelResult, &str)> {
+        self.results
+            .iter()
+            .filter_map(|result| {
+                let across = result.across.as_ref()?;
+                Some((*result, across.first_cracks.first()?.as_str()))
+            })
+            .collect()
+    }
+
+    /// The family with the largest share.
+    pub(super) fn worst_family(&self, rate: impl Fn(&KernelResult) -> &Rate) -> &str {
+        let share = |result: &KernelResult| rate(result).rate.unwrap_or(0.0);
+        self.results
+            .iter()
+            .filter(|result| rate(result).count > 0)
+            .max_by(|x, y| share(x).total_cmp(&share(y)))
+            .map_or("", |result| &result.family)
+    }
+}
+
+/// What is to be said of a scalar without a valid case.
+pub(super) const ALL_INVALID: &str =
+    "All are invalid: a number is infinite or NaN, or the direction is zero.";
+
+/// Whether all cases of rows are invalid.
+pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
+    rows.first().is_some_and(|row| {
+        let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
+        invalid.map(|counts| counts.cases).sum::<u64>() == cases
+    })
+}
+
+/// The kernels that gave no verdict on some cases.
+pub(super) fn write_failures(rows: &[&RowView], out: &mut dyn Write) -> io::Result<()> {
+    for row in rows {
+        let sum = |count: fn(&Counts) -> u64| -> u64 {
+            row.results.iter().map(|result| count(&result.total)).sum()
+        };
+        let counts = [
+            ("panics", sum(|counts| counts.panics)),
+            ("crashes", sum(|counts| counts.crashes)),
+            ("timeouts", sum(|counts| counts.timeouts)),
+        ];
+        let words = counts.iter().filter(|(_, count)| *count > 0);
+        let words: Vec<String> =
+            words.map(|(what, count)| format!("{} {what}", group_digits(*count))).collect();
+        if !words.is_empty() {
+            let cases = group_digits(sum(|counts| counts.cases));
+            let (kernel, set) = (&row.part.kernel, &row.part.set);
+            writeln!(out, "{kernel} ({set}): {} in {cases} cases", words.join(", "))?;
+        }
+    }
+    Ok(())
+}
