@@ -1,7 +1,7 @@
 //! Where the kernel does as the closed triangle asks, and where it does not.
 
-use hairline::{Boundary, Case, Contract, prop_assert_conforms};
 use hairline::strategy::{any_case, edge_exact, edge_near, interior, outside, parallel_off, tiny};
+use hairline::{Boundary, Case, Contract, prop_assert_conforms};
 use proptest::prelude::*;
 use proptest_kernel::intersect;
 

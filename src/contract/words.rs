@@ -1,0 +1,202 @@
+//! Contracts in words, as `--contract`, settings, and the hello of a kernel have them.
+
+use super::{Across, Boundary, Contract, Demand, Direction, Extent, NAMED, Sides};
+use crate::suggest::nearest_name;
+use std::str::FromStr;
+
+impl FromStr for Contract {
+    type Err = String;
+
+    /// As [`Contract::from_words`], where no kernel's own contract is known.
+    fn from_str(text: &str) -> Result<Contract, String> {
+        Contract::from_words(text, None)
+    }
+}
+
+impl Contract {
+    /// From words between commas: a named contract or `own` (a kernel's own contract), then `key=value`
+    /// pairs that change it, `no-self-hit`, and `band=DISTANCE`. Without a name the words must give
+    /// extent, sides and boundary; coplanar rays and triangles without area are then missed, invalid
+    /// input is free, and directions of any length are promised.
+    ///
+    /// Errors: one line that says which word is wrong and what is known.
+    pub fn from_words(text: &str, own: Option<&Contract>) -> Result<Contract, String> {
+        let words: Vec<&str> = text.split(',').map(str::trim).collect();
+        let named = match own.filter(|_| words[0] == "own") {
+            Some(own) => Some(*own),
+            None => NAMED.iter().find(|named| named.name == words[0]).map(|named| named.contract),
+        };
+        let has = |key: &str| words.iter().any(|word| word.split('=').next() == Some(key));
+        if named.is_none() {
+            if !words[0].contains('=') {
+                let names: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
+                let advice = match nearest_name(words[0], names.iter().copied()) {
+                    Some(near) => format!("; did you mean '{near}'?"),
+                    None => {
+                        let names = names.join(", ");
+                        format!(": write {names}, or extent=ray,sides=both,boundary=closed")
+                    }
+                };
+                return Err(format!("'{}' is no contract{advice}", words[0]));
+            }
+            if let Some(key) = ["extent", "sides", "boundary"].into_iter().find(|key| !has(key)) {
+                return Err(format!("'{text}' does not say {key}=…"));
+            }
+        }
+        let mut contract =
+            named.unwrap_or(Contract::of_kernel(Extent::Ray, Sides::Both, Boundary::Closed));
+        for word in &words[usize::from(named.is_some())..] {
+            contract.change(word)?;
+        }
+        Ok(contract)
+    }
+
+    /// The shortest words that [`Contract::from_words`] reads as this contract: `own` if it is the
+    /// kernel's own, a name, or what differs from either.
+    pub fn words(&self, own: &Contract) -> String {
+        let named = NAMED.iter().map(|named| (named.name, named.contract));
+        let known = std::iter::once(("own", *own)).chain(named);
+        let changes = |(name, base): (&str, Contract)| {
+            std::iter::once(name.to_owned()).chain(self.changes_from(&base)).collect::<Vec<_>>()
+        };
+        // What a base promises and this contract does not, no word takes back.
+        let possible = known.filter(|(_, base)| {
+            (self.no_self_hit || !base.no_self_hit) && (self.band.is_some() || base.band.is_none())
+        });
+        let shortest = possible.map(changes).min_by_key(Vec::len);
+        shortest.unwrap_or_default().join(",")
+    }
+
+    /// The `key=value` words that turn another contract into this one.
+    fn changes_from(&self, base: &Contract) -> Vec<String> {
+        let mut words = Vec::new();
+        let mut change = |same: bool, key: &str, value: String| {
+            if !same {
+                words.push(format!("{key}={value}"));
+            }
+        };
+        let name = |value: String| value.to_lowercase();
+        change(self.extent == base.extent, "extent", name(format!("{:?}", self.extent)));
+        change(self.sides == base.sides, "sides", name(format!("{:?}", self.sides)));
+        change(self.boundary == base.boundary, "boundary", name(format!("{:?}", self.boundary)));
+        change(self.ends == base.ends, "ends", name(format!("{:?}", self.ends)));
+        change(self.coplanar == base.coplanar, "coplanar", name(format!("{:?}", self.coplanar)));
+        change(
+            self.degenerate == base.degenerate,
+            "degenerate",
+            name(format!("{:?}", self.degenerate)),
+        );
+        change(self.invalid == base.invalid, "invalid", name(format!("{:?}", self.invalid)));
+        let direction = match self.direction {
+            Direction::Any => "any".to_owned(),
+            Direction::Unit { ulps } => format!("unit:{ulps}"),
+        };
+        change(self.direction == base.direction, "direction", direction);
+        change(self.across == base.across, "across", self.across.name().to_owned());
+        if let Some(band) = self.band {
+            change(self.band == base.band, "band", band.to_string());
+        }
+        if self.no_self_hit && !base.no_self_hit {
+            words.push("no-self-hit".to_owned());
+        }
+        words
+    }
+}
+
+/// One `key=value` of a contract's text: the values of its key.
+fn choice<T: Copy>(word: &str, value: &str, known: &[(&str, T)]) -> Result<T, String> {
+    let found = known.iter().find(|(name, _)| *name == value);
+    found.map(|(_, choice)| *choice).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        format!("'{word}': there are {}", names.join(", "))
+    })
+}
+
+impl Contract {
+    /// Changes what one word of a contract's text says.
+    fn change(&mut self, word: &str) -> Result<(), String> {
+        let (key, value) = word.split_once('=').unwrap_or((word, ""));
+        let boundaries =
+            [("closed", Boundary::Closed), ("open", Boundary::Open), ("free", Boundary::Free)];
+        let demands = [("miss", Demand::Miss), ("hit", Demand::Hit), ("free", Demand::Free)];
+        match key {
+            "extent" => {
+                let extents =
+                    [("line", Extent::Line), ("ray", Extent::Ray), ("interval", Extent::Interval)];
+                self.extent = choice(word, value, &extents)?;
+            }
+            "sides" => {
+                self.sides =
+                    choice(word, value, &[("both", Sides::Both), ("front", Sides::Front)])?;
+            }
+            "boundary" => self.boundary = choice(word, value, &boundaries)?,
+            "ends" => self.ends = choice(word, value, &boundaries)?,
+            "coplanar" => self.coplanar = choice(word, value, &demands)?,
+            "degenerate" => self.degenerate = choice(word, value, &demands)?,
+            "invalid" => self.invalid = choice(word, value, &demands)?,
+            "direction" => {
+                let unit = value.strip_prefix("unit:").and_then(|ulps| ulps.parse().ok());
+                self.direction = match (value, unit) {
+                    ("any", _) => Direction::Any,
+                    (_, Some(ulps)) => Direction::Unit { ulps },
+                    _ => return Err(format!("'{word}': there are any, unit:ULPS")),
+                };
+            }
+            "across" => {
+                let promises = [Across::Nothing, Across::AtLeastOne, Across::ExactlyOne];
+                self.across = choice(word, value, &promises.map(|across| (across.name(), across)))?;
+            }
+            "band" => self.band = Some(value.parse()?),
+            "no-self-hit" if word == key => self.no_self_hit = true,
+            _ => {
+                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, band, no-self-hit";
+                return Err(format!("'{word}' is none of {keys}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contracts_are_read_from_their_words() {
+        let read = |text: &str| text.parse::<Contract>();
+        for named in NAMED {
+            assert_eq!(read(named.name), Ok(named.contract));
+        }
+        let own = read("extent=line, sides=front, boundary=open").unwrap();
+        assert_eq!(own, Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open));
+        let all = "closed-interval,boundary=free,ends=open,coplanar=hit,degenerate=free,invalid=free,\
+            direction=unit:4,across=exactly-one,no-self-hit";
+        assert_eq!(
+            read(all).unwrap().describe(),
+            "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
+             exactly-one across triangles, unit directions within 4 ulps, no self-hit"
+        );
+        for named in NAMED {
+            let own = Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open);
+            let banded = Contract { band: "4ulps".parse().ok(), ..named.contract };
+            for contract in [own, named.contract, banded, read(all).unwrap()] {
+                let words = contract.words(&own);
+                assert_eq!(Contract::from_words(&words, Some(&own)), Ok(contract), "{words}");
+            }
+        }
+        assert_eq!(Contract::CLOSED_RAY.words(&read(all).unwrap()), "closed-ray");
+        for (text, message) in [
+            ("own", "'own' is no contract: write closed-line, "),
+            ("", "'' is no contract: write closed-line, "),
+            ("closed", "'closed' is no contract: write closed-line, "),
+            ("extent=ray,sides=both", "'extent=ray,sides=both' does not say boundary=…"),
+            ("closed-ray,sides=back", "'sides=back': there are both, front"),
+            ("closed-ray,side=both", "'side=both' is none of extent, "),
+            ("closed-ray,direction=unit", "'direction=unit': there are any, unit:ULPS"),
+            ("closed-ray,no-self-hit=yes", "'no-self-hit=yes' is none of "),
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(error.starts_with(message), "{text}: {error}");
+        }
+    }
+}
