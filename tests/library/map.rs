@@ -96,7 +96,7 @@ fn standard_cases_lie_on_what_they_are_called_by_in_both_scalars() {
 
 #[test]
 fn standard_maps_show_every_kernel_beside_both_truths() {
-    for kernel in hairline::internals::kernel::all() {
+    for kernel in hairline::internals::kernel::KERNELS {
         for spot in Spot::ALL {
             let map = map::standard::<f32>(&row(kernel.info.name, None, "own"), spot, [64, 64]);
             let map = map.unwrap();
