@@ -200,7 +200,7 @@ impl fmt::Display for Outcome {
                 "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
             );
             if let Some(example) = &found.example {
-                writeln!(text, "    {}", example.command)?;
+                writeln!(text, "    hairline explain '{}'", example.case)?;
             }
             parts.push(text);
         }

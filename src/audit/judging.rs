@@ -71,7 +71,7 @@ impl<F: Scalar> RowIn<F> {
                 let Known { distances, digest } =
                     known[i].get_or_insert_with(|| Known::of(chunk, i));
                 let severity = distances.as_ref().map(|distances| {
-                    (distances.to_change(truth, contract), distances.edge_in_ulps)
+                    (distances.nearest_change(truth, contract), distances.edge_in_ulps)
                 });
                 tally.find(class(i), finding, (chunk.places[i], *digest), severity);
                 if finding.is_failure() {
@@ -152,7 +152,7 @@ fn add_rays<F: Scalar>(
             count.hits = u64::from(verdicts[i].hit);
             count.valued_hits = if class.is_invalid() { 0 } else { count.hits };
             while let Some((_, finding)) = found.next_if(|(at, _)| *at == i) {
-                count.findings[*finding as usize] += 1;
+                count.find(*finding, !class.is_invalid());
                 if finding.is_failure() {
                     count.fail(obligation);
                 }

@@ -55,6 +55,7 @@ pub use row::{PlanError, Row, RowSpec, quoted, shell_word};
 pub(crate) use rows::verdicts_of;
 pub use run::{Audit, Cell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity};
+pub(crate) use shard::MOST_SHARDS;
 pub use shard::Shard;
 pub(crate) use source::{CHUNK, is_of_mesh};
 pub use source::{CorpusSet, Source};

@@ -56,7 +56,10 @@ impl Row {
             kernel: self.entry.info.name.to_owned(),
             set: Some(self.set.clone()),
             epsilons: self.epsilon_argument(),
-            contract: self.contract.words(&self.entry.info.contract),
+            // A kernel that no flag chooses is unknown to the reader, and so is its own contract.
+            contract: self.contract.words(
+                Some(&self.entry.info.contract).filter(|_| !self.entry.selector().is_empty()),
+            ),
         }
     }
 

@@ -12,7 +12,7 @@ pub struct Shard {
 }
 
 /// The most parts of a run.
-const MOST: u64 = 100_000;
+pub(crate) const MOST_SHARDS: u64 = 100_000;
 
 impl Shard {
     /// All of it.
@@ -48,9 +48,9 @@ impl FromStr for Shard {
         let parts =
             text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
         match parts {
-            Some((index, of)) if index < of && of <= MOST => Ok(Shard { index, of }),
+            Some((index, of)) if index < of && of <= MOST_SHARDS => Ok(Shard { index, of }),
             _ => Err(format!(
-                "'{text}' is not a shard: write k/n with k from 0 below n, and n at most {MOST}, as 0/4"
+                "'{text}' is not a shard: write k/n with k from 0 below n, and n at most {MOST_SHARDS}, as 0/4"
             )),
         }
     }

@@ -27,6 +27,8 @@ pub struct ClassCount {
     pub hits: u64,
     /// Of these, those whose values are judged: all but those on invalid input.
     pub valued_hits: u64,
+    /// Of those, the false ones.
+    pub false_valued_hits: u64,
     /// By [`Finding::ALL`].
     pub findings: [u64; Finding::ALL.len()],
 }
@@ -42,7 +44,7 @@ impl ClassCount {
         match finding {
             Finding::FalseMiss => self.must_hit - self.without_verdict[0],
             Finding::FalseHit => self.must_miss - self.without_verdict[1],
-            Finding::BadValue => self.valued_hits.saturating_sub(self.of(Finding::FalseHit)),
+            Finding::BadValue => self.valued_hits - self.false_valued_hits,
             Finding::Panic | Finding::Crash | Finding::Timeout => self.cases,
         }
     }
@@ -55,6 +57,12 @@ impl ClassCount {
             Obligation::MustMiss => self.must_miss += cases,
             Obligation::Free => {}
         }
+    }
+
+    /// Counts a finding; `valued` says whether the values of a hit are judged on the case.
+    pub fn find(&mut self, finding: Finding, valued: bool) {
+        self.findings[finding as usize] += 1;
+        self.false_valued_hits += u64::from(valued && finding == Finding::FalseHit);
     }
 
     /// Counts a case on which the kernel failed.
@@ -75,6 +83,7 @@ impl ClassCount {
         self.must_miss += other.must_miss;
         self.hits += other.hits;
         self.valued_hits += other.valued_hits;
+        self.false_valued_hits += other.false_valued_hits;
         for (count, more) in self.findings.iter_mut().zip(other.findings) {
             *count += more;
         }
@@ -142,7 +151,7 @@ impl PolygonCount {
         self.count.hits += u64::from(hit);
         self.count.valued_hits += u64::from(hit);
         let Some(finding) = finding else { return };
-        self.count.findings[finding as usize] += 1;
+        self.count.find(finding, true);
         if finding.is_failure() {
             self.count.fail(obligation);
         }
@@ -263,7 +272,7 @@ impl Tally {
         place: (Place, Digest),
         severity: Option<(f64, f64)>,
     ) {
-        self.classes[class.number()].findings[finding as usize] += 1;
+        self.classes[class.number()].find(finding, !class.is_invalid());
         let edges = severity.map_or(0.0, |(edges, _)| edges);
         self.examples.slot(class, finding).add(place, edges, self.limit);
         let by_verdict = matches!(finding, Finding::FalseMiss | Finding::FalseHit);

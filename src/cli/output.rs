@@ -1,7 +1,6 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
-use super::flags::refuse_twice;
 use super::plugins;
 use crate::descriptors;
 use crate::suggest::nearest_name;
@@ -54,7 +53,12 @@ pub fn paired_outputs<'a, T>(
         })
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    refuse_twice("-o", outputs)?;
+    // `a` and `./a` are one file.
+    let places: Vec<PathBuf> =
+        outputs.iter().map(|path| std::path::absolute(path).unwrap_or(path.into())).collect();
+    if let Some(i) = (1..places.len()).find(|&i| places[..i].contains(&places[i])) {
+        return Err(Failure::usage(format!("-o: '{}' is given twice", outputs[i])));
+    }
     match (formats.len(), outputs.len()) {
         (1, 0) => Ok(vec![(formats[0], "-")]),
         (n, m) if n == m => {

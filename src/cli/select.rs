@@ -79,10 +79,10 @@ impl KernelArguments {
 
     /// The rows for a command to which a band means nothing; an error with the reason if there is one.
     pub fn rows_without_band(&self, why: &str) -> Result<Vec<Row>, Failure> {
-        let rows = self.rows()?;
-        match rows.iter().any(|row| row.contract.band.is_some()) {
+        let in_words = self.contract.as_ref().is_some_and(|words| words.contains("band="));
+        match self.band.is_some() || in_words {
             true => Err(Failure::usage(format!("--band: {why}"))),
-            false => Ok(rows),
+            false => self.rows(),
         }
     }
 

@@ -10,8 +10,12 @@ use clap::Args;
 use clap::builder::TypedValueParser;
 use std::collections::HashSet;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Cases of each family, and which, if the flags do not say.
+const COUNT: u64 = 20_000;
+const SEED: u64 = 1;
 
 /// The flags that choose cases.
 #[derive(Args)]
@@ -28,7 +32,7 @@ pub struct SourceArguments {
     #[arg(
         long,
         short = 'n',
-        default_value = "20000",
+        default_value_t = COUNT,
         value_name = "N",
         value_parser = case_count,
         allow_hyphen_values = true
@@ -40,7 +44,7 @@ pub struct SourceArguments {
     exhaustive: bool,
 
     /// Seed of the random cases
-    #[arg(long, default_value_t = 1, help_heading = RUNNING)]
+    #[arg(long, default_value_t = SEED, help_heading = RUNNING)]
     seed: u64,
 
     /// Multiply all positions by a power of two, as 2^-10
@@ -75,14 +79,20 @@ impl SourceArguments {
         let mut add = |name: &str, value: &str| {
             flags.push(format!("--{name} {}", shell_word(value)).trim_end().to_owned());
         };
-        add("scalar", &self.scalar.join(","));
+        if self.scalar != ["f32", "f64"] {
+            add("scalar", &self.scalar.join(","));
+        }
         if !self.family.is_empty() {
             add("family", &self.family.join(","));
         }
         self.mesh.iter().for_each(|path| add("mesh", path));
         self.corpus.iter().for_each(|path| add("corpus", path));
-        add("count", &self.count.to_string());
-        add("seed", &self.seed.to_string());
+        if self.count != COUNT {
+            add("count", &self.count.to_string());
+        }
+        if self.seed != SEED {
+            add("seed", &self.seed.to_string());
+        }
         if self.scale != "1" {
             add("scale", &self.scale);
         }
@@ -134,7 +144,13 @@ impl SourceArguments {
                 exhaustive,
             });
         }
-        for path in &self.mesh {
+        for (i, path) in self.mesh.iter().enumerate() {
+            // Reports name a mesh by its file alone.
+            let name = |path: &String| Path::new(path).file_name().map(ToOwned::to_owned);
+            if self.mesh[..i].iter().any(|other| name(other) == name(path)) {
+                let message = format!("--mesh: there are two files of the name of '{path}'");
+                return Err(Failure::usage(message));
+            }
             let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
             sources.push(Source::Mesh { family, parameters: parameters.clone(), seed, count });
         }

@@ -52,10 +52,10 @@ impl Contract {
     }
 
     /// The shortest words that [`Contract::from_words`] reads as this contract: `own` if it is the
-    /// kernel's own, a name, or what differs from either.
-    pub fn words(&self, own: &Contract) -> String {
+    /// kernel's own (where that is known to the reader), a name, or what differs from either.
+    pub fn words(&self, own: Option<&Contract>) -> String {
         let named = NAMED.iter().map(|named| (named.name, named.contract));
-        let known = std::iter::once(("own", *own)).chain(named);
+        let known = own.map(|own| ("own", *own)).into_iter().chain(named);
         let changes = |(name, base): (&str, Contract)| {
             std::iter::once(name.to_owned()).chain(self.changes_from(&base)).collect::<Vec<_>>()
         };
@@ -180,11 +180,12 @@ mod tests {
             let own = Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open);
             let banded = Contract { band: "4ulps".parse().ok(), ..named.contract };
             for contract in [own, named.contract, banded, read(all).unwrap()] {
-                let words = contract.words(&own);
+                assert_eq!(read(&contract.words(None)), Ok(contract));
+                let words = contract.words(Some(&own));
                 assert_eq!(Contract::from_words(&words, Some(&own)), Ok(contract), "{words}");
             }
         }
-        assert_eq!(Contract::CLOSED_RAY.words(&read(all).unwrap()), "closed-ray");
+        assert_eq!(Contract::CLOSED_RAY.words(Some(&read(all).unwrap())), "closed-ray");
         for (text, message) in [
             ("own", "'own' is no contract: write closed-line, "),
             ("", "'' is no contract: write closed-line, "),

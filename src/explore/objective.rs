@@ -258,7 +258,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         }
         let distances = Distances::of(case, &truth);
         match finding.filter(|finding| self.wants(*finding, &truth, &verdict, case)) {
-            Some(_) => distances.to_change(&truth, &self.row.contract),
+            Some(_) => distances.nearest_change(&truth, &self.row.contract),
             None => no_score_yet(distances.in_space),
         }
     }

@@ -117,7 +117,7 @@ impl Distances {
     }
 
     /// How far from where the obligation would be another, lengths being infinite from an infinite end.
-    pub fn to_change(&self, truth: &Truth, contract: &Contract) -> f64 {
+    pub fn nearest_change(&self, truth: &Truth, contract: &Contract) -> f64 {
         to_change(truth, contract, self.in_space, self.along)
     }
 }
@@ -147,7 +147,7 @@ fn to_change<R: Real>(truth: &Truth, contract: &Contract, in_space: R, along: [R
     }
 }
 
-/// [`Distances::to_change`] exactly; none for invalid input.
+/// [`Distances::nearest_change`] exactly; none for invalid input.
 pub fn exact_to_change<F: Float>(
     case: &Case<F>,
     truth: &Truth,
@@ -172,7 +172,7 @@ pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: 
         BandUnit::Ulps => distances.edge_in_ulps,
     };
     // Distances are right to a thousandth.
-    let relative = distances.to_change(truth, contract) * unit / band.size;
+    let relative = distances.nearest_change(truth, contract) * unit / band.size;
     if (relative - 1.0).abs() > 1.0 / 256.0 {
         return relative < 1.0;
     }

@@ -58,6 +58,12 @@ impl Entry {
         Entry { flag: Some(flag), ..self }
     }
 
+    /// Whether it shows its gates: each one's margin on a case.
+    pub fn shows_gates(&self) -> bool {
+        let f32 = self.f32.is_some_and(|subject| subject.gated().is_some());
+        f32 || self.f64.is_some_and(|subject| subject.gated().is_some())
+    }
+
     /// Whether it runs in `f32`, and in `f64`.
     pub const fn scalars(&self) -> [bool; 2] {
         [self.f32.is_some(), self.f64.is_some()]

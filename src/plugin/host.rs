@@ -183,7 +183,11 @@ impl Library {
     fn open(path: &Path) -> Result<Library, String> {
         // SAFETY: what the library's constructors do is what this process is for.
         let opened = unsafe { unix::Library::open(Some(path), unix::RTLD_NOW | unix::RTLD_LOCAL) };
-        let library = ManuallyDrop::new(opened.map_err(|error| one_line(&error.to_string()))?);
+        let library = ManuallyDrop::new(opened.map_err(|error| {
+            // What the loader says stands in the source of the error.
+            let reason = std::error::Error::source(&error).map(ToString::to_string);
+            one_line(&reason.unwrap_or_else(|| error.to_string()))
+        })?);
         let mut library = Library { library, f32: None, f64: None };
         // SAFETY: by include/hairline.h this symbol has this type.
         let abi = unsafe { library.symbol::<unsafe extern "C" fn() -> u32>("hairline_abi") };

@@ -134,6 +134,8 @@ pub(super) struct Across {
     pub(super) cracks: [u64; 2],
     /// Crossings with two hits or more.
     pub(super) doubles: [u64; 2],
+    /// Folds with the wrong parity.
+    odd_folds: u64,
 }
 
 impl Across {
@@ -144,8 +146,9 @@ impl Across {
             parts().fold([0, 0], |[n, of], part| [n + rate(part).count, of + rate(part).of])
         };
         let [cracks, doubles] = [sum(|part| &part.cracks), sum(|part| &part.doubles)];
+        let odd_folds = sum(|part| &part.odd_folds)[0];
         let promised = parts().next()?.promised.clone();
-        (0 < cracks[1]).then_some(Across { promised, cracks, doubles })
+        (0 < cracks[1]).then_some(Across { promised, cracks, doubles, odd_folds })
     }
 
     /// Whether the contract rules out cracks, and doubles.
@@ -156,7 +159,7 @@ impl Across {
     /// Whether it happened nevertheless.
     pub(super) fn is_broken(&self) -> bool {
         let [no_crack, no_double] = self.rules_out();
-        no_crack && 0 < self.cracks[0] || no_double && 0 < self.doubles[0]
+        no_crack && 0 < self.cracks[0] || no_double && 0 < self.doubles[0] + self.odd_folds
     }
 
     /// What is promised, and whether that was kept.

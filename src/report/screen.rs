@@ -2,13 +2,15 @@
 //! findings, and what to do next. Everything else is behind `--details`.
 
 use super::columns::{Across, Cell, Column, short_percent};
+use super::disagreement::{Key, disagreements};
 use super::lines::{Line, column_legend, lines, write_wrapped};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::{Style, close_up, extremes, group_digits, number_of};
 use crate::family;
+use crate::kernel;
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
 /// Of no more rows than this the screen shows each by itself.
@@ -40,7 +42,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         write_failures(&rows.collect::<Vec<_>>(), out)?;
     }
     extremes::write(&columns, &lines, style, out)?;
-    write_next(&lines, style, out)
+    write_next(record, &lines, style, out)
 }
 
 /// What was run.
@@ -88,6 +90,22 @@ struct Standing {
     share: f64,
     wrong: u64,
     far: u64,
+    /// What else broke the contract, on any case: `crash`, `bad-value`, `crack`, ….
+    others: BTreeMap<String, u64>,
+}
+
+/// How often a row broke its contract in other ways than by false misses and false hits of single cases.
+fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<String, u64> {
+    let mut others = BTreeMap::new();
+    for found in disagreements(&record.result) {
+        let Key { kernel, set, finding, .. } = found.key;
+        if (&kernel, &set) == (&part.kernel, &part.set)
+            && !matches!(&*finding, "false-miss" | "false-hit")
+        {
+            *others.entry(finding).or_default() += found.rate.count;
+        }
+    }
+    others
 }
 
 fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standing> {
@@ -106,6 +124,7 @@ fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standin
             share: shares.iter().sum::<f64>() / shares.len() as f64,
             wrong: cells.iter().map(|(_, cell)| cell.wrong.count).sum(),
             far: cells.iter().map(|(_, cell)| cell.far).sum(),
+            others: other_findings(record, part),
         })
     };
     record.result.plan.rows.iter().filter_map(of_row).collect()
@@ -133,11 +152,15 @@ fn write_answer(
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let text = match &standings[..] {
         [] if columns.is_empty() => {
-            "No contract demands a verdict on any of these cases, so no verdict is wrong."
-                .to_owned()
+            "No case has both a verdict and a contract that demands one.".to_owned()
         }
         [] => "No case is of ordinary size.".to_owned(),
-        [only] if only.wrong == 0 => format!("{}: every verdict is right{place}.", only.label),
+        [only] if only.wrong == 0 && only.others.is_empty() => {
+            format!("{}: every verdict is right{place}.", only.label)
+        }
+        [only] if only.wrong == 0 => {
+            format!("{}: no false miss and no false hit{place}.", only.label)
+        }
         [only] => format!(
             "{} is wrong on {} % of the cases{place}{mean}, {} times by over 1/1000 of the triangle's longest edge.",
             only.label,
@@ -151,6 +174,19 @@ fn write_answer(
             };
             let least = first(|a, b| a.share.total_cmp(&b.share));
             let most = first(|a, b| b.share.total_cmp(&a.share));
+            // A kernel that promises less has fewer ways to be wrong.
+            let contracts = lines.iter().map(|line| &*line.row.part.contract);
+            let compared = match contracts.collect::<BTreeSet<&str>>().len() {
+                1 => format!(
+                    "Wrong least{mean}: {}, {} %; most: {}, {} %. ",
+                    least.label,
+                    percent(least.share),
+                    most.label,
+                    percent(most.share),
+                ),
+                _ => "The rows promise different things; --contract closed-ray judges all by the same. "
+                    .to_owned(),
+            };
             let [near, far] = [first(|a, b| a.far.cmp(&b.far)), first(|a, b| b.far.cmp(&a.far))];
             let far = match far.far {
                 0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
@@ -163,17 +199,29 @@ fn write_answer(
                 ),
             };
             format!(
-                "{} of {} rows were right on every case{place}. Wrong least{mean}: {}, {} %; most: {}, {} %. {far}",
-                all.iter().filter(|row| row.wrong == 0).count(),
+                "{} of {} rows were right on every case{place}. {compared}{far}",
+                all.iter().filter(|row| row.wrong == 0 && row.others.is_empty()).count(),
                 all.len(),
-                least.label,
-                percent(least.share),
-                most.label,
-                percent(most.share),
             )
         }
     };
-    write_wrapped(&text, out)?;
+    let broken: BTreeMap<String, u64> =
+        record.result.plan.rows.iter().flat_map(|part| other_findings(record, part)).fold(
+            BTreeMap::new(),
+            |mut sums, (finding, count)| {
+                *sums.entry(finding).or_default() += count;
+                sums
+            },
+        );
+    let others = match (standings.len(), broken.is_empty()) {
+        (2.., _) | (_, true) => String::new(),
+        _ => {
+            let counts =
+                broken.iter().map(|(finding, count)| format!("{finding} {}", group_digits(*count)));
+            format!(" Other broken promises: {}.", counts.collect::<Vec<_>>().join(", "))
+        }
+    };
+    write_wrapped(&(text + &others), out)?;
     if let Some(partial) = &record.result.partial {
         writeln!(out, "A part of a run: {}; all numbers are of this part.", partial.in_words())?;
     }
@@ -290,7 +338,12 @@ fn painted(text: &str, color: &str) -> String {
 }
 
 /// What to do next.
-fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<()> {
+fn write_next(
+    record: &Record,
+    lines: &[Line],
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     // The kernel of `judge` cannot be chosen by a flag.
     let rows: Vec<&RowPart> =
@@ -298,7 +351,14 @@ fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<(
     let Some(first) = rows.first() else {
         return writeln!(out, "{bold}Everything:{plain} --details");
     };
-    let tuned = rows.iter().find(|row| !row.epsilons.is_empty());
+    // `epsilon` varies the gates of kernels that this program can look into.
+    let shows_gates = |row: &&&RowPart| {
+        let entry = kernel::find(&row.kernel);
+        !row.epsilons.is_empty() && entry.is_some_and(|entry| entry.shows_gates())
+    };
+    let tuned = rows.iter().find(shows_gates);
+    let sources = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.sources.as_str());
+    let sources = if sources.is_empty() { String::new() } else { format!(" {sources}") };
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
     // Many rows leave less room.
     let (only, after) = match is_alone {
@@ -307,11 +367,17 @@ fn write_next(lines: &[Line], style: Style, out: &mut dyn Write) -> io::Result<(
     };
     if !is_alone {
         let one = tuned.unwrap_or(first);
-        write!(out, "{bold}One kernel:{plain} hairline audit {}{after}", one.selector)?;
+        write!(out, "{bold}One kernel:{plain} hairline audit {}{sources}{after}", one.flags())?;
     }
     writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
     if let Some(tuned) = tuned {
-        write!(out, "{bold}Choose an epsilon:{plain} hairline epsilon {}{after}", tuned.selector)?;
+        // `epsilon` knows no rays at a mesh's edges.
+        let sources = sources.split(" --directions").next().unwrap_or_default();
+        write!(
+            out,
+            "{bold}Choose an epsilon:{plain} hairline epsilon {}{sources}{after}",
+            tuned.selector
+        )?;
     }
     writeln!(out, "{bold}Gate a CI:{plain} hairline check{only}, the first time with --bless")
 }

@@ -2,7 +2,9 @@
 
 use super::build::plan_part;
 use super::{Context, Illustrations, Provenance, Record, build};
-use crate::audit::{self, Audit, Observer, Plan, Shard, Source, StoredPlan, StoredSource};
+use crate::audit::{
+    self, Audit, MOST_SHARDS, Observer, Plan, Shard, Source, StoredPlan, StoredSource,
+};
 use crate::corpus::hex;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -90,6 +92,10 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
         let (Some(partial), Some(shard)) = (record.result.partial, record.shard) else {
             return Err(error(i, "not a part of a run: it was made without --shard"));
         };
+        if partial.of == 0 || MOST_SHARDS < partial.of {
+            let message = format!("cut in {} parts, expected 1 to {MOST_SHARDS}", partial.of);
+            return Err(error(i, message));
+        }
         if digest(&shard.sums) != shard.digest {
             return Err(error(i, "damaged: its sums do not have their digest"));
         }

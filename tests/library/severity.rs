@@ -117,7 +117,7 @@ fn distances_are_right_to_a_thousandth<F: Scalar>() {
         let distances = Distances::of(case, truth);
         for contract in contracts() {
             let [change, longest, ulp] = squares(case, &contract);
-            let found = distances.to_change(truth, &contract);
+            let found = distances.nearest_change(truth, &contract);
             let told = || format!("{found} {:?} {}", (&change / &longest).to_f64(), case.hex());
             if change.is_zero() {
                 zeros += 1;

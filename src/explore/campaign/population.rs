@@ -64,7 +64,7 @@ impl<F: Scalar> Individual<F> {
         let glance = Glance { finding, class: Class::of(&truth), gate };
         let score = match finding {
             _ if truth == Truth::Invalid => 0.0,
-            Some(_) => Distances::of(&self.case, &truth).to_change(&truth, &self.row.contract),
+            Some(_) => Distances::of(&self.case, &truth).nearest_change(&truth, &self.row.contract),
             None => -self.distance_from_a_change(&epsilons, &truth, verdict.hit),
         };
         (glance, if score.is_nan() { f64::NEG_INFINITY } else { score })
