@@ -9,7 +9,7 @@ use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices
 use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
-use crate::family::Family;
+use crate::family::{FAMILIES, Family};
 use crate::kernel::{Gate, Gated, Scalar};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
@@ -89,6 +89,11 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;
+    let families = sources.iter().filter(|source| matches!(source, Source::Family { .. })).count();
+    if !arguments.quiet && families == FAMILIES.len() - SPANNING.len() {
+        let left_out = SPANNING.join(", ");
+        eprintln!("left out: {left_out}, whose sizes span the whole range (--family runs them)");
+    }
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
     // What is wrong with the flags shows before the first study runs.
     let sources = &sources;

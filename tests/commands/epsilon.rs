@@ -218,8 +218,12 @@ fn formats_hold_what_they_promise() {
         ["epsilon", "-k", "moller-trumbore", "--gate", "parallel", "--scalar", "f32", "-q"];
     let with = |more: &[&str]| told(&hairline(&[&arguments[..], more].concat()));
     let text = with(&[]);
-    for words in ["right epsilons:", "so use an e from", "what an epsilon costs", "bvh, bevy, fcpw"]
-    {
+    for words in [
+        "right epsilons:",
+        "so on these cases use an e from",
+        "what an epsilon costs",
+        "bvh, bevy, fcpw",
+    ] {
         assert!(text.contains(words), "{words}: {text}");
     }
     let csv = with(&["--format", "csv"]);

@@ -108,10 +108,16 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "    so this gate decides nothing here: any e will do ({from} to {to})")
         }
         Some([from, to]) if misses.command.is_none() => {
-            writeln!(out, "    so use any e from {from} (to {to}): both counts are at their least")
+            writeln!(
+                out,
+                "    so on these cases use any e from {from} (to {to}): both counts are at their least"
+            )
         }
         Some([from, to]) => {
-            writeln!(out, "    so use an e from {from} to {to}: both counts are at their least")
+            writeln!(
+                out,
+                "    so on these cases use an e from {from} to {to}: both counts are at their least"
+            )
         }
         None => writeln!(
             out,
