@@ -77,30 +77,30 @@ impl SourceArguments {
     pub fn flags(&self) -> String {
         let mut flags = Vec::new();
         let mut add = |name: &str, value: &str| {
-            flags.push(format!("--{name} {}", shell_word(value)).trim_end().to_owned());
+            flags.push(format!("{name} {}", shell_word(value)));
         };
         if self.scalar != ["f32", "f64"] {
-            add("scalar", &self.scalar.join(","));
+            add("--scalar", &self.scalar.join(","));
         }
         if !self.family.is_empty() {
-            add("family", &self.family.join(","));
+            add("--family", &self.family.join(","));
         }
-        self.mesh.iter().for_each(|path| add("mesh", path));
-        self.corpus.iter().for_each(|path| add("corpus", path));
+        self.mesh.iter().for_each(|path| add("--mesh", path));
+        self.corpus.iter().for_each(|path| add("--corpus", path));
         if self.count != COUNT {
-            add("count", &self.count.to_string());
+            add("-n", &self.count.to_string());
         }
         if self.seed != SEED {
-            add("seed", &self.seed.to_string());
+            add("--seed", &self.seed.to_string());
         }
         if self.scale != "1" {
-            add("scale", &self.scale);
+            add("--scale", &self.scale);
         }
         if let Some(offset) = &self.offset {
-            add("offset", offset);
+            add("--offset", offset);
         }
         if let Some(direction) = &self.direction {
-            add("direction", direction);
+            add("--direction", direction);
         }
         for (name, given) in
             [("exhaustive", self.exhaustive), ("scale-direction", self.scale_direction)]

@@ -367,7 +367,7 @@ fn write_next(
     };
     if !is_alone {
         let one = tuned.unwrap_or(first);
-        write!(out, "{bold}One kernel:{plain} hairline audit {}{sources}{after}", one.flags())?;
+        write!(out, "{bold}One kernel:{plain} hairline audit {}{sources}{after}", one.selector)?;
     }
     writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
     if let Some(tuned) = tuned {
@@ -379,5 +379,5 @@ fn write_next(
             tuned.selector
         )?;
     }
-    writeln!(out, "{bold}Gate a CI:{plain} hairline check{only}, the first time with --bless")
+    writeln!(out, "{bold}Gate a CI:{plain} hairline check{only} --bless")
 }
