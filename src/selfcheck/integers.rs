@@ -314,6 +314,11 @@ where
     }
 
     fn compare(&self, other: &Self) -> Ordering {
+        // Where a segment crosses the line, t is below 2^77 / 2^75: with an interval's end its product
+        // fits, with itself it would not.
+        if self.0 == other.0 && self.1 == other.1 {
+            return Ordering::Equal;
+        }
         (&self.0 * &other.1).cmp(&(&other.0 * &self.1))
     }
 
