@@ -185,3 +185,19 @@ fn only_what_an_id_makes_again_is_generated() {
     let (code, _, error) = judged("closed-ray", &answers(&generated(&scaled), "hit"));
     assert!(code < 2, "{error}");
 }
+
+#[test]
+fn printed_commands_name_the_whole_contract_since_no_flag_chooses_the_kernel() {
+    let cases = answers(&generated(&["--family", "interior", "-n", "20"]), "miss");
+    for (contract, printed) in [
+        ("closed-ray", " --contract closed-ray"),
+        ("closed-ray,across=at-least-one", " --contract closed-ray,across=at-least-one"),
+    ] {
+        let (code, table, _) = judged(contract, &cases);
+        assert_eq!(code, 1);
+        let commands = table.lines().filter(|line| line.contains("hairline explain "));
+        let commands: Vec<&str> = commands.collect();
+        assert!(!commands.is_empty(), "{table}");
+        assert!(commands.iter().all(|command| command.ends_with(printed)), "{commands:?}");
+    }
+}

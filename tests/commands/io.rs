@@ -475,3 +475,19 @@ fn a_thousand_files_are_read_one_after_the_other() {
     assert!(out.contains("1,500 sources of cases"), "{out}");
     assert_eq!(hairline(&folder, &["explain", "x", "--corpus", "."]).status.code(), Some(2));
 }
+
+#[test]
+fn one_place_is_not_written_twice_and_one_name_is_not_two_meshes() {
+    let folder = scratch("io-twice");
+    let twice = ["audit", "-n", "1", "--format", "json,jsonl", "-o", "a", "-o", "./a"];
+    let (_, error) = ends(&folder, &twice, 2);
+    assert!(error.contains("'./a' is given twice"), "{error}");
+    assert!(!folder.join("a").exists());
+    for part in ["d1", "d2"] {
+        fs::create_dir(folder.join(part)).unwrap();
+        fs::write(folder.join(part).join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    }
+    let meshes = ["audit", "--mesh", "d1/m.obj", "--mesh", "d2/m.obj", "-n", "5"];
+    let (_, error) = ends(&folder, &meshes, 2);
+    assert!(error.contains("two files of the name of 'd2/m.obj'"), "{error}");
+}

@@ -257,3 +257,20 @@ fn stored_cases_are_counted_apart_and_have_no_interval() {
     });
     assert!(markdown.contains(&format!("| {wrong} of {demanded} |")), "{markdown}");
 }
+
+#[test]
+fn bad_values_are_counted_of_hits_whose_values_are_judged_and_keep_a_kernel_from_being_right() {
+    let folder = scratch("screen-bad-values");
+    // Scaled out of the range: invalid cases, on which a hit is false but has no value to judge, among valid ones.
+    let plan = ["-n", "300", "--scalar", "f32", "--family", "range-ends", "--scale", "2^10"];
+    let kernel = ["--kernel", "moller-trumbore", "--contract", "closed-ray"];
+    let (screen, record) = audit(&folder, &[&plan[..], &kernel].concat());
+    let result = &record["result"]["results"][0];
+    let classes = result["classes"].as_object().unwrap().values();
+    let of = classes.map(|class| class["bad_values"]["of"].as_u64().unwrap()).sum::<u64>();
+    let total = &result["total"]["bad_values"];
+    assert!(0 < total["count"].as_u64().unwrap());
+    assert_eq!(total["of"].as_u64().unwrap(), of);
+    assert!(screen.contains("Other broken promises: bad-value "), "{screen}");
+    assert!(!screen.contains("every verdict is right"), "{screen}");
+}
