@@ -181,7 +181,11 @@ fn a_name_breaks_no_column() {
             ends(&folder, &[&plan[..], &["--epsilon", "parallel=1e9", "--details"]].concat(), 0);
         let lines: Vec<&str> = table.lines().collect();
         let head = lines.iter().position(|line| line.starts_with("kernel (epsilons)")).unwrap();
-        let width = |line: &str| line.chars().count();
+        // The last column is a time, and as wide as the machine is slow.
+        let width = |line: &str| {
+            let rest = line.trim_end_matches(|c: char| !c.is_whitespace());
+            rest.trim_end().chars().count()
+        };
         assert_eq!(width(lines[head]), width(lines[head + 1]), "{table}");
         assert!(lines[head + 1].ends_with(|c: char| c.is_ascii_digit()), "{table}");
     }
