@@ -24,6 +24,7 @@ open!(
     mesh,
     oracle,
     orientation,
+    prove,
     report,
     selfcheck,
     truth,

@@ -49,6 +49,7 @@ mod epsilon;
 mod explore;
 mod map;
 mod orientation;
+mod prove;
 mod selfcheck;
 
 mod report;

@@ -14,6 +14,7 @@ mod emulated;
 mod exact;
 mod float;
 mod fraction;
+pub mod recorded;
 mod tracked;
 mod triple;
 

@@ -10,6 +10,12 @@ pub struct Triple<R>([R; 3]);
 /// Three exact numbers.
 pub type ExactVector = Triple<Exact>;
 
+impl<R> From<[R; 3]> for Triple<R> {
+    fn from(coordinates: [R; 3]) -> Self {
+        Triple(coordinates)
+    }
+}
+
 impl<R: Real> Vector for Triple<R> {
     type Real = R;
     fn new(x: R, y: R, z: R) -> Self {

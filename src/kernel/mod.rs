@@ -13,6 +13,7 @@
 pub mod gate;
 mod own;
 mod preset;
+mod recording;
 mod registry;
 mod subject;
 mod variant;
@@ -33,6 +34,7 @@ pub use gate::{
 };
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub use recording::{Compared, Path};
 pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
 pub use subject::{

@@ -1,6 +1,7 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
 use super::gate::Either;
+use super::recording::{Path, paths};
 use super::variant::Variant;
 use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
 use crate::arith::{
@@ -300,6 +301,11 @@ pub trait Gated<F: Float>: Sync {
     fn run_tracked(&self, _case: &Case<F>, _epsilons: &[F]) -> Option<TrackedRun<F>> {
         None
     }
+
+    /// Its straight-line programs, one a path; an error in one sentence if they cannot be recorded.
+    fn paths(&self) -> Result<Vec<Path>, String> {
+        Err("it is not written for every arithmetic".to_owned())
+    }
 }
 
 /// A [`Kernel`], written for every arithmetic, as a [`Subject`] of either scalar.
@@ -379,6 +385,10 @@ impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
 
     fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
         Some(TrackedRun::of::<K>(case, epsilons, Arithmetic::IEEE))
+    }
+
+    fn paths(&self) -> Result<Vec<Path>, String> {
+        paths::<K>(Arithmetic::IEEE)
     }
 }
 

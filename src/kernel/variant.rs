@@ -1,6 +1,7 @@
 //! A kernel in another arithmetic than IEEE 754's: the same source on another machine.
 
 use super::gate::Either;
+use super::recording::{Path, paths};
 use super::{
     Deciding, ExactRun, Gated, Generic, Hit, Kernel, KernelInfo, Measured, Measuring, Subject,
     TrackedRun, Verdict,
@@ -135,5 +136,9 @@ impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
 
     fn run_tracked(&self, case: &Case<F>, epsilons: &[F]) -> Option<TrackedRun<F>> {
         Some(TrackedRun::of::<K>(case, epsilons, self.arithmetic))
+    }
+
+    fn paths(&self) -> Result<Vec<Path>, String> {
+        paths::<K>(self.arithmetic)
     }
 }

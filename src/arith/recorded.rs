@@ -1,0 +1,314 @@
+//! Numbers that write down what is computed with them: a kernel that runs on them leaves its
+//! straight-line program.
+//!
+//! A number is a place on a tape of operations, one tape a thread. The same operation on the same places
+//! is written once. A comparison has no value to look at, so it follows a script: running a kernel again
+//! with another script leads along another path. Products are fused into sums as in
+//! [`Emulated`](super::Emulated).
+
+use super::Real;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A place on the tape.
+pub type Place = u32;
+
+/// One operation; the operands come earlier on the tape. All but `Input`, `Number`, `Neg` and `Abs` round
+/// once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operation {
+    /// One of the seventeen numbers of a case, in the order of `Case::hex`.
+    Input(u8),
+    /// A small whole number.
+    Number(i32),
+    /// `a + b`.
+    Add(Place, Place),
+    /// `a - b`.
+    Sub(Place, Place),
+    /// `a * b`.
+    Mul(Place, Place),
+    /// `a / b`.
+    Div(Place, Place),
+    /// `-a`, exact.
+    Neg(Place),
+    /// `|a|`, exact.
+    Abs(Place),
+    /// The square root.
+    Sqrt(Place),
+    /// `a*b + c`, rounded once.
+    Fma(Place, Place, Place),
+    /// `a*b - c*d`, in wider arithmetic, then rounded to the format.
+    Minor(Place, Place, Place, Place),
+}
+
+impl Operation {
+    /// Its operands.
+    pub fn operands(&self) -> Vec<Place> {
+        use Operation::*;
+        match *self {
+            Input(_) | Number(_) => vec![],
+            Neg(a) | Abs(a) | Sqrt(a) => vec![a],
+            Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) => vec![a, b],
+            Fma(a, b, c) => vec![a, b, c],
+            Minor(a, b, c, d) => vec![a, b, c, d],
+        }
+    }
+}
+
+/// A comparison of numbers on the tape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Comparison {
+    /// `a < b`.
+    Less(Place, Place),
+    /// `a <= b`.
+    AtMost(Place, Place),
+    /// `a == 0`.
+    Zero(Place),
+    /// The sign bit of a.
+    Negative(Place),
+}
+
+impl Comparison {
+    /// The compared numbers.
+    pub fn places(&self) -> Vec<Place> {
+        match *self {
+            Comparison::Less(a, b) | Comparison::AtMost(a, b) => vec![a, b],
+            Comparison::Zero(a) | Comparison::Negative(a) => vec![a],
+        }
+    }
+}
+
+/// What a run left behind.
+#[derive(Clone, Debug, Default)]
+pub struct Tape {
+    /// The operations in order.
+    pub operations: Vec<Operation>,
+    /// The comparisons in order, and the answers that they got.
+    pub decisions: Vec<(Comparison, bool)>,
+    places: HashMap<Operation, Place>,
+    answers: HashMap<Comparison, bool>,
+    script: Vec<bool>,
+    fused: bool,
+    /// Comparisons are noted here and answered with yes, as long as this is some.
+    noted: Option<Vec<Comparison>>,
+}
+
+thread_local! {
+    static TAPE: RefCell<Tape> = RefCell::default();
+}
+
+fn on_tape<T>(with: impl FnOnce(&mut Tape) -> T) -> T {
+    TAPE.with(|tape| with(&mut tape.borrow_mut()))
+}
+
+/// Runs `run` on an empty tape; the first comparisons get the answers of the script, later ones no. Returns
+/// the result and the tape.
+pub fn record<T>(script: &[bool], fused: bool, run: impl FnOnce() -> T) -> (T, Tape) {
+    TAPE.set(Tape { script: script.to_vec(), fused, ..Tape::default() });
+    let result = run();
+    (result, TAPE.take())
+}
+
+/// The comparisons that `run` makes if each of them holds. They do not count as decisions.
+pub fn comparisons(run: impl FnOnce()) -> Vec<Comparison> {
+    on_tape(|tape| tape.noted = Some(Vec::new()));
+    run();
+    on_tape(|tape| tape.noted.take().unwrap_or_default())
+}
+
+/// How many decisions there are so far.
+pub fn decisions_so_far() -> usize {
+    on_tape(|tape| tape.decisions.len())
+}
+
+/// The decisions from the given one on.
+pub fn decisions_from(first: usize) -> Vec<Comparison> {
+    on_tape(|tape| tape.decisions[first..].iter().map(|(comparison, _)| *comparison).collect())
+}
+
+/// A number on the tape of this thread.
+#[derive(Debug)]
+pub struct Recorded {
+    place: Place,
+    /// If this is a product that may still be fused.
+    factors: Option<[Place; 2]>,
+}
+
+impl Clone for Recorded {
+    fn clone(&self) -> Self {
+        Recorded { place: self.place, factors: None }
+    }
+}
+
+fn push(operation: Operation) -> Place {
+    on_tape(|tape| {
+        let next = tape.operations.len() as Place;
+        *tape.places.entry(operation).or_insert_with(|| {
+            tape.operations.push(operation);
+            next
+        })
+    })
+}
+
+impl Recorded {
+    /// One of the seventeen numbers of a case.
+    pub fn input(index: u8) -> Recorded {
+        Recorded::at(Operation::Input(index))
+    }
+
+    /// Its place.
+    pub fn place(&self) -> Place {
+        self.place
+    }
+
+    fn at(operation: Operation) -> Recorded {
+        Recorded { place: push(operation), factors: None }
+    }
+
+    fn number(&self) -> Option<i32> {
+        on_tape(|tape| match tape.operations[self.place as usize] {
+            Operation::Number(value) => Some(value),
+            _ => None,
+        })
+    }
+
+    fn ask(comparison: Comparison) -> bool {
+        on_tape(|tape| {
+            if let Some(noted) = &mut tape.noted {
+                noted.push(comparison);
+                return true;
+            }
+            if let Some(answer) = tape.answers.get(&comparison) {
+                return *answer;
+            }
+            let answer = tape.script.get(tape.decisions.len()).copied().unwrap_or(false);
+            tape.decisions.push((comparison, answer));
+            tape.answers.insert(comparison, answer);
+            answer
+        })
+    }
+
+    fn plus(self, other: Recorded) -> Recorded {
+        let operation = match (self.factors, other.factors) {
+            (Some([a, b]), _) => Operation::Fma(a, b, other.place),
+            (None, Some([a, b])) => Operation::Fma(a, b, self.place),
+            (None, None) => Operation::Add(self.place, other.place),
+        };
+        Recorded::at(operation)
+    }
+
+    fn less(self, other: Recorded) -> Recorded {
+        match (self.factors, other.factors) {
+            (None, None) => Recorded::at(Operation::Sub(self.place, other.place)),
+            _ => self.plus(-other),
+        }
+    }
+
+    fn product(self, other: Recorded) -> Recorded {
+        let place = push(Operation::Mul(self.place, other.place));
+        let fused = on_tape(|tape| tape.fused);
+        Recorded { place, factors: fused.then_some([self.place, other.place]) }
+    }
+
+    fn quotient(self, other: Recorded) -> Recorded {
+        Recorded::at(Operation::Div(self.place, other.place))
+    }
+}
+
+/// An operator whose right operand is moved, or borrowed and so a name that is used again.
+macro_rules! operator {
+    ($trait:ident, $method:ident, $with:ident) => {
+        impl $trait for Recorded {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                self.$with(other)
+            }
+        }
+        impl $trait<&Self> for Recorded {
+            type Output = Self;
+            fn $method(self, other: &Self) -> Self {
+                self.$with(other.clone())
+            }
+        }
+    };
+}
+
+operator!(Add, add, plus);
+operator!(Sub, sub, less);
+operator!(Mul, mul, product);
+operator!(Div, div, quotient);
+
+impl Neg for Recorded {
+    type Output = Self;
+    fn neg(self) -> Self {
+        let factors = self.factors.map(|[a, b]| [push(Operation::Neg(a)), b]);
+        // The negative of a negative is the number itself.
+        let inner = on_tape(|tape| match tape.operations[self.place as usize] {
+            Operation::Neg(a) => Some(a),
+            _ => None,
+        });
+        let place = inner.unwrap_or_else(|| push(Operation::Neg(self.place)));
+        Recorded { place, factors }
+    }
+}
+
+impl Real for Recorded {
+    fn zero() -> Self {
+        Recorded::at(Operation::Number(0))
+    }
+    fn one() -> Self {
+        Recorded::at(Operation::Number(1))
+    }
+    fn abs(&self) -> Self {
+        Recorded::at(Operation::Abs(self.place))
+    }
+    fn sqrt(&self) -> Self {
+        Recorded::at(Operation::Sqrt(self.place))
+    }
+    fn is_sign_negative(&self) -> bool {
+        match self.number() {
+            Some(value) => value < 0,
+            None => Recorded::ask(Comparison::Negative(self.place)),
+        }
+    }
+    fn is_less(&self, other: &Self) -> bool {
+        match (self.number(), other.number()) {
+            (Some(a), Some(b)) => a < b,
+            _ if self.place == other.place => false,
+            _ => Recorded::ask(Comparison::Less(self.place, other.place)),
+        }
+    }
+    fn is_at_most(&self, other: &Self) -> bool {
+        match (self.number(), other.number()) {
+            (Some(a), Some(b)) => a <= b,
+            _ if self.place == other.place => true,
+            _ => Recorded::ask(Comparison::AtMost(self.place, other.place)),
+        }
+    }
+    fn is_zero(&self) -> bool {
+        match self.number() {
+            Some(value) => value == 0,
+            None => Recorded::ask(Comparison::Zero(self.place)),
+        }
+    }
+    fn is_nan(&self) -> bool {
+        false
+    }
+    fn is_finite(&self) -> bool {
+        true
+    }
+    /// Only margins need it, and none is taken here.
+    fn infinity() -> Self {
+        Recorded::at(Operation::Number(i32::MAX))
+    }
+    fn just_below(&self) -> Self {
+        self.clone()
+    }
+    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+        Recorded::at(Operation::Minor(a.place, b.place, c.place, d.place))
+    }
+    fn largest_accepted(_: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
+        exact()
+    }
+}

@@ -1,0 +1,499 @@
+//! Bounds of a program's rounding errors in a domain: formulas where nothing is divided, and quotients,
+//! roots and whatever meets itself as variables of their own.
+
+use super::dyadic::{Big, root_up, round_up};
+use super::formula::{DIGITS, Formula, Maximum, Source, Step};
+use super::forms::{Forms, Leaf};
+use super::{Domain, Dyadic, Format};
+use crate::arith::recorded::{Comparison, Operation, Place};
+use crate::kernel::Path;
+use num_traits::Signed;
+use std::collections::HashMap;
+
+/// Binary digits that the size of a lemma's number keeps: products of sizes stay short.
+const SIZE_DIGITS: u32 = 12;
+
+/// What holds for a number of a program, whatever the inputs in the domain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bound {
+    /// Of the exact number.
+    pub size: Dyadic,
+    /// Of the computed number.
+    pub computed: Dyadic,
+    /// Of the difference of both.
+    pub error: Dyadic,
+}
+
+/// One step of a proof: a number, its formula, and what follows.
+#[derive(Clone, Debug)]
+pub struct Lemma {
+    /// The number.
+    pub place: Place,
+    /// What its bound is made from.
+    pub rule: Rule,
+    /// The formula whose errors were added up, with its variables.
+    pub formula: Formula,
+    /// What its corners say.
+    pub maximum: Maximum,
+    /// What follows for the number.
+    pub bound: Bound,
+}
+
+/// How a lemma's bound follows from its formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The formula is the number.
+    Sum,
+    /// The formula is numerator - quotient * divisor, and one division follows; or a reciprocal and a
+    /// product, if true.
+    Quotient(bool),
+    /// The number is the length of a vector: of these three coordinates. There is no formula.
+    Length([Place; 3]),
+}
+
+/// The proofs of one program in one domain.
+#[derive(Debug)]
+pub struct Prover<'a> {
+    path: &'a Path,
+    pub(super) domain: Domain,
+    pub(super) format: Format,
+    bounds: HashMap<Place, Result<Bound, String>>,
+    /// The lemmas so far, each after those that it uses.
+    pub lemmas: Vec<Lemma>,
+}
+
+impl<'a> Prover<'a> {
+    /// Nothing is proved yet.
+    pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
+        Prover { path, domain, format, bounds: HashMap::new(), lemmas: Vec::new() }
+    }
+
+    fn operation(&self, place: Place) -> Operation {
+        self.path.operations[place as usize]
+    }
+
+    /// The bound of a number, or why there is none.
+    pub fn bound(&mut self, place: Place) -> Result<Bound, String> {
+        if let Operation::Neg(inner) | Operation::Abs(inner) = self.operation(place) {
+            return self.bound(inner);
+        }
+        if let Some(known) = self.bounds.get(&place) {
+            return known.clone();
+        }
+        let found = self.prove(place);
+        self.bounds.insert(place, found.clone());
+        found
+    }
+
+    fn prove(&mut self, place: Place) -> Result<Bound, String> {
+        let (rule, formula, maximum, bound);
+        if let Some((numerator, divisor, twice)) = self.quotient(place) {
+            rule = Rule::Quotient(twice);
+            (formula, maximum, bound) = self.divide(numerator, divisor, twice)?;
+        } else if let Operation::Sqrt(inner) = self.operation(place) {
+            let vector = self.squares(inner).ok_or("its root is not the length of a vector")?;
+            rule = Rule::Length(vector);
+            (formula, maximum, bound) = (Formula::default(), Maximum::default(), self.length(vector)?);
+        } else {
+            rule = Rule::Sum;
+            let mut builder = Builder::new(self);
+            let last = builder.expand(place)?;
+            let computed = builder.computed[last];
+            (formula, maximum) = builder.finish()?;
+            let size = maximum.size.min(formula.sizes[last]).round_up(SIZE_DIGITS);
+            let error = round_up(&(Big::from(maximum.first) + Big::from(maximum.rest)), DIGITS);
+            bound = Bound { size, computed: computed.min(size.plus_up(error)), error };
+        }
+        if [bound.error, bound.size, bound.computed].iter().any(|x| !x.is_number()) {
+            return Err("its bound needs more digits than there are".to_owned());
+        }
+        self.lemmas.push(Lemma { place, rule, formula, maximum, bound: bound.clone() });
+        Ok(bound)
+    }
+
+    /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
+    fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
+        let reciprocal = |place: Place| match self.operation(place) {
+            Operation::Div(one, divisor) if self.operation(one) == Operation::Number(1) => {
+                Some(divisor)
+            }
+            _ => None,
+        };
+        match self.operation(place) {
+            Operation::Div(_, divisor) if reciprocal(place).is_some() => {
+                Some((None, divisor, false))
+            }
+            Operation::Div(numerator, divisor) => Some((Some(numerator), divisor, false)),
+            Operation::Mul(a, b) => reciprocal(b)
+                .map(|divisor| (Some(a), divisor, true))
+                .or_else(|| reciprocal(a).map(|divisor| (Some(b), divisor, true))),
+            _ => None,
+        }
+    }
+
+    fn divide(
+        &mut self,
+        numerator: Option<Place>,
+        divisor: Place,
+        twice: bool,
+    ) -> Result<(Formula, Maximum, Bound), String> {
+        let below = self.bound(divisor)?;
+        let floor = self.floor(divisor);
+        if floor <= below.error {
+            return Err("a divisor may be rounded to zero: the floor of divisors is too low".to_owned());
+        }
+        let above = match numerator {
+            Some(numerator) => self.bound(numerator)?,
+            None => Bound { size: Dyadic::ONE, computed: Dyadic::ONE, error: Dyadic::ZERO },
+        };
+        let limit = Big::from(above.size) / Big::from(floor);
+        let at_most_one = numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
+        let size = match numerator {
+            Some(_) if at_most_one => Big::from(Dyadic::ONE),
+            Some(_) => limit.min(Big::from(self.domain.quotient)),
+            None => limit,
+        };
+        let size = round_up(&size, SIZE_DIGITS);
+        let mut builder = Builder::new(self);
+        let n = match numerator {
+            Some(numerator) => builder.expand(numerator)?,
+            None => builder.exact(Step::Number(1), Dyadic::ONE),
+        };
+        let d = builder.expand(divisor)?;
+        let q = builder.variable(Source::Quotient, size, Dyadic::ZERO, size);
+        let sizes = &builder.formula.sizes;
+        let (above_size, product_size) = (sizes[n], size * sizes[d]);
+        let product = builder.exact(Step::Mul(q, d), product_size);
+        builder.exact(Step::Sub(n, product), above_size.plus_up(product_size));
+        let (formula, maximum) = builder.finish()?;
+        // The quotient of the computed numbers against the exact one, then the roundings of the division.
+        let sum = Big::from(maximum.first) + Big::from(maximum.rest);
+        let before = sum / (Big::from(floor) - Big::from(below.error));
+        let quotient = Big::from(size) + &before;
+        let mut error = before;
+        let mut rounded = quotient.clone();
+        if twice {
+            let tiny = Big::from(self.format.tiny()) * Big::from(above.computed);
+            let reciprocal = Big::from(self.format.unit()) * quotient + tiny;
+            error += &reciprocal;
+            rounded += reciprocal;
+        }
+        if at_most_one && above.error.is_zero() && below.error.is_zero() {
+            // The quotient of two floats that is at most one is rounded to at most one.
+            rounded = Big::from(Dyadic::ONE);
+        }
+        self.bound_of_rounded(size, error, &rounded).map(|bound| (formula, maximum, bound))
+    }
+
+    /// The length of a vector. The sum of the squares is right to 4u, for no term is negative, and to as
+    /// much again where squares underflow; so the root is right to 3u before it is rounded.
+    fn length(&mut self, vector: [Place; 3]) -> Result<Bound, String> {
+        let (mut errors, mut sizes) = (Big::from(Dyadic::ZERO), Big::from(Dyadic::ZERO));
+        for place in vector {
+            let Bound { size, error, .. } = self.bound(place)?;
+            errors += Big::from(error) * Big::from(error);
+            sizes += Big::from(size) * Big::from(size);
+        }
+        let shift = Big::from(root_up(&errors, DIGITS));
+        let size = root_up(&sizes, SIZE_DIGITS);
+        let (unit, three) = (Big::from(self.format.unit()), Big::from(Dyadic::new(3, 0)));
+        let least = Big::from(self.domain.floor) - &shift;
+        let tiny = Big::from(self.format.tiny()) * &three;
+        if !least.is_positive() || tiny > &unit * &least * &least {
+            return Err("a length may be rounded to zero: the floor of divisors is too low".to_owned());
+        }
+        let largest = Big::from(size) + &shift;
+        let relative = three * unit * &largest;
+        self.bound_of_rounded(size, shift + &relative, &(largest + relative))
+    }
+
+    /// Squares that are added up to a number, if that is what it is.
+    fn squares(&self, place: Place) -> Option<[Place; 3]> {
+        let mut squares = Vec::new();
+        let mut open = vec![place];
+        while let Some(place) = open.pop() {
+            match self.operation(place) {
+                Operation::Mul(a, b) if a == b => squares.push(a),
+                Operation::Fma(a, b, c) if a == b => {
+                    squares.push(a);
+                    open.push(c);
+                }
+                Operation::Add(a, b) => open.extend([a, b]),
+                _ => return None,
+            }
+        }
+        squares.sort_unstable();
+        squares.try_into().ok()
+    }
+
+    /// One more rounding of a number of the given size before it.
+    fn bound_of_rounded(
+        &self,
+        size: Dyadic,
+        error: Big,
+        rounded: &Big,
+    ) -> Result<Bound, String> {
+        let error = round_up(&(error + Big::from(self.format.half_ulp_of(rounded))), DIGITS);
+        let computed = round_up(rounded, self.format.digits);
+        self.check_range(computed)?;
+        Ok(Bound { size, computed, error })
+    }
+
+    fn check_range(&self, size: Dyadic) -> Result<(), String> {
+        if size < Dyadic::power(self.format.largest) {
+            Ok(())
+        } else {
+            Err("it may overflow".to_owned())
+        }
+    }
+
+    /// The least size of a divisor in the domain.
+    fn floor(&self, divisor: Place) -> Dyadic {
+        let axes = [3, 4, 5].map(Operation::Input);
+        if let Operation::Input(i @ 3..=5) = self.operation(divisor) {
+            let others = axes.iter().filter(|axis| **axis != Operation::Input(i));
+            let places = others.map(|axis| self.path.operations.iter().position(|op| op == axis));
+            let is_largest = places.into_iter().all(|place| {
+                place.is_none_or(|place| self.is_at_most_in_size(place as Place, divisor))
+            });
+            if is_largest {
+                return self.domain.direction_floor;
+            }
+        }
+        self.domain.floor
+    }
+
+    /// Whether |a| <= |b| follows from the decisions of the path.
+    fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
+        let size = |place: Place| {
+            let wanted = Operation::Abs(place);
+            self.path.operations.iter().position(|op| *op == wanted).map(|at| at as Place)
+        };
+        match (size(a), size(b)) {
+            (Some(a), Some(b)) => follows(self.path, a, b),
+            _ => false,
+        }
+    }
+}
+
+/// The facts x <= y (or x < y, if true) of a path.
+fn facts(path: &Path) -> Vec<(Place, Place, bool)> {
+    let fact = |(comparison, answer): &(Comparison, bool)| match (*comparison, *answer) {
+        (Comparison::Less(a, b), true) => Some((a, b, true)),
+        (Comparison::Less(a, b), false) => Some((b, a, false)),
+        (Comparison::AtMost(a, b), true) => Some((a, b, false)),
+        (Comparison::AtMost(a, b), false) => Some((b, a, true)),
+        _ => None,
+    };
+    path.decisions.iter().filter_map(fact).collect()
+}
+
+/// Whether a <= b follows from the decisions.
+fn follows(path: &Path, a: Place, b: Place) -> bool {
+    let facts = facts(path);
+    let mut seen = vec![a];
+    let mut i = 0;
+    while i < seen.len() {
+        if seen[i] == b {
+            return true;
+        }
+        let from = seen[i];
+        for (_, y, _) in facts.iter().filter(|(x, _, _)| *x == from) {
+            if !seen.contains(y) {
+                seen.push(*y);
+            }
+        }
+        i += 1;
+    }
+    false
+}
+
+/// Whether the decisions of a path contradict each other, so that no input takes it.
+pub fn is_impossible(path: &Path) -> bool {
+    facts(path).iter().any(|(a, b, strict)| *strict && follows(path, *b, *a))
+}
+
+/// Expands a number into a formula.
+struct Builder<'p, 'a> {
+    prover: &'p mut Prover<'a>,
+    formula: Formula,
+    supports: Vec<u64>,
+    computed: Vec<Dyadic>,
+    steps: HashMap<Place, usize>,
+    forms: Forms,
+}
+
+impl<'p, 'a> Builder<'p, 'a> {
+    fn new(prover: &'p mut Prover<'a>) -> Self {
+        Builder {
+            prover,
+            formula: Formula::default(),
+            supports: Vec::new(),
+            computed: Vec::new(),
+            steps: HashMap::new(),
+            forms: Forms::default(),
+        }
+    }
+
+    /// The formula and its corners; the last step is the result.
+    fn finish(mut self) -> Result<(Formula, Maximum), String> {
+        let maximum = self.formula.maximum(self.prover.format);
+        let maximum = maximum.ok_or("its formula has too many variables")?;
+        Ok((self.formula, maximum))
+    }
+
+    fn push(&mut self, step: Step, size: Dyadic, error: Dyadic, computed: Dyadic) -> usize {
+        let of = |i: usize| self.supports[i];
+        let support = match step {
+            Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
+            Step::Number(_) => 0,
+            Step::Neg(a) => of(a),
+            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => of(a) | of(b),
+            Step::Fma(a, b, c) => of(a) | of(b) | of(c),
+            Step::Minor(a, b, c, d) => of(a) | of(b) | of(c) | of(d),
+        };
+        self.supports.push(support);
+        let Formula { steps, places, errors, relative, rounds, sizes, .. } = &mut self.formula;
+        steps.push(step);
+        places.push(None);
+        sizes.push(size);
+        errors.push(error);
+        relative.push(false);
+        rounds.push(false);
+        self.computed.push(computed);
+        self.supports.len() - 1
+    }
+
+    fn exact(&mut self, step: Step, size: Dyadic) -> usize {
+        self.push(step, size, Dyadic::ZERO, size)
+    }
+
+    /// A new variable with an error of its own.
+    fn variable(&mut self, source: Source, size: Dyadic, error: Dyadic, computed: Dyadic) -> usize {
+        self.formula.variables.push(size);
+        self.formula.sources.push(source);
+        let sum = vec![(self.formula.variables.len() - 1, 1)];
+        self.push(Step::Variables(sum), size, error, computed)
+    }
+
+    /// A rounded step: its sizes before rounding, exact and computed.
+    fn rounded(&mut self, step: Step, size: Dyadic, before: Dyadic) -> Result<usize, String> {
+        let format = self.prover.format;
+        let error = format.half_ulp(before);
+        // Rounding is monotone: at most the bound itself, rounded up.
+        let computed = before.round_up(format.digits);
+        self.prover.check_range(computed)?;
+        let step = self.push(step, size, error, computed);
+        self.formula.rounds[step] = true;
+        Ok(step)
+    }
+
+    /// A number that is a variable here; its lemma says the rest.
+    fn cut(&mut self, place: Place) -> Result<usize, String> {
+        let Bound { size, computed, error } = self.prover.bound(place)?;
+        let step = self.variable(Source::Cut(place), size, error, computed);
+        self.formula.places[step] = Some(place);
+        Ok(step)
+    }
+
+    fn leaf(&mut self, leaf: Leaf) -> Result<usize, String> {
+        let bound = leaf.bound(&self.prover.domain);
+        let (sum, is_new) = self.forms.sum(leaf, self.formula.variables.len());
+        if is_new {
+            self.formula.variables.push(bound);
+            self.formula.sources.push(Source::Leaf(leaf));
+        }
+        let step = Step::Variables(sum);
+        if leaf.is_difference() {
+            self.rounded(step, bound, bound)
+        } else {
+            Ok(self.push(step, bound, Dyadic::ZERO, bound))
+        }
+    }
+
+    fn expand(&mut self, place: Place) -> Result<usize, String> {
+        if let Some(step) = self.steps.get(&place) {
+            return Ok(*step);
+        }
+        let operation = self.prover.operation(place);
+        let step = if self.prover.quotient(place).is_some() {
+            self.cut(place)?
+        } else if let Some(leaf) = Leaf::of(operation, &self.prover.path.operations) {
+            self.leaf(leaf)?
+        } else {
+            self.operation(place, operation)?
+        };
+        self.formula.places[step] = Some(place);
+        self.steps.insert(place, step);
+        Ok(step)
+    }
+
+    fn operation(&mut self, place: Place, operation: Operation) -> Result<usize, String> {
+        match operation {
+            Operation::Input(_) => unreachable!("inputs are leaves"),
+            Operation::Number(value) => {
+                let size = Dyadic::new(i128::from(value).abs(), 0);
+                Ok(self.exact(Step::Number(value), size))
+            }
+            Operation::Neg(inner) => {
+                let a = self.expand(inner)?;
+                let (size, computed) = (self.formula.sizes[a], self.computed[a]);
+                Ok(self.push(Step::Neg(a), size, Dyadic::ZERO, computed))
+            }
+            Operation::Add(a, b) | Operation::Sub(a, b) => {
+                let (a, b) = (self.expand(a)?, self.expand(b)?);
+                let is_sum = matches!(operation, Operation::Add(..));
+                let step = if is_sum { Step::Add(a, b) } else { Step::Sub(a, b) };
+                let size = self.formula.sizes[a].plus_up(self.formula.sizes[b]);
+                self.rounded(step, size, self.computed[a].plus_up(self.computed[b]))
+            }
+            Operation::Mul(a, b) => {
+                let [a, b] = self.factors(a, b)?;
+                let [size, before] = self.product(a, b);
+                self.rounded(Step::Mul(a, b), size, before)
+            }
+            Operation::Fma(a, b, c) => {
+                let [a, b] = self.factors(a, b)?;
+                let c = self.expand(c)?;
+                let [size, before] = self.product(a, b);
+                let size = size.plus_up(self.formula.sizes[c]);
+                self.rounded(Step::Fma(a, b, c), size, before.plus_up(self.computed[c]))
+            }
+            Operation::Minor(a, b, c, d) => {
+                let [a, b] = self.factors(a, b)?;
+                let [c, d] = self.factors(c, d)?;
+                let ([size, before], [more, then]) = (self.product(a, b), self.product(c, d));
+                let before = before.plus_up(then);
+                let step = self.rounded(Step::Minor(a, b, c, d), size.plus_up(more), before)?;
+                // In f32 the difference is rounded twice, first to f64.
+                let wide = Format::F64.half_ulp(before);
+                if self.prover.format == Format::F32 {
+                    let error = &mut self.formula.errors[step];
+                    *error = error.plus_up(wide);
+                }
+                Ok(step)
+            }
+            Operation::Div(..) | Operation::Sqrt(_) | Operation::Abs(_) => self.cut(place),
+        }
+    }
+
+    /// Two factors without a variable in common: if there is one, the second factor becomes a variable of
+    /// its own.
+    fn factors(&mut self, a: Place, b: Place) -> Result<[usize; 2], String> {
+        let first = self.expand(a)?;
+        let before = (self.formula.clone(), self.steps.clone(), self.forms.clone());
+        let second = self.expand(b)?;
+        if self.supports[first] & self.supports[second] == 0 {
+            return Ok([first, second]);
+        }
+        (self.formula, self.steps, self.forms) = before;
+        self.supports.truncate(self.formula.steps.len());
+        self.computed.truncate(self.formula.steps.len());
+        Ok([first, self.cut(b)?])
+    }
+
+    fn product(&self, a: usize, b: usize) -> [Dyadic; 2] {
+        let sizes = &self.formula.sizes;
+        [sizes[a] * sizes[b], self.computed[a] * self.computed[b]]
+    }
+}

@@ -1,0 +1,152 @@
+//! Certificates: every number of a proof as text, for a checker that shares nothing with the prover.
+//!
+//! The format is described in docs/guide/proof.md.
+
+use super::formula::{Formula, Source, Step};
+use super::forms::Leaf;
+use super::{Domain, Dyadic, Format, Lemma, Rule};
+use crate::arith::recorded::{Comparison, Operation};
+use crate::kernel::Path;
+use std::fmt::{self, Display, Write};
+
+impl Display for Dyadic {
+    /// `m` or `m*2^e`, the mantissa odd.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.parts() {
+            (mantissa, 0) => write!(f, "{mantissa}"),
+            (mantissa, exponent) => write!(f, "{mantissa}*2^{exponent}"),
+        }
+    }
+}
+
+/// What all proofs of a certificate share.
+pub struct Heading<'a> {
+    /// The kernel's name, its arithmetic included.
+    pub kernel: &'a str,
+    /// `f32` or `f64`.
+    pub scalar: &'a str,
+    /// The format of the floats.
+    pub format: Format,
+    /// The domain.
+    pub domain: Domain,
+}
+
+/// What is claimed of a program: a gate's quantity, and its lemma's place.
+pub struct Claim<'a> {
+    /// The gate's name.
+    pub gate: &'a str,
+    /// The quantity.
+    pub place: u32,
+}
+
+/// The first lines.
+pub fn heading(h: &Heading) -> String {
+    let Format { digits, smallest, largest } = h.format;
+    let Domain { edge, reach, world, direction, extent, direction_floor, floor, quotient } =
+        h.domain;
+    format!(
+        "hairline proof 1\nkernel {} {}\nformat {digits} {smallest} {largest}\n\
+         domain edge {edge} reach {reach} world {world} direction {direction} extent {extent} \
+         direction-floor {direction_floor} floor {floor} quotient {quotient}\n",
+        h.kernel, h.scalar
+    )
+}
+
+/// One program: its operations and decisions, the lemmas in order, and what they show.
+pub fn program(path: &Path, lemmas: &[Lemma], claims: &[Claim]) -> String {
+    let mut text = String::from("program\n");
+    for (place, operation) in path.operations.iter().enumerate() {
+        writeln!(text, "op {place} {}", operation_text(operation)).expect("a string");
+    }
+    for (comparison, answer) in &path.decisions {
+        let answer = if *answer { "yes" } else { "no" };
+        let comparison = match comparison {
+            Comparison::Less(a, b) => format!("less {a} {b}"),
+            Comparison::AtMost(a, b) => format!("at-most {a} {b}"),
+            Comparison::Zero(a) => format!("zero {a}"),
+            Comparison::Negative(a) => format!("negative {a}"),
+        };
+        writeln!(text, "decision {comparison} {answer}").expect("a string");
+    }
+    for lemma in lemmas {
+        text.push_str(&lemma_text(lemma));
+    }
+    for Claim { gate, place } in claims {
+        writeln!(text, "claim {gate} {place}").expect("a string");
+    }
+    text.push_str("end\n");
+    text
+}
+
+fn operation_text(operation: &Operation) -> String {
+    match *operation {
+        Operation::Input(i) => format!("input {i}"),
+        Operation::Number(value) => format!("number {value}"),
+        Operation::Add(a, b) => format!("add {a} {b}"),
+        Operation::Sub(a, b) => format!("sub {a} {b}"),
+        Operation::Mul(a, b) => format!("mul {a} {b}"),
+        Operation::Div(a, b) => format!("div {a} {b}"),
+        Operation::Neg(a) => format!("neg {a}"),
+        Operation::Abs(a) => format!("abs {a}"),
+        Operation::Sqrt(a) => format!("sqrt {a}"),
+        Operation::Fma(a, b, c) => format!("fma {a} {b} {c}"),
+        Operation::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
+    }
+}
+
+fn lemma_text(lemma: &Lemma) -> String {
+    let rule = match lemma.rule {
+        Rule::Sum => "sum".to_owned(),
+        Rule::Quotient(false) => "quotient".to_owned(),
+        Rule::Quotient(true) => "quotient-by-reciprocal".to_owned(),
+        Rule::Length([x, y, z]) => format!("length {x} {y} {z}"),
+    };
+    let mut text = format!("lemma {} {rule}\n", lemma.place);
+    for source in &lemma.formula.sources {
+        let source = match *source {
+            Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
+            Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
+            Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
+            Source::Leaf(Leaf::End(end)) => format!("end {end}"),
+            Source::Cut(place) => format!("cut {place}"),
+            Source::Quotient => "quotient".to_owned(),
+        };
+        writeln!(text, "variable {source}").expect("a string");
+    }
+    for (i, step) in lemma.formula.steps.iter().enumerate() {
+        writeln!(text, "step {}", step_text(&lemma.formula, i, step)).expect("a string");
+    }
+    let relative = lemma.formula.relative.iter().enumerate().filter(|(_, yes)| **yes);
+    let relative: Vec<String> = relative.map(|(i, _)| i.to_string()).collect();
+    if !relative.is_empty() {
+        writeln!(text, "relative {}", relative.join(" ")).expect("a string");
+    }
+    if !lemma.formula.steps.is_empty() {
+        let corner = lemma.maximum.corner.iter().map(|minus| if *minus { '-' } else { '+' });
+        writeln!(text, "corner {}", corner.collect::<String>()).expect("a string");
+        writeln!(text, "first {}", lemma.maximum.first).expect("a string");
+        writeln!(text, "rest {}", lemma.maximum.rest).expect("a string");
+    }
+    let bound = &lemma.bound;
+    writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
+        .expect("a string");
+    text
+}
+
+fn step_text(formula: &Formula, i: usize, step: &Step) -> String {
+    let place = formula.places[i].map_or("-".to_owned(), |place| place.to_string());
+    let operation = match *step {
+        Step::Variables(ref sum) => {
+            let term = |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
+            format!("variables {}", sum.iter().map(term).collect::<Vec<_>>().join(" "))
+        }
+        Step::Number(value) => format!("number {value}"),
+        Step::Add(a, b) => format!("add {a} {b}"),
+        Step::Sub(a, b) => format!("sub {a} {b}"),
+        Step::Mul(a, b) => format!("mul {a} {b}"),
+        Step::Neg(a) => format!("neg {a}"),
+        Step::Fma(a, b, c) => format!("fma {a} {b} {c}"),
+        Step::Minor(a, b, c, d) => format!("minor {a} {b} {c} {d}"),
+    };
+    format!("{place} {operation}")
+}

@@ -1,0 +1,83 @@
+//! The domain of a proof, and the format of its floats.
+
+use super::Dyadic;
+use super::dyadic::{Big, ceil_log2};
+
+/// A binary float format, rounded to nearest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Format {
+    /// The digits of a significand, the leading one included: p.
+    pub digits: u32,
+    /// The exponent of the smallest subnormal number.
+    pub smallest: i32,
+    /// Every number below 2^largest is finite.
+    pub largest: i32,
+}
+
+impl Format {
+    /// IEEE 754's binary32.
+    pub const F32: Format = Format { digits: 24, smallest: -149, largest: 127 };
+    /// IEEE 754's binary64.
+    pub const F64: Format = Format { digits: 53, smallest: -1074, largest: 1023 };
+
+    /// The error of rounding a number of at most this size: half the distance of the floats just below the
+    /// power of two at or above it. It covers subnormal results too.
+    pub fn half_ulp(self, size: Dyadic) -> Dyadic {
+        if size.is_zero() || !size.is_number() {
+            return size;
+        }
+        let exponent = (size.ceil_log2() - 1 - self.digits as i32).max(self.smallest - 1);
+        Dyadic::power(exponent)
+    }
+
+    /// The same for an exact number.
+    pub fn half_ulp_of(self, size: &Big) -> Dyadic {
+        let exponent = (ceil_log2(size) - 1 - self.digits as i32).max(self.smallest - 1);
+        Dyadic::power(exponent)
+    }
+
+    /// Half the smallest subnormal number.
+    pub fn tiny(self) -> Dyadic {
+        Dyadic::power(self.smallest - 1)
+    }
+
+    /// The unit roundoff 2^-p.
+    pub fn unit(self) -> Dyadic {
+        Dyadic::power(-(self.digits as i32))
+    }
+}
+
+/// What the inputs of a program may be. Every bound is of the absolute values of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Domain {
+    /// Of the edge vectors b-a, c-a and c-b.
+    pub edge: Dyadic,
+    /// Of the vectors from the origin of the ray to the vertices.
+    pub reach: Dyadic,
+    /// Of origin and vertices themselves.
+    pub world: Dyadic,
+    /// Of the direction.
+    pub direction: Dyadic,
+    /// Of t_min and t_max.
+    pub extent: Dyadic,
+    /// The largest coordinate of the direction is at least this, where a program divides by it.
+    pub direction_floor: Dyadic,
+    /// Every other divisor is at least this, and every root too.
+    pub floor: Dyadic,
+    /// Every quotient is at most this, but those of one and a divisor.
+    pub quotient: Dyadic,
+}
+
+impl Domain {
+    /// Everything at most 1, directions and divisors at least a half and 2^-8.
+    pub const UNIT: Domain = Domain {
+        edge: Dyadic::ONE,
+        reach: Dyadic::ONE,
+        world: Dyadic::ONE,
+        direction: Dyadic::ONE,
+        extent: Dyadic::ONE,
+        direction_floor: Dyadic::HALF,
+        floor: Dyadic::FLOOR,
+        quotient: Dyadic::ONE,
+    };
+}

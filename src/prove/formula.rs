@@ -1,0 +1,276 @@
+//! A multi-affine formula with its rounding errors, and the largest sum of their effects.
+//!
+//! Let x be computed by sums and products in which no variable meets itself, each variable v_i in
+//! [-m_i, m_i], each operation k with an absolute error δ_k in [-h_k, h_k]. Then the computed x is affine
+//! in each v_i and in each δ_k, so
+//!
+//! ```text
+//! computed x - exact x = Σ_k c_k(v) δ_k + terms of higher order in δ
+//! ```
+//!
+//! and every c_k is affine in each v_i. So Σ_k |c_k(v)| h_k is convex in each v_i: its maximum over the
+//! box lies at a corner, and there are finitely many. For each operation h_k may be replaced by u |r_k(v)|,
+//! where r_k is its exact result: no variable is in both c_k and r_k, so c_k r_k is affine in each v_i too.
+//! The terms of higher order are bounded by running the formula on sizes.
+
+use super::forms::Leaf;
+use super::dyadic::{Big, round_up};
+use super::{Dyadic, Format};
+use crate::arith::recorded::Place;
+use num_traits::Zero;
+
+/// One step of a formula; operands come earlier.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// A sum of variables, each with a sign.
+    Variables(Vec<(usize, i8)>),
+    /// A small whole number.
+    Number(i32),
+    /// `a + b`.
+    Add(usize, usize),
+    /// `a - b`.
+    Sub(usize, usize),
+    /// `a * b`.
+    Mul(usize, usize),
+    /// `-a`.
+    Neg(usize),
+    /// `a*b + c`.
+    Fma(usize, usize, usize),
+    /// `a*b - c*d`.
+    Minor(usize, usize, usize, usize),
+}
+
+/// Steps with the bounds of their rounding errors.
+#[derive(Clone, Debug, Default)]
+pub struct Formula {
+    /// The steps in order; the last one is the result.
+    pub steps: Vec<Step>,
+    /// Where each step stands in the program; none of those that only a proof needs.
+    pub places: Vec<Option<Place>>,
+    /// The largest error of each step on its own: h.
+    pub errors: Vec<Dyadic>,
+    /// Whether a step's error is bounded by u times its exact result instead.
+    pub relative: Vec<bool>,
+    /// Whether a step rounds, so that its error may be bounded so.
+    pub rounds: Vec<bool>,
+    /// The largest exact size of each step.
+    pub sizes: Vec<Dyadic>,
+    /// The bound of each variable: m.
+    pub variables: Vec<Dyadic>,
+    /// What each variable is.
+    pub sources: Vec<Source>,
+}
+
+/// What a variable of a formula is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// An input, or a difference of inputs.
+    Leaf(Leaf),
+    /// A number of the program that has a lemma of its own.
+    Cut(Place),
+    /// The quotient that a lemma is about.
+    Quotient,
+}
+
+/// What the corners say.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Maximum {
+    /// The largest Σ|c_k| h_k.
+    pub first: Dyadic,
+    /// A bound of all terms of higher order.
+    pub rest: Dyadic,
+    /// The corner of the maximum: whether each variable is at its negative end.
+    pub corner: Vec<bool>,
+    /// The largest exact size of the result.
+    pub size: Dyadic,
+}
+
+/// More variables than this are too many corners.
+const MOST_VARIABLES: usize = 18;
+/// More variables than this are too many corners to try both bounds of each step's error.
+const MOST_TO_CHOOSE: usize = 12;
+/// Binary digits that the numbers of a lemma keep.
+pub const DIGITS: u32 = 24;
+
+impl Formula {
+    /// The variables of each step, as bits. None if a product has one variable in both factors, or there
+    /// are too many.
+    pub fn supports(&self) -> Option<Vec<u64>> {
+        if self.variables.len() > MOST_VARIABLES {
+            return None;
+        }
+        let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            let of = |i: usize| supports[i];
+            let product = |a: usize, b: usize| (of(a) & of(b) == 0).then_some(of(a) | of(b));
+            supports.push(match *step {
+                Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << v),
+                Step::Number(_) => 0,
+                Step::Add(a, b) | Step::Sub(a, b) => of(a) | of(b),
+                Step::Mul(a, b) => product(a, b)?,
+                Step::Neg(a) => of(a),
+                Step::Fma(a, b, c) => product(a, b)? | of(c),
+                Step::Minor(a, b, c, d) => product(a, b)? | product(c, d)?,
+            });
+        }
+        Some(supports)
+    }
+
+    /// The maximum over all corners; none if the formula is not multi-affine. Chooses, step by step, the
+    /// bound of its error that makes the maximum smaller.
+    pub fn maximum(&mut self, format: Format) -> Option<Maximum> {
+        self.supports()?;
+        let count = self.variables.len();
+        let mut size = Dyadic::ZERO;
+        let mut values = vec![Dyadic::ZERO; self.steps.len()];
+        let mut slopes = values.clone();
+        let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
+        let choosing = count <= MOST_TO_CHOOSE && choices.len() > 1;
+        // By corner, what the steps that round contribute either way; and what the others contribute.
+        let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
+        let mut others = Vec::new();
+        let (mut first, mut at) = (Dyadic::ZERO, 0);
+        for corner in 0..1u64 << count {
+            self.evaluate(|v| negative_if(corner >> v & 1 == 1, self.variables[v]), &mut values);
+            self.slopes(&values, &mut slopes);
+            size = size.max(values[values.len() - 1].abs());
+            let effect = |i: usize| {
+                let slope = slopes[i].abs();
+                [slope * self.errors[i], slope * values[i].abs() * format.unit()]
+            };
+            if choosing {
+                effects.push(choices.iter().map(|i| effect(*i)).collect());
+                let rest = (0..self.steps.len()).filter(|i| !self.rounds[*i]).map(|i| effect(i)[0]);
+                others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
+            } else {
+                let all = (0..self.steps.len()).map(|i| effect(i)[0]);
+                let sum = all.fold(Dyadic::ZERO, Dyadic::plus_up);
+                if first < sum {
+                    (first, at) = (sum, corner);
+                }
+            }
+        }
+        if choosing {
+            let mut chosen = vec![0; choices.len()];
+            let largest = |chosen: &[usize]| {
+                let sum = |corner: usize| {
+                    let parts = effects[corner].iter().zip(chosen).map(|(both, i)| both[*i]);
+                    parts.fold(others[corner], Dyadic::plus_up)
+                };
+                let sums = (0..effects.len()).map(|corner| (sum(corner), corner as u64));
+                // The first corner of the largest sum.
+                sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
+            };
+            (first, at) = largest(&chosen);
+            for k in (0..choices.len()).rev() {
+                chosen[k] = 1;
+                let tried = largest(&chosen);
+                if tried.0 < first {
+                    (first, at) = tried;
+                    self.relative[choices[k]] = true;
+                } else {
+                    chosen[k] = 0;
+                }
+            }
+        }
+        let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
+        Some(Maximum { first, rest: self.higher_order(format), corner, size })
+    }
+
+    fn evaluate(&self, variable: impl Fn(usize) -> Dyadic, values: &mut [Dyadic]) {
+        for i in 0..self.steps.len() {
+            values[i] = match self.steps[i] {
+                Step::Variables(ref sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
+                    total + negative_if(*sign < 0, variable(*v))
+                }),
+                Step::Number(value) => Dyadic::new(value.into(), 0),
+                Step::Add(a, b) => values[a] + values[b],
+                Step::Sub(a, b) => values[a] - values[b],
+                Step::Mul(a, b) => values[a] * values[b],
+                Step::Neg(a) => -values[a],
+                Step::Fma(a, b, c) => values[a] * values[b] + values[c],
+                Step::Minor(a, b, c, d) => values[a] * values[b] - values[c] * values[d],
+            };
+        }
+    }
+
+    /// The derivative of the result by each step.
+    fn slopes(&self, values: &[Dyadic], slopes: &mut [Dyadic]) {
+        slopes.fill(Dyadic::ZERO);
+        let last = slopes.len() - 1;
+        slopes[last] = Dyadic::ONE;
+        for i in (0..=last).rev() {
+            let slope = slopes[i];
+            if slope.is_zero() {
+                continue;
+            }
+            let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
+            match self.steps[i] {
+                Step::Variables(_) | Step::Number(_) => {}
+                Step::Add(a, b) => {
+                    add(a, slope);
+                    add(b, slope);
+                }
+                Step::Sub(a, b) => {
+                    add(a, slope);
+                    add(b, -slope);
+                }
+                Step::Mul(a, b) => {
+                    add(a, slope * values[b]);
+                    add(b, slope * values[a]);
+                }
+                Step::Neg(a) => add(a, -slope),
+                Step::Fma(a, b, c) => {
+                    add(a, slope * values[b]);
+                    add(b, slope * values[a]);
+                    add(c, slope);
+                }
+                Step::Minor(a, b, c, d) => {
+                    add(a, slope * values[b]);
+                    add(b, slope * values[a]);
+                    add(c, -(slope * values[d]));
+                    add(d, -(slope * values[c]));
+                }
+            }
+        }
+    }
+
+    /// The terms of second and higher order, with every number at its largest size and nothing cancelled,
+    /// rounded up.
+    fn higher_order(&self, format: Format) -> Dyadic {
+        // Of each step: its size, its terms of first order, and the rest.
+        let mut terms: Vec<[Big; 3]> = Vec::with_capacity(self.steps.len());
+        let (unit, tiny) = (Big::from(format.unit()), Big::from(format.tiny()));
+        for (i, step) in self.steps.iter().enumerate() {
+            let product = |a: usize, b: usize| {
+                let ([a0, a1, a2], [b0, b1, b2]) = (&terms[a], &terms[b]);
+                let first = a0 * b1 + a1 * b0;
+                let rest = a1 * b1 + a2 * &(b0 + b1 + b2) + (a0 + a1) * b2;
+                [first, rest]
+            };
+            let own = |a: usize| [terms[a][1].clone(), terms[a][2].clone()];
+            let sum = |[a, b]: [Big; 2], [c, d]: [Big; 2]| [a + c, b + d];
+            let [mut first, mut rest] = match *step {
+                Step::Variables(_) | Step::Number(_) => [Big::zero(), Big::zero()],
+                Step::Add(a, b) | Step::Sub(a, b) => sum(own(a), own(b)),
+                Step::Mul(a, b) => product(a, b),
+                Step::Neg(a) => own(a),
+                Step::Fma(a, b, c) => sum(product(a, b), own(c)),
+                Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
+            };
+            let size = Big::from(self.sizes[i]);
+            if self.relative[i] {
+                rest = &rest + &unit * &(&first + &rest) + &tiny;
+                first += &unit * &size;
+            } else {
+                first += Big::from(self.errors[i]);
+            }
+            terms.push([size, first, rest]);
+        }
+        terms.last().map_or(Dyadic::ZERO, |[_, _, rest]| round_up(rest, DIGITS))
+    }
+}
+
+fn negative_if(negative: bool, x: Dyadic) -> Dyadic {
+    if negative { -x } else { x }
+}

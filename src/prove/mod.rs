@@ -1,0 +1,17 @@
+//! Floor 4: what a kernel can never do wrong. Bounds that hold for every float of a domain, beside the
+//! worst cases that are known in it.
+
+#![forbid(unsafe_code)]
+
+mod bound;
+pub mod certificate;
+mod domain;
+mod dyadic;
+mod formula;
+mod forms;
+
+pub use bound::{Bound, Lemma, Prover, Rule, is_impossible};
+pub use domain::{Domain, Format};
+pub use dyadic::Dyadic;
+pub use formula::{Formula, Maximum, Source, Step};
+pub use forms::Leaf;
