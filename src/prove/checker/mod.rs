@@ -1,0 +1,256 @@
+//! An independent checker of certificates. docs/guide/proof.md has the theorem and the format.
+//!
+//! It shares no code with the prover, reads only the text, and computes with integers and rationals. A
+//! number that a rule determines must be exactly that number: one unit more or less is refused.
+
+mod corners;
+mod formula;
+mod number;
+mod program;
+mod reader;
+
+pub use number::Number;
+pub use program::Bound;
+pub use reader::Refusal;
+
+use formula::Formula;
+use num_traits::{One, Signed, Zero};
+use number::{F32, F64, Format, root_up, round_up};
+use program::{DIRECTION_FLOOR, Domain, FLOOR, Operation, Program, QUOTIENT, indices};
+use reader::{Outcome, Reader, refuse};
+
+/// Limits that keep a hostile text from taking long: bytes, and operations or steps in a row.
+const MOST_BYTES: usize = 1 << 24;
+const MOST_ROWS: usize = 1 << 12;
+/// Binary digits of a lemma's size and of its errors.
+const SIZE_DIGITS: i64 = 12;
+const ERROR_DIGITS: i64 = 24;
+
+/// A bound that a certificate proves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Proved {
+    /// Which program of the certificate, counted from 0.
+    pub program: usize,
+    /// The gate that compares the number.
+    pub gate: String,
+    /// The number's operation.
+    pub place: usize,
+    /// What holds for it.
+    pub bound: Bound,
+}
+
+/// Everything that a certificate proves, or why it is refused.
+pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
+    if MOST_BYTES < text.len() {
+        return refuse(1, format!("found more than {MOST_BYTES} bytes"));
+    }
+    let mut reader = Reader { lines: text.lines().collect(), at: 0 };
+    reader.read("hairline proof 1", |words| (words == ["proof", "1"]).then_some(()))?;
+    let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
+    let format = reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
+        let &[digits, smallest, largest] = words else { return None };
+        let format = [digits.parse().ok()?, smallest.parse().ok()?, largest.parse().ok()?];
+        let is_right = match scalar {
+            "f32" => format == F32,
+            "f64" => format == F64,
+            _ => {
+                (3..=64).contains(&format[0])
+                    && format[1..].iter().all(|e| (-2048..=2048).contains(e))
+            }
+        };
+        is_right.then(|| Format::of(format))
+    })?;
+    let domain = reader.read("domain edge X reach X world X direction X …", Domain::parse)?;
+    let (mut proved, mut work, mut program) = (Vec::new(), 0, 0);
+    while reader.at < reader.lines.len() {
+        let mut checked = Program::read(&format, &domain, &mut reader)?;
+        while reader.is_next("lemma") {
+            lemma(&mut checked, &mut work, &mut reader)?;
+        }
+        while reader.is_next("claim") {
+            let (gate, place) = reader.read("claim GATE OPERATION", |words| match words {
+                [gate, place] => Some((gate.to_string(), place.parse().ok()?)),
+                _ => None,
+            })?;
+            let bound = checked.bound(reader.at, place)?.clone();
+            proved.push(Proved { program, gate, place, bound });
+        }
+        reader.read("end", |words| words.is_empty().then_some(()))?;
+        program += 1;
+    }
+    if proved.is_empty() { reader.unexpected("a program with a claim") } else { Ok(proved) }
+}
+
+/// Reads and checks a lemma.
+fn lemma(program: &mut Program, work: &mut u64, reader: &mut Reader) -> Outcome<()> {
+    let form = "lemma OPERATION sum, quotient, quotient-by-reciprocal or length X Y Z, \
+                for an operation without a lemma that is no neg or abs";
+    let (place, rule, vector) = reader.read(form, |words| {
+        let (&[place, rule], words) = words.split_first_chunk()?;
+        let place = indices(&[place], program.operations.len())?[0];
+        let vector = indices(words, program.operations.len())?;
+        let is_known = match rule {
+            "length" => vector.len() == 3,
+            "sum" | "quotient" | "quotient-by-reciprocal" => vector.is_empty(),
+            _ => false,
+        };
+        let is_fit = !["neg", "abs"].contains(&program.operations[place].name);
+        (is_known && is_fit && !program.lemmas.contains_key(&place))
+            .then_some((place, rule, vector))
+    })?;
+    let bound = match rule {
+        "sum" => {
+            let formula = Formula::read(program, None, reader)?;
+            let last = &formula.steps[formula.steps.len() - 1];
+            if last.place != Some(place) {
+                return refuse(
+                    reader.at,
+                    format!("found another last step, expected operation {place}"),
+                );
+            }
+            let (largest, sum) = formula.maximum(program.format, work, reader)?;
+            let size = round_up(&largest.min(last.bound.size.clone()), SIZE_DIGITS);
+            let error = round_up(&sum, ERROR_DIGITS);
+            Bound { computed: last.bound.computed.clone().min(&size + &error), size, error }
+        }
+        "length" => length(program, place, vector, reader.at)?,
+        _ => quotient(program, place, rule != "quotient", work, reader)?,
+    };
+    reader.demand("size", &bound.size)?;
+    reader.demand("computed", &bound.computed)?;
+    reader.demand("error", &bound.error)?;
+    program.lemmas.insert(place, bound);
+    Ok(())
+}
+
+/// The bound of a number that is rounded once more: its exact size, and its error and size before that.
+fn rounded(
+    format: &Format,
+    line: usize,
+    size: Number,
+    error: Number,
+    before: &Number,
+) -> Outcome<Bound> {
+    let error = round_up(&(error + format.half_ulp(before)), ERROR_DIGITS);
+    let computed = format.float_up(before);
+    format.finite(&computed).or_else(|message| refuse(line, message))?;
+    Ok(Bound { size, computed, error })
+}
+
+/// The bound of n/d, or `by_reciprocal` of n*(1/d).
+fn quotient(
+    program: &Program,
+    place: usize,
+    by_reciprocal: bool,
+    work: &mut u64,
+    reader: &mut Reader,
+) -> Outcome<Bound> {
+    let (line, format) = (reader.at, program.format);
+    let operand = |place: usize, name: &str| {
+        let Operation { name: found, operands, .. } = &program.operations[place];
+        (*found == name).then(|| (operands[0], operands[1]))
+    };
+    let is_one = |place: usize| {
+        program.operations[place].name == "number" && program.operations[place].value == 1
+    };
+    let of_reciprocal = |n: usize, place: usize| {
+        operand(place, "div").filter(|(one, _)| is_one(*one)).map(|(_, d)| (n, d))
+    };
+    let found = if by_reciprocal {
+        operand(place, "mul").and_then(|(a, b)| of_reciprocal(a, b).or_else(|| of_reciprocal(b, a)))
+    } else {
+        operand(place, "div")
+    };
+    let Some((n, d)) = found else {
+        return refuse(line, "found a rule that does not fit its operation");
+    };
+    let n = (by_reciprocal || !is_one(n)).then_some(n);
+    let one = Bound { size: Number::one(), computed: Number::one(), error: Number::zero() };
+    let above = n.map_or(Ok(&one), |n| program.bound(line, n))?;
+    let below = program.bound(line, d)?;
+    // Whether |n| <= |d|. A decision is about computed numbers, but inputs are exact.
+    let ordered = |a: usize, b: usize| program.at_most.contains(&(a, b));
+    let divisor = program.input(d);
+    let is_ordered =
+        n.and_then(|n| program.input(n)).zip(divisor).is_some_and(|(n, d)| ordered(n, d));
+    let is_largest = divisor
+        .is_some_and(|d| (3..6).contains(&d) && (3..6).all(|axis| axis == d || ordered(axis, d)));
+    let floor = &program.domain.0[if is_largest { DIRECTION_FLOOR } else { FLOOR }];
+    let least = floor - &below.error;
+    if !least.is_positive() {
+        return refuse(
+            line,
+            "found a divisor that may be rounded to zero, expected a larger floor",
+        );
+    }
+    if by_reciprocal {
+        format
+            .finite(&round_up(&least.recip(), ERROR_DIGITS))
+            .or_else(|message| refuse(line, message))?;
+    }
+    let size = match n {
+        Some(_) if is_ordered => Number::one(),
+        Some(_) => (&above.size / floor).min(program.domain.0[QUOTIENT].clone()),
+        None => floor.recip(),
+    };
+    let size = round_up(&size, SIZE_DIGITS);
+    let formula = Formula::read(program, Some(&size), reader)?;
+    if !formula.is_quotient_of(n, d) {
+        return refuse(
+            reader.at,
+            "found other last steps, expected numerator - quotient * divisor",
+        );
+    }
+    let (_, sum) = formula.maximum(format, work, reader)?;
+    let mut error = sum / least;
+    let mut before = &size + &error;
+    if by_reciprocal {
+        let reciprocal = &format.unit * &before + &format.tiny * &above.computed;
+        error += &reciprocal;
+        before += reciprocal;
+    } else if is_ordered {
+        before = Number::one();
+    }
+    rounded(format, reader.at, size, error, &before)
+}
+
+/// The bound of the length of a vector: the root of the sum of three squares.
+fn length(program: &Program, place: usize, vector: Vec<usize>, line: usize) -> Outcome<Bound> {
+    let (format, root) = (program.format, &program.operations[place]);
+    let (mut squares, mut open) = (Vec::new(), root.operands.clone());
+    while let Some(place) = open.pop().filter(|_| squares.len() + open.len() < 3) {
+        match (program.operations[place].name, &program.operations[place].operands[..]) {
+            ("mul", &[a, b]) if a == b => squares.push(a),
+            ("fma", &[a, b, c]) if a == b => {
+                squares.push(a);
+                open.push(c);
+            }
+            ("add", &[a, b]) => open.extend([a, b]),
+            _ => break,
+        }
+    }
+    squares.sort_unstable();
+    if root.name != "sqrt" || squares != vector {
+        return refuse(
+            line,
+            "found another operation, expected the root of the sum of these squares",
+        );
+    }
+    let (mut errors, mut sizes) = (Number::zero(), Number::zero());
+    for place in vector {
+        let bound = program.bound(line, place)?;
+        errors += &bound.error * &bound.error;
+        sizes += &bound.size * &bound.size;
+    }
+    let (shift, size) = (root_up(&errors, ERROR_DIGITS), root_up(&sizes, SIZE_DIGITS));
+    let three = Number::from_integer(3.into());
+    let least = &program.domain.0[FLOOR] - &shift;
+    if !least.is_positive() || &format.unit * &least * &least < &three * &format.tiny {
+        return refuse(line, "found a length that may be rounded to zero, expected a larger floor");
+    }
+    let largest = &size + &shift;
+    let relative = three * &format.unit * &largest;
+    let before = largest + &relative;
+    format.finite(&(&before * &before)).or_else(|message| refuse(line, message))?;
+    rounded(format, line, size, shift + relative, &before)
+}
