@@ -1,17 +1,20 @@
 //! The largest sum of the effects of all rounding errors, over all corners of a box, in integers.
 
 use num_bigint::BigInt;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed};
 
 /// Longer numbers are refused.
-const MOST_BITS: u64 = 1 << 12;
+pub const MOST_BITS: u64 = 1 << 12;
 
-/// One step: a constant, variables and products of earlier steps, each with a factor, all added up; the
-/// weight of its error; whether its error grows with it; and the variables in it, as bits.
+/// A signed product of two earlier steps, or a signed step, with a factor.
+pub type Term<T> = (T, usize, Option<usize>);
+
+/// One step: a constant, variables or terms that are added up; the weight of its error; whether its error
+/// grows with it; and the variables in it, as bits.
 pub struct Row<T> {
     pub constant: T,
     pub variables: Vec<(T, usize)>,
-    pub terms: Vec<(T, usize, Option<usize>)>,
+    pub terms: Vec<Term<T>>,
     pub weight: T,
     pub relative: bool,
     pub support: usize,
@@ -20,87 +23,58 @@ pub struct Row<T> {
 /// The largest sum, the first corner that has it (bit v is set where variable v is negative), and the
 /// largest size of the last step. None if the numbers are too long.
 pub fn search(rows: &[Row<BigInt>], sizes: &[BigInt]) -> Option<(BigInt, usize, BigInt)> {
-    match bits(rows, sizes) {
-        0..=62 => search_in::<i64>(rows, sizes),
-        63..=126 => search_in::<i128>(rows, sizes),
-        127..=MOST_BITS => search_in::<BigInt>(rows, sizes),
+    // With every sign plus and zeros as ones, the sum is longer than any number that the search meets,
+    // for the last step depends on every step.
+    let not_zero = |x: &BigInt| x.abs().max(BigInt::one());
+    let plus = |row: &Row<BigInt>| Row {
+        constant: if row.support == 0 { not_zero(&row.constant) } else { BigInt::ZERO },
+        variables: row.variables.iter().map(|(c, v)| (c.abs(), *v)).collect(),
+        terms: row.terms.iter().map(|(c, a, b)| (c.abs(), *a, *b)).collect(),
+        weight: not_zero(&row.weight),
+        relative: true,
+        ..*row
+    };
+    let rows_plus: Vec<_> = rows.iter().map(plus).collect();
+    let sizes_plus: Vec<_> = sizes.iter().map(not_zero).collect();
+    let corners = 1 << sizes.len();
+    match search_in::<BigInt>(&rows_plus, &sizes_plus, 1)?.0.bits() {
+        0..=62 => search_in::<i64>(rows, sizes, corners),
+        63..=126 => search_in::<i128>(rows, sizes, corners),
+        127..=MOST_BITS => search_in::<BigInt>(rows, sizes, corners),
         _ => None,
     }
 }
 
-/// The digits of the longest number that a search can meet. Zeros count as ones, so that no factor is
-/// longer than its product.
-fn bits(rows: &[Row<BigInt>], sizes: &[BigInt]) -> u64 {
-    let not_zero = |x: &BigInt| x.abs().max(BigInt::one());
-    let mut values: Vec<BigInt> = Vec::new();
-    for row in rows {
-        let mut value = not_zero(&row.constant);
-        value += row.variables.iter().map(|(c, v)| c.abs() * not_zero(&sizes[*v])).sum::<BigInt>();
-        for (c, a, b) in &row.terms {
-            value += c.abs() * &values[*a] * b.map_or(BigInt::one(), |b| values[b].clone());
-        }
-        if MOST_BITS < value.bits() {
-            return value.bits();
-        }
-        values.push(value);
-    }
-    let mut slopes = vec![BigInt::one(); rows.len()];
-    let mut total = BigInt::zero();
-    for (k, row) in rows.iter().enumerate().rev() {
-        for (c, a, b) in &row.terms {
-            let slope = c.abs() * &slopes[k];
-            match b {
-                None => slopes[*a] += slope,
-                Some(b) => {
-                    slopes[*a] += &slope * &values[*b];
-                    slopes[*b] += slope * &values[*a];
-                }
-            }
-        }
-        let effect = not_zero(&row.weight) * &slopes[k];
-        total += if row.relative { effect * &values[k] } else { effect };
-        if MOST_BITS < total.bits() {
-            break;
-        }
-    }
-    let longest = values.iter().chain(&slopes).map(BigInt::bits).max();
-    longest.unwrap_or(0).max(total.bits())
-}
-
-fn search_in<T>(rows: &[Row<BigInt>], sizes: &[BigInt]) -> Option<(BigInt, usize, BigInt)>
+fn search_in<T>(
+    rows: &[Row<BigInt>],
+    sizes: &[BigInt],
+    corners: usize,
+) -> Option<(BigInt, usize, BigInt)>
 where
     T: Signed + Clone + PartialOrd + TryFrom<BigInt>,
     BigInt: From<T>,
 {
-    let whole = |x: &BigInt| T::try_from(x.clone()).ok();
-    let mut scaled = Vec::new();
-    for row in rows {
-        let variables: Option<_> =
-            row.variables.iter().map(|(c, v)| Some((whole(c)?, *v))).collect();
-        let terms: Option<_> =
-            row.terms.iter().map(|(c, a, b)| Some((whole(c)?, *a, *b))).collect();
-        let (constant, weight) = (whole(&row.constant)?, whole(&row.weight)?);
-        let &Row { relative, support, .. } = row;
-        scaled.push(Row {
-            constant,
-            variables: variables?,
-            terms: terms?,
-            weight,
-            relative,
-            support,
-        });
-    }
-    let sizes: Vec<T> = sizes.iter().map(whole).collect::<Option<_>>()?;
-    let (mut values, mut slopes) = (vec![T::zero(); rows.len()], vec![T::zero(); rows.len()]);
-    let last = rows.len() - 1;
+    let of = |x: &BigInt| T::try_from(x.clone()).ok();
+    let rows = rows.iter().map(|row| {
+        let variables = row.variables.iter().map(|(c, v)| Some((of(c)?, *v)));
+        let terms = row.terms.iter().map(|(c, a, b)| Some((of(c)?, *a, *b)));
+        Some(Row {
+            constant: of(&row.constant)?,
+            variables: variables.collect::<Option<_>>()?,
+            terms: terms.collect::<Option<_>>()?,
+            weight: of(&row.weight)?,
+            relative: row.relative,
+            support: row.support,
+        })
+    });
+    let rows: Vec<Row<T>> = rows.collect::<Option<_>>()?;
+    let sizes: Vec<T> = sizes.iter().map(of).collect::<Option<_>>()?;
+    let mut values = vec![T::zero(); rows.len()];
     let (mut best, mut at, mut largest) = (T::zero(), 0, T::zero());
-    for corner in 0..1usize << sizes.len() {
-        // What the step from the corner before does not change stays.
-        let changed = if corner == 0 { usize::MAX } else { corner ^ (corner - 1) };
-        for (k, row) in scaled.iter().enumerate() {
-            if corner != 0 && row.support & changed == 0 {
-                continue;
-            }
+    for corner in 0..corners {
+        // What no changed variable is in stays as it was at the corner before.
+        let changed = corner ^ corner.wrapping_sub(1);
+        for (k, row) in rows.iter().enumerate().filter(|(_, row)| corner == 0 || row.support & changed != 0) {
             let mut value = row.constant.clone();
             for (c, v) in &row.variables {
                 let x = c.clone() * sizes[*v].clone();
@@ -108,37 +82,34 @@ where
             }
             for (c, a, b) in &row.terms {
                 let x = c.clone() * values[*a].clone();
-                value = value + b.map_or(T::one(), |b| values[b].clone()) * x;
+                value = value + if let Some(b) = b { x * values[*b].clone() } else { x };
             }
             values[k] = value;
         }
-        slopes.fill(T::zero());
-        slopes[last] = T::one();
-        let mut total = T::zero();
-        for (k, row) in scaled.iter().enumerate().rev() {
+        // The derivatives of the last step by each step.
+        let mut slopes = vec![T::zero(); rows.len()];
+        slopes[rows.len() - 1] = T::one();
+        let mut sum = T::zero();
+        for (k, row) in rows.iter().enumerate().rev() {
             let slope = slopes[k].clone();
             if slope.is_zero() {
                 continue;
             }
+            let mut add = |to: usize, x: T| slopes[to] = slopes[to].clone() + x;
             for (c, a, b) in &row.terms {
                 let x = slope.clone() * c.clone();
-                match b {
-                    None => slopes[*a] = slopes[*a].clone() + x,
-                    Some(b) => {
-                        slopes[*a] = slopes[*a].clone() + x.clone() * values[*b].clone();
-                        slopes[*b] = slopes[*b].clone() + x * values[*a].clone();
-                    }
+                if let Some(b) = b {
+                    add(*a, x.clone() * values[*b].clone());
+                    add(*b, x * values[*a].clone());
+                } else {
+                    add(*a, x);
                 }
             }
             let effect = slope.abs() * row.weight.clone();
-            total = total + if row.relative { effect * values[k].abs() } else { effect };
+            sum = sum + if row.relative { effect * values[k].abs() } else { effect };
         }
-        if best < total {
-            (best, at) = (total, corner);
-        }
-        if largest < values[last].abs() {
-            largest = values[last].abs();
-        }
+        (best, at) = if best < sum { (sum, corner) } else { (best, at) };
+        largest = if largest < values[values.len() - 1].abs() { values[values.len() - 1].abs() } else { largest };
     }
     Some((best.into(), at, largest.into()))
 }

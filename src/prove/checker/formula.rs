@@ -6,6 +6,7 @@ use super::program::{Bound, Leaf, Program, indices, terms};
 use super::reader::{Outcome, Reader, refuse};
 use super::{ERROR_DIGITS, MOST_ROWS};
 use num_traits::{One, Zero};
+use std::collections::HashSet;
 
 /// A formula of n variables has 2^n corners. Work is counted in corners times steps.
 const MOST_VARIABLES: usize = 18;
@@ -67,7 +68,7 @@ impl Formula {
                 })
             })?;
             if formula.variables.len() == MOST_VARIABLES {
-                return refuse(reader.at, format!("found more than {MOST_VARIABLES} variables"));
+                return refuse(reader.line, format!("found more than {MOST_VARIABLES} variables"));
             }
             let exact = |size: &Number| Bound {
                 size: size.clone(),
@@ -79,16 +80,16 @@ impl Formula {
                     let (from, to) = (components[i], components[j.unwrap_or(17)]);
                     if from == to {
                         return refuse(
-                            reader.at,
+                            reader.line,
                             "found a variable that follows from those above, expected an independent one",
                         );
                     }
                     components.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
                     exact(program.domain.bound((i, j)))
                 }
-                (_, Some(place), _) => program.bound(reader.at, place)?.clone(),
+                (_, Some(place), _) => program.bound(reader.line, place)?.clone(),
                 (_, _, Some(quotient)) => exact(quotient),
-                _ => return refuse(reader.at, "found a quotient, expected none here"),
+                _ => return refuse(reader.line, "found a quotient, expected none here"),
             };
             formula.variables.push(Variable { leaf, cut, bound });
         }
@@ -96,21 +97,23 @@ impl Formula {
             let found =
                 reader.read("step OPERATION KIND OPERANDS", |words| Some(words.to_vec()))?;
             let step = formula.step(&found, program, quotient.is_some()).or_else(|expected| {
-                refuse(reader.at, format!("found `step {}`, expected {expected}", found.join(" ")))
+                refuse(reader.line, format!("found `step {}`, expected {expected}", found.join(" ")))
             })?;
             if step.place.is_some() {
                 program
                     .format
                     .finite(&step.bound.computed)
-                    .or_else(|message| refuse(reader.at, message))?;
+                    .or_else(|message| refuse(reader.line, message))?;
             }
             formula.steps.push(step);
             if MOST_ROWS < formula.steps.len() {
-                return refuse(reader.at, format!("found more than {MOST_ROWS} steps"));
+                return refuse(reader.line, format!("found more than {MOST_ROWS} steps"));
             }
         }
-        if formula.steps.is_empty() {
-            return reader.unexpected("a step");
+        let operands = formula.steps.iter().flat_map(|step| &step.terms);
+        let operands: HashSet<usize> = operands.flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]).collect();
+        if operands.len() + 1 != formula.steps.len() {
+            return reader.unexpected("a last step that uses all those above");
         }
         if reader.is_next("relative") {
             let steps = &mut formula.steps;
@@ -302,10 +305,10 @@ impl Formula {
     ) -> Outcome<(Number, Number)> {
         *work += (self.steps.len() as u64) << self.variables.len();
         if MOST_WORK < *work {
-            return refuse(reader.at, "found too many corners of too many steps in this file");
+            return refuse(reader.line, "found too many corners of too many steps in this file");
         }
         let Some((first, corner, largest)) = self.corners(format) else {
-            return refuse(reader.at, "found numbers that are too long");
+            return refuse(reader.line, "found numbers that are too long");
         };
         let signs = (0..self.variables.len()).map(|v| if corner >> v & 1 == 1 { '-' } else { '+' });
         let signs: String = signs.collect();

@@ -20,7 +20,7 @@ use program::{DIRECTION_FLOOR, Domain, FLOOR, Operation, Program, QUOTIENT, indi
 use reader::{Outcome, Reader, refuse};
 
 /// Limits that keep a hostile text from taking long: bytes, and operations or steps in a row.
-const MOST_BYTES: usize = 1 << 24;
+const MOST_BYTES: usize = 1 << 22;
 const MOST_ROWS: usize = 1 << 12;
 /// Binary digits of a lemma's size and of its errors.
 const SIZE_DIGITS: i64 = 12;
@@ -44,7 +44,7 @@ pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
     if MOST_BYTES < text.len() {
         return refuse(1, format!("found more than {MOST_BYTES} bytes"));
     }
-    let mut reader = Reader { lines: text.lines().collect(), at: 0 };
+    let mut reader = Reader { lines: text.lines().peekable(), line: 0 };
     reader.read("hairline proof 1", |words| (words == ["proof", "1"]).then_some(()))?;
     let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
     let format = reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
@@ -54,7 +54,7 @@ pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
             "f32" => format == F32,
             "f64" => format == F64,
             _ => {
-                (3..=64).contains(&format[0])
+                scalar == "float" && (3..=60).contains(&format[0])
                     && format[1..].iter().all(|e| (-2048..=2048).contains(e))
             }
         };
@@ -62,7 +62,7 @@ pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
     })?;
     let domain = reader.read("domain edge X reach X world X direction X …", Domain::parse)?;
     let (mut proved, mut work, mut program) = (Vec::new(), 0, 0);
-    while reader.at < reader.lines.len() {
+    while reader.lines.peek().is_some() {
         let mut checked = Program::read(&format, &domain, &mut reader)?;
         while reader.is_next("lemma") {
             lemma(&mut checked, &mut work, &mut reader)?;
@@ -72,7 +72,7 @@ pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
                 [gate, place] => Some((gate.to_string(), place.parse().ok()?)),
                 _ => None,
             })?;
-            let bound = checked.bound(reader.at, place)?.clone();
+            let bound = checked.bound(reader.line, place)?.clone();
             proved.push(Proved { program, gate, place, bound });
         }
         reader.read("end", |words| words.is_empty().then_some(()))?;
@@ -104,7 +104,7 @@ fn lemma(program: &mut Program, work: &mut u64, reader: &mut Reader) -> Outcome<
             let last = &formula.steps[formula.steps.len() - 1];
             if last.place != Some(place) {
                 return refuse(
-                    reader.at,
+                    reader.line,
                     format!("found another last step, expected operation {place}"),
                 );
             }
@@ -113,7 +113,7 @@ fn lemma(program: &mut Program, work: &mut u64, reader: &mut Reader) -> Outcome<
             let error = round_up(&sum, ERROR_DIGITS);
             Bound { computed: last.bound.computed.clone().min(&size + &error), size, error }
         }
-        "length" => length(program, place, vector, reader.at)?,
+        "length" => length(program, place, vector, reader.line)?,
         _ => quotient(program, place, rule != "quotient", work, reader)?,
     };
     reader.demand("size", &bound.size)?;
@@ -145,7 +145,7 @@ fn quotient(
     work: &mut u64,
     reader: &mut Reader,
 ) -> Outcome<Bound> {
-    let (line, format) = (reader.at, program.format);
+    let (line, format) = (reader.line, program.format);
     let operand = |place: usize, name: &str| {
         let Operation { name: found, operands, .. } = &program.operations[place];
         (*found == name).then(|| (operands[0], operands[1]))
@@ -197,7 +197,7 @@ fn quotient(
     let formula = Formula::read(program, Some(&size), reader)?;
     if !formula.is_quotient_of(n, d) {
         return refuse(
-            reader.at,
+            reader.line,
             "found other last steps, expected numerator - quotient * divisor",
         );
     }
@@ -211,7 +211,7 @@ fn quotient(
     } else if is_ordered {
         before = Number::one();
     }
-    rounded(format, reader.at, size, error, &before)
+    rounded(format, reader.line, size, error, &before)
 }
 
 /// The bound of the length of a vector: the root of the sum of three squares.

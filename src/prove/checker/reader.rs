@@ -2,16 +2,18 @@
 
 use super::number::{Number, number, show};
 use std::fmt::{self, Display};
+use std::iter::Peekable;
+use std::str::Lines;
 
 /// What is read, or why it is refused.
 pub type Outcome<T> = Result<T, Refusal>;
 
-/// Why a certificate is refused: the first line that is wrong, and what was expected there.
+/// Why a certificate is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// Counted from 1.
+    /// The line, counted from 1.
     pub line: usize,
-    /// One sentence.
+    /// What was found there, and what was expected.
     pub message: String,
 }
 
@@ -25,10 +27,10 @@ pub fn refuse<T>(line: usize, message: impl Into<String>) -> Outcome<T> {
     Err(Refusal { line, message: message.into() })
 }
 
-/// The lines, and how many are read.
+/// The lines that are left, and the number of the last one that was read.
 pub struct Reader<'a> {
-    pub lines: Vec<&'a str>,
-    pub at: usize,
+    pub lines: Peekable<Lines<'a>>,
+    pub line: usize,
 }
 
 impl<'a> Reader<'a> {
@@ -38,32 +40,34 @@ impl<'a> Reader<'a> {
         form: &str,
         parse: impl FnOnce(&[&'a str]) -> Option<T>,
     ) -> Outcome<T> {
-        let words: Vec<&str> =
-            self.lines.get(self.at).map_or(vec![], |line| line.split(' ').collect());
-        let is_known = words.first().copied() == form.split(' ').next();
-        match is_known.then(|| parse(&words[1..])).flatten() {
-            Some(parsed) => {
-                self.at += 1;
-                Ok(parsed)
-            }
-            None => self.unexpected(&format!("`{form}`")),
-        }
+        let line = self.lines.peek().copied();
+        let words = line.unwrap_or_default().split(' ').collect::<Vec<_>>();
+        let parse = || (form.split(' ').next() == Some(words[0])).then(|| parse(&words[1..]))?;
+        let Some(parsed) = parse() else {
+            return self.unexpected(&format!("`{form}`"));
+        };
+        self.lines.next();
+        self.line += 1;
+        Ok(parsed)
     }
 
-    pub fn unexpected<T>(&self, expected: &str) -> Outcome<T> {
-        let found = self.lines.get(self.at).map_or("the end of the file".to_owned(), |line| {
+    /// Refuses the next line.
+    pub fn unexpected<T>(&mut self, expected: &str) -> Outcome<T> {
+        let found = self.lines.peek().map_or("the end of the file".to_owned(), |line| {
             format!("`{}`", line.chars().take(80).collect::<String>())
         });
-        refuse(self.at + 1, format!("found {found}, expected {expected}"))
+        refuse(self.line + 1, format!("found {found}, expected {expected}"))
     }
 
-    pub fn is_next(&self, word: &str) -> bool {
-        self.lines.get(self.at).is_some_and(|line| line.split(' ').next() == Some(word))
+    /// Whether the next line begins with this word.
+    pub fn is_next(&mut self, word: &str) -> bool {
+        self.lines.peek().is_some_and(|line| line.split(' ').next() == Some(word))
     }
 
-    /// The next line is this number.
+    /// The next line states this number.
     pub fn demand(&mut self, name: &str, right: &Number) -> Outcome<()> {
-        let form = format!("{name} {}", show(right));
-        self.read(&form, |words| (words.len() == 1 && number(words[0])? == *right).then_some(()))
+        self.read(&format!("{name} {}", show(right)), |words| {
+            (words.len() == 1 && number(words[0])? == *right).then_some(())
+        })
     }
 }
