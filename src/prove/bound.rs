@@ -147,7 +147,10 @@ impl<'a> Prover<'a> {
             None => Bound { size: Dyadic::ONE, computed: Dyadic::ONE, error: Dyadic::ZERO },
         };
         let limit = Big::from(above.size) / Big::from(floor);
-        let at_most_one = numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
+        // The path compares computed numbers, which says nothing of the exact ones unless they are equal.
+        let at_most_one = above.error.is_zero()
+            && below.error.is_zero()
+            && numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
         let size = match numerator {
             Some(_) if at_most_one => Big::from(Dyadic::ONE),
             Some(_) => limit.min(Big::from(self.domain.quotient)),
@@ -178,7 +181,7 @@ impl<'a> Prover<'a> {
             error += &reciprocal;
             rounded += reciprocal;
         }
-        if at_most_one && above.error.is_zero() && below.error.is_zero() {
+        if at_most_one {
             // The quotient of two floats that is at most one is rounded to at most one.
             rounded = Big::from(Dyadic::ONE);
         }
