@@ -4,6 +4,7 @@
 use super::dyadic::{Big, root_up, round_up};
 use super::formula::{DIGITS, Formula, Maximum, Source, Step};
 use super::forms::{Forms, Leaf};
+use super::gates::unsigned;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::Path;
@@ -45,8 +46,15 @@ pub enum Rule {
     /// The formula is the number.
     Sum,
     /// The formula is numerator - quotient * divisor, and one division follows; or a reciprocal and a
-    /// product, if true.
-    Quotient(bool),
+    /// product, if `twice`.
+    Quotient {
+        /// By a reciprocal and a product.
+        twice: bool,
+        /// What it is divided by.
+        divisor: Place,
+        /// The least size of the exact divisor.
+        floor: Dyadic,
+    },
     /// The number is the length of a vector: of these three coordinates. There is no formula.
     Length([Place; 3]),
 }
@@ -88,7 +96,7 @@ impl<'a> Prover<'a> {
     fn prove(&mut self, place: Place) -> Result<Bound, String> {
         let (rule, formula, maximum, bound);
         if let Some((numerator, divisor, twice)) = self.quotient(place) {
-            rule = Rule::Quotient(twice);
+            rule = Rule::Quotient { twice, divisor, floor: self.floor(divisor) };
             (formula, maximum, bound) = self.divide(numerator, divisor, twice)?;
         } else if let Operation::Sqrt(inner) = self.operation(place) {
             let vector = self.squares(inner).ok_or("its root is not the length of a vector")?;
@@ -252,22 +260,56 @@ impl<'a> Prover<'a> {
 
     /// The least size of a divisor in the domain.
     fn floor(&self, divisor: Place) -> Dyadic {
-        let axes = [3, 4, 5].map(Operation::Input);
-        if let Operation::Input(i @ 3..=5) = self.operation(divisor) {
-            let others = axes.iter().filter(|axis| **axis != Operation::Input(i));
-            let places = others.map(|axis| self.path.operations.iter().position(|op| op == axis));
-            let is_largest = places.into_iter().all(|place| {
-                place.is_none_or(|place| self.is_at_most_in_size(place as Place, divisor))
-            });
-            if is_largest {
-                return self.domain.direction_floor;
+        if self.is_largest_of_direction(divisor) {
+            self.domain.direction_floor
+        } else {
+            self.domain.floor
+        }
+    }
+
+    /// Whether a number is the coordinate of the direction that is largest in size.
+    pub(super) fn is_largest_of_direction(&self, place: Place) -> bool {
+        let Operation::Input(i @ 3..=5) = self.operation(place) else { return false };
+        let others = (3..=5).filter(|axis| *axis != i).map(Operation::Input);
+        let places = others.map(|axis| self.path.operations.iter().position(|op| *op == axis));
+        places.into_iter().flatten().all(|other| self.is_at_most_in_size(other as Place, place))
+    }
+
+    /// The lemmas that a number's bound uses, its own last.
+    pub fn lemmas_of(&self, place: Place) -> Vec<Lemma> {
+        let mut wanted = vec![place];
+        let mut found = Vec::new();
+        for lemma in self.lemmas.iter().rev() {
+            if wanted.contains(&lemma.place) {
+                wanted.extend(self.needs(lemma));
+                found.push(lemma.clone());
             }
         }
-        self.domain.floor
+        found.reverse();
+        found
+    }
+
+    /// The numbers whose lemmas a lemma uses.
+    fn needs(&self, lemma: &Lemma) -> Vec<Place> {
+        let cut = |source: &Source| match source {
+            Source::Cut(place) => Some(*place),
+            _ => None,
+        };
+        let mut needs: Vec<Place> = lemma.formula.sources.iter().filter_map(cut).collect();
+        match lemma.rule {
+            Rule::Sum => {}
+            Rule::Length(vector) => needs.extend(vector),
+            Rule::Quotient { .. } => {
+                let (numerator, divisor, _) = self.quotient(lemma.place).expect("a quotient");
+                needs.extend(numerator);
+                needs.push(divisor);
+            }
+        }
+        needs.into_iter().map(|place| unsigned(self.path, place)).collect()
     }
 
     /// Whether |a| <= |b| follows from the decisions of the path.
-    fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
+    pub(super) fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
         let size = |place: Place| {
             let wanted = Operation::Abs(place);
             self.path.operations.iter().position(|op| *op == wanted).map(|at| at as Place)
