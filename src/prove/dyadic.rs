@@ -22,10 +22,12 @@ impl Dyadic {
     pub const ZERO: Dyadic = Dyadic { mantissa: 0, exponent: 0 };
     /// One.
     pub const ONE: Dyadic = Dyadic { mantissa: 1, exponent: 0 };
+    /// 1 - 2^-10.
+    pub const BELOW_ONE: Dyadic = Dyadic { mantissa: 1023, exponent: -10 };
     /// A half.
     pub const HALF: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
     /// The usual floor of a divisor.
-    pub const FLOOR: Dyadic = Dyadic { mantissa: 1, exponent: -8 };
+    pub const FLOOR: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
     /// A result that needed more than 128 bits.
     pub const OVERFLOW: Dyadic = Dyadic { mantissa: i128::MAX, exponent: i32::MAX };
 

@@ -9,9 +9,13 @@ mod domain;
 mod dyadic;
 mod formula;
 mod forms;
+mod gates;
+mod witness;
 
 pub use bound::{Bound, Lemma, Prover, Rule, is_impossible};
 pub use domain::{Domain, Format};
 pub use dyadic::Dyadic;
+pub use witness::{Goal, Inputs, Search, Searched};
+pub use gates::{Proof, Quantity, Uses};
 pub use formula::{Formula, Maximum, Source, Step};
 pub use forms::Leaf;
