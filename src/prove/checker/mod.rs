@@ -9,15 +9,14 @@ mod number;
 mod program;
 mod reader;
 
-pub use number::Number;
-pub use program::Bound;
-pub use reader::Refusal;
+pub use number::{Bound, Number};
 
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
 use number::{F32, F64, Format, root_up, round_up};
 use program::{DIRECTION_FLOOR, Domain, FLOOR, Operation, Program, QUOTIENT, indices};
-use reader::{Outcome, Reader, refuse};
+use reader::{Outcome, Reader, ensure};
+use std::fmt::{self, Display};
 
 /// Limits that keep a hostile text from taking long: bytes, and operations or steps in a row.
 const MOST_BYTES: usize = 1 << 22;
@@ -39,50 +38,67 @@ pub struct Proved {
     pub bound: Bound,
 }
 
+/// Why a certificate is refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The line, counted from 1.
+    pub line: usize,
+    /// What was found there, and what was expected.
+    pub message: String,
+}
+
+impl Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.message)
+    }
+}
+
 /// Everything that a certificate proves, or why it is refused.
 pub fn check(text: &str) -> Result<Vec<Proved>, Refusal> {
-    if MOST_BYTES < text.len() {
-        return refuse(1, format!("found more than {MOST_BYTES} bytes"));
-    }
     let mut reader = Reader { lines: text.lines().peekable(), line: 0 };
+    let checked = ensure(text.len() <= MOST_BYTES, format!("found more than {MOST_BYTES} bytes"));
+    let checked = checked.and_then(|()| certificate(&mut reader));
+    checked.map_err(|message| Refusal { line: reader.line, message })
+}
+
+fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
     reader.read("hairline proof 1", |words| (words == ["proof", "1"]).then_some(()))?;
     let scalar = reader.read("kernel NAME SCALAR", |words| (words.len() == 2).then(|| words[1]))?;
     let format = reader.read("format DIGITS SMALLEST LARGEST, as of the scalar", |words| {
-        let &[digits, smallest, largest] = words else { return None };
-        let format = [digits.parse().ok()?, smallest.parse().ok()?, largest.parse().ok()?];
-        let is_right = match scalar {
-            "f32" => format == F32,
-            "f64" => format == F64,
-            _ => {
-                scalar == "float" && (3..=60).contains(&format[0])
-                    && format[1..].iter().all(|e| (-2048..=2048).contains(e))
-            }
+        let format: Option<Vec<i64>> = words.iter().map(|word| word.parse().ok()).collect();
+        let format: [i64; 3] = format?.try_into().ok()?;
+        let is_right = match (scalar, format) {
+            ("f32", format) => format == F32,
+            ("f64", format) => format == F64,
+            ("float", [3..=60, -2048..=2048, -2048..=2048]) => true,
+            _ => false,
         };
         is_right.then(|| Format::of(format))
     })?;
     let domain = reader.read("domain edge X reach X world X direction X …", Domain::parse)?;
-    let (mut proved, mut work, mut program) = (Vec::new(), 0, 0);
+    let (mut proved, mut work, mut number) = (Vec::new(), 0, 0);
     while reader.lines.peek().is_some() {
-        let mut checked = Program::read(&format, &domain, &mut reader)?;
+        let mut program = Program::read(format.clone(), domain.clone(), reader)?;
         while reader.is_next("lemma") {
-            lemma(&mut checked, &mut work, &mut reader)?;
+            lemma(&mut program, &mut work, reader)?;
         }
         while reader.is_next("claim") {
             let (gate, place) = reader.read("claim GATE OPERATION", |words| match words {
                 [gate, place] => Some((gate.to_string(), place.parse().ok()?)),
                 _ => None,
             })?;
-            let bound = checked.bound(reader.line, place)?.clone();
-            proved.push(Proved { program, gate, place, bound });
+            let bound = program.bound(place)?.clone();
+            proved.push(Proved { program: number, gate, place, bound });
         }
         reader.read("end", |words| words.is_empty().then_some(()))?;
-        program += 1;
+        number += 1;
     }
-    if proved.is_empty() { reader.unexpected("a program with a claim") } else { Ok(proved) }
+    ensure(!proved.is_empty(), "found the end of the file, expected a program with a claim")?;
+    Ok(proved)
 }
 
 /// Reads and checks a lemma.
-fn lemma(program: &mut Program, work: &mut u64, reader: &mut Reader) -> Outcome<()> {
+fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> Outcome<()> {
     let form = "lemma OPERATION sum, quotient, quotient-by-reciprocal or length X Y Z, \
                 for an operation without a lemma that is no neg or abs";
     let (place, rule, vector) = reader.read(form, |words| {
@@ -95,25 +111,23 @@ fn lemma(program: &mut Program, work: &mut u64, reader: &mut Reader) -> Outcome<
             _ => false,
         };
         let is_fit = !["neg", "abs"].contains(&program.operations[place].name);
-        (is_known && is_fit && !program.lemmas.contains_key(&place))
-            .then_some((place, rule, vector))
+        let is_new = !program.lemmas.contains_key(&place);
+        (is_known && is_fit && is_new).then_some((place, rule, vector))
     })?;
     let bound = match rule {
         "sum" => {
             let formula = Formula::read(program, None, reader)?;
-            let last = &formula.steps[formula.steps.len() - 1];
-            if last.place != Some(place) {
-                return refuse(
-                    reader.line,
-                    format!("found another last step, expected operation {place}"),
-                );
-            }
-            let (largest, sum) = formula.maximum(program.format, work, reader)?;
-            let size = round_up(&largest.min(last.bound.size.clone()), SIZE_DIGITS);
-            let error = round_up(&sum, ERROR_DIGITS);
-            Bound { computed: last.bound.computed.clone().min(&size + &error), size, error }
+            let last = formula.steps[formula.steps.len() - 1].place;
+            ensure(
+                last == Some(place),
+                format!("found another last step, expected operation {place}"),
+            )?;
+            let shown = formula.maximum(&program.format, work, reader)?;
+            let size = round_up(&shown.size, SIZE_DIGITS);
+            let error = round_up(&shown.error, ERROR_DIGITS);
+            Bound { computed: shown.computed.min(&size + &error), size, error }
         }
-        "length" => length(program, place, vector, reader.line)?,
+        "length" => length(program, place, vector)?,
         _ => quotient(program, place, rule != "quotient", work, reader)?,
     };
     reader.demand("size", &bound.size)?;
@@ -124,17 +138,10 @@ fn lemma(program: &mut Program, work: &mut u64, reader: &mut Reader) -> Outcome<
 }
 
 /// The bound of a number that is rounded once more: its exact size, and its error and size before that.
-fn rounded(
-    format: &Format,
-    line: usize,
-    size: Number,
-    error: Number,
-    before: &Number,
-) -> Outcome<Bound> {
-    let error = round_up(&(error + format.half_ulp(before)), ERROR_DIGITS);
-    let computed = format.float_up(before);
-    format.finite(&computed).or_else(|message| refuse(line, message))?;
-    Ok(Bound { size, computed, error })
+fn rounded(format: &Format, size: Number, error: Number, before: &Number) -> Outcome<Bound> {
+    let bound = format.rounded(size, before);
+    format.finite(&bound.computed)?;
+    Ok(Bound { error: round_up(&(error + bound.error), ERROR_DIGITS), ..bound })
 }
 
 /// The bound of n/d, or `by_reciprocal` of n*(1/d).
@@ -145,48 +152,41 @@ fn quotient(
     work: &mut u64,
     reader: &mut Reader,
 ) -> Outcome<Bound> {
-    let (line, format) = (reader.line, program.format);
-    let operand = |place: usize, name: &str| {
+    let format = &program.format;
+    let operands = |place: usize, name: &str| {
         let Operation { name: found, operands, .. } = &program.operations[place];
         (*found == name).then(|| (operands[0], operands[1]))
     };
     let is_one = |place: usize| {
-        program.operations[place].name == "number" && program.operations[place].value == 1
+        let Operation { name, value, .. } = program.operations[place];
+        (name, value) == ("number", 1)
     };
-    let of_reciprocal = |n: usize, place: usize| {
-        operand(place, "div").filter(|(one, _)| is_one(*one)).map(|(_, d)| (n, d))
+    let times = |n: usize, place: usize| {
+        operands(place, "div").filter(|(one, _)| is_one(*one)).map(|(_, d)| (n, d))
     };
     let found = if by_reciprocal {
-        operand(place, "mul").and_then(|(a, b)| of_reciprocal(a, b).or_else(|| of_reciprocal(b, a)))
+        operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)))
     } else {
-        operand(place, "div")
+        operands(place, "div")
     };
-    let Some((n, d)) = found else {
-        return refuse(line, "found a rule that does not fit its operation");
-    };
+    let (n, d) = found.ok_or("found a rule that does not fit its operation")?;
     let n = (by_reciprocal || !is_one(n)).then_some(n);
-    let one = Bound { size: Number::one(), computed: Number::one(), error: Number::zero() };
-    let above = n.map_or(Ok(&one), |n| program.bound(line, n))?;
-    let below = program.bound(line, d)?;
+    let one = Bound::exactly(&Number::one());
+    let (above, below) = (n.map_or(Ok(&one), |n| program.bound(n))?, program.bound(d)?);
     // Whether |n| <= |d|. A decision is about computed numbers, but inputs are exact.
     let ordered = |a: usize, b: usize| program.at_most.contains(&(a, b));
-    let divisor = program.input(d);
-    let is_ordered =
-        n.and_then(|n| program.input(n)).zip(divisor).is_some_and(|(n, d)| ordered(n, d));
+    let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
+    let is_ordered = numerator.zip(divisor).is_some_and(|(n, d)| ordered(n, d));
     let is_largest = divisor
         .is_some_and(|d| (3..6).contains(&d) && (3..6).all(|axis| axis == d || ordered(axis, d)));
     let floor = &program.domain.0[if is_largest { DIRECTION_FLOOR } else { FLOOR }];
     let least = floor - &below.error;
-    if !least.is_positive() {
-        return refuse(
-            line,
-            "found a divisor that may be rounded to zero, expected a larger floor",
-        );
-    }
+    ensure(
+        least.is_positive(),
+        "found a divisor that may be rounded to zero, expected a larger floor",
+    )?;
     if by_reciprocal {
-        format
-            .finite(&round_up(&least.recip(), ERROR_DIGITS))
-            .or_else(|message| refuse(line, message))?;
+        format.finite(&round_up(&least.recip(), ERROR_DIGITS))?;
     }
     let size = match n {
         Some(_) if is_ordered => Number::one(),
@@ -195,28 +195,25 @@ fn quotient(
     };
     let size = round_up(&size, SIZE_DIGITS);
     let formula = Formula::read(program, Some(&size), reader)?;
-    if !formula.is_quotient_of(n, d) {
-        return refuse(
-            reader.line,
-            "found other last steps, expected numerator - quotient * divisor",
-        );
-    }
-    let (_, sum) = formula.maximum(format, work, reader)?;
-    let mut error = sum / least;
+    ensure(
+        formula.is_quotient_of(n, d),
+        "found other last steps, expected numerator - quotient * divisor",
+    )?;
+    let mut error = formula.maximum(format, work, reader)?.error / least;
     let mut before = &size + &error;
     if by_reciprocal {
         let reciprocal = &format.unit * &before + &format.tiny * &above.computed;
         error += &reciprocal;
         before += reciprocal;
     } else if is_ordered {
-        before = Number::one();
+        before = one.size;
     }
-    rounded(format, reader.line, size, error, &before)
+    rounded(format, size, error, &before)
 }
 
 /// The bound of the length of a vector: the root of the sum of three squares.
-fn length(program: &Program, place: usize, vector: Vec<usize>, line: usize) -> Outcome<Bound> {
-    let (format, root) = (program.format, &program.operations[place]);
+fn length(program: &Program, place: usize, vector: Vec<usize>) -> Outcome<Bound> {
+    let (format, root) = (&program.format, &program.operations[place]);
     let (mut squares, mut open) = (Vec::new(), root.operands.clone());
     while let Some(place) = open.pop().filter(|_| squares.len() + open.len() < 3) {
         match (program.operations[place].name, &program.operations[place].operands[..]) {
@@ -230,27 +227,22 @@ fn length(program: &Program, place: usize, vector: Vec<usize>, line: usize) -> O
         }
     }
     squares.sort_unstable();
-    if root.name != "sqrt" || squares != vector {
-        return refuse(
-            line,
-            "found another operation, expected the root of the sum of these squares",
-        );
-    }
+    let is_root = root.name == "sqrt" && squares == vector;
+    ensure(is_root, "found another operation, expected the root of the sum of these squares")?;
     let (mut errors, mut sizes) = (Number::zero(), Number::zero());
     for place in vector {
-        let bound = program.bound(line, place)?;
+        let bound = program.bound(place)?;
         errors += &bound.error * &bound.error;
         sizes += &bound.size * &bound.size;
     }
     let (shift, size) = (root_up(&errors, ERROR_DIGITS), root_up(&sizes, SIZE_DIGITS));
     let three = Number::from_integer(3.into());
     let least = &program.domain.0[FLOOR] - &shift;
-    if !least.is_positive() || &format.unit * &least * &least < &three * &format.tiny {
-        return refuse(line, "found a length that may be rounded to zero, expected a larger floor");
-    }
+    let is_safe = least.is_positive() && &three * &format.tiny <= &format.unit * &least * &least;
+    ensure(is_safe, "found a length that may be rounded to zero, expected a larger floor")?;
     let largest = &size + &shift;
     let relative = three * &format.unit * &largest;
     let before = largest + &relative;
-    format.finite(&(&before * &before)).or_else(|message| refuse(line, message))?;
-    rounded(format, line, size, shift + relative, &before)
+    format.finite(&(&before * &before))?;
+    rounded(format, size, shift + relative, &before)
 }

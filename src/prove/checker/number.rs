@@ -64,11 +64,30 @@ pub fn root_up(x: &Number, digits: i64) -> Number {
     round_up(&(Number::from(root) * power(e - digits)), digits)
 }
 
+/// What holds for a number of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bound {
+    /// A bound of the exact number.
+    pub size: Number,
+    /// A bound of the computed number.
+    pub computed: Number,
+    /// A bound of the difference of both.
+    pub error: Number,
+}
+
+impl Bound {
+    /// Of a number without an error.
+    pub fn exactly(size: &Number) -> Bound {
+        Bound { size: size.clone(), computed: size.clone(), error: Number::zero() }
+    }
+}
+
 /// Digits, exponent of the smallest subnormal number, and L: every number below 2^L is finite.
 pub const F32: [i64; 3] = [24, -149, 127];
 pub const F64: [i64; 3] = [53, -1074, 1023];
 
 /// A binary float format, rounded to nearest.
+#[derive(Clone)]
 pub struct Format {
     pub parameters: [i64; 3],
     /// The unit roundoff.
@@ -97,6 +116,11 @@ impl Format {
     pub fn finite(&self, x: &Number) -> Result<(), String> {
         let is_finite = *x < power(self.parameters[2]);
         is_finite.then_some(()).ok_or_else(|| format!("found {}, which may overflow", show(x)))
+    }
+
+    /// The bound of a number of this exact size, from its largest size before it is rounded.
+    pub fn rounded(&self, size: Number, before: &Number) -> Bound {
+        Bound { size, computed: self.float_up(before), error: self.half_ulp(before) }
     }
 
     /// The smallest float that is at least x: no number of at most this size is rounded above it.

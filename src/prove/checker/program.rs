@@ -1,24 +1,14 @@
 //! One program of a certificate: its operations, the decisions of its path, and the bounds so far.
 
 use super::MOST_ROWS;
-use super::number::{Format, Number, number, power};
-use super::reader::{Outcome, Reader, Refusal};
+use super::number::{Bound, Format, Number, number, power};
+use super::reader::{Outcome, Reader};
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::collections::{HashMap, HashSet};
 
-/// What holds for a number of a program.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Bound {
-    /// A bound of the exact number.
-    pub size: Number,
-    /// A bound of the computed number.
-    pub computed: Number,
-    /// A bound of the difference of both.
-    pub error: Number,
-}
-
 /// Bounds of the inputs, in the order of their names.
+#[derive(Clone)]
 pub struct Domain(pub [Number; 8]);
 
 const EDGE: usize = 0;
@@ -61,7 +51,7 @@ pub struct Operation<'a> {
 }
 
 /// A signed product of two numbers, or a signed number.
-type Term = (bool, usize, Option<usize>);
+pub type Term = (bool, usize, Option<usize>);
 
 /// What an operation adds up; none of operations that are no sums.
 pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
@@ -78,8 +68,8 @@ pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
 
 /// One path of a kernel.
 pub struct Program<'a> {
-    pub format: &'a Format,
-    pub domain: &'a Domain,
+    pub format: Format,
+    pub domain: Domain,
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub at_most: HashSet<(usize, usize)>,
@@ -89,8 +79,8 @@ pub struct Program<'a> {
 impl<'a> Program<'a> {
     /// The operations and the decisions.
     pub fn read(
-        format: &'a Format,
-        domain: &'a Domain,
+        format: Format,
+        domain: Domain,
         reader: &mut Reader<'a>,
     ) -> Outcome<Program<'a>> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
@@ -173,15 +163,13 @@ impl<'a> Program<'a> {
     }
 
     /// What an earlier lemma says of a number, or of the number in its neg or abs.
-    pub fn bound(&self, line: usize, place: usize) -> Outcome<&Bound> {
+    pub fn bound(&self, place: usize) -> Outcome<&Bound> {
         let mut inner = place;
         while let Some(Operation { name: "neg" | "abs", operands, .. }) = self.operations.get(inner)
         {
             inner = operands[0];
         }
-        let message =
-            || format!("found no lemma of operation {place} above this line, expected one");
-        let missing = || Refusal { line, message: message() };
+        let missing = || format!("found operation {place}, expected one with a lemma above");
         self.lemmas.get(&inner).ok_or_else(missing)
     }
 }
