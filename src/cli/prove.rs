@@ -1,5 +1,6 @@
 //! `hairline prove`: bounds that hold for every float of a domain, witnesses, certificates.
 
+pub mod demand;
 mod text;
 
 use super::exit::{Failure, Status};
