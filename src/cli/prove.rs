@@ -10,10 +10,10 @@ use super::output::write_result;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::corpus::InputError;
-use crate::kernel::{self, Entry, PRESETS, Scalar};
+use crate::kernel::{self, Entry, PRESETS, Role, Scalar};
 use crate::prove::certificate::{Claim, Heading, heading, program};
 use crate::prove::{
-    Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry, about_edges,
+    BySize, Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry, about_edges,
     statements,
 };
 use clap::{Args, ValueEnum};
@@ -201,7 +201,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     let entries = arguments.entries()?;
     let scalars = chosen_scalars(&arguments.scalar)?;
-    let scene = arguments.scene()?;
+    let (scene, triangles) = arguments.scene()?;
     let domain = match &scene {
         Some(scene) => scene.domain().map_err(Failure::usage)?,
         None => Domain::UNIT,
@@ -219,7 +219,8 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     if let Some(path) = &arguments.certificate {
         return certify(&entries, scalars, domain, path);
     }
-    let job = Job { scene, domain, effort, published: arguments.kernel.len() == 1, stored: &stored };
+    let published = arguments.kernel.len() == 1;
+    let job = Job { scene, triangles, domain, effort, published, stored: &stored };
     let tasks: Vec<(&Entry, bool)> = entries
         .iter()
         .flat_map(|entry| [(*entry, false), (*entry, true)])
@@ -276,6 +277,8 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
 /// What is the same for all kernels.
 struct Job<'a> {
     scene: Option<Scene>,
+    /// Of a mesh: the largest coordinate of each triangle's edges.
+    triangles: Vec<f64>,
     domain: Domain,
     effort: Effort,
     /// Whether to say of every published epsilon how far it carries.
@@ -334,7 +337,10 @@ impl Job<'_> {
                 supposes: supposes(gate),
                 parallel_passes: witness(1),
                 hit_lost: witness(2),
-                statements: statements(entry, &summary, gate, self.scene.as_ref(), &published),
+                statements: statements(entry, &summary, gate, self.scene.as_ref(), &published)
+                    .into_iter()
+                    .chain(self.by_triangle::<F>(entry, gate, &published))
+                    .collect(),
             }
         };
         let witnesses = summary.gates.iter().flat_map(|gate| {
@@ -362,6 +368,36 @@ impl Job<'_> {
             gates: summary.gates.iter().map(part).collect(),
             ..Parts::default()
         }
+    }
+}
+
+impl Job<'_> {
+    /// What each triangle's own bound says of a gate that knows nothing but its edges.
+    fn by_triangle<F: Searched + Scalar>(
+        &self,
+        entry: &Entry,
+        gate: &GateSummary<F>,
+        published: &[Published],
+    ) -> Option<String> {
+        let is_of_edges = gate.gate.role == Role::Parallel && gate.uses.is_of_edges_alone();
+        if self.triangles.is_empty() || !is_of_edges {
+            return None;
+        }
+        let mut sizes = BySize::<F>::new(entry, gate.index)?;
+        let own = self.triangles.iter().filter_map(|size| sizes.bound(*size));
+        let mut bounds: Vec<f64> = own.map(|bound| bound.to_f64()).collect();
+        bounds.sort_by(f64::total_cmp);
+        let (least, most) = (bounds.first()?, bounds.last()?);
+        let mut text = format!(
+            "Triangle by triangle the bound goes from {least:.2e} to {most:.2e}; half of them are below {:.2e}.",
+            bounds[bounds.len() / 2]
+        );
+        for (name, value) in published.iter().filter(|(_, value)| *value > 0.0) {
+            let count = bounds.iter().filter(|bound| *bound < value).count();
+            let of = self.triangles.len();
+            text += &format!(" e = {name} refuses every parallel ray at {count} of {of} triangles.");
+        }
+        Some(text)
     }
 }
 
@@ -423,15 +459,17 @@ impl ProveArguments {
         self.kernel.iter().map(find).collect()
     }
 
-    fn scene(&self) -> Result<Option<Scene>, Failure> {
+    /// The scene, and of a mesh the largest coordinate of each triangle's edges.
+    fn scene(&self) -> Result<(Option<Scene>, Vec<f64>), Failure> {
         if let Some(path) = &self.mesh {
             let distance = self.distance.expect("required by --mesh");
-            return mesh_scene(path, distance, self.grazing, self.quiet).map(Some);
+            let (scene, sizes) = mesh_scene(path, distance, self.grazing, self.quiet)?;
+            return Ok((Some(scene), sizes));
         }
         let Some(edge) = self.edge else {
             return match self.distance {
                 Some(_) => Err(Failure::usage("--distance needs --coordinates and --edge, or --mesh")),
-                None => Ok(None),
+                None => Ok((None, Vec::new())),
             };
         };
         let Some(coordinates) = self.coordinates else {
@@ -439,12 +477,18 @@ impl ProveArguments {
         };
         let distance = self.distance.unwrap_or(2.0 * coordinates);
         let (min_angle, grazing) = (self.min_angle, self.grazing);
-        Ok(Some(Scene { coordinates, edge, distance, min_angle, grazing }))
+        Ok((Some(Scene { coordinates, edge, distance, min_angle, grazing }), Vec::new()))
     }
 }
 
 /// The scene that a mesh is.
-fn mesh_scene(path: &str, distance: f64, grazing: f64, quiet: bool) -> Result<Scene, Failure> {
+fn mesh_scene(
+    path: &str,
+    distance: f64,
+    grazing: f64,
+    quiet: bool,
+) -> Result<(Scene, Vec<f64>), Failure> {
+    let mut triangles = Vec::new();
     let mesh = read_mesh(path, quiet)?;
     let mut edge = [f64::INFINITY, 0.0f64];
     let (mut min_angle, mut coordinates) = (180.0f64, 0.0f64);
@@ -462,6 +506,10 @@ fn mesh_scene(path: &str, distance: f64, grazing: f64, quiet: bool) -> Result<Sc
         if !(angle > 0.0) {
             continue;
         }
+        let size = |(p, q): (usize, usize)| {
+            (0..3).map(move |i| (vertices[p][i] - vertices[q][i]).abs()).fold(0.0, f64::max)
+        };
+        triangles.push([(0, 1), (1, 2), (2, 0)].map(size).into_iter().fold(0.0, f64::max));
         for side in sides {
             edge = [edge[0].min(side), edge[1].max(side)];
         }
@@ -473,7 +521,8 @@ fn mesh_scene(path: &str, distance: f64, grazing: f64, quiet: bool) -> Result<Sc
         return Err(InputError::of(path, "no triangle with an area").into());
     }
     // Origins are up to the distance away from the vertices.
-    Ok(Scene { coordinates: coordinates + distance, edge, distance, min_angle, grazing })
+    let coordinates = coordinates + distance;
+    Ok((Scene { coordinates, edge, distance, min_angle, grazing }, triangles))
 }
 
 impl StoredWitness {

@@ -49,6 +49,13 @@ pub struct Uses {
     pub floor: bool,
 }
 
+impl Uses {
+    /// Whether it supposes nothing but a bound of the edges, and of the direction.
+    pub fn is_of_edges_alone(self) -> bool {
+        self == Uses { edge: true, ..Uses::default() }
+    }
+}
+
 impl Quantity {
     /// What its bound supposes.
     pub fn uses(&self) -> Uses {

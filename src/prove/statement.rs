@@ -1,8 +1,9 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
-use super::summary::{GateSummary, Summary, Witness, format_of};
+use super::sizes::BySize;
+use super::summary::{GateSummary, Summary, Witness};
 use super::witness::Searched;
-use super::{Domain, Dyadic, Proof, Scene, Symmetry};
+use super::{Scene, Symmetry};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -108,7 +109,8 @@ fn about_epsilon<F: Searched + Scalar>(
         return format!("e = {name} {refuses}; it refuses hits {}.", cost(scene, value + beta));
     }
     let what = if gate.uses.edge { "edges" } else { "vectors from the origin to the vertices" };
-    let proved = largest_edge::<F>(entry, gate.index, *value).map_or_else(
+    let mut sizes = BySize::<F>::new(entry, gate.index);
+    let proved = sizes.as_mut().and_then(|sizes| sizes.largest(*value)).map_or_else(
         || format!("e = {name} is proved for no size of {what}."),
         |size| {
             format!(
@@ -188,35 +190,6 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              it is rounded. Nothing follows for folds."
         }
     }
-}
-
-/// The largest size of edges, or of vectors from the origin where edges do not count, for which the gate's
-/// error is proved to be below an epsilon.
-pub fn largest_edge<F: Searched + Scalar>(entry: &Entry, gate: usize, epsilon: f64) -> Option<Dyadic> {
-    let paths = F::subject(entry)?.gated()?.paths().ok()?;
-    let format = format_of::<F>();
-    let epsilon = Dyadic::from_f64(F::from_f64(epsilon).to_f64())?;
-    // Sizes are m * 2^e with m from 513 to 1023, 1024ths; just below a power of two are the best ones.
-    let size = |place: i32| {
-        let steps = place.rem_euclid(64);
-        Dyadic::new(i128::from(1023 - 8 * (63 - steps)), place.div_euclid(64) - 10)
-    };
-    let holds = |place: i32| {
-        let size = size(place);
-        let domain = Domain { edge: size, reach: size, world: size, ..Domain::UNIT };
-        let proof = Proof::new(paths.clone(), Some(gate), domain, format);
-        let found = proof.gate(gate);
-        found.is_some_and(|q| q.is_ok_and(|q| q.bound.as_ref().is_ok_and(|b| b.error < epsilon)))
-    };
-    let (mut low, mut high) = (-64 * 60, 64 * 60);
-    if !holds(low) {
-        return None;
-    }
-    while high - low > 1 {
-        let middle = (low + high).div_euclid(2);
-        if holds(middle) { low = middle } else { high = middle }
-    }
-    Some(size(low))
 }
 
 /// A positive number in three digits, not below it.
