@@ -5,6 +5,7 @@
 
 mod bound;
 pub mod certificate;
+pub mod checker;
 mod domain;
 mod dyadic;
 mod formula;
