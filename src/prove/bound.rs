@@ -68,7 +68,7 @@ impl<'a> Prover<'a> {
         Prover { path, domain, format, bounds: HashMap::new(), lemmas: Vec::new() }
     }
 
-    fn operation(&self, place: Place) -> Operation {
+    pub(super) fn operation(&self, place: Place) -> Operation {
         self.path.operations[place as usize]
     }
 
@@ -112,7 +112,7 @@ impl<'a> Prover<'a> {
     }
 
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
-    fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
+    pub(super) fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
         let reciprocal = |place: Place| match self.operation(place) {
             Operation::Div(one, divisor) if self.operation(one) == Operation::Number(1) => {
                 Some(divisor)
@@ -248,7 +248,7 @@ impl<'a> Prover<'a> {
     }
 
     /// The least size of a divisor in the domain.
-    fn floor(&self, divisor: Place) -> Dyadic {
+    pub(super) fn floor(&self, divisor: Place) -> Dyadic {
         let axes = [3, 4, 5].map(Operation::Input);
         if let Operation::Input(i @ 3..=5) = self.operation(divisor) {
             let others = axes.iter().filter(|axis| **axis != Operation::Input(i));
