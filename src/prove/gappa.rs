@@ -35,11 +35,12 @@ pub fn gappa(
         names: HashMap::new(),
         definitions: String::new(),
         hypotheses: Vec::new(),
+        hints: String::new(),
     };
     let [computed, exact] = script.define(place)?;
     let digits = if format == Format::F32 { 32 } else { 64 };
     let name = name.replace(['\n', '\r'], " ");
-    let mut text = format!("# {name}\n@rnd = float<ieee_{digits},ne>;\n");
+    let mut text = format!("# {name}\n#@ -Eno-auto-dichotomy\n@rnd = float<ieee_{digits},ne>;\n");
     if script.definitions.contains("wide(") {
         text.push_str("@wide = float<ieee_64,ne>;\n");
     }
@@ -47,6 +48,7 @@ pub fn gappa(
     let goal = goal.map_or("in ?".to_owned(), |goal| format!("<= {}", number(goal)));
     let hypotheses = script.hypotheses.join(" /\\\n  ");
     write!(text, "{{ {hypotheses}\n  -> |{computed} - {exact}| {goal} }}\n").expect("a string");
+    text.push_str(&script.hints);
     Ok(text)
 }
 
@@ -60,6 +62,7 @@ struct Script<'a> {
     names: HashMap<Place, [String; 2]>,
     definitions: String,
     hypotheses: Vec<String>,
+    hints: String,
 }
 
 impl Script<'_> {
@@ -112,7 +115,7 @@ impl Script<'_> {
         let (exact, before) = (plain(operation, &of(1)), plain(operation, &of(0)));
         let computed = match operation {
             _ if is_exact => before.clone(),
-            Operation::Minor(..) => self.minor(&of(0)),
+            Operation::Minor(..) => self.minor(&of(0), place),
             _ => format!("rnd({before})"),
         };
         let [small, large] = [format!("r{place}"), format!("R{place}")];
@@ -128,25 +131,83 @@ impl Script<'_> {
         } else {
             writeln!(self.definitions, "{large} = {exact};").expect("a string");
         }
-        if let Operation::Div(_, divisor) = operation {
-            let floor = number(self.prover.floor(divisor));
-            let below = &names[1][1];
-            self.hypotheses.push(format!("|{below}| >= {floor}"));
-            let size = self.prover.bound(place)?.size;
-            self.assume(&large, size);
+        if let Some((numerator, divisor, twice)) = self.prover.quotient(place) {
+            self.quotient(&large, [of(0)[0], of(0)[1]], numerator, divisor, twice, place)?;
         }
         Ok([small, large])
     }
 
-    /// The difference of products as f32 and f64 compute it.
-    fn minor(&self, of: &[&str]) -> String {
-        let [a, b, c, d] = [of[0], of[1], of[2], of[3]];
-        if self.format == Format::F32 {
-            return format!("rnd(wide({a} * {b} - {c} * {d}))");
+    /// What the prover knows of a quotient, and how it bounds its error: by what the computed numerator
+    /// lacks of the exact quotient times the computed divisor.
+    fn quotient(
+        &mut self,
+        large: &str,
+        factors: [&str; 2],
+        numerator: Option<Place>,
+        divisor: Place,
+        twice: bool,
+        place: Place,
+    ) -> Result<(), String> {
+        let [d, exact] = self.define(divisor)?;
+        let [n, above] = match numerator {
+            Some(numerator) => self.define(numerator)?,
+            None => ["1".to_owned(), "1".to_owned()],
+        };
+        let floor = number(self.prover.floor(divisor));
+        let size = self.prover.bound(place)?.size;
+        self.assume(large, size);
+        if !twice {
+            self.hypotheses.push(format!("|{exact}| >= {floor}"));
         }
-        let (p, q) = (format!("rnd({a} * {b})"), format!("rnd({c} * {d})"));
-        let remainders = format!("rnd(rnd({a} * {b} - {p}) - rnd({c} * {d} - {q}))");
-        format!("rnd(rnd({p} - {q}) + {remainders})")
+        if d == exact {
+            return Ok(());
+        }
+        let not_zero = format!("{{ {d} <> 0, {exact} <> 0 }}");
+        let lacking = if n == "1" { "0".to_owned() } else { format!("({n} - {above})") };
+        let quotient = format!("{n} / {d}");
+        let error = format!("{quotient} - {large}");
+        let mut hints = vec![
+            format!("{d} -> {exact} + ({d} - {exact});"),
+            format!("{error} -> ({lacking} - ({d} - {exact}) * {large}) / {d} {not_zero};"),
+        ];
+        if let (true, [x, y]) = (twice, factors) {
+            // The product by a rounded reciprocal: the quotient, and the reciprocal's relative error of it.
+            let reciprocal = if x == n { y } else { x };
+            let relative = format!("(({reciprocal} - 1 / {d}) / (1 / {d}))");
+            hints.push(format!("{quotient} -> {large} + ({error}) {not_zero};"));
+            hints.push(format!(
+                "{x} * {y} - {large} -> ({quotient}) * {relative} + ({error}) {not_zero};"
+            ));
+        }
+        for hint in hints {
+            if !self.hints.contains(&hint) {
+                writeln!(self.hints, "{hint}").expect("a string");
+            }
+        }
+        Ok(())
+    }
+
+    /// The difference of products as f32 and f64 compute it, in f64 by rounded products and their
+    /// remainders.
+    fn minor(&mut self, of: &[&str], place: Place) -> String {
+        let [x, y] = [format!("{} * {}", of[0], of[1]), format!("{} * {}", of[2], of[3])];
+        if self.format == Format::F32 {
+            return format!("rnd(wide({x} - {y}))");
+        }
+        let [p, q, s, g] = ["p", "q", "s", "g"].map(|letter| format!("{letter}{place}"));
+        write!(
+            self.definitions,
+            "{p} = rnd({x});\n{q} = rnd({y});\n{s} = rnd({p} - {q});\n\
+             {g} = rnd(rnd({x} - {p}) - rnd({y} - {q}));\n"
+        )
+        .expect("a string");
+        write!(
+            self.hints,
+            "({s} + {g}) - ({x} - {y}) -> ({s} - ({p} - {q})) + ({g} - (({x} - {p}) - ({y} - {q})));\n\
+             ({s} + {g}) - R{place} -> (({s} + {g}) - ({x} - {y})) + (({x} - {y}) - R{place});\n"
+        )
+        .expect("a string");
+        format!("rnd({s} + {g})")
     }
 }
 
