@@ -7,6 +7,7 @@ use super::{orient2d, orient3d, recorded};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
 use num_traits::ToPrimitive;
+use std::collections::BTreeMap;
 
 fn format(digits: u32) -> Format {
     Format { digits, smallest: -200, largest: 200 }
@@ -168,5 +169,56 @@ fn no_input_of_a_slice_in_tiny_formats_passes_a_bound() {
             assert!(of_bound <= 1.0 && of_permanent <= 1.0 && of_wrong_sign < filter);
             assert!(of_bound > 0.18 && of_permanent > 0.27 && of_wrong_sign > 1.5);
         }
+    }
+}
+
+/// The least and the largest exact difference of two floats that is rounded to m of p digits: a float
+/// minus a small one. A tie goes to the even number.
+fn ends(m: f64, digits: u32) -> [f64; 2] {
+    let unit = 2f64.powi(-(digits as i32));
+    let half = if m % 2.0 == 0.0 { 0.5 } else { 0.5 * (1.0 - unit) };
+    let below = if m == 2f64.powi(digits as i32 - 1) { 0.25 } else { half };
+    [m - below, m + half]
+}
+
+/// The largest share of the computed permanent that orient2d computes with a wrong sign, in units of u,
+/// over all inputs without underflow: products t1 and t2, each with the least and the largest exact
+/// product behind it. It is at most this, for two differences may not reach their ends at once.
+fn largest_wrong_sign(digits: u32) -> f64 {
+    let first = 1u64 << (digits - 1);
+    let mut products: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
+    for a in first..2 * first {
+        for b in a..2 * first {
+            let (a, b) = (a as f64, b as f64);
+            let ([a0, a1], [b0, b1]) = (ends(a, digits), ends(b, digits));
+            let known = products.entry(round(a * b, digits) as u64).or_insert([f64::MAX, 0.0]);
+            *known = [known[0].min(a0 * b0), known[1].max(a1 * b1)];
+        }
+    }
+    let mut worst: f64 = 0.0;
+    for (large, [least, _]) in &products {
+        // Of numbers that differ by more than a binade the signs are right.
+        for scale in [0.5, 1.0, 2.0] {
+            for (small, [_, most]) in &products {
+                let (t1, t2) = (*large as f64, *small as f64 * scale);
+                if t2 < t1 && *least <= most * scale {
+                    worst = worst.max(round(t1 - t2, digits) / round(t1 + t2, digits));
+                }
+            }
+        }
+    }
+    worst * 2f64.powi(digits as i32)
+}
+
+/// Ozaki, Bünger, Ogita, Oishi and Rump 2016: θ = 3u - (φ - 22)u², φ = 2⌊(-1 + √(4/u + 45))/4⌋.
+#[test]
+fn ozakis_filter_holds_for_every_input_of_half_precision() {
+    for digits in [5, 8, 11] {
+        let unit = 2f64.powi(-(digits as i32));
+        let phi = 2.0 * ((-1.0 + (4.0 / unit + 45.0).sqrt()) / 4.0).floor();
+        let theta = 3.0 - (phi - 22.0) * unit;
+        let worst = largest_wrong_sign(digits);
+        println!("p={digits}: phi {phi}, theta {theta:.5} u, a wrong sign at most at {worst:.5} u");
+        assert!(worst < theta * (1.0 - 2.0 * unit) && worst > 2.0);
     }
 }
