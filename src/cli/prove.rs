@@ -10,11 +10,12 @@ use super::output::write_result;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::corpus::InputError;
-use crate::kernel::{self, Entry, PRESETS, Role, Scalar};
+use crate::report::number_of;
+use crate::kernel::{self, Entry, PRESETS, Path, Role, Scalar};
 use crate::prove::certificate::{Claim, Heading, heading, program};
 use crate::prove::{
-    BySize, Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry, about_edges,
-    statements,
+    BySize, Domain, Effort, Format, GOALS, GateSummary, Published, Quantity, Scene, Searched,
+    Summary, Symmetry, about_edges, checker, fpcore, gappa, statements,
 };
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
@@ -32,6 +33,10 @@ pub struct ProveArguments {
     /// f32, f64, or both separated by a comma
     #[arg(long, value_delimiter = ',', default_value = "f32,f64", value_name = "SCALAR")]
     scalar: Vec<String>,
+
+    /// Only this gate
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["certificate", "update"])]
+    gate: Option<String>,
 
     /// A scene: every coordinate of origins and vertices is at most this
     #[arg(long, value_name = "LENGTH", requires = "edge", help_heading = SCENE)]
@@ -100,6 +105,10 @@ enum OutputFormat {
     Text,
     /// One object, its schema versioned
     Json,
+    /// Every compared quantity as an FPCore program (fpbench.org)
+    Fpcore,
+    /// A script for Gappa: the quantity of one --gate of one --kernel in one --scalar, its bound the goal
+    Gappa,
 }
 
 fn range(text: &str) -> Result<[f64; 2], String> {
@@ -216,6 +225,12 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let default = if scene.is_some() { 20_000 } else { 0 };
     let effort =
         Effort { evaluations: arguments.evaluations.unwrap_or(default), seed: arguments.seed };
+    if entries.len() == 1 {
+        arguments.gate_of(entries[0])?;
+    }
+    if matches!(arguments.format, OutputFormat::Fpcore | OutputFormat::Gappa) {
+        return export(arguments, &entries, scalars, domain);
+    }
     if let Some(path) = &arguments.certificate {
         return certify(&entries, scalars, domain, path);
     }
@@ -242,7 +257,8 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         if let Some(message) = part.contradiction {
             return Err(Failure::Message(Status::SelfCheck, message));
         }
-        record.gates.extend(part.gates);
+        let wanted = |part: &GatePart| arguments.gate.as_deref().is_none_or(|name| name == part.gate);
+        record.gates.extend(part.gates.into_iter().filter(wanted));
         record.kernels.extend(part.kernel);
         found.extend(part.witnesses);
         if let Some(note) = part.note.filter(|_| !arguments.quiet) {
@@ -268,6 +284,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
             serde_json::to_writer_pretty(&mut *out, &record)?;
             writeln!(out)
         }
+        OutputFormat::Fpcore | OutputFormat::Gappa => unreachable!("handled above"),
         OutputFormat::Text if entries.len() == 1 => text::kernel(&record, scene.as_ref(), out),
         OutputFormat::Text => text::table(&record, scene.as_ref(), out),
     })?;
@@ -459,6 +476,15 @@ impl ProveArguments {
         self.kernel.iter().map(find).collect()
     }
 
+    /// The place of the chosen gate.
+    fn gate_of(&self, entry: &Entry) -> Result<Option<usize>, Failure> {
+        let Some(name) = &self.gate else { return Ok(None) };
+        let gates = || entry.info.gates.iter().map(|gate| gate.name);
+        let found = gates().position(|gate| gate == name);
+        let list = format!("hairline prove --kernel {}", entry.info.name);
+        found.map(Some).ok_or_else(|| unknown("gate", name, gates(), &list))
+    }
+
     /// The scene, and of a mesh the largest coordinate of each triangle's edges.
     fn scene(&self) -> Result<(Option<Scene>, Vec<f64>), Failure> {
         if let Some(path) = &self.mesh {
@@ -607,8 +633,87 @@ fn certificate<F: Searched + Scalar>(entry: &Entry, domain: Domain) -> Result<St
     if is_empty { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
 }
 
-fn check(_: &ProveArguments) -> Result<Status, Failure> {
-    Err(Failure::usage("not yet"))
+/// Checks certificates, and says what they prove.
+fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
+    let mut lines = Vec::new();
+    for file in &arguments.check {
+        let proved = checker::check(&read_text(file)?)
+            .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
+        let bounds = number_of(proved.len() as u64, "bound", "bounds");
+        lines.push(format!("{file}: {bounds} proved"));
+    }
+    write_result(&arguments.output, |out| {
+        lines.iter().try_for_each(|line| writeln!(out, "{line}"))
+    })?;
+    Ok(Status::Success)
+}
+
+/// The programs of all quantities, or of those of one gate, or (if true) of its worst one.
+fn programs<F: Searched + Scalar>(
+    entry: &Entry,
+    domain: Domain,
+    only: Option<(usize, bool)>,
+    text: &mut String,
+    write: impl Fn(&Path, &Quantity, Domain, Format, &str) -> Option<String>,
+) -> Result<(), String> {
+    let effort = Effort { evaluations: 0, seed: 1 };
+    let summary = Summary::<F>::new(entry, domain, &[], effort)?;
+    let mut numbers = vec![0; entry.info.gates.len()];
+    let one = only.filter(|(_, one)| *one).and_then(|(gate, _)| summary.proof.gate(gate)?.ok());
+    for quantity in &summary.proof.quantities {
+        numbers[quantity.gate] += 1;
+        let is_other = one.is_some_and(|one| !std::ptr::eq(one, quantity));
+        if is_other || only.is_some_and(|(gate, _)| gate != quantity.gate) {
+            continue;
+        }
+        let (gate, number) = (entry.info.gates[quantity.gate].name, numbers[quantity.gate]);
+        let name = format!("{} {} {gate} {number}", entry.info.name, F::NAME);
+        let path = &summary.proof.paths[quantity.path];
+        if let Some(program) = write(path, quantity, summary.domain, summary.format, &name) {
+            text.push_str(&program);
+            text.push('\n');
+        }
+    }
+    Ok(())
+}
+
+/// Writes the programs of the chosen kernels in a language of other tools.
+fn export(
+    arguments: &ProveArguments,
+    entries: &[&'static Entry],
+    scalars: [bool; 2],
+    domain: Domain,
+) -> Result<Status, Failure> {
+    let write = |path: &Path, quantity: &Quantity, domain: Domain, format: Format, name: &str| {
+        match arguments.format {
+            OutputFormat::Gappa => {
+                let goal = quantity.bound.as_ref().ok().map(|bound| bound.error);
+                gappa(path, quantity.place, domain, format, name, goal).ok()
+            }
+            _ => Some(fpcore(path, quantity.place, domain, format, name)),
+        }
+    };
+    let is_one = entries.len() == 1 && scalars[0] != scalars[1] && arguments.gate.is_some();
+    if arguments.format == OutputFormat::Gappa && !is_one {
+        return Err(Failure::usage("--format gappa is of one --kernel, one --scalar and one --gate"));
+    }
+    let mut text = String::new();
+    for entry in entries {
+        let gate = arguments.gate_of(entry)?;
+        let only = gate.map(|gate| (gate, arguments.format == OutputFormat::Gappa));
+        let of_f32 = scalars[0].then(|| programs::<f32>(entry, domain, only, &mut text, write));
+        let of_f64 = scalars[1].then(|| programs::<f64>(entry, domain, only, &mut text, write));
+        let failed = [of_f32, of_f64].into_iter().flatten().find_map(Result::err);
+        if let Some(why) = failed.filter(|_| !arguments.quiet) {
+            eprintln!("{}: no program: {why}", entry.info.name);
+        }
+    }
+    if text.is_empty() {
+        let message = "no chosen kernel has such a program".to_owned();
+        return Err(Failure::Message(Status::NothingSelected, message));
+    }
+    write_result(&arguments.output, |out| out.write_all(text.as_bytes()))?;
+    Ok(Status::Success)
 }
 
 /// A scene's words.
