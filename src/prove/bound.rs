@@ -76,7 +76,7 @@ impl<'a> Prover<'a> {
         Prover { path, domain, format, bounds: HashMap::new(), lemmas: Vec::new() }
     }
 
-    fn operation(&self, place: Place) -> Operation {
+    pub(super) fn operation(&self, place: Place) -> Operation {
         self.path.operations[place as usize]
     }
 
@@ -120,7 +120,7 @@ impl<'a> Prover<'a> {
     }
 
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
-    fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
+    pub(super) fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
         let reciprocal = |place: Place| match self.operation(place) {
             Operation::Div(one, divisor) if self.operation(one) == Operation::Number(1) => {
                 Some(divisor)
@@ -257,7 +257,7 @@ impl<'a> Prover<'a> {
     }
 
     /// The least size of a divisor in the domain.
-    fn floor(&self, divisor: Place) -> Dyadic {
+    pub(super) fn floor(&self, divisor: Place) -> Dyadic {
         if self.is_largest_of_direction(divisor) {
             self.domain.direction_floor
         } else {

@@ -87,6 +87,13 @@ impl Dyadic {
         Dyadic::new((self.mantissa >> drop) + 1, self.exponent + drop as i32)
     }
 
+    /// A positive number rounded down to so many binary digits.
+    pub fn round_down(self, digits: u32) -> Dyadic {
+        let bits = 128 - self.mantissa.leading_zeros();
+        let drop = bits.saturating_sub(digits);
+        Dyadic::new(self.mantissa >> drop, self.exponent + drop as i32)
+    }
+
     /// The nearest float, for people.
     pub fn to_f64(self) -> f64 {
         if !self.is_number() {

@@ -49,6 +49,13 @@ pub struct Uses {
     pub floor: bool,
 }
 
+impl Uses {
+    /// Whether it supposes nothing but a bound of the edges, and of the direction.
+    pub fn is_of_edges_alone(self) -> bool {
+        self == Uses { edge: true, ..Uses::default() }
+    }
+}
+
 impl Quantity {
     /// What its bound supposes.
     pub fn uses(&self) -> Uses {
@@ -72,14 +79,14 @@ impl Quantity {
 }
 
 impl Proof {
-    /// Proves what can be proved of recorded paths.
-    pub fn new(paths: Vec<Path>, domain: Domain, format: Format) -> Proof {
+    /// Proves what can be proved of recorded paths, of all gates or of one.
+    pub fn new(paths: Vec<Path>, gate: Option<usize>, domain: Domain, format: Format) -> Proof {
         let paths: Vec<Path> = paths.into_iter().filter(|path| !is_impossible(path)).collect();
         let mut seen = BTreeSet::new();
         let mut quantities = Vec::new();
         for (index, path) in paths.iter().enumerate() {
             let mut prover = Prover::new(path, domain, format);
-            for compared in &path.compared {
+            for compared in path.compared.iter().filter(|c| gate.is_none_or(|gate| c.gate == gate)) {
                 for place in &compared.quantities {
                     let place = unsigned(path, *place);
                     let key = (compared.gate, canonical(&prover, path, place));

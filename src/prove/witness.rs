@@ -72,6 +72,17 @@ pub enum Goal {
     Lost,
 }
 
+impl Goal {
+    /// The name in a table of witnesses.
+    pub fn name(self) -> &'static str {
+        match self {
+            Goal::Error => "error",
+            Goal::Zero => "parallel",
+            Goal::Lost => "lost",
+        }
+    }
+}
+
 /// The seventeen numbers of a case, in the order of `Case::hex`.
 pub type Inputs<F> = [F; 17];
 
@@ -111,6 +122,7 @@ enum Condition {
 }
 
 /// A search for the worst inputs of one quantity.
+#[derive(Debug)]
 pub struct Search<'a, F> {
     operations: Vec<Operation>,
     decisions: Vec<(Comparison, bool)>,

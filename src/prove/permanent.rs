@@ -1,0 +1,259 @@
+//! Errors relative to a permanent: bounds that hold at every exponent.
+//!
+//! The permanent of a number is what its program computes without rounding if each input and each
+//! difference of two inputs is replaced by its absolute value, each subtraction by an addition, and each
+//! quotient by its absolute value. Shewchuk's filters compare a determinant with it.
+//!
+//! A rounded result is z·f, with f in [1/(1+u), 1+u], plus at most half the smallest subnormal number
+//! where a product or a quotient underflows. So a number whose monomials pass at most K roundings is
+//!
+//! ```text
+//! |computed - exact| <= ((1+u)^K - 1) * permanent + underflow
+//! ```
+//!
+//! By induction: a sum of numbers with K and L roundings has max(K, L) + 1, a product K + L + 1, and a
+//! quotient too, if its divisor is not rounded or is a sum of two numbers that are not: then it does not
+//! cancel. With the permanent as the program's own arithmetic computes it, in the same order, the same
+//! inequality holds: z = computed·f works both ways.
+//!
+//! The last sum cannot change a sign. For the sign only the roundings before it count.
+
+use super::dyadic::{Big, round_up};
+use super::forms::Leaf;
+use super::formula::DIGITS;
+use super::{Domain, Dyadic, Format, Prover};
+use crate::arith::recorded::{Operation, Place};
+use crate::kernel::Path;
+use num_traits::One;
+
+/// The form relative to the permanent of a number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relative {
+    /// The roundings that a monomial passes at most: K.
+    pub roundings: Roundings,
+    /// The same without the last operation, if it is a sum: enough for the sign.
+    pub for_sign: Roundings,
+    /// (1+u)^K - 1, rounded up: the error is at most this times the permanent,
+    pub factor: Dyadic,
+    /// and at most this more, in the domain, where products underflow.
+    pub underflow: Dyadic,
+}
+
+/// How many roundings a monomial passes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Roundings {
+    /// To the format.
+    pub of_format: u32,
+    /// In wider arithmetic: to 53 digits in f32, and half a double format's in f64.
+    pub wider: u32,
+}
+
+impl Roundings {
+    const ONE: Roundings = Roundings { of_format: 1, wider: 0 };
+
+    fn and(self, other: Roundings) -> Roundings {
+        let Roundings { of_format, wider } = other;
+        Roundings { of_format: self.of_format + of_format, wider: self.wider + wider }
+    }
+
+    /// At least both.
+    fn or(self, other: Roundings) -> Roundings {
+        let Roundings { of_format, wider } = other;
+        Roundings { of_format: self.of_format.max(of_format), wider: self.wider.max(wider) }
+    }
+
+    /// (1+u)^K, exactly.
+    pub fn power(self, format: Format) -> Big {
+        let power = |unit: Dyadic, times: u32| {
+            let step = Big::one() + Big::from(unit);
+            (0..times).fold(Big::one(), |product, _| product * &step)
+        };
+        power(format.unit(), self.of_format) * power(wider_unit(format), self.wider)
+    }
+}
+
+/// The unit roundoff of the wider arithmetic.
+fn wider_unit(format: Format) -> Dyadic {
+    if format == Format::F32 {
+        Format::F64.unit()
+    } else {
+        Dyadic::power(2 - 2 * format.digits as i32)
+    }
+}
+
+impl Relative {
+    /// The factor of a filter: a sign is right where |computed| is at least this times the permanent as
+    /// it is computed, in the same order. It covers the rounding of the last sum of both, and that of the
+    /// product of the factor and the permanent. A strict comparison needs one of these less; see
+    /// docs/guide/proof.md.
+    pub fn filter(&self, format: Format) -> Big {
+        let three = Roundings { of_format: 3, wider: 0 };
+        (self.for_sign.power(format) - Big::one()) * three.power(format)
+    }
+}
+
+/// A number on the way: its roundings, and sizes in the domain.
+#[derive(Clone, Debug)]
+struct Node {
+    roundings: Roundings,
+    /// Those before its own rounding, if it is a sum.
+    before: Option<Roundings>,
+    /// Whether it is computed with a relative error: it does not cancel, and does not underflow.
+    sharp: bool,
+    /// The permanent, at most.
+    permanent: Big,
+    /// What underflow adds to the error, at most.
+    underflow: Big,
+}
+
+/// The form of a number relative to its permanent; an error in one sentence if it has none: it is
+/// divided by a number that may cancel, or is a root. The domain says how large numbers are that
+/// multiply an underflow; the factor does not depend on it.
+pub fn relative(
+    path: &Path,
+    place: Place,
+    domain: Domain,
+    format: Format,
+) -> Result<Relative, String> {
+    let mut forms =
+        Forms { path, format, prover: Prover::new(path, domain, format), nodes: Vec::new() };
+    forms.nodes.resize(path.operations.len(), None);
+    let node = forms.node(place)?;
+    let roundings = node.roundings;
+    let factor = round_up(&(roundings.power(format) - Big::one()), DIGITS);
+    let underflow = round_up(&node.underflow, DIGITS);
+    Ok(Relative { roundings, for_sign: node.before.unwrap_or(roundings), factor, underflow })
+}
+
+struct Forms<'a> {
+    path: &'a Path,
+    format: Format,
+    prover: Prover<'a>,
+    nodes: Vec<Option<Node>>,
+}
+
+impl Forms<'_> {
+    fn node(&mut self, place: Place) -> Result<Node, String> {
+        if let Some(node) = &self.nodes[place as usize] {
+            return Ok(node.clone());
+        }
+        let node = self.made(place)?;
+        self.nodes[place as usize] = Some(node.clone());
+        Ok(node)
+    }
+
+    fn made(&mut self, place: Place) -> Result<Node, String> {
+        let operation = self.path.operations[place as usize];
+        if let Some(leaf) = Leaf::of(operation, &self.path.operations) {
+            let roundings =
+                if leaf.is_difference() { Roundings::ONE } else { Roundings::default() };
+            return Ok(Node {
+                roundings,
+                before: leaf.is_difference().then(Roundings::default),
+                sharp: true,
+                permanent: Big::from(leaf.bound(&self.prover.domain)),
+                underflow: Big::from(Dyadic::ZERO),
+            });
+        }
+        match operation {
+            Operation::Input(_) => unreachable!("inputs are leaves"),
+            Operation::Number(value) => Ok(Node {
+                roundings: Roundings::default(),
+                before: None,
+                sharp: true,
+                permanent: Big::from(Dyadic::new(i128::from(value).abs(), 0)),
+                underflow: Big::from(Dyadic::ZERO),
+            }),
+            Operation::Neg(a) | Operation::Abs(a) => self.node(a),
+            Operation::Add(a, b) | Operation::Sub(a, b) => {
+                let (a, b) = (self.node(a)?, self.node(b)?);
+                let exact = [&a, &b].iter().all(|x| x.sharp && x.roundings == Roundings::default());
+                let sum = sum(&a, &b);
+                Ok(Node { sharp: exact, ..self.rounded(sum, 0) })
+            }
+            Operation::Mul(a, b) => {
+                let product = self.product(a, b)?;
+                Ok(Node { before: None, ..self.rounded(product, 1) })
+            }
+            Operation::Fma(a, b, c) => {
+                let (product, c) = (self.product(a, b)?, self.node(c)?);
+                Ok(self.rounded(sum(&product, &c), 1))
+            }
+            Operation::Minor(a, b, c, d) => {
+                let (p, q) = (self.product(a, b)?, self.product(c, d)?);
+                let (sum, before) = (sum(&p, &q), p.roundings.or(q.roundings));
+                let wider = Roundings { of_format: 0, wider: 1 };
+                if self.format == Format::F32 {
+                    // First to f64, where no product of two f32 underflows. Two roundings in a row do not
+                    // change a sign.
+                    let twice = self.rounded(self.rounded(sum, 0), 1);
+                    let roundings = before.and(Roundings::ONE).and(wider);
+                    return Ok(Node { roundings, before: Some(before), ..twice });
+                }
+                // x = (p - q) + (e - f), where p and q are rounded products and e and f their
+                // remainders. Each difference is rounded, and then their sum. |p - q| is at most |x| and u
+                // times the permanent, and |e - f| at most u times it: so an error of u and 2u² of it
+                // before the last sum. The remainders may underflow.
+                let before = before.and(Roundings::ONE).and(wider);
+                let thrice = self.rounded(self.rounded(self.rounded(sum, 2), 0), 0);
+                Ok(Node { roundings: before.and(Roundings::ONE), before: Some(before), ..thrice })
+            }
+            Operation::Div(n, d) => {
+                let (n, d) = (self.node(n)?, self.node(d)?);
+                if !n.sharp || !d.sharp {
+                    return Err(
+                        "it is divided by a number, or of a number, that may cancel".to_owned()
+                    );
+                }
+                let permanent = Big::from(self.prover.bound(place)?.size);
+                let quotient = Node {
+                    roundings: n.roundings.and(d.roundings),
+                    before: None,
+                    sharp: false,
+                    permanent,
+                    underflow: Big::from(Dyadic::ZERO),
+                };
+                Ok(Node { before: None, ..self.rounded(quotient, 1) })
+            }
+            Operation::Sqrt(_) => Err("it has a root".to_owned()),
+        }
+    }
+
+    /// An exact product of computed numbers.
+    fn product(&mut self, a: Place, b: Place) -> Result<Node, String> {
+        let (a, b) = (self.node(a)?, self.node(b)?);
+        let computed = |x: &Node| x.roundings.power(self.format) * &x.permanent;
+        // The computed b is at most its permanent with its errors.
+        let underflow = &a.underflow * (computed(&b) + &b.underflow) + computed(&a) * &b.underflow;
+        Ok(Node {
+            roundings: a.roundings.and(b.roundings),
+            before: None,
+            sharp: false,
+            permanent: a.permanent * b.permanent,
+            underflow,
+        })
+    }
+
+    /// One more rounding, which may underflow so often.
+    fn rounded(&self, exact: Node, underflows: i128) -> Node {
+        let step = Big::one() + Big::from(self.format.unit());
+        let tiny = Big::from(Dyadic::new(underflows, 0)) * Big::from(self.format.tiny());
+        Node {
+            before: Some(exact.roundings),
+            roundings: exact.roundings.and(Roundings::ONE),
+            underflow: exact.underflow * step + tiny,
+            ..exact
+        }
+    }
+}
+
+/// An exact sum of computed numbers.
+fn sum(a: &Node, b: &Node) -> Node {
+    Node {
+        roundings: a.roundings.or(b.roundings),
+        before: None,
+        sharp: false,
+        permanent: &a.permanent + &b.permanent,
+        underflow: &a.underflow + &b.underflow,
+    }
+}
