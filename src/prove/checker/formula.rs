@@ -1,10 +1,9 @@
 //! The formula of a lemma: variables, steps, and what their rounding errors add up to.
 
 use super::corners::{Row, search};
-use super::number::{Bound, F32, F64, Format, Number, power, round_up, split};
-use super::program::{Leaf, Program, Term, indices, terms};
+use super::number::{Bound, ERROR_DIGITS, F32, F64, Format, Number, power, round_up, split};
+use super::program::{Leaf, MOST_ROWS, Program, Term, indices, terms};
 use super::reader::{Outcome, Reader, ensure};
-use super::{ERROR_DIGITS, MOST_ROWS};
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 use std::collections::HashSet;
