@@ -328,6 +328,9 @@ impl Formula {
             Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
         };
         let size = size.min(corner);
+        if let (&Step::Minor(a, b, c, d), Format::F64) = (&self.steps[i], format) {
+            return minor_in_f64(size, [product(a, b)[1], product(c, d)[1]]);
+        }
         let computed = Big::from(computed).min(Big::from(size) + before);
         let mut error = Dyadic::ZERO;
         if self.rounds[i] {
@@ -338,6 +341,25 @@ impl Formula {
             }
         }
         Bound { size, computed: round_up(&computed, format.digits), error }
+    }
+}
+
+/// The bound of a difference of two products of these sizes in f64. Both are rounded, and so are their
+/// difference, that of their remainders, and the sum of both.
+fn minor_in_f64(size: Dyadic, products: [Dyadic; 2]) -> Bound {
+    let format = Format::F64;
+    let up = |x: &Big| Big::from(round_up(x, format.digits));
+    let half_ulp = |x: &Big| Big::from(format.half_ulp_of(x));
+    let [p, q] = products.map(Big::from);
+    let twice_tiny = Big::from(format.tiny()) + Big::from(format.tiny());
+    let rounded = up(&p) + up(&q);
+    let remainders = half_ulp(&p) + half_ulp(&q) + &twice_tiny;
+    let error = half_ulp(&rounded) + up(&remainders) + half_ulp(&remainders) + twice_tiny;
+    let computed = up(&rounded) + up(&remainders);
+    Bound {
+        size,
+        computed: round_up(&computed, format.digits),
+        error: round_up(&error, DIGITS),
     }
 }
 

@@ -1,10 +1,12 @@
 //! The checker of certificates accepts what the prover writes and nothing that differs from it in a number.
 
+use hairline::internals::arith::Real;
 use hairline::internals::arith::recorded::Operation;
 use hairline::internals::kernel::{self, Path, Scalar};
 use hairline::internals::prove::certificate::{self, Claim, Heading};
-use hairline::internals::prove::checker::check;
+use hairline::internals::prove::checker::{Number, check};
 use hairline::internals::prove::{Domain, Dyadic, Format, Prover, is_impossible};
+use num_traits::Signed;
 use std::collections::BTreeSet;
 
 /// The first path of a kernel that an input may take.
@@ -134,6 +136,35 @@ fn what_the_prover_writes_is_accepted() {
     for (name, text, _) in samples() {
         check(&text).unwrap_or_else(|refusal| panic!("{name}: {refusal}"));
     }
+}
+
+/// The bounds of the first operation of a kernel that multiplies twice and subtracts in wider arithmetic.
+fn wide_difference<F: Scalar>(scalar: &str) -> String {
+    let entry = kernel::find("woop-watertight").unwrap();
+    let paths = F::subject(entry).unwrap().gated().unwrap().paths().unwrap();
+    let place = |path: &Path| {
+        let is_wide = |operation: &Operation| matches!(operation, Operation::Minor(..));
+        path.operations.iter().position(is_wide)
+    };
+    let path = paths.iter().find(|path| !is_impossible(path) && place(path).is_some()).unwrap();
+    certificate_of(path, scalar, Domain::UNIT, &[place(path).unwrap() as u32])
+}
+
+#[test]
+fn a_difference_of_products_is_rounded_twice_in_f64() {
+    let [single, double] = [wide_difference::<f32>("f32"), wide_difference::<f64>("f64")];
+    let [single, double] = [check(&single), check(&double)];
+    let [single, double] = [single, double].map(|proved| proved.unwrap().remove(0).bound.error);
+    // Apart from that, the errors differ by 2^-29.
+    assert!(double * Number::from_integer((1i64 << 29).into()) > single);
+    // A result below 2 that is wrong by nearly 2u, twice what one rounding may cost.
+    let exact = |x: f64| Number::from_float(x).unwrap();
+    let digits = [0x13411b4d2cd965u64, 0x1f2bee19622db6, 0x1fba5f0d32f012, 0x16f08d216d65ac];
+    let [a, b, c, d] = digits.map(|digits| digits as f64 / (1u64 << 53) as f64);
+    let computed = f64::difference_of_products(&a, &b, &-c, &d);
+    let error = exact(computed) - (exact(a) * exact(b) + exact(c) * exact(d));
+    let hundredths = Number::from_integer((100i64 << 46).into()) * Number::from_integer(128.into());
+    assert!(computed < 2.0 && Number::from_integer(199.into()) < error.abs() * hundredths);
 }
 
 #[test]

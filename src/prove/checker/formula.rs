@@ -386,7 +386,8 @@ impl Step<'_> {
             let twice = &format.tiny + &format.tiny;
             let remainders = products.iter().map(|x| format.half_ulp(x)).sum::<Number>() + &twice;
             let both = format.float_up(&remainders);
-            bound.error = format.half_ulp(&rounded) + &both + format.half_ulp(&remainders) + twice;
+            let error = format.half_ulp(&rounded) + &both + format.half_ulp(&remainders) + twice;
+            bound.error = round_up(&error, ERROR_DIGITS);
             bound.computed = format.float_up(&(format.float_up(&rounded) + both));
         }
         bound
