@@ -535,7 +535,7 @@ fn mesh_scene(
             ((b * b + c * c - a * a) / (2.0 * b * c)).clamp(-1.0, 1.0).acos().to_degrees()
         });
         let angle = angle.fold(180.0, f64::min);
-        if !(angle > 0.0) {
+        if angle.is_nan() || angle <= 0.0 {
             continue;
         }
         let size = |(p, q): (usize, usize)| {

@@ -4,7 +4,6 @@
 use super::dyadic::{Big, root_up, round_up};
 use super::forms::{Forms, Leaf};
 use super::formula::{DIGITS, Formula, Maximum, Source, Step};
-use super::gates::unsigned;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::Path;
@@ -190,7 +189,14 @@ impl<'a> Prover<'a> {
             error += &reciprocal;
             rounded += reciprocal;
         }
-        if at_most_one {
+        if twice
+            && Big::from(Dyadic::power(self.format.largest))
+                * (Big::from(floor) - Big::from(below.error))
+                <= Big::from(Dyadic::ONE)
+        {
+            return Err("a reciprocal may overflow: the floor of divisors is too low".to_owned());
+        }
+        if at_most_one && !twice {
             // The quotient of two floats that is at most one is rounded to at most one.
             rounded = Big::from(Dyadic::ONE);
         }
@@ -218,7 +224,11 @@ impl<'a> Prover<'a> {
         }
         let largest = Big::from(size) + &shift;
         let relative = three * unit * &largest;
-        self.bound_of_rounded(size, shift + &relative, &(largest + relative))
+        let rounded = largest + &relative;
+        if &rounded * &rounded >= Big::from(Dyadic::power(self.format.largest)) {
+            return Err("the square of a length may overflow".to_owned());
+        }
+        self.bound_of_rounded(size, shift + relative, &rounded)
     }
 
     /// Squares that are added up to a number, if that is what it is.
@@ -269,8 +279,9 @@ impl<'a> Prover<'a> {
     pub(super) fn is_largest_of_direction(&self, place: Place) -> bool {
         let Operation::Input(i @ 3..=5) = self.operation(place) else { return false };
         let others = (3..=5).filter(|axis| *axis != i).map(Operation::Input);
-        let places = others.map(|axis| self.path.operations.iter().position(|op| *op == axis));
-        places.into_iter().flatten().all(|other| self.is_at_most_in_size(other as Place, place))
+        let mut places = others.map(|axis| self.path.operations.iter().position(|op| *op == axis));
+        places
+            .all(|other| other.is_some_and(|other| self.is_at_most_in_size(other as Place, place)))
     }
 
     /// The lemmas that a number's bound uses, its own last.
@@ -319,8 +330,22 @@ impl<'a> Prover<'a> {
     }
 }
 
-/// The facts x <= y (or x < y, if true) of a path.
+/// Without signs around it.
+pub(super) fn unsigned(path: &Path, place: Place) -> Place {
+    match path.operations[place as usize] {
+        Operation::Neg(inner) | Operation::Abs(inner) => unsigned(path, inner),
+        _ => place,
+    }
+}
+
+/// The facts x <= y (or x < y, if true) of a path about sizes of inputs. Of computed numbers nothing
+/// follows: one of them may be NaN, and the path compares them, not the exact ones.
 fn facts(path: &Path) -> Vec<(Place, Place, bool)> {
+    let operation = |place: Place| path.operations[place as usize];
+    let is_size = |place: Place| match operation(place) {
+        Operation::Abs(inner) => matches!(operation(inner), Operation::Input(_)),
+        _ => false,
+    };
     let fact = |(comparison, answer): &(Comparison, bool)| match (*comparison, *answer) {
         (Comparison::Less(a, b), true) => Some((a, b, true)),
         (Comparison::Less(a, b), false) => Some((b, a, false)),
@@ -328,7 +353,7 @@ fn facts(path: &Path) -> Vec<(Place, Place, bool)> {
         (Comparison::AtMost(a, b), false) => Some((b, a, true)),
         _ => None,
     };
-    path.decisions.iter().filter_map(fact).collect()
+    path.decisions.iter().filter_map(fact).filter(|(a, b, _)| is_size(*a) && is_size(*b)).collect()
 }
 
 /// Whether a <= b follows from the decisions.
@@ -379,7 +404,10 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// The formula and its corners; the last step is the result.
     fn finish(mut self) -> Result<(Formula, Maximum), String> {
         let maximum = self.formula.maximum(self.prover.format);
-        let maximum = maximum.ok_or("its formula has too many variables")?;
+        let maximum = maximum.ok_or("its formula has too many variables or digits")?;
+        if !maximum.first.is_number() || !maximum.rest.is_number() {
+            return Err("its bound needs more digits than there are".to_owned());
+        }
         for bound in &self.formula.bounds {
             self.prover.check_range(bound.computed)?;
         }

@@ -232,7 +232,9 @@ impl Ord for Dyadic {
 pub type Big = BigRational;
 
 impl From<Dyadic> for Big {
+    /// Panics for what is no number.
     fn from(x: Dyadic) -> Big {
+        assert!(x.is_number(), "a number that needed more digits");
         let power = BigInt::one() << x.exponent.unsigned_abs();
         let mantissa = BigInt::from(x.mantissa);
         if x.exponent < 0 { Big::new(mantissa, power) } else { Big::from(mantissa * power) }

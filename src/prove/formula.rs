@@ -122,6 +122,9 @@ impl Formula {
         self.supports()?;
         let count = self.variables.len();
         let sizes = self.corner_sizes();
+        if sizes.iter().any(|size| !size.is_number()) {
+            return None;
+        }
         self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
         let mut size = Dyadic::ZERO;
         let mut values = vec![Dyadic::ZERO; self.steps.len()];
@@ -313,25 +316,29 @@ impl Formula {
         before: Big,
         format: Format,
     ) -> Bound {
-        let of = |a: usize| [bounds[a].size, bounds[a].computed];
-        let sum = |[a, b]: [Dyadic; 2], [c, d]: [Dyadic; 2]| [a + c, b + d];
-        let product = |a: usize, b: usize| {
-            let ([a, b], [c, d]) = (of(a), of(b));
-            [a * c, b * d]
-        };
-        let [size, computed] = match self.steps[i] {
+        let size = |a: usize| bounds[a].size;
+        let computed = |a: usize| Big::from(bounds[a].computed);
+        let product = |a: usize, b: usize| (size(a) * size(b), computed(a) * computed(b));
+        let (size, computed) = match self.steps[i] {
             Step::Variables(_) | Step::Number(_) => unreachable!("what is given"),
-            Step::Neg(a) => of(a),
-            Step::Add(a, b) | Step::Sub(a, b) => sum(of(a), of(b)),
+            Step::Neg(a) => (size(a), computed(a)),
+            Step::Add(a, b) | Step::Sub(a, b) => (size(a) + size(b), computed(a) + computed(b)),
             Step::Mul(a, b) => product(a, b),
-            Step::Fma(a, b, c) => sum(product(a, b), of(c)),
-            Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
+            Step::Fma(a, b, c) => {
+                let (p, q) = product(a, b);
+                (p + size(c), q + computed(c))
+            }
+            Step::Minor(a, b, c, d) => {
+                let ((p, q), (r, s)) = (product(a, b), product(c, d));
+                if format == Format::F64 {
+                    return minor_in_f64((p + r).min(corner), [q, s]);
+                }
+                (p + r, q + s)
+            }
         };
+        // A number of the corners, even where the products and sums need more digits than there are.
         let size = size.min(corner);
-        if let (&Step::Minor(a, b, c, d), Format::F64) = (&self.steps[i], format) {
-            return minor_in_f64(size, [product(a, b)[1], product(c, d)[1]]);
-        }
-        let computed = Big::from(computed).min(Big::from(size) + before);
+        let computed = computed.min(Big::from(size) + before);
         let mut error = Dyadic::ZERO;
         if self.rounds[i] {
             error = format.half_ulp_of(&computed);
@@ -346,11 +353,10 @@ impl Formula {
 
 /// The bound of a difference of two products of these sizes in f64. Both are rounded, and so are their
 /// difference, that of their remainders, and the sum of both.
-fn minor_in_f64(size: Dyadic, products: [Dyadic; 2]) -> Bound {
+fn minor_in_f64(size: Dyadic, [p, q]: [Big; 2]) -> Bound {
     let format = Format::F64;
     let up = |x: &Big| Big::from(round_up(x, format.digits));
     let half_ulp = |x: &Big| Big::from(format.half_ulp_of(x));
-    let [p, q] = products.map(Big::from);
     let twice_tiny = Big::from(format.tiny()) + Big::from(format.tiny());
     let rounded = up(&p) + up(&q);
     let remainders = half_ulp(&p) + half_ulp(&q) + &twice_tiny;

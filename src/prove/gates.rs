@@ -1,6 +1,6 @@
 //! The bounds of all gates of a kernel: every path, every quantity, each program once.
 
-use super::bound::{Lemma, Prover, is_impossible};
+use super::bound::{Lemma, Prover, is_impossible, unsigned};
 use super::forms::Leaf;
 use super::formula::Source;
 use super::{Bound, Domain, Format, Rule};
@@ -117,14 +117,6 @@ impl Proof {
             return Some(Err(why.clone()));
         }
         of_gate().max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok()).map(Ok)
-    }
-}
-
-/// Without signs around it.
-pub fn unsigned(path: &Path, place: Place) -> Place {
-    match path.operations[place as usize] {
-        Operation::Neg(inner) | Operation::Abs(inner) => unsigned(path, inner),
-        _ => place,
     }
 }
 
