@@ -38,4 +38,4 @@ pub use sizes::BySize;
 pub use statement::{Published, about_edges, statements};
 pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of};
 pub use watertight::Symmetry;
-pub use witness::{Goal, Inputs, Search, Searched};
+pub use witness::{Goal, Inputs, Search, Searched, run};

@@ -53,7 +53,8 @@ impl Scene {
                 "the {name} is {value} degrees; it must be above 0 and at most {most}"
             ));
         }
-        let up = |x: f64| Dyadic::from_f64(x).expect("finite").round_up(DIGITS);
+        // Slightly more, for what rounding took from the numbers themselves.
+        let up = |x: f64| Dyadic::from_f64(x * (1.0 + 1e-9)).expect("finite").round_up(DIGITS);
         // A difference of coordinates is at most twice the largest of them.
         let reach = distance.min(2.0 * coordinates);
         let shape = self.least_shape();

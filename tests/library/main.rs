@@ -12,6 +12,7 @@ mod map;
 mod margins;
 mod oracle;
 mod proofs;
+mod prove;
 mod response;
 mod severity;
 mod strategy;

@@ -1,0 +1,126 @@
+//! Bounds of programs: every error found is below its bound, and edge values are what is said of them.
+
+use hairline::internals::arith::Arithmetic;
+use hairline::internals::case::Draw;
+use hairline::internals::kernel::{KERNELS, Scalar, find, in_arithmetic};
+use hairline::internals::prove::{
+    Domain, Effort, Format, Goal, Proof, Search, Searched, Summary, Symmetry, run,
+};
+
+fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
+    for kernel in KERNELS {
+        for arithmetic in [Arithmetic::IEEE, Arithmetic::FMA] {
+            let entry = in_arithmetic(kernel, arithmetic).unwrap();
+            let effort = Effort { evaluations, seed: 7 };
+            let summary = Summary::<F>::new(entry, Domain::UNIT, &[], effort).unwrap();
+            assert_eq!(summary.contradiction(), None, "{}", entry.info.name);
+            let bounded = summary.gates.iter().filter(|gate| gate.bound.is_ok());
+            assert!(bounded.clone().count() > 0, "{}", entry.info.name);
+            for gate in bounded.filter(|gate| !gate.uses.floor && !gate.uses.world) {
+                // The search finds something of the bound's order at once, so a bound that is too small by much
+                // would be noticed.
+                let factor = gate.factor().unwrap();
+                assert!(factor < 12.0, "{} {}: {factor}", entry.info.name, gate.gate.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_error_is_above_its_bound_in_f32() {
+    no_error_is_above_its_bound::<f32>(400);
+}
+
+#[test]
+fn no_error_is_above_its_bound_in_f64() {
+    no_error_is_above_its_bound::<f64>(100);
+}
+
+/// 17 u by hand, to first order: the roundings of the edges 2 + 2, the products of the cross product 3, its
+/// differences 3, the products of the dot product 3, its sums 2 and 2.
+#[test]
+fn the_determinant_of_moller_trumbore_is_bounded_as_by_hand() {
+    let kernel = find("moller-trumbore").unwrap();
+    let summary =
+        Summary::<f32>::new(kernel, Domain::UNIT, &[], Effort { evaluations: 0, seed: 1 }).unwrap();
+    let units = summary.gates[0].bound.as_ref().unwrap().to_f64() * 2f64.powi(24);
+    let below_one = 1.0 - 2f64.powi(-10);
+    assert!(units <= 17.0 && units >= 17.0 * below_one * below_one, "{units}");
+}
+
+#[test]
+fn a_search_is_reproducible_and_stays_in_its_domain() {
+    let kernel = find("moller-trumbore-culling").unwrap();
+    let paths = <f32 as Scalar>::subject(kernel).unwrap().gated().unwrap().paths().unwrap();
+    let proof = Proof::new(paths, None, Domain::UNIT, Format::F32);
+    for quantity in &proof.quantities {
+        let mut search = Search::<f32>::new(&proof, quantity, Domain::UNIT);
+        let mut found = || search.climb(Goal::Error, 3000, &mut Draw::new("test", 1, 2), &[]);
+        let (inputs, score) = found().unwrap();
+        assert_eq!(found(), Some((inputs, score)));
+        // The error in f64, which is exact enough for f32.
+        let operations = &proof.paths[quantity.path].operations;
+        let (mut computed, mut exact) = (Vec::new(), Vec::new());
+        run(operations, quantity.place, &inputs, &mut computed);
+        run(operations, quantity.place, &inputs.map(f64::from), &mut exact);
+        let last = quantity.place as usize;
+        let error = (f64::from(computed[last]) - exact[last]).abs();
+        assert!((error - score).abs() <= 1e-12, "{error} {score}");
+        for axis in 0..3 {
+            let at = |point: usize| exact_input(&inputs, point, axis);
+            for (p, q) in [(9, 6), (12, 6)] {
+                assert!((at(p) - at(q)).abs() <= Domain::UNIT.edge.to_f64());
+            }
+            assert!(at(3).abs() <= 1.0);
+        }
+    }
+}
+
+fn exact_input(inputs: &[f32; 17], point: usize, axis: usize) -> f64 {
+    inputs[point + axis].into()
+}
+
+/// The edge values of two triangles on either side, run as programs: where they are proved to be exact
+/// negatives they are, and where they are not a ray is found for which they are not.
+#[test]
+fn edge_values_are_exact_negatives_where_it_is_said() {
+    for (name, symmetry) in [
+        ("woop-watertight", Symmetry::ExactSigns),
+        ("woop-watertight+fma", Symmetry::None),
+        ("plucker", Symmetry::Negatives),
+        ("plucker+fma", Symmetry::Negatives),
+        ("scalar-triple", Symmetry::None),
+        ("moller-trumbore", Symmetry::None),
+    ] {
+        let kernel = find(name).unwrap();
+        let effort = Effort { evaluations: 0, seed: 1 };
+        let summary = Summary::<f32>::new(kernel, Domain::UNIT, &[], effort).unwrap();
+        assert_eq!(summary.symmetry, symmetry, "{name}");
+        let gate = summary.gates.iter().find(|gate| gate.gate.name == "edge").unwrap();
+        // The value of edge bc where the kernel has one: b and c exchanged.
+        let of_edge = summary.proof.quantities.iter().filter(|q| q.gate == gate.index);
+        let mut differ = 0;
+        for quantity in of_edge {
+            let operations = &summary.proof.paths[quantity.path].operations;
+            let last = quantity.place as usize;
+            let mut draw = Draw::new("test", 3, 4);
+            let (mut one, mut other) = (Vec::new(), Vec::new());
+            for _ in 0..2000 {
+                let inputs: [f32; 17] = std::array::from_fn(|_| draw.symmetric());
+                let value = |values: &mut Vec<f32>, inputs: &[f32; 17]| {
+                    run(operations, quantity.place, inputs, values);
+                    values[last]
+                };
+                let here = value(&mut one, &inputs);
+                // Some pair of vertices exchanged gives the negative.
+                let there = [(6, 9), (9, 12), (6, 12)].map(|(p, q)| {
+                    let mut exchanged = inputs;
+                    (0..3).for_each(|axis| exchanged.swap(p + axis, q + axis));
+                    value(&mut other, &exchanged)
+                });
+                differ += usize::from(there.iter().all(|there| *there != -here));
+            }
+        }
+        assert_eq!(differ == 0, symmetry != Symmetry::None, "{name}: {differ}");
+    }
+}
