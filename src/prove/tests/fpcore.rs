@@ -190,7 +190,7 @@ fn cores_compute_what_a_kernel_does<F: Scalar>(entry: &Entry, format: Format) ->
     let paths = gated.paths().expect("recorded");
     let mut draw = Draw::new("fpcore", 1, 1);
     let mut compared = 0;
-    for round in 0..24 {
+    for round in 0..16 {
         // Every other case on a lattice, where determinants vanish.
         let mut number = || match round % 2 {
             0 => draw.symmetric::<F>(),
