@@ -41,7 +41,7 @@ impl EpsilonText {
     }
 
     /// `EPSILON`, `-EPSILON` or `k*EPSILON`; decimal text otherwise, not checked. None if k is no number.
-    pub(super) fn of(text: &str) -> Option<EpsilonText> {
+    pub fn of(text: &str) -> Option<EpsilonText> {
         let Some(factor) = text.strip_suffix("EPSILON") else {
             return Some(EpsilonText::Decimal(text.to_owned()));
         };

@@ -5,6 +5,7 @@ use super::flags::JUDGING;
 use super::github;
 use super::input::{read_record, read_text};
 use super::output::write_result;
+use super::prove::demand;
 use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
@@ -50,6 +51,11 @@ struct CheckFlags {
 
     #[command(flatten)]
     run: RunArguments,
+
+    /// Bounds that must stay proved, as KERNEL/SCALAR/GATE=UNITS or KERNEL/SCALAR/watertight=true (see
+    /// `prove`)
+    #[arg(long, value_delimiter = ',', value_name = "DEMAND,...", help_heading = JUDGING)]
+    proved: Vec<String>,
 
     /// How many findings of each class to attribute to a cause (see `audit`); 0 for none
     #[arg(long, default_value_t = 0, value_name = "N", help_heading = JUDGING)]
@@ -128,6 +134,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         arguments.set(given)?;
     }
     let outputs = arguments.run.report.outputs()?;
+    let unmet = demand::unmet(&arguments.proved)?;
     let mut record = match &arguments.record {
         Some(file) => read_record(file)?,
         None => {
@@ -154,6 +161,10 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     record.conformance = Some(conformance);
     outputs.write(&record)?;
     github::announce(&record)?;
+    if !unmet.is_empty() {
+        unmet.iter().for_each(|line| eprintln!("hairline: {line}"));
+        return Ok(Status::Disagreements);
+    }
     Ok(match record.conformance.map(|conformance| conformance.verdict) {
         Some(Verdict::Disagreements) => Status::Disagreements,
         Some(Verdict::Stale) => Status::Stale,
@@ -277,6 +288,6 @@ mod tests {
             .collect();
         // Two flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 18, "{words:?}");
+        assert_eq!(words.len(), 19, "{words:?}");
     }
 }

@@ -32,6 +32,7 @@ mod orient;
 mod output;
 mod plugins;
 mod progress;
+mod prove;
 mod reporting;
 mod select;
 mod selfcheck;
@@ -64,6 +65,8 @@ enum Command {
     Epsilon(Box<epsilon::EpsilonArguments>),
     /// Send rays at every edge and vertex of a mesh, and report where they slip through
     Mesh(Box<mesh::MeshArguments>),
+    /// Prove what a kernel can never do wrong, whatever the floats, beside the worst known
+    Prove(Box<prove::ProveArguments>),
     /// Show one case: its exact truth, and what each gate of each kernel decides
     Explain(explain::ExplainArguments),
     /// Draw where a kernel is wrong, one pixel one float, beside the exact truth
@@ -106,7 +109,7 @@ enum Command {
 
 /// The commands by what they are for, in the order of the help.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Choose an epsilon", &["audit", "epsilon", "mesh", "explain", "map", "list"]),
+    ("Choose an epsilon", &["audit", "epsilon", "prove", "mesh", "explain", "map", "list"]),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
     ("Bring your own", &["generate", "judge", "truth"]),
@@ -190,6 +193,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Audit(arguments) => audit::run(&arguments),
         Command::Epsilon(arguments) => epsilon::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
+        Command::Prove(arguments) => prove::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::List(arguments) => list::run(&arguments),

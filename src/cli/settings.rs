@@ -21,6 +21,8 @@ enum Kind {
     Text,
     /// true or false.
     Flag,
+    /// A table of demands on proofs: `[proved]`, by kernel, scalar and gate.
+    Demands,
 }
 
 /// A setting: a flag of `check` that may also stand in the file or the environment.
@@ -55,6 +57,7 @@ const SETTINGS: &[Setting] = &[
     setting("directions", Kind::Text, ""),
     setting("corpus", Kind::Files, "cases.jsonl"),
     setting("examples", Kind::Text, ""),
+    setting("proved", Kind::Demands, "woop-watertight/f32/watertight=true"),
     setting("expectations", Kind::File, ""),
 ];
 
@@ -76,7 +79,7 @@ pub fn default_file(check: &clap::Command) -> String {
         };
         let quoted = |text: &str| format!("\"{text}\"");
         let value = match kind {
-            Kind::Names | Kind::Files => {
+            Kind::Names | Kind::Files | Kind::Demands => {
                 format!("[{}]", value.split(',').map(quoted).collect::<Vec<_>>().join(", "))
             }
             Kind::Flag => value.to_owned(),
@@ -174,7 +177,10 @@ fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String
             _ => Err(format!("{key}: expected true or false")),
         };
     }
-    let is_list = matches!(setting.kind, Kind::Names | Kind::Files);
+    if let (Kind::Demands, DeValue::Table(kernels)) = (setting.kind, value) {
+        return demands(kernels).map(|all| vec![format!("--{key}={}", all.join(","))]);
+    }
+    let is_list = matches!(setting.kind, Kind::Names | Kind::Files | Kind::Demands);
     let texts = match value {
         DeValue::Array(items) if is_list => {
             items.iter().map(|item| scalar_text(item.get_ref())).collect::<Option<Vec<_>>>()
@@ -187,12 +193,33 @@ fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String
         return Err(format!("{key}: the list is empty; leave it out for the default"));
     }
     Ok(match setting.kind {
-        Kind::Names => vec![format!("--{key}={}", texts.join(","))],
+        Kind::Names | Kind::Demands => vec![format!("--{key}={}", texts.join(","))],
         Kind::Files | Kind::File => {
             texts.iter().map(|text| format!("--{key}={}", folder.join(text).display())).collect()
         }
         _ => vec![format!("--{key}={}", texts[0])],
     })
+}
+
+/// `[proved]`: a table of kernels, of scalars, of gates.
+fn demands(kernels: &DeTable) -> Result<Vec<String>, String> {
+    let expected = || "proved: expected KERNEL.SCALAR.GATE = UNITS or KERNEL.SCALAR.watertight = true";
+    let mut all = Vec::new();
+    for (kernel, scalars) in kernels {
+        let DeValue::Table(scalars) = scalars.get_ref() else { return Err(expected().to_owned()) };
+        for (scalar, gates) in scalars {
+            let DeValue::Table(gates) = gates.get_ref() else { return Err(expected().to_owned()) };
+            for (gate, value) in gates {
+                let value = match value.get_ref() {
+                    DeValue::Boolean(true) => "true".to_owned(),
+                    number => scalar_text(number).ok_or_else(|| expected().to_owned())?,
+                };
+                let names = [kernel, scalar, gate].map(|name| name.get_ref().as_ref());
+                all.push(format!("{}={value}", names.join("/")));
+            }
+        }
+    }
+    if all.is_empty() { Err(expected().to_owned()) } else { Ok(all) }
 }
 
 fn scalar_text(value: &DeValue) -> Option<String> {

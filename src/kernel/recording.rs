@@ -31,6 +31,8 @@ pub struct Compared {
     pub refuse: Option<Refuse>,
     /// Its quantities.
     pub quantities: Vec<Place>,
+    /// How many decisions of the path come before.
+    pub decisions: usize,
 }
 
 /// The sink that writes down what each gate compares, and never stops.
@@ -44,8 +46,8 @@ impl Recording {
     fn note(&mut self, gate: usize, refuse: Option<Refuse>, mut quantities: Vec<Place>) -> bool {
         quantities.sort_unstable();
         quantities.dedup();
-        self.compared.push(Compared { gate, refuse, quantities });
         self.decisions = decisions_so_far();
+        self.compared.push(Compared { gate, refuse, quantities, decisions: self.decisions });
         true
     }
 }

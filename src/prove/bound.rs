@@ -4,6 +4,7 @@
 use super::dyadic::{Big, root_up, round_up};
 use super::formula::{DIGITS, Formula, Maximum, Source, Step};
 use super::forms::{Forms, Leaf};
+use super::gates::unsigned;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::Path;
@@ -45,8 +46,15 @@ pub enum Rule {
     /// The formula is the number.
     Sum,
     /// The formula is numerator - quotient * divisor, and one division follows; or a reciprocal and a
-    /// product, if true.
-    Quotient(bool),
+    /// product, if `twice`.
+    Quotient {
+        /// By a reciprocal and a product.
+        twice: bool,
+        /// What it is divided by.
+        divisor: Place,
+        /// The least size of the exact divisor.
+        floor: Dyadic,
+    },
     /// The number is the length of a vector: of these three coordinates. There is no formula.
     Length([Place; 3]),
 }
@@ -88,7 +96,7 @@ impl<'a> Prover<'a> {
     fn prove(&mut self, place: Place) -> Result<Bound, String> {
         let (rule, formula, maximum, bound);
         if let Some((numerator, divisor, twice)) = self.quotient(place) {
-            rule = Rule::Quotient(twice);
+            rule = Rule::Quotient { twice, divisor, floor: self.floor(divisor) };
             (formula, maximum, bound) = self.divide(numerator, divisor, twice)?;
         } else if let Operation::Sqrt(inner) = self.operation(place) {
             let vector = self.squares(inner).ok_or("its root is not the length of a vector")?;
@@ -97,10 +105,10 @@ impl<'a> Prover<'a> {
         } else {
             rule = Rule::Sum;
             let mut builder = Builder::new(self);
-            let last = builder.expand(place)?;
-            let computed = builder.computed[last];
+            builder.expand(place)?;
             (formula, maximum) = builder.finish()?;
-            let size = maximum.size.min(formula.sizes[last]).round_up(SIZE_DIGITS);
+            let Bound { size, computed, .. } = formula.bounds[formula.bounds.len() - 1];
+            let size = size.round_up(SIZE_DIGITS);
             let error = round_up(&(Big::from(maximum.first) + Big::from(maximum.rest)), DIGITS);
             bound = Bound { size, computed: computed.min(size.plus_up(error)), error };
         }
@@ -147,7 +155,10 @@ impl<'a> Prover<'a> {
             None => Bound { size: Dyadic::ONE, computed: Dyadic::ONE, error: Dyadic::ZERO },
         };
         let limit = Big::from(above.size) / Big::from(floor);
-        let at_most_one = numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
+        // The path compares computed numbers, which says nothing of the exact ones unless they are equal.
+        let at_most_one = above.error.is_zero()
+            && below.error.is_zero()
+            && numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
         let size = match numerator {
             Some(_) if at_most_one => Big::from(Dyadic::ONE),
             Some(_) => limit.min(Big::from(self.domain.quotient)),
@@ -157,14 +168,12 @@ impl<'a> Prover<'a> {
         let mut builder = Builder::new(self);
         let n = match numerator {
             Some(numerator) => builder.expand(numerator)?,
-            None => builder.exact(Step::Number(1), Dyadic::ONE),
+            None => builder.number(1),
         };
         let d = builder.expand(divisor)?;
-        let q = builder.variable(Source::Quotient, size, Dyadic::ZERO, size);
-        let sizes = &builder.formula.sizes;
-        let (above_size, product_size) = (sizes[n], size * sizes[d]);
-        let product = builder.exact(Step::Mul(q, d), product_size);
-        builder.exact(Step::Sub(n, product), above_size.plus_up(product_size));
+        let q = builder.variable(Source::Quotient, exactly(size));
+        let product = builder.push(Step::Mul(q, d), None);
+        builder.push(Step::Sub(n, product), None);
         let (formula, maximum) = builder.finish()?;
         // The quotient of the computed numbers against the exact one, then the roundings of the division.
         let sum = Big::from(maximum.first) + Big::from(maximum.rest);
@@ -178,7 +187,7 @@ impl<'a> Prover<'a> {
             error += &reciprocal;
             rounded += reciprocal;
         }
-        if at_most_one && above.error.is_zero() && below.error.is_zero() {
+        if at_most_one {
             // The quotient of two floats that is at most one is rounded to at most one.
             rounded = Big::from(Dyadic::ONE);
         }
@@ -249,22 +258,56 @@ impl<'a> Prover<'a> {
 
     /// The least size of a divisor in the domain.
     pub(super) fn floor(&self, divisor: Place) -> Dyadic {
-        let axes = [3, 4, 5].map(Operation::Input);
-        if let Operation::Input(i @ 3..=5) = self.operation(divisor) {
-            let others = axes.iter().filter(|axis| **axis != Operation::Input(i));
-            let places = others.map(|axis| self.path.operations.iter().position(|op| op == axis));
-            let is_largest = places.into_iter().all(|place| {
-                place.is_none_or(|place| self.is_at_most_in_size(place as Place, divisor))
-            });
-            if is_largest {
-                return self.domain.direction_floor;
+        if self.is_largest_of_direction(divisor) {
+            self.domain.direction_floor
+        } else {
+            self.domain.floor
+        }
+    }
+
+    /// Whether a number is the coordinate of the direction that is largest in size.
+    pub(super) fn is_largest_of_direction(&self, place: Place) -> bool {
+        let Operation::Input(i @ 3..=5) = self.operation(place) else { return false };
+        let others = (3..=5).filter(|axis| *axis != i).map(Operation::Input);
+        let places = others.map(|axis| self.path.operations.iter().position(|op| *op == axis));
+        places.into_iter().flatten().all(|other| self.is_at_most_in_size(other as Place, place))
+    }
+
+    /// The lemmas that a number's bound uses, its own last.
+    pub fn lemmas_of(&self, place: Place) -> Vec<Lemma> {
+        let mut wanted = vec![place];
+        let mut found = Vec::new();
+        for lemma in self.lemmas.iter().rev() {
+            if wanted.contains(&lemma.place) {
+                wanted.extend(self.needs(lemma));
+                found.push(lemma.clone());
             }
         }
-        self.domain.floor
+        found.reverse();
+        found
+    }
+
+    /// The numbers whose lemmas a lemma uses.
+    fn needs(&self, lemma: &Lemma) -> Vec<Place> {
+        let cut = |source: &Source| match source {
+            Source::Cut(place) => Some(*place),
+            _ => None,
+        };
+        let mut needs: Vec<Place> = lemma.formula.sources.iter().filter_map(cut).collect();
+        match lemma.rule {
+            Rule::Sum => {}
+            Rule::Length(vector) => needs.extend(vector),
+            Rule::Quotient { .. } => {
+                let (numerator, divisor, _) = self.quotient(lemma.place).expect("a quotient");
+                needs.extend(numerator);
+                needs.push(divisor);
+            }
+        }
+        needs.into_iter().map(|place| unsigned(self.path, place)).collect()
     }
 
     /// Whether |a| <= |b| follows from the decisions of the path.
-    fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
+    pub(super) fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
         let size = |place: Place| {
             let wanted = Operation::Abs(place);
             self.path.operations.iter().position(|op| *op == wanted).map(|at| at as Place)
@@ -318,7 +361,6 @@ struct Builder<'p, 'a> {
     prover: &'p mut Prover<'a>,
     formula: Formula,
     supports: Vec<u64>,
-    computed: Vec<Dyadic>,
     steps: HashMap<Place, usize>,
     forms: Forms,
 }
@@ -329,7 +371,6 @@ impl<'p, 'a> Builder<'p, 'a> {
             prover,
             formula: Formula::default(),
             supports: Vec::new(),
-            computed: Vec::new(),
             steps: HashMap::new(),
             forms: Forms::default(),
         }
@@ -339,10 +380,14 @@ impl<'p, 'a> Builder<'p, 'a> {
     fn finish(mut self) -> Result<(Formula, Maximum), String> {
         let maximum = self.formula.maximum(self.prover.format);
         let maximum = maximum.ok_or("its formula has too many variables")?;
+        for bound in &self.formula.bounds {
+            self.prover.check_range(bound.computed)?;
+        }
         Ok((self.formula, maximum))
     }
 
-    fn push(&mut self, step: Step, size: Dyadic, error: Dyadic, computed: Dyadic) -> usize {
+    /// A step that does not round; it is given if something is known of it.
+    fn push(&mut self, step: Step, given: Option<Bound>) -> usize {
         let of = |i: usize| self.supports[i];
         let support = match step {
             Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
@@ -353,62 +398,59 @@ impl<'p, 'a> Builder<'p, 'a> {
             Step::Minor(a, b, c, d) => of(a) | of(b) | of(c) | of(d),
         };
         self.supports.push(support);
-        let Formula { steps, places, errors, relative, rounds, sizes, .. } = &mut self.formula;
+        let Formula { steps, places, given: all_given, relative, rounds, .. } = &mut self.formula;
         steps.push(step);
         places.push(None);
-        sizes.push(size);
-        errors.push(error);
+        all_given.push(given);
         relative.push(false);
         rounds.push(false);
-        self.computed.push(computed);
         self.supports.len() - 1
     }
 
-    fn exact(&mut self, step: Step, size: Dyadic) -> usize {
-        self.push(step, size, Dyadic::ZERO, size)
+    fn rounded(&mut self, step: Step) -> usize {
+        let step = self.push(step, None);
+        self.formula.rounds[step] = true;
+        step
+    }
+
+    fn number(&mut self, value: i32) -> usize {
+        let size = Dyadic::new(i128::from(value).abs(), 0);
+        self.push(Step::Number(value), Some(exactly(size)))
     }
 
     /// A new variable with an error of its own.
-    fn variable(&mut self, source: Source, size: Dyadic, error: Dyadic, computed: Dyadic) -> usize {
-        self.formula.variables.push(size);
+    fn variable(&mut self, source: Source, bound: Bound) -> usize {
+        self.formula.variables.push(bound.size);
         self.formula.sources.push(source);
         let sum = vec![(self.formula.variables.len() - 1, 1)];
-        self.push(Step::Variables(sum), size, error, computed)
-    }
-
-    /// A rounded step: its sizes before rounding, exact and computed.
-    fn rounded(&mut self, step: Step, size: Dyadic, before: Dyadic) -> Result<usize, String> {
-        let format = self.prover.format;
-        let error = format.half_ulp(before);
-        // Rounding is monotone: at most the bound itself, rounded up.
-        let computed = before.round_up(format.digits);
-        self.prover.check_range(computed)?;
-        let step = self.push(step, size, error, computed);
-        self.formula.rounds[step] = true;
-        Ok(step)
+        self.push(Step::Variables(sum), Some(bound))
     }
 
     /// A number that is a variable here; its lemma says the rest.
     fn cut(&mut self, place: Place) -> Result<usize, String> {
-        let Bound { size, computed, error } = self.prover.bound(place)?;
-        let step = self.variable(Source::Cut(place), size, error, computed);
+        let bound = self.prover.bound(place)?;
+        let step = self.variable(Source::Cut(place), bound);
         self.formula.places[step] = Some(place);
         Ok(step)
     }
 
-    fn leaf(&mut self, leaf: Leaf) -> Result<usize, String> {
-        let bound = leaf.bound(&self.prover.domain);
+    fn leaf(&mut self, leaf: Leaf) -> usize {
+        let size = leaf.bound(&self.prover.domain);
         let (sum, is_new) = self.forms.sum(leaf, self.formula.variables.len());
         if is_new {
-            self.formula.variables.push(bound);
+            self.formula.variables.push(size);
             self.formula.sources.push(Source::Leaf(leaf));
         }
-        let step = Step::Variables(sum);
-        if leaf.is_difference() {
-            self.rounded(step, bound, bound)
+        let format = self.prover.format;
+        let given = if leaf.is_difference() {
+            let computed = size.round_up(format.digits);
+            Bound { size, computed, error: format.half_ulp(size) }
         } else {
-            Ok(self.push(step, bound, Dyadic::ZERO, bound))
-        }
+            exactly(size)
+        };
+        let step = self.push(Step::Variables(sum), Some(given));
+        self.formula.rounds[step] = leaf.is_difference();
+        step
     }
 
     fn expand(&mut self, place: Place) -> Result<usize, String> {
@@ -419,7 +461,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         let step = if self.prover.quotient(place).is_some() {
             self.cut(place)?
         } else if let Some(leaf) = Leaf::of(operation, &self.prover.path.operations) {
-            self.leaf(leaf)?
+            self.leaf(leaf)
         } else {
             self.operation(place, operation)?
         };
@@ -429,52 +471,31 @@ impl<'p, 'a> Builder<'p, 'a> {
     }
 
     fn operation(&mut self, place: Place, operation: Operation) -> Result<usize, String> {
-        match operation {
+        let step = match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
-            Operation::Number(value) => {
-                let size = Dyadic::new(i128::from(value).abs(), 0);
-                Ok(self.exact(Step::Number(value), size))
+            Operation::Number(value) => return Ok(self.number(value)),
+            Operation::Neg(a) => {
+                let a = self.expand(a)?;
+                return Ok(self.push(Step::Neg(a), None));
             }
-            Operation::Neg(inner) => {
-                let a = self.expand(inner)?;
-                let (size, computed) = (self.formula.sizes[a], self.computed[a]);
-                Ok(self.push(Step::Neg(a), size, Dyadic::ZERO, computed))
-            }
-            Operation::Add(a, b) | Operation::Sub(a, b) => {
-                let (a, b) = (self.expand(a)?, self.expand(b)?);
-                let is_sum = matches!(operation, Operation::Add(..));
-                let step = if is_sum { Step::Add(a, b) } else { Step::Sub(a, b) };
-                let size = self.formula.sizes[a].plus_up(self.formula.sizes[b]);
-                self.rounded(step, size, self.computed[a].plus_up(self.computed[b]))
-            }
+            Operation::Div(..) | Operation::Sqrt(_) | Operation::Abs(_) => return self.cut(place),
+            Operation::Add(a, b) => Step::Add(self.expand(a)?, self.expand(b)?),
+            Operation::Sub(a, b) => Step::Sub(self.expand(a)?, self.expand(b)?),
             Operation::Mul(a, b) => {
                 let [a, b] = self.factors(a, b)?;
-                let [size, before] = self.product(a, b);
-                self.rounded(Step::Mul(a, b), size, before)
+                Step::Mul(a, b)
             }
             Operation::Fma(a, b, c) => {
                 let [a, b] = self.factors(a, b)?;
-                let c = self.expand(c)?;
-                let [size, before] = self.product(a, b);
-                let size = size.plus_up(self.formula.sizes[c]);
-                self.rounded(Step::Fma(a, b, c), size, before.plus_up(self.computed[c]))
+                Step::Fma(a, b, self.expand(c)?)
             }
             Operation::Minor(a, b, c, d) => {
                 let [a, b] = self.factors(a, b)?;
                 let [c, d] = self.factors(c, d)?;
-                let ([size, before], [more, then]) = (self.product(a, b), self.product(c, d));
-                let before = before.plus_up(then);
-                let step = self.rounded(Step::Minor(a, b, c, d), size.plus_up(more), before)?;
-                // In f32 the difference is rounded twice, first to f64.
-                let wide = Format::F64.half_ulp(before);
-                if self.prover.format == Format::F32 {
-                    let error = &mut self.formula.errors[step];
-                    *error = error.plus_up(wide);
-                }
-                Ok(step)
+                Step::Minor(a, b, c, d)
             }
-            Operation::Div(..) | Operation::Sqrt(_) | Operation::Abs(_) => self.cut(place),
-        }
+        };
+        Ok(self.rounded(step))
     }
 
     /// Two factors without a variable in common: if there is one, the second factor becomes a variable of
@@ -488,12 +509,11 @@ impl<'p, 'a> Builder<'p, 'a> {
         }
         (self.formula, self.steps, self.forms) = before;
         self.supports.truncate(self.formula.steps.len());
-        self.computed.truncate(self.formula.steps.len());
         Ok([first, self.cut(b)?])
     }
+}
 
-    fn product(&self, a: usize, b: usize) -> [Dyadic; 2] {
-        let sizes = &self.formula.sizes;
-        [sizes[a] * sizes[b], self.computed[a] * self.computed[b]]
-    }
+/// A number of this size without an error.
+fn exactly(size: Dyadic) -> Bound {
+    Bound { size, computed: size, error: Dyadic::ZERO }
 }

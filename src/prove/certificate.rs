@@ -97,8 +97,8 @@ fn operation_text(operation: &Operation) -> String {
 fn lemma_text(lemma: &Lemma) -> String {
     let rule = match lemma.rule {
         Rule::Sum => "sum".to_owned(),
-        Rule::Quotient(false) => "quotient".to_owned(),
-        Rule::Quotient(true) => "quotient-by-reciprocal".to_owned(),
+        Rule::Quotient { twice: false, .. } => "quotient".to_owned(),
+        Rule::Quotient { twice: true, .. } => "quotient-by-reciprocal".to_owned(),
         Rule::Length([x, y, z]) => format!("length {x} {y} {z}"),
     };
     let mut text = format!("lemma {} {rule}\n", lemma.place);

@@ -69,11 +69,12 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Everything at most 1, directions and divisors at least a half and 2^-8.
+    /// Points and their differences just below 1: at 1 itself some sizes would reach a power of two, and the
+    /// errors there twice the size. Directions up to 1.
     pub const UNIT: Domain = Domain {
-        edge: Dyadic::ONE,
-        reach: Dyadic::ONE,
-        world: Dyadic::ONE,
+        edge: Dyadic::BELOW_ONE,
+        reach: Dyadic::BELOW_ONE,
+        world: Dyadic::BELOW_ONE,
         direction: Dyadic::ONE,
         extent: Dyadic::ONE,
         direction_floor: Dyadic::HALF,

@@ -22,10 +22,12 @@ impl Dyadic {
     pub const ZERO: Dyadic = Dyadic { mantissa: 0, exponent: 0 };
     /// One.
     pub const ONE: Dyadic = Dyadic { mantissa: 1, exponent: 0 };
+    /// 1 - 2^-10.
+    pub const BELOW_ONE: Dyadic = Dyadic { mantissa: 1023, exponent: -10 };
     /// A half.
     pub const HALF: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
     /// The usual floor of a divisor.
-    pub const FLOOR: Dyadic = Dyadic { mantissa: 1, exponent: -8 };
+    pub const FLOOR: Dyadic = Dyadic { mantissa: 1, exponent: -1 };
     /// A result that needed more than 128 bits.
     pub const OVERFLOW: Dyadic = Dyadic { mantissa: i128::MAX, exponent: i32::MAX };
 
@@ -83,6 +85,13 @@ impl Dyadic {
         }
         let drop = bits - digits;
         Dyadic::new((self.mantissa >> drop) + 1, self.exponent + drop as i32)
+    }
+
+    /// A positive number rounded down to so many binary digits.
+    pub fn round_down(self, digits: u32) -> Dyadic {
+        let bits = 128 - self.mantissa.leading_zeros();
+        let drop = bits.saturating_sub(digits);
+        Dyadic::new(self.mantissa >> drop, self.exponent + drop as i32)
     }
 
     /// The nearest float, for people.

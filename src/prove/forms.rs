@@ -36,7 +36,8 @@ impl Leaf {
         }
     }
 
-    fn input(i: usize) -> Leaf {
+    /// One of the seventeen numbers of a case.
+    pub fn input(i: usize) -> Leaf {
         match i {
             0..3 => Leaf::Point(0, i),
             3..6 => Leaf::Direction(i - 3),

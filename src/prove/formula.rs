@@ -15,7 +15,7 @@
 
 use super::forms::Leaf;
 use super::dyadic::{Big, round_up};
-use super::{Dyadic, Format};
+use super::{Bound, Dyadic, Format};
 use crate::arith::recorded::Place;
 use num_traits::Zero;
 
@@ -47,18 +47,18 @@ pub struct Formula {
     pub steps: Vec<Step>,
     /// Where each step stands in the program; none of those that only a proof needs.
     pub places: Vec<Option<Place>>,
-    /// The largest error of each step on its own: h.
-    pub errors: Vec<Dyadic>,
-    /// Whether a step's error is bounded by u times its exact result instead.
-    pub relative: Vec<bool>,
-    /// Whether a step rounds, so that its error may be bounded so.
+    /// What is known of a step from elsewhere: of inputs, numbers and variables with a lemma of their own.
+    pub given: Vec<Option<Bound>>,
+    /// Which steps round. Their errors may be bounded by u times their exact results.
     pub rounds: Vec<bool>,
-    /// The largest exact size of each step.
-    pub sizes: Vec<Dyadic>,
+    /// Of which steps they are.
+    pub relative: Vec<bool>,
     /// The bound of each variable: m.
     pub variables: Vec<Dyadic>,
     /// What each variable is.
     pub sources: Vec<Source>,
+    /// What follows for each step: its exact size, its computed size, and h, its largest error of its own.
+    pub bounds: Vec<Bound>,
 }
 
 /// What a variable of a formula is.
@@ -121,6 +121,8 @@ impl Formula {
     pub fn maximum(&mut self, format: Format) -> Option<Maximum> {
         self.supports()?;
         let count = self.variables.len();
+        let sizes = self.corner_sizes();
+        self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
         let mut size = Dyadic::ZERO;
         let mut values = vec![Dyadic::ZERO; self.steps.len()];
         let mut slopes = values.clone();
@@ -136,7 +138,7 @@ impl Formula {
             size = size.max(values[values.len() - 1].abs());
             let effect = |i: usize| {
                 let slope = slopes[i].abs();
-                [slope * self.errors[i], slope * values[i].abs() * format.unit()]
+                [slope * self.bounds[i].error, slope * values[i].abs() * format.unit()]
             };
             if choosing {
                 effects.push(choices.iter().map(|i| effect(*i)).collect());
@@ -174,7 +176,8 @@ impl Formula {
             }
         }
         let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
-        Some(Maximum { first, rest: self.higher_order(format), corner, size })
+        let rest = self.higher_order(format, &self.relative, None).0;
+        Some(Maximum { first, rest, corner, size })
     }
 
     fn evaluate(&self, variable: impl Fn(usize) -> Dyadic, values: &mut [Dyadic]) {
@@ -235,11 +238,31 @@ impl Formula {
         }
     }
 
+    /// The largest size of each step at the corners, which is its largest size in the box.
+    fn corner_sizes(&self) -> Vec<Dyadic> {
+        let mut sizes = vec![Dyadic::ZERO; self.steps.len()];
+        let mut values = sizes.clone();
+        for corner in 0..1u64 << self.variables.len() {
+            self.evaluate(|v| negative_if(corner >> v & 1 == 1, self.variables[v]), &mut values);
+            for (size, value) in sizes.iter_mut().zip(&values) {
+                *size = (*size).max(value.abs());
+            }
+        }
+        sizes
+    }
+
     /// The terms of second and higher order, with every number at its largest size and nothing cancelled,
-    /// rounded up.
-    fn higher_order(&self, format: Format) -> Dyadic {
+    /// rounded up. And the bounds of the steps: where the sizes at the corners are given they are made, else
+    /// they are those known.
+    fn higher_order(
+        &self,
+        format: Format,
+        relative: &[bool],
+        corners: Option<&[Dyadic]>,
+    ) -> (Dyadic, Vec<Bound>) {
         // Of each step: its size, its terms of first order, and the rest.
         let mut terms: Vec<[Big; 3]> = Vec::with_capacity(self.steps.len());
+        let mut bounds: Vec<Bound> = Vec::with_capacity(self.steps.len());
         let (unit, tiny) = (Big::from(format.unit()), Big::from(format.tiny()));
         for (i, step) in self.steps.iter().enumerate() {
             let product = |a: usize, b: usize| {
@@ -258,16 +281,63 @@ impl Formula {
                 Step::Fma(a, b, c) => sum(product(a, b), own(c)),
                 Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
             };
-            let size = Big::from(self.sizes[i]);
-            if self.relative[i] {
+            let bound = match (&self.given[i], corners) {
+                (Some(given), _) => given.clone(),
+                (None, None) => self.bounds[i].clone(),
+                (None, Some(corners)) => {
+                    let before = &first + &rest;
+                    self.bound_of_step(i, &bounds, corners[i], before, format)
+                }
+            };
+            let size = Big::from(bound.size);
+            if relative[i] {
                 rest = &rest + &unit * &(&first + &rest) + &tiny;
                 first += &unit * &size;
             } else {
-                first += Big::from(self.errors[i]);
+                first += Big::from(bound.error);
             }
             terms.push([size, first, rest]);
+            bounds.push(bound);
         }
-        terms.last().map_or(Dyadic::ZERO, |[_, _, rest]| round_up(rest, DIGITS))
+        let rest = terms.last().map_or(Dyadic::ZERO, |[_, _, rest]| round_up(rest, DIGITS));
+        (rest, bounds)
+    }
+
+    /// The bound of a step from those of its operands, its size at the corners, and the error before it is
+    /// rounded.
+    fn bound_of_step(
+        &self,
+        i: usize,
+        bounds: &[Bound],
+        corner: Dyadic,
+        before: Big,
+        format: Format,
+    ) -> Bound {
+        let of = |a: usize| [bounds[a].size, bounds[a].computed];
+        let sum = |[a, b]: [Dyadic; 2], [c, d]: [Dyadic; 2]| [a + c, b + d];
+        let product = |a: usize, b: usize| {
+            let ([a, b], [c, d]) = (of(a), of(b));
+            [a * c, b * d]
+        };
+        let [size, computed] = match self.steps[i] {
+            Step::Variables(_) | Step::Number(_) => unreachable!("what is given"),
+            Step::Neg(a) => of(a),
+            Step::Add(a, b) | Step::Sub(a, b) => sum(of(a), of(b)),
+            Step::Mul(a, b) => product(a, b),
+            Step::Fma(a, b, c) => sum(product(a, b), of(c)),
+            Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
+        };
+        let size = size.min(corner);
+        let computed = Big::from(computed).min(Big::from(size) + before);
+        let mut error = Dyadic::ZERO;
+        if self.rounds[i] {
+            error = format.half_ulp_of(&computed);
+            if matches!(self.steps[i], Step::Minor(..)) && format == Format::F32 {
+                // The difference is rounded twice, first to f64.
+                error = error + Format::F64.half_ulp_of(&computed);
+            }
+        }
+        Bound { size, computed: round_up(&computed, format.digits), error }
     }
 }
 

@@ -24,8 +24,8 @@ impl Prover<'_> {
             return Ok(bound.error);
         }
         let last = formula.steps.len() - 1;
-        formula.errors[last] = Dyadic::ZERO;
-        (formula.rounds[last], formula.relative[last]) = (false, false);
+        formula.rounds[last] = false;
+        formula.relative.fill(false);
         let maximum = formula.maximum(self.format).ok_or("its formula has too many variables")?;
         Ok(round_up(&(Big::from(maximum.first) + Big::from(maximum.rest)), DIGITS))
     }

@@ -1,0 +1,81 @@
+//! What `check` demands of proofs: `[proved]` in hairline.toml.
+
+use super::super::exit::Failure;
+use super::super::flags::unknown;
+use crate::kernel::{self, Entry, Scalar};
+use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
+
+/// A demand, as `kernel/scalar/gate=17` (no bound above 17 u in the unit domain) or
+/// `kernel/scalar/watertight=true`.
+struct Demand<'a> {
+    text: &'a str,
+    entry: &'static Entry,
+    is_f64: bool,
+    gate: &'a str,
+    most: f64,
+}
+
+/// The demands that are not met, each with what is proved instead.
+pub fn unmet(demands: &[String]) -> Result<Vec<String>, Failure> {
+    let mut unmet = Vec::new();
+    for text in demands {
+        let demand = Demand::read(text)?;
+        let why = if demand.is_f64 { demand.why_not::<f64>() } else { demand.why_not::<f32>() };
+        unmet.extend(why?.map(|why| format!("proved: {text}: {why}")));
+    }
+    Ok(unmet)
+}
+
+impl Demand<'_> {
+    fn read(text: &str) -> Result<Demand<'_>, Failure> {
+        let wrong = || {
+            Failure::usage(format!(
+                "'{text}' is no demand: KERNEL/SCALAR/GATE=UNITS or KERNEL/SCALAR/watertight=true was expected"
+            ))
+        };
+        let (what, value) = text.rsplit_once('=').ok_or_else(wrong)?;
+        let [name, scalar, gate] =
+            what.split('/').collect::<Vec<_>>().try_into().map_err(|_| wrong())?;
+        let names = || kernel::all().into_iter().map(|entry| entry.info.name);
+        let entry = kernel::find(name)
+            .ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))?;
+        let is_f64 = match scalar {
+            "f32" => false,
+            "f64" => true,
+            _ => return Err(wrong()),
+        };
+        let most = match (gate, value) {
+            ("watertight", "true") => 0.0,
+            ("watertight", _) => return Err(wrong()),
+            _ => value.parse().ok().filter(|x| *x > 0.0).ok_or_else(wrong)?,
+        };
+        let gates = || entry.info.gates.iter().map(|gate| gate.name);
+        if gate != "watertight" && !gates().any(|name| name == gate) {
+            return Err(unknown("gate", gate, gates(), &format!("hairline prove --kernel {name}")));
+        }
+        Ok(Demand { text, entry, is_f64, gate, most })
+    }
+
+    /// Why a demand is not met, if it is not.
+    fn why_not<F: Searched + Scalar>(&self) -> Result<Option<String>, Failure> {
+        let effort = Effort { evaluations: 0, seed: 1 };
+        let summary = match Summary::<F>::new(self.entry, Domain::UNIT, &[], effort) {
+            Ok(summary) => summary,
+            Err(why) => return Ok(Some(format!("no proof: {why}"))),
+        };
+        if self.gate == "watertight" {
+            let proved = summary.symmetry == Symmetry::ExactSigns;
+            return Ok((!proved).then(|| "no longer proved watertight".to_owned()));
+        }
+        let Some(gate) = summary.gates.iter().find(|gate| gate.gate.name == self.gate) else {
+            return Err(Failure::usage(format!("'{}': this gate compares no number", self.text)));
+        };
+        Ok(match &gate.bound {
+            Err(why) => Some(format!("no bound: {why}")),
+            Ok(bound) => {
+                let units = bound.to_f64() / summary.format.unit().to_f64();
+                (units > self.most).then(|| format!("the bound is {units:.4} u"))
+            }
+        })
+    }
+}

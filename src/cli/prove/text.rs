@@ -1,0 +1,107 @@
+//! Proofs as text.
+
+use super::{GatePart, Record, scene_text};
+use crate::prove::Scene;
+use std::io::{self, Write};
+
+/// All kernels: a line a gate.
+pub fn table(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "No float of the domain makes a gate more wrong than its bound; the witness is the worst known.")?;
+    writeln!(out, "{}", domain(record, scene))?;
+    let has_scalar = |name: &str| record.gates.iter().any(|gate| gate.scalar == name);
+    for (scalar, unit) in [("f32", "2^-24"), ("f64", "2^-53")].into_iter().filter(|s| has_scalar(s.0)) {
+        writeln!(out, "\n{scalar}; u = {unit}")?;
+        let width = record.gates.iter().map(|gate| gate.kernel.len()).max().unwrap_or(0);
+        writeln!(
+            out,
+            "{:width$}  {:8}  {:>9}  {:>9}  {:>6}  supposes a bound of",
+            "kernel", "gate", "bound, u", "witness", "factor"
+        )?;
+        for gate in record.gates.iter().filter(|gate| gate.scalar == scalar) {
+            row(gate, width, out)?;
+        }
+    }
+    let watertight: Vec<String> = record
+        .kernels
+        .iter()
+        .filter(|kernel| kernel.watertight)
+        .map(|kernel| format!("{} ({})", kernel.kernel, kernel.scalar))
+        .collect();
+    if !watertight.is_empty() {
+        writeln!(out, "\nWatertight at an epsilon of 0, proved: {}", watertight.join(", "))?;
+    }
+    writeln!(out, "\nWhat follows for epsilons: hairline prove --kernel NAME")
+}
+
+fn row(gate: &GatePart, width: usize, out: &mut dyn Write) -> io::Result<()> {
+    let (kernel, name) = (&gate.kernel, gate.gate);
+    if let Some(why) = &gate.why {
+        return writeln!(out, "{kernel:width$}  {name:8}  no bound: {why}");
+    }
+    let number = |x: Option<f64>| x.map_or("-".to_owned(), short);
+    writeln!(
+        out,
+        "{kernel:width$}  {name:8}  {:>9}  {:>9}  {:>6}  {}",
+        number(gate.bound_units),
+        number(gate.witness.as_ref().map(|w| w.units)),
+        gate.factor.map_or("-".to_owned(), |x| format!("{x:.2}")),
+        gate.supposes.join(", ")
+    )
+}
+
+fn short(x: f64) -> String {
+    match x {
+        _ if x >= 1e7 => format!("{x:.1e}"),
+        _ if x >= 1000.0 => format!("{x:.0}"),
+        _ => format!("{x:.2}"),
+    }
+}
+
+/// One kernel: the sentences.
+pub fn kernel(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io::Result<()> {
+    for (i, kernel) in record.kernels.iter().enumerate() {
+        let unit = if kernel.scalar == "f32" { "2^-24" } else { "2^-53" };
+        let gap = if i > 0 { "\n" } else { "" };
+        writeln!(out, "{gap}{} in {}; u = {unit}", kernel.kernel, kernel.scalar)?;
+        if i == 0 {
+            writeln!(out, "{}", domain(record, scene))?;
+        }
+        for gate in record.gates.iter().filter(|gate| gate.scalar == kernel.scalar) {
+            writeln!(out, "\n  {}: {}", gate.gate, gate.compares)?;
+            for statement in &gate.statements {
+                paragraph(statement, out)?;
+            }
+        }
+        writeln!(out, "\n  edges")?;
+        paragraph(kernel.edges, out)?;
+    }
+    Ok(())
+}
+
+/// A sentence in lines of at most 100 columns.
+fn paragraph(text: &str, out: &mut dyn Write) -> io::Result<()> {
+    let mut line = "   ".to_owned();
+    for word in text.split(' ') {
+        if line.len() + 1 + word.len() > 100 {
+            writeln!(out, "{line}")?;
+            line = "     ".to_owned();
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    writeln!(out, "{line}")
+}
+
+fn domain(record: &Record, scene: Option<&Scene>) -> String {
+    match scene {
+        Some(scene) => format!("Scene: {}", scene_text(scene)),
+        None => {
+            let part = &record.domain;
+            format!(
+                "Unit domain: coordinates and their differences below {:.3}, |d| <= {}; where a kernel divides, \
+                 divisors of {} and more,\nquotients up to {}. Powers of two scale it: lengths by s scale det by s^2.",
+                part.edge, part.direction, part.divisor_at_least, part.quotient_at_most
+            )
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! The bounds of all gates of a kernel: every path, every quantity, each program once.
+
+use super::bound::{Lemma, Prover, is_impossible};
+use super::formula::Source;
+use super::forms::Leaf;
+use super::{Bound, Domain, Format, Rule};
+use crate::arith::recorded::{Operation, Place};
+use crate::kernel::Path;
+use std::collections::{BTreeSet, HashMap};
+
+/// What is proved of a kernel in a domain.
+#[derive(Debug)]
+pub struct Proof {
+    /// Its paths that some input takes.
+    pub paths: Vec<Path>,
+    /// What its gates compare; the same program on several paths is there once.
+    pub quantities: Vec<Quantity>,
+}
+
+/// A number that a gate compares, on one of the paths where its program is the same.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// The gate.
+    pub gate: usize,
+    /// The path.
+    pub path: usize,
+    /// How many decisions of the path come before the comparison.
+    pub decisions: usize,
+    /// Its place in the path's program, without a sign around it.
+    pub place: Place,
+    /// Its bound, or why there is none.
+    pub bound: Result<Bound, String>,
+    /// The lemmas of the bound, its own last.
+    pub lemmas: Vec<Lemma>,
+}
+
+/// What a quantity's bound supposes of the inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Uses {
+    /// A bound of the edges.
+    pub edge: bool,
+    /// A bound of the vectors from the origin to the vertices.
+    pub reach: bool,
+    /// A bound of the points themselves.
+    pub world: bool,
+    /// A bound of t_min and t_max.
+    pub extent: bool,
+    /// A floor of divisors.
+    pub floor: bool,
+}
+
+impl Uses {
+    /// Whether it supposes nothing but a bound of the edges, and of the direction.
+    pub fn is_of_edges_alone(self) -> bool {
+        self == Uses { edge: true, ..Uses::default() }
+    }
+}
+
+impl Quantity {
+    /// What its bound supposes.
+    pub fn uses(&self) -> Uses {
+        let mut uses = Uses::default();
+        for lemma in &self.lemmas {
+            uses.floor |= lemma.rule != Rule::Sum;
+            for source in &lemma.formula.sources {
+                match source {
+                    Source::Leaf(Leaf::Point(..)) => uses.world = true,
+                    Source::Leaf(Leaf::Difference(0, ..) | Leaf::Difference(_, 0, _)) => {
+                        uses.reach = true;
+                    }
+                    Source::Leaf(Leaf::Difference(..)) => uses.edge = true,
+                    Source::Leaf(Leaf::End(_)) => uses.extent = true,
+                    _ => {}
+                }
+            }
+        }
+        uses
+    }
+}
+
+impl Proof {
+    /// Proves what can be proved of recorded paths, of all gates or of one.
+    pub fn new(paths: Vec<Path>, gate: Option<usize>, domain: Domain, format: Format) -> Proof {
+        let paths: Vec<Path> = paths.into_iter().filter(|path| !is_impossible(path)).collect();
+        let mut seen = BTreeSet::new();
+        let mut quantities = Vec::new();
+        for (index, path) in paths.iter().enumerate() {
+            let mut prover = Prover::new(path, domain, format);
+            for compared in path.compared.iter().filter(|c| gate.is_none_or(|gate| c.gate == gate)) {
+                for place in &compared.quantities {
+                    let place = unsigned(path, *place);
+                    let key = (compared.gate, canonical(&prover, path, place));
+                    if key.1.len() <= 2 || !seen.insert(key) {
+                        continue;
+                    }
+                    let bound = prover.bound(place);
+                    quantities.push(Quantity {
+                        gate: compared.gate,
+                        path: index,
+                        decisions: compared.decisions,
+                        place,
+                        bound,
+                        lemmas: prover.lemmas_of(place),
+                    });
+                }
+            }
+        }
+        quantities.sort_by_key(|quantity| quantity.gate);
+        Proof { paths, quantities }
+    }
+
+    /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.
+    pub fn gate(&self, gate: usize) -> Option<Result<&Quantity, String>> {
+        let of_gate = || self.quantities.iter().filter(|quantity| quantity.gate == gate);
+        if let Some(Err(why)) = of_gate().map(|quantity| &quantity.bound).find(|b| b.is_err()) {
+            return Some(Err(why.clone()));
+        }
+        of_gate().max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok()).map(Ok)
+    }
+}
+
+/// Without signs around it.
+pub fn unsigned(path: &Path, place: Place) -> Place {
+    match path.operations[place as usize] {
+        Operation::Neg(inner) | Operation::Abs(inner) => unsigned(path, inner),
+        _ => place,
+    }
+}
+
+/// A program that is the same for all renamings of axes and of a, b and c: the domain is.
+fn canonical(prover: &Prover, path: &Path, place: Place) -> Vec<u32> {
+    let mut names = Names { path, prover, text: Vec::new(), seen: HashMap::new(), axes: vec![], points: vec![] };
+    names.visit(place);
+    names.text
+}
+
+struct Names<'a> {
+    path: &'a Path,
+    prover: &'a Prover<'a>,
+    text: Vec<u32>,
+    seen: HashMap<Place, u32>,
+    axes: Vec<usize>,
+    points: Vec<usize>,
+}
+
+impl Names<'_> {
+    fn visit(&mut self, place: Place) {
+        if let Some(known) = self.seen.get(&place) {
+            self.text.extend([u32::MAX, *known]);
+            return;
+        }
+        let index = self.seen.len() as u32;
+        self.seen.insert(place, index);
+        let operation = self.path.operations[place as usize];
+        if let Operation::Input(i) = operation {
+            let leaf = Leaf::input(i.into());
+            let code = match leaf {
+                Leaf::Point(0, axis) => 100 + self.axis(axis),
+                Leaf::Point(p, axis) => {
+                    let axis = self.axis(axis);
+                    200 + 10 * number_of(&mut self.points, p) + axis
+                }
+                Leaf::Direction(axis) => 300 + self.axis(axis),
+                _ => 400 + u32::from(i),
+            };
+            self.text.push(code);
+            return;
+        }
+        let kind = match operation {
+            Operation::Number(value) => 1000 + value as u32,
+            Operation::Add(..) => 1,
+            Operation::Sub(..) => 2,
+            Operation::Mul(..) => 3,
+            Operation::Div(numerator, divisor) => {
+                // What the path says of the divisor belongs to the program.
+                10 + u32::from(self.prover.is_at_most_in_size(numerator, divisor))
+                    + 2 * u32::from(self.prover.is_largest_of_direction(divisor))
+            }
+            Operation::Neg(_) => 4,
+            Operation::Abs(_) => 5,
+            Operation::Sqrt(_) => 6,
+            Operation::Fma(..) => 7,
+            Operation::Minor(..) => 8,
+            Operation::Input(_) => unreachable!("handled above"),
+        };
+        self.text.push(kind);
+        for operand in operation.operands() {
+            self.visit(operand);
+        }
+    }
+
+    fn axis(&mut self, axis: usize) -> u32 {
+        number_of(&mut self.axes, axis)
+    }
+}
+
+/// The place of a value in a list; it is appended if it is new.
+fn number_of(list: &mut Vec<usize>, value: usize) -> u32 {
+    let at = list.iter().position(|known| *known == value);
+    at.unwrap_or_else(|| {
+        list.push(value);
+        list.len() - 1
+    }) as u32
+}

@@ -1,0 +1,78 @@
+//! A scene in numbers that a person knows, and the domain that it is.
+
+use super::{Domain, Dyadic};
+
+/// What the triangles and rays of a scene are like, in one unit of length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scene {
+    /// Every coordinate of origins and vertices is at most this.
+    pub coordinates: f64,
+    /// The shortest and the longest edge.
+    pub edge: [f64; 2],
+    /// From an origin to a vertex at most.
+    pub distance: f64,
+    /// No angle of a triangle is smaller, in degrees.
+    pub min_angle: f64,
+    /// No ray of interest meets its triangle's plane at a smaller angle, in degrees.
+    pub grazing: f64,
+}
+
+/// Binary digits of a domain's bounds; the corners are computed with them exactly.
+const DIGITS: u32 = 10;
+
+impl Scene {
+    /// The domain; an error in one sentence if there is none.
+    pub fn domain(&self) -> Result<Domain, String> {
+        let Scene { coordinates, edge: [shortest, longest], distance, min_angle, grazing } = *self;
+        let lengths = [
+            ("coordinates", coordinates),
+            ("shortest edge", shortest),
+            ("longest edge", longest),
+            ("distance", distance),
+        ];
+        if let Some((name, value)) = lengths.iter().find(|(_, x)| !(x.is_finite() && *x > 0.0)) {
+            return Err(format!("the {name} is {value}; it must be a positive number"));
+        }
+        if let Some((name, value)) = lengths.iter().find(|(_, x)| !(1e-30..=1e30).contains(x)) {
+            return Err(format!("the {name} is {value}; lengths from 1e-30 to 1e30 are supported"));
+        }
+        if shortest > longest {
+            return Err(format!("the shortest edge, {shortest}, is longer than the longest, {longest}"));
+        }
+        if longest > 3.5 * coordinates {
+            return Err(format!("an edge of {longest} does not fit into coordinates up to {coordinates}"));
+        }
+        let angles = [("smallest angle", min_angle, 60.0), ("grazing angle", grazing, 90.0)];
+        let outside = |(_, x, most): &&(&str, f64, f64)| !(*x > 0.0 && x <= most);
+        if let Some((name, value, most)) = angles.iter().find(outside) {
+            return Err(format!("the {name} is {value} degrees; it must be above 0 and at most {most}"));
+        }
+        let up = |x: f64| Dyadic::from_f64(x).expect("finite").round_up(DIGITS);
+        // A difference of coordinates is at most twice the largest of them.
+        let reach = distance.min(2.0 * coordinates);
+        let shape = self.least_shape();
+        let floor = shape * (shape.min(1.0)).min(sine(grazing));
+        let floor = Dyadic::from_f64(floor * 0.999_999).expect("finite").round_down(DIGITS);
+        let quotient = up(distance.max(1.0 / (shortest * sine(min_angle))).max(1.0));
+        Ok(Domain {
+            edge: up(longest),
+            reach: up(reach),
+            world: up(coordinates),
+            direction: Dyadic::ONE,
+            extent: up(distance),
+            direction_floor: Dyadic::HALF,
+            floor,
+            quotient,
+        })
+    }
+
+    /// Twice the smallest area, or slightly less.
+    pub fn least_shape(&self) -> f64 {
+        self.edge[0] * self.edge[0] * sine(self.min_angle)
+    }
+}
+
+/// The sine of an angle in degrees, or slightly less.
+fn sine(degrees: f64) -> f64 {
+    libm::sin(degrees.to_radians()) * 0.999_999_999
+}

@@ -1,0 +1,189 @@
+//! What is proved of a kernel, and the worst that is known, gate by gate.
+
+use super::gates::{Proof, Quantity, Uses};
+use super::watertight::{Symmetry, symmetry};
+use super::witness::{Goal, Inputs, Search, Searched};
+use super::{Domain, Dyadic, Format};
+use crate::arith::Float;
+use crate::case::Draw;
+use crate::kernel::{Entry, Gate, Role, Scalar};
+
+/// A kernel in one scalar and one domain.
+#[derive(Debug)]
+pub struct Summary<F> {
+    /// The domain.
+    pub domain: Domain,
+    /// The format of the scalar.
+    pub format: Format,
+    /// Everything that was proved.
+    pub proof: Proof,
+    /// Its gates that compare numbers, in the order of the kernel.
+    pub gates: Vec<GateSummary<F>>,
+    /// What is known of its edges.
+    pub symmetry: Symmetry,
+}
+
+/// One gate.
+#[derive(Clone, Debug)]
+pub struct GateSummary<F> {
+    /// Which gate.
+    pub index: usize,
+    /// What it is.
+    pub gate: Gate,
+    /// The bound of the error of what it compares, or why there is none.
+    pub bound: Result<Dyadic, String>,
+    /// What the bound supposes.
+    pub uses: Uses,
+    /// The worst inputs known for each goal, in the order of [`GOALS`].
+    pub witnesses: [Option<Witness<F>>; 3],
+}
+
+/// Inputs, and how bad they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Witness<F> {
+    /// The seventeen numbers.
+    pub inputs: Inputs<F>,
+    /// The score of the goal, from exact arithmetic.
+    pub score: f64,
+}
+
+/// What is searched for, in the order of [`GateSummary::witnesses`].
+pub const GOALS: [Goal; 3] = [Goal::Error, Goal::Zero, Goal::Lost];
+
+impl<F> GateSummary<F> {
+    /// The bound over the witness.
+    pub fn factor(&self) -> Option<f64> {
+        let witness = self.witnesses[0].as_ref()?;
+        let bound = self.bound.as_ref().ok()?;
+        (witness.score > 0.0).then(|| bound.to_f64() / witness.score)
+    }
+}
+
+/// The format of a scalar.
+pub fn format_of<F: Float>() -> Format {
+    if F::DIGITS == 24 { Format::F32 } else { Format::F64 }
+}
+
+impl<F> Summary<F> {
+    /// A witness above its bound, if there is one: then the proof is wrong, or the search.
+    pub fn contradiction(&self) -> Option<String> {
+        let contradicts = |gate: &&GateSummary<F>| match (&gate.bound, &gate.witnesses[0]) {
+            // The score is rounded to a float.
+            (Ok(bound), Some(witness)) => witness.score > bound.to_f64() * (1.0 + 1e-12),
+            _ => false,
+        };
+        let gate = self.gates.iter().find(contradicts)?;
+        let score = gate.witnesses[0].as_ref().map_or(0.0, |witness| witness.score);
+        Some(format!(
+            "gate '{}': an error of {score:e} is known, and {:e} is the bound",
+            gate.gate.name,
+            gate.bound.as_ref().map_or(0.0, |bound| bound.to_f64())
+        ))
+    }
+}
+
+/// How hard to search, and from where.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Evaluations for each quantity and goal.
+    pub evaluations: u64,
+    /// Of the random moves.
+    pub seed: u64,
+}
+
+impl<F: Searched + Scalar> Summary<F> {
+    /// Proves and searches; an error in one sentence if the kernel has no program.
+    pub fn new(
+        entry: &Entry,
+        domain: Domain,
+        known: &[Inputs<F>],
+        effort: Effort,
+    ) -> Result<Summary<F>, String> {
+        let subject = F::subject(entry).ok_or("it does not run in this scalar")?;
+        let gated = subject.gated().ok_or("it is not written for every arithmetic")?;
+        let format = format_of::<F>();
+        let proof = Proof::new(gated.paths()?, None, domain, format);
+        let known = scaled(known, &domain);
+        let gates = entry.info.gates.iter().enumerate().filter_map(|(index, gate)| {
+            let bound = proof.gate(index)?;
+            let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
+            let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::and);
+            let witnesses = GOALS.map(|goal| {
+                let wanted = goal == Goal::Error || goal == goal_of(gate.role);
+                let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
+                let found = quantities.filter_map(|quantity| {
+                    worst::<F>(&proof, quantity, domain, goal, &known, effort)
+                });
+                found.max_by(|a, b| a.score.total_cmp(&b.score))
+            });
+            let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
+            Some(GateSummary { index, gate: *gate, bound, uses, witnesses })
+        });
+        let gates: Vec<GateSummary<F>> = gates.collect();
+        let edges = |path: usize| {
+            let is_edge = |q: &&Quantity| entry.info.gates[q.gate].role == Role::Edge;
+            proof.quantities.iter().filter(move |q| q.path == path).filter(is_edge)
+        };
+        let paths = (0..proof.paths.len()).filter(|path| edges(*path).next().is_some());
+        let symmetries = paths.map(|path| symmetry(&proof.paths[path], edges(path)));
+        let symmetry = symmetries.min().unwrap_or(Symmetry::None);
+        Ok(Summary { domain, format, gates, symmetry, proof })
+    }
+}
+
+/// What else a gate's witnesses are searched for.
+fn goal_of(role: Role) -> Goal {
+    if role == Role::Parallel { Goal::Zero } else { Goal::Lost }
+}
+
+fn worst<F: Searched>(
+    proof: &Proof,
+    quantity: &Quantity,
+    domain: Domain,
+    goal: Goal,
+    known: &[Inputs<F>],
+    effort: Effort,
+) -> Option<Witness<F>> {
+    let mut search = Search::<F>::new(proof, quantity, domain);
+    let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
+    let from_known = known.iter().filter_map(|inputs| {
+        search.exact(inputs, goal).map(|score| witness(*inputs, score))
+    });
+    let best = from_known.max_by(|a, b| a.score.total_cmp(&b.score));
+    if effort.evaluations == 0 {
+        return best;
+    }
+    let mut draw = Draw::new("prove", effort.seed, quantity.place.into());
+    let known: Vec<Inputs<F>> = best.iter().map(|witness| witness.inputs).collect();
+    let found = search.climb(goal, effort.evaluations, &mut draw, &known);
+    let found = found.map(|(inputs, score)| witness(inputs, score));
+    best.into_iter().chain(found).max_by(|a, b| a.score.total_cmp(&b.score))
+}
+
+/// Known inputs of the unit domain, moved into another one by a power of two, which changes no rounding.
+fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
+    let least = domain.edge.min(domain.reach).min(domain.world).to_f64();
+    let exponent = (least / Domain::UNIT.edge.to_f64()).log2().floor();
+    let factor = F::from_f64(2f64.powf(exponent));
+    let scale = |inputs: &Inputs<F>| {
+        let mut inputs = *inputs;
+        for i in (0..3).chain(6..15) {
+            inputs[i] = inputs[i] * factor;
+        }
+        inputs
+    };
+    known.iter().map(scale).collect()
+}
+
+impl Uses {
+    /// What either supposes.
+    fn and(self, other: Uses) -> Uses {
+        Uses {
+            edge: self.edge | other.edge,
+            reach: self.reach | other.reach,
+            world: self.world | other.world,
+            extent: self.extent | other.extent,
+            floor: self.floor | other.floor,
+        }
+    }
+}
