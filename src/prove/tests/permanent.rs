@@ -1,10 +1,11 @@
 //! Kernels' errors beside their permanents, at every exponent, against rational numbers.
 
 use super::super::dyadic::Big;
-use super::super::{Domain, Dyadic, Format, relative};
+use super::super::{Domain, Dyadic, Format, Prover, relative};
 use super::fpcore::{is_taken, run};
-use crate::arith::Float;
-use crate::arith::recorded::Operation;
+use super::recorded;
+use crate::arith::recorded::{Operation, Recorded};
+use crate::arith::{Float, Real};
 use crate::case::Draw;
 use crate::kernel::{Path, Scalar, find};
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -111,4 +112,30 @@ fn no_error_passes_its_bound_by_the_permanent() {
             "{name}: {found:?}"
         );
     }
+}
+
+/// A case with an error of 1.995 u, from a random search.
+#[test]
+fn a_difference_of_products_in_f64_is_rounded_more_than_once() {
+    let inputs = [
+        0x3fef_9661_6cc1_34e8,
+        0x3fef_f3f2_6270_b4ee,
+        0x3feb_c0cb_e8dc_666a,
+        0xbfed_a7da_1cf2_ed3e,
+    ];
+    let inputs: [f64; 4] = inputs.map(f64::from_bits);
+    let (path, place) = recorded(|| {
+        let [a, b, c, d] = [6, 7, 9, 10].map(Recorded::input);
+        Recorded::difference_of_products(&a, &b, &c, &d)
+    });
+    let [a, b, c, d] = inputs.map(exact);
+    let computed = f64::difference_of_products(&inputs[0], &inputs[1], &inputs[2], &inputs[3]);
+    let units = (exact(computed) - (a * b - c * d)).abs() / Big::from(Format::F64.unit());
+    let units = units.to_f64().expect("small");
+    assert!(units > 1.995, "{units}");
+    let domain = Domain { world: Dyadic::ONE, ..Domain::UNIT };
+    let mut prover = Prover::new(&path, domain, Format::F64);
+    let bound = prover.bound(place).expect("a bound").error.to_f64() / Format::F64.unit().to_f64();
+    assert!((2.0..2.001).contains(&bound), "{bound}");
+    assert_eq!(prover.bound_before_last(place), Ok(prover.bound(place).expect("a bound").error));
 }
