@@ -13,8 +13,8 @@
 //! where r_k is its exact result: no variable is in both c_k and r_k, so c_k r_k is affine in each v_i too.
 //! The terms of higher order are bounded by running the formula on sizes.
 
-use super::dyadic::{Big, round_up};
 use super::forms::Leaf;
+use super::dyadic::{Big, round_up};
 use super::{Bound, Dyadic, Format};
 use crate::arith::recorded::Place;
 use num_traits::Zero;
@@ -328,16 +328,15 @@ impl Formula {
             Step::Minor(a, b, c, d) => sum(product(a, b), product(c, d)),
         };
         let size = size.min(corner);
-        if let (Step::Minor(a, b, c, d), true) = (&self.steps[i], format != Format::F32) {
-            let products = [product(*a, *b)[1], product(*c, *d)[1]];
-            return bound_of_minor(size, products, format);
+        if let (&Step::Minor(a, b, c, d), Format::F64) = (&self.steps[i], format) {
+            return minor_in_f64(size, [product(a, b)[1], product(c, d)[1]]);
         }
         let computed = Big::from(computed).min(Big::from(size) + before);
         let mut error = Dyadic::ZERO;
         if self.rounds[i] {
             error = format.half_ulp_of(&computed);
-            if matches!(self.steps[i], Step::Minor(..)) {
-                // In f32 the difference is rounded twice, first to f64.
+            if matches!(self.steps[i], Step::Minor(..)) && format == Format::F32 {
+                // The difference is rounded twice, first to f64.
                 error = error + Format::F64.half_ulp_of(&computed);
             }
         }
@@ -345,22 +344,23 @@ impl Formula {
     }
 }
 
-/// The bound of a difference of products in f64, from the sizes of its computed products: of p - q, and
-/// the remainders of p and q. Both products, both remainders, each difference and their sum are rounded.
-/// The last sum is off by at most the remainders' difference, for p - q is a float that near.
-fn bound_of_minor(size: Dyadic, products: [Dyadic; 2], format: Format) -> Bound {
-    let float_up = |x: &Big| Big::from(round_up(x, format.digits));
-    let sum = |of: fn(Format, &Big) -> Big| {
-        products.iter().map(|x| of(format, &Big::from(*x))).fold(Big::zero(), |sum, x| sum + x)
-    };
+/// The bound of a difference of two products of these sizes in f64. Both are rounded, and so are their
+/// difference, that of their remainders, and the sum of both.
+fn minor_in_f64(size: Dyadic, products: [Dyadic; 2]) -> Bound {
+    let format = Format::F64;
+    let up = |x: &Big| Big::from(round_up(x, format.digits));
     let half_ulp = |x: &Big| Big::from(format.half_ulp_of(x));
-    let twice = Big::from(format.tiny() + format.tiny());
-    let rounded = sum(|format, x| Big::from(round_up(x, format.digits)));
-    let remainders = sum(|format, x| Big::from(format.half_ulp_of(x))) + &twice;
-    let both = float_up(&remainders);
-    let error = half_ulp(&rounded) + &both + half_ulp(&remainders) + twice;
-    let computed = round_up(&(float_up(&rounded) + both), format.digits);
-    Bound { size, computed, error: round_up(&error, DIGITS) }
+    let [p, q] = products.map(Big::from);
+    let twice_tiny = Big::from(format.tiny()) + Big::from(format.tiny());
+    let rounded = up(&p) + up(&q);
+    let remainders = half_ulp(&p) + half_ulp(&q) + &twice_tiny;
+    let error = half_ulp(&rounded) + up(&remainders) + half_ulp(&remainders) + twice_tiny;
+    let computed = up(&rounded) + up(&remainders);
+    Bound {
+        size,
+        computed: round_up(&computed, format.digits),
+        error: round_up(&error, DIGITS),
+    }
 }
 
 fn negative_if(negative: bool, x: Dyadic) -> Dyadic {
