@@ -10,13 +10,13 @@ use super::output::write_result;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::corpus::InputError;
-use crate::report::number_of;
 use crate::kernel::{self, Entry, PRESETS, Path, Role, Scalar};
 use crate::prove::certificate::{Claim, Heading, heading, program};
 use crate::prove::{
     BySize, Domain, Effort, Format, GOALS, GateSummary, Published, Quantity, Scene, Searched,
     Summary, Symmetry, about_edges, checker, fpcore, gappa, statements,
 };
+use crate::report::number_of;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -257,7 +257,8 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         if let Some(message) = part.contradiction {
             return Err(Failure::Message(Status::SelfCheck, message));
         }
-        let wanted = |part: &GatePart| arguments.gate.as_deref().is_none_or(|name| name == part.gate);
+        let wanted =
+            |part: &GatePart| arguments.gate.as_deref().is_none_or(|name| name == part.gate);
         record.gates.extend(part.gates.into_iter().filter(wanted));
         record.kernels.extend(part.kernel);
         found.extend(part.witnesses);
@@ -412,7 +413,8 @@ impl Job<'_> {
         for (name, value) in published.iter().filter(|(_, value)| *value > 0.0) {
             let count = bounds.iter().filter(|bound| *bound < value).count();
             let of = self.triangles.len();
-            text += &format!(" e = {name} refuses every parallel ray at {count} of {of} triangles.");
+            text +=
+                &format!(" e = {name} refuses every parallel ray at {count} of {of} triangles.");
         }
         Some(text)
     }
@@ -494,12 +496,16 @@ impl ProveArguments {
         }
         let Some(edge) = self.edge else {
             return match self.distance {
-                Some(_) => Err(Failure::usage("--distance needs --coordinates and --edge, or --mesh")),
+                Some(_) => {
+                    Err(Failure::usage("--distance needs --coordinates and --edge, or --mesh"))
+                }
                 None => Ok((None, Vec::new())),
             };
         };
         let Some(coordinates) = self.coordinates else {
-            return Err(Failure::usage("--edge needs --coordinates: how far from 0 the scene reaches"));
+            return Err(Failure::usage(
+                "--edge needs --coordinates: how far from 0 the scene reaches",
+            ));
         };
         let distance = self.distance.unwrap_or(2.0 * coordinates);
         let (min_angle, grazing) = (self.min_angle, self.grazing);
@@ -575,9 +581,8 @@ fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Failure>
 
 /// Puts found witnesses into the table; how many are new or worse than those there.
 fn merge(stored: &mut Vec<StoredWitness>, found: Vec<StoredWitness>) -> usize {
-    let key = |w: &StoredWitness| {
-        (w.kernel.clone(), w.scalar.clone(), w.gate.clone(), w.goal.clone())
-    };
+    let key =
+        |w: &StoredWitness| (w.kernel.clone(), w.scalar.clone(), w.gate.clone(), w.goal.clone());
     let mut table: BTreeMap<_, StoredWitness> = stored.drain(..).map(|w| (key(&w), w)).collect();
     let mut raised = 0;
     for witness in found {
@@ -695,7 +700,9 @@ fn export(
     };
     let is_one = entries.len() == 1 && scalars[0] != scalars[1] && arguments.gate.is_some();
     if arguments.format == OutputFormat::Gappa && !is_one {
-        return Err(Failure::usage("--format gappa is of one --kernel, one --scalar and one --gate"));
+        return Err(Failure::usage(
+            "--format gappa is of one --kernel, one --scalar and one --gate",
+        ));
     }
     let mut text = String::new();
     for entry in entries {

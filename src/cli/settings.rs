@@ -203,7 +203,8 @@ fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String
 
 /// `[proved]`: a table of kernels, of scalars, of gates.
 fn demands(kernels: &DeTable) -> Result<Vec<String>, String> {
-    let expected = || "proved: expected KERNEL.SCALAR.GATE = UNITS or KERNEL.SCALAR.watertight = true";
+    let expected =
+        || "proved: expected KERNEL.SCALAR.GATE = UNITS or KERNEL.SCALAR.watertight = true";
     let mut all = Vec::new();
     for (kernel, scalars) in kernels {
         let DeValue::Table(scalars) = scalars.get_ref() else { return Err(expected().to_owned()) };

@@ -108,8 +108,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
 fn run<K: Kernel>() -> Vec<Compared> {
     let number = |i: u8| Recorded::input(i);
     let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);
-    let ray =
-        Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
+    let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
     let triangle = Triangle { a: triple(6), b: triple(9), c: triple(12) };
     let mut sink = Recording::default();
     let prepared = K::prepare(&triangle);

@@ -2,8 +2,8 @@
 //! roots and whatever meets itself as variables of their own.
 
 use super::dyadic::{Big, root_up, round_up};
-use super::formula::{DIGITS, Formula, Maximum, Source, Step};
 use super::forms::{Forms, Leaf};
+use super::formula::{DIGITS, Formula, Maximum, Source, Step};
 use super::gates::unsigned;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Comparison, Operation, Place};
@@ -101,7 +101,8 @@ impl<'a> Prover<'a> {
         } else if let Operation::Sqrt(inner) = self.operation(place) {
             let vector = self.squares(inner).ok_or("its root is not the length of a vector")?;
             rule = Rule::Length(vector);
-            (formula, maximum, bound) = (Formula::default(), Maximum::default(), self.length(vector)?);
+            (formula, maximum, bound) =
+                (Formula::default(), Maximum::default(), self.length(vector)?);
         } else {
             rule = Rule::Sum;
             let mut builder = Builder::new(self);
@@ -148,7 +149,9 @@ impl<'a> Prover<'a> {
         let below = self.bound(divisor)?;
         let floor = self.floor(divisor);
         if floor <= below.error {
-            return Err("a divisor may be rounded to zero: the floor of divisors is too low".to_owned());
+            return Err(
+                "a divisor may be rounded to zero: the floor of divisors is too low".to_owned()
+            );
         }
         let above = match numerator {
             Some(numerator) => self.bound(numerator)?,
@@ -209,7 +212,9 @@ impl<'a> Prover<'a> {
         let least = Big::from(self.domain.floor) - &shift;
         let tiny = Big::from(self.format.tiny()) * &three;
         if !least.is_positive() || tiny > &unit * &least * &least {
-            return Err("a length may be rounded to zero: the floor of divisors is too low".to_owned());
+            return Err(
+                "a length may be rounded to zero: the floor of divisors is too low".to_owned()
+            );
         }
         let largest = Big::from(size) + &shift;
         let relative = three * unit * &largest;
@@ -236,12 +241,7 @@ impl<'a> Prover<'a> {
     }
 
     /// One more rounding of a number of the given size before it.
-    fn bound_of_rounded(
-        &self,
-        size: Dyadic,
-        error: Big,
-        rounded: &Big,
-    ) -> Result<Bound, String> {
+    fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Result<Bound, String> {
         let error = round_up(&(error + Big::from(self.format.half_ulp_of(rounded))), DIGITS);
         let computed = round_up(rounded, self.format.digits);
         self.check_range(computed)?;

@@ -2,8 +2,8 @@
 //!
 //! The format is described in docs/guide/proof.md.
 
-use super::formula::{Formula, Source, Step};
 use super::forms::Leaf;
+use super::formula::{Formula, Source, Step};
 use super::{Domain, Dyadic, Format, Lemma, Rule};
 use crate::arith::recorded::{Comparison, Operation};
 use crate::kernel::Path;
@@ -137,7 +137,8 @@ fn step_text(formula: &Formula, i: usize, step: &Step) -> String {
     let place = formula.places[i].map_or("-".to_owned(), |place| place.to_string());
     let operation = match *step {
         Step::Variables(ref sum) => {
-            let term = |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
+            let term =
+                |(v, sign): &(usize, i8)| format!("{}{v}", if *sign < 0 { '-' } else { '+' });
             format!("variables {}", sum.iter().map(term).collect::<Vec<_>>().join(" "))
         }
         Step::Number(value) => format!("number {value}"),

@@ -218,9 +218,8 @@ impl Ord for Dyadic {
         let top = |x: &Dyadic| x.exponent + 128 - x.mantissa.unsigned_abs().leading_zeros() as i32;
         let sizes = if top(self) == top(other) {
             // Of the same binary order: aligned at the top, both fit.
-            let at_top = |x: &Dyadic| {
-                x.mantissa.unsigned_abs() << x.mantissa.unsigned_abs().leading_zeros()
-            };
+            let at_top =
+                |x: &Dyadic| x.mantissa.unsigned_abs() << x.mantissa.unsigned_abs().leading_zeros();
             at_top(self).cmp(&at_top(other))
         } else {
             top(self).cmp(&top(other))

@@ -13,8 +13,8 @@
 //! where r_k is its exact result: no variable is in both c_k and r_k, so c_k r_k is affine in each v_i too.
 //! The terms of higher order are bounded by running the formula on sizes.
 
-use super::forms::Leaf;
 use super::dyadic::{Big, round_up};
+use super::forms::Leaf;
 use super::{Bound, Dyadic, Format};
 use crate::arith::recorded::Place;
 use num_traits::Zero;

@@ -1,8 +1,8 @@
 //! The bounds of all gates of a kernel: every path, every quantity, each program once.
 
 use super::bound::{Lemma, Prover, is_impossible};
-use super::formula::Source;
 use super::forms::Leaf;
+use super::formula::Source;
 use super::{Bound, Domain, Format, Rule};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
@@ -86,7 +86,8 @@ impl Proof {
         let mut quantities = Vec::new();
         for (index, path) in paths.iter().enumerate() {
             let mut prover = Prover::new(path, domain, format);
-            for compared in path.compared.iter().filter(|c| gate.is_none_or(|gate| c.gate == gate)) {
+            for compared in path.compared.iter().filter(|c| gate.is_none_or(|gate| c.gate == gate))
+            {
                 for place in &compared.quantities {
                     let place = unsigned(path, *place);
                     let key = (compared.gate, canonical(&prover, path, place));
@@ -129,7 +130,14 @@ pub fn unsigned(path: &Path, place: Place) -> Place {
 
 /// A program that is the same for all renamings of axes and of a, b and c: the domain is.
 fn canonical(prover: &Prover, path: &Path, place: Place) -> Vec<u32> {
-    let mut names = Names { path, prover, text: Vec::new(), seen: HashMap::new(), axes: vec![], points: vec![] };
+    let mut names = Names {
+        path,
+        prover,
+        text: Vec::new(),
+        seen: HashMap::new(),
+        axes: vec![],
+        points: vec![],
+    };
     names.visit(place);
     names.text
 }

@@ -37,15 +37,21 @@ impl Scene {
             return Err(format!("the {name} is {value}; lengths from 1e-30 to 1e30 are supported"));
         }
         if shortest > longest {
-            return Err(format!("the shortest edge, {shortest}, is longer than the longest, {longest}"));
+            return Err(format!(
+                "the shortest edge, {shortest}, is longer than the longest, {longest}"
+            ));
         }
         if longest > 3.5 * coordinates {
-            return Err(format!("an edge of {longest} does not fit into coordinates up to {coordinates}"));
+            return Err(format!(
+                "an edge of {longest} does not fit into coordinates up to {coordinates}"
+            ));
         }
         let angles = [("smallest angle", min_angle, 60.0), ("grazing angle", grazing, 90.0)];
         let outside = |(_, x, most): &&(&str, f64, f64)| !(*x > 0.0 && x <= most);
         if let Some((name, value, most)) = angles.iter().find(outside) {
-            return Err(format!("the {name} is {value} degrees; it must be above 0 and at most {most}"));
+            return Err(format!(
+                "the {name} is {value} degrees; it must be above 0 and at most {most}"
+            ));
         }
         let up = |x: f64| Dyadic::from_f64(x).expect("finite").round_up(DIGITS);
         // A difference of coordinates is at most twice the largest of them.

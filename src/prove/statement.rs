@@ -56,12 +56,7 @@ pub fn statements<F: Searched + Scalar>(
     lines
 }
 
-fn parallel<F>(
-    gate: &GateSummary<F>,
-    scene: Option<&Scene>,
-    beta: f64,
-    lines: &mut Vec<String>,
-) {
+fn parallel<F>(gate: &GateSummary<F>, scene: Option<&Scene>, beta: f64, lines: &mut Vec<String>) {
     let passes = gate.witnesses[1].as_ref().filter(|witness| witness.score > 0.0);
     let known = passes.map_or(String::new(), |witness| {
         format!(" A parallel ray is known that reaches {}.", below(witness.score))
@@ -75,7 +70,9 @@ fn parallel<F>(
             "With an epsilon e this gate refuses a hit only where the exact value is below e + {}.",
             above(beta)
         ),
-        Some(scene) => format!("With that epsilon this gate refuses hits {}.", cost(scene, 2.0 * beta)),
+        Some(scene) => {
+            format!("With that epsilon this gate refuses hits {}.", cost(scene, 2.0 * beta))
+        }
     });
 }
 
@@ -87,7 +84,8 @@ fn cost(scene: &Scene, value: f64) -> String {
         let angle = libm::asin(sine).to_degrees();
         format!("only where the ray meets the smallest triangles at less than {}", degrees(angle))
     } else {
-        "at any angle on the smallest triangles: their determinants are no larger than that".to_owned()
+        "at any angle on the smallest triangles: their determinants are no larger than that"
+            .to_owned()
     }
 }
 
@@ -214,11 +212,16 @@ fn short(x: f64, up: bool) -> String {
     let exponent = x.log10().floor() as i32;
     let scale = 10f64.powi(2 - exponent);
     let digits = if up { (x * scale - 1e-9).ceil() } else { (x * scale + 1e-9).floor() };
-    let (digits, exponent) = if digits >= 1000.0 { (100.0, exponent + 1) } else { (digits, exponent) };
+    let (digits, exponent) =
+        if digits >= 1000.0 { (100.0, exponent + 1) } else { (digits, exponent) };
     if (-2..4).contains(&exponent) {
         let decimals = (2 - exponent).max(0) as usize;
         let text = format!("{:.decimals$}", digits / 10f64.powi(2 - exponent));
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        let text = if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            &text
+        };
         text.to_owned()
     } else {
         format!("{:.2}e{exponent}", digits / 100.0)

@@ -146,9 +146,9 @@ fn worst<F: Searched>(
 ) -> Option<Witness<F>> {
     let mut search = Search::<F>::new(proof, quantity, domain);
     let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
-    let from_known = known.iter().filter_map(|inputs| {
-        search.exact(inputs, goal).map(|score| witness(*inputs, score))
-    });
+    let from_known = known
+        .iter()
+        .filter_map(|inputs| search.exact(inputs, goal).map(|score| witness(*inputs, score)));
     let best = from_known.max_by(|a, b| a.score.total_cmp(&b.score));
     if effort.evaluations == 0 {
         return best;

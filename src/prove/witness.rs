@@ -87,7 +87,12 @@ impl Goal {
 pub type Inputs<F> = [F; 17];
 
 /// Runs a program up to a place.
-pub fn run<R: Number>(operations: &[Operation], last: Place, inputs: &[R; 17], values: &mut Vec<R>) {
+pub fn run<R: Number>(
+    operations: &[Operation],
+    last: Place,
+    inputs: &[R; 17],
+    values: &mut Vec<R>,
+) {
     values.clear();
     for operation in &operations[..=last as usize] {
         let of = |place: Place| &values[place as usize];
@@ -227,29 +232,60 @@ impl<'a, F: Searched> Search<'a, F> {
 
     /// The exact score of inputs, in the domain by exact arithmetic; none if they are outside.
     pub fn exact(&self, inputs: &Inputs<F>, goal: Goal) -> Option<f64> {
-        let mut checked = Search { computed: Vec::new(), conditions: self.conditions.clone(), decisions: self.decisions.clone(), operations: self.operations.clone(), ..*self };
+        let mut checked = Search {
+            computed: Vec::new(),
+            conditions: self.conditions.clone(),
+            decisions: self.decisions.clone(),
+            operations: self.operations.clone(),
+            ..*self
+        };
         checked.score(inputs, goal, &mut Vec::new())?;
-        let exact_inputs = inputs.map(|x| Exact::from_f64(x.to_f64()));
+        let computed = checked.computed[self.place as usize].to_f64();
+        if self.operations.iter().any(|operation| matches!(operation, Operation::Sqrt(_))) {
+            // Exact numbers with roots grow too long; these know their own errors.
+            return self.measure(
+                inputs,
+                goal,
+                computed,
+                Bounded::new,
+                |x, y| {
+                    let difference = x.clone() - y;
+                    difference.approximate().and_then(|d| d.partial_cmp(&0.0))
+                },
+                |x| x.approximate(),
+            );
+        }
+        let compare = |x: &Exact, y: &Exact| (x.clone() - y).sign();
+        self.measure(inputs, goal, computed, Exact::from_f64, compare, |x| Some(x.approximate()))
+    }
+
+    fn measure<R: Number>(
+        &self,
+        inputs: &Inputs<F>,
+        goal: Goal,
+        computed: f64,
+        number: impl Fn(f64) -> R,
+        compare: impl Fn(&R, &R) -> Option<Ordering>,
+        approximate: impl Fn(&R) -> Option<f64>,
+    ) -> Option<f64> {
         let mut values = Vec::new();
-        run(&self.operations, self.place, &exact_inputs, &mut values);
-        let number = |x: f64| Exact::from_f64(x);
+        run(&self.operations, self.place, &inputs.map(|x| number(x.to_f64())), &mut values);
         for condition in &self.conditions {
             let (Condition::AtMost(place, bound) | Condition::AtLeast(place, bound)) = *condition;
-            let size = values[place as usize].abs();
-            let holds = match condition {
-                Condition::AtMost(..) => size.is_at_most(&number(bound)),
-                Condition::AtLeast(..) => number(bound).is_at_most(&size),
+            let refused = match condition {
+                Condition::AtMost(..) => Ordering::Greater,
+                Condition::AtLeast(..) => Ordering::Less,
             };
-            if !holds {
+            if compare(&values[place as usize].abs(), &number(bound))? == refused {
                 return None;
             }
         }
         let exact = &values[self.place as usize];
-        let computed = checked.computed[self.place as usize].to_f64();
+        let zero = number(0.0);
         match goal {
-            Goal::Error => Some((exact.clone() - &number(computed)).abs().approximate()),
-            Goal::Zero => exact.is_zero().then(|| computed.abs()),
-            Goal::Lost => (exact.sign() != Some(Ordering::Less)).then_some(-computed),
+            Goal::Error => approximate(&(exact.clone() - &number(computed)).abs()),
+            Goal::Zero => (compare(exact, &zero)? == Ordering::Equal).then(|| computed.abs()),
+            Goal::Lost => (compare(exact, &zero)? != Ordering::Less).then_some(-computed),
         }
     }
 
@@ -326,7 +362,13 @@ impl<'a, F: Searched> Search<'a, F> {
             Some(*lemma.maximum.corner.get(at)?)
         };
         let signed = |x: f64, minus: Option<bool>| match minus {
-            Some(minus) => if minus { -x.abs() } else { x.abs() },
+            Some(minus) => {
+                if minus {
+                    -x.abs()
+                } else {
+                    x.abs()
+                }
+            }
             None => x,
         };
         for axis in 0..3 {

@@ -19,6 +19,7 @@ mod orientation;
 mod own;
 mod plugin;
 mod program;
+mod prove;
 mod rows;
 mod screen;
 mod shards;

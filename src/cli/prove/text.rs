@@ -6,10 +6,15 @@ use std::io::{self, Write};
 
 /// All kernels: a line a gate.
 pub fn table(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "No float of the domain makes a gate more wrong than its bound; the witness is the worst known.")?;
+    writeln!(
+        out,
+        "No float of the domain makes a gate more wrong than its bound; the witness is the worst known."
+    )?;
     writeln!(out, "{}", domain(record, scene))?;
     let has_scalar = |name: &str| record.gates.iter().any(|gate| gate.scalar == name);
-    for (scalar, unit) in [("f32", "2^-24"), ("f64", "2^-53")].into_iter().filter(|s| has_scalar(s.0)) {
+    for (scalar, unit) in
+        [("f32", "2^-24"), ("f64", "2^-53")].into_iter().filter(|s| has_scalar(s.0))
+    {
         writeln!(out, "\n{scalar}; u = {unit}")?;
         let width = record.gates.iter().map(|gate| gate.kernel.len()).max().unwrap_or(0);
         writeln!(

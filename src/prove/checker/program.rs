@@ -78,11 +78,7 @@ pub struct Program<'a> {
 
 impl<'a> Program<'a> {
     /// The operations and the decisions.
-    pub fn read(
-        format: Format,
-        domain: Domain,
-        reader: &mut Reader<'a>,
-    ) -> Outcome<Program<'a>> {
+    pub fn read(format: Format, domain: Domain, reader: &mut Reader<'a>) -> Outcome<Program<'a>> {
         reader.read("program", |words| words.is_empty().then_some(()))?;
         let mut operations: Vec<Operation> = Vec::new();
         let most = power(format.parameters[0]).to_integer();

@@ -1,0 +1,232 @@
+//! `hairline prove` at the command line.
+
+use crate::program::{self, scratch};
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+fn hairline(arguments: &[&str]) -> Output {
+    program::hairline(Path::new(env!("CARGO_MANIFEST_DIR")), arguments)
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn text(arguments: &[&str]) -> String {
+    let output = hairline(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(arguments: &[&str], code: i32, message: &str) {
+    let output = hairline(arguments);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
+    assert!(error.contains(message), "{arguments:?}: {error}");
+    assert_eq!(error.lines().count(), 1, "{error}");
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
+    let out = text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
+    // 17 u by hand: see docs/guide/proof.md.
+    assert!(out.contains("never wrong by more than 1.02e-6 (16.99 u)"), "{out}");
+    assert!(out.contains("An epsilon above 1.02e-6 refuses every ray that is exactly parallel."));
+    assert!(
+        out.contains("e = 1e-6 (source, truck) is proved to refuse every parallel ray"),
+        "{out}"
+    );
+    assert!(out.contains("Watertight: not proved"), "{out}");
+    assert!(out.lines().all(|line| line.chars().count() <= 120), "{out}");
+}
+
+#[test]
+fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
+    let kernel = |name: &str| {
+        let out = hairline(&["prove", "--kernel", name, "--scalar", "f32", "--format", "json"]);
+        let record = json(&out);
+        record["kernels"][0]["watertight"].as_bool().unwrap()
+    };
+    assert!(kernel("woop-watertight"));
+    assert!(!kernel("woop-watertight+fma"));
+    assert!(!kernel("moller-trumbore"));
+    // Its edge values are exact negatives, fused or not, but their signs need not be exact.
+    for name in ["plucker", "plucker+fma"] {
+        assert!(!kernel(name));
+        let out = text(&["prove", "--kernel", name, "--scalar", "f64"]);
+        assert!(out.contains("opposite signs, bit for bit"), "{out}");
+    }
+}
+
+#[test]
+fn every_witness_is_below_its_bound_and_near_it() {
+    let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
+    let gates = record["gates"].as_array().unwrap();
+    assert!(gates.len() > 80, "{}", gates.len());
+    for gate in gates {
+        let name = format!("{} {} {}", gate["kernel"], gate["scalar"], gate["gate"]);
+        let Some(bound) = gate["bound_units"].as_f64() else {
+            assert!(gate["why"].is_string(), "{name}");
+            continue;
+        };
+        let witness = gate["witness"]["units"].as_f64().unwrap_or_else(|| panic!("{name}"));
+        assert!(witness <= bound, "{name}: {witness} {bound}");
+        let divides = gate["supposes"].as_array().unwrap().iter().any(|s| s == "divisors");
+        let is_role = |role: &str| gate["gate"] == role;
+        if !divides && (is_role("parallel") || is_role("edge")) {
+            assert!(bound / witness <= 2.0, "{name}: {bound} / {witness}");
+        }
+    }
+}
+
+#[test]
+fn certificates_are_checked_and_a_changed_number_is_refused() {
+    let folder = scratch("prove");
+    let file = folder.join("a.proof");
+    let file = file.to_str().unwrap();
+    let kernel = ["--kernel", "moller-trumbore-culling", "--scalar", "f32"];
+    text(&[&["prove"], &kernel[..], &["--certificate", file]].concat());
+    assert_eq!(text(&["prove", "--check", file]), format!("{file}: 5 bounds proved\n"));
+    let good = fs::read_to_string(file).unwrap();
+    let line = good.lines().position(|line| line.starts_with("first ")).unwrap();
+    let first = good.lines().nth(line).unwrap();
+    let mantissa: i64 = first["first ".len()..].split('*').next().unwrap().parse().unwrap();
+    let smaller = first.replacen(&mantissa.to_string(), &(mantissa - 2).to_string(), 1);
+    fs::write(file, good.replacen(first, &smaller, 1)).unwrap();
+    refused(&["prove", "--check", file], 65, &format!("{file}:{}: ", line + 1));
+    refused(&["prove", "--check", "/dev/null"], 65, "/dev/null:");
+    refused(&["prove", "--check", "no-such-file"], 74, "no-such-file");
+    let two = ["prove", "--kernel", "cramer,plucker", "--certificate", file];
+    refused(&two, 2, "--certificate is of one --kernel in one --scalar");
+}
+
+#[test]
+fn stored_certificates_are_those_of_the_kernels() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/proofs");
+    let mut files: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path().to_str().unwrap().to_owned())
+        .filter(|path| path.ends_with(".proof"))
+        .collect();
+    files.sort();
+    assert_eq!(files.len(), 64, "16 kernels, two scalars, with and without fused products");
+    let names: Vec<&str> = files.iter().map(String::as_str).collect();
+    let out = text(&[&["prove", "--check"], &names[..]].concat());
+    assert_eq!(out.lines().count(), 64);
+    // One of them is written again.
+    let again = scratch("prove-again").join("a.proof");
+    let again = again.to_str().unwrap();
+    text(&["prove", "--kernel", "woop-watertight", "--scalar", "f64", "--certificate", again]);
+    let stored = fs::read_to_string(format!("{folder}/woop-watertight-f64.proof")).unwrap();
+    assert_eq!(fs::read_to_string(again).unwrap(), stored);
+}
+
+#[test]
+fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
+    let scene = ["--coordinates", "1000", "--edge", "0.01..10", "--distance", "2000"];
+    let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "1000"];
+    let out = text(&[&kernel[..], &scene[..]].concat());
+    assert!(out.contains("Scene: coordinates up to 1000"), "{out}");
+    assert!(out.contains("determinants are no larger than that"), "{out}");
+    // In f64 the same gate costs little.
+    let out = text(
+        &[&["prove", "--kernel", "moller-trumbore", "--scalar", "f64", "-n", "1000"], &scene[..]]
+            .concat(),
+    );
+    assert!(out.contains("only where the ray meets the smallest triangles at less than"), "{out}");
+    let bad = |coordinates: &str, edge: &str, message: &str| {
+        let scene = ["prove", "--coordinates", coordinates, "--edge", edge];
+        refused(&scene, 2, message);
+    };
+    bad("1", "2..1", "the shortest edge, 2, is longer than the longest, 1");
+    bad("1", "0..1", "the shortest edge is 0");
+    bad("nan", "0.1..1", "the coordinates is NaN");
+    bad("1", "1..10", "does not fit into coordinates up to 1");
+    refused(&["prove", "--distance", "5"], 2, "--distance needs");
+    refused(&["prove", "--edge", "1..2"], 2, "--edge needs --coordinates");
+    refused(&["prove", "--kernel", "moller"], 2, "moller-trumbore");
+    let empty = scratch("prove-mesh").join("empty.obj");
+    fs::write(&empty, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
+    let empty = empty.to_str().unwrap();
+    refused(
+        &["prove", "--mesh", empty, "--distance", "1", "--quiet"],
+        65,
+        "no triangle with an area",
+    );
+}
+
+#[test]
+fn a_meshs_triangles_have_bounds_of_their_own() {
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes/icosphere.obj");
+    let out = text(&[
+        "prove",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "--mesh",
+        mesh,
+        "--distance",
+        "10",
+        "-n",
+        "100",
+        "--quiet",
+    ]);
+    assert!(out.contains("Triangle by triangle the bound goes from"), "{out}");
+    assert!(out.contains("e = 1e-6 (source, truck) refuses every parallel ray at"), "{out}");
+}
+
+#[test]
+fn check_holds_what_is_proved() {
+    let folder = scratch("prove-check");
+    let config = folder.join("hairline.toml");
+    let config = config.to_str().unwrap();
+    let check = |demands: &str| {
+        let plan =
+            "kernel = \"woop-watertight\"\nfamily = \"interior\"\nscalar = \"f32\"\ncount = 10\n";
+        fs::write(config, format!("{plan}{demands}")).unwrap();
+        hairline(&["check", "--config", config, "--quiet"])
+    };
+    let good = "[proved]\nwoop-watertight.f32 = { edge = 21.99, watertight = true }\n";
+    let output = check(good);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = check(
+        "[proved]\n\"woop-watertight+fma\".f32.watertight = true\nwoop-watertight.f32.edge = 21.5\n",
+    );
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("woop-watertight+fma/f32/watertight=true: no longer proved watertight"),
+        "{error}"
+    );
+    assert!(error.contains("woop-watertight/f32/edge=21.5: the bound is 21.97"), "{error}");
+    for (demands, message) in [
+        ("[proved]\nwoop.f32.edge = 1\n", "unknown kernel 'woop'"),
+        ("[proved]\nwoop-watertight.f32.edges = 1\n", "unknown gate 'edges'"),
+        ("[proved]\nwoop-watertight.f16.edge = 1\n", "is no demand"),
+        (
+            "[proved]\nwoop-watertight = 1\n",
+            "hairline.toml:5: proved: expected KERNEL.SCALAR.GATE = UNITS",
+        ),
+    ] {
+        let output = check(demands);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
+fn programs_are_written_for_other_tools() {
+    let out =
+        text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--format", "fpcore"]);
+    assert!(out.contains("(FPCore ("), "{out}");
+    assert!(out.contains(":precision binary32"), "{out}");
+    let gappa = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--format", "gappa"];
+    let out = text(&[&gappa[..], &["--gate", "parallel"]].concat());
+    assert!(out.contains("float<ieee_32"), "{out}");
+    refused(&gappa, 2, "--format gappa is of one --kernel");
+    refused(&[&gappa[..], &["--gate", "edgy"]].concat(), 2, "unknown gate 'edgy'");
+}
