@@ -356,11 +356,7 @@ fn minor_in_f64(size: Dyadic, products: [Dyadic; 2]) -> Bound {
     let remainders = half_ulp(&p) + half_ulp(&q) + &twice_tiny;
     let error = half_ulp(&rounded) + up(&remainders) + half_ulp(&remainders) + twice_tiny;
     let computed = up(&rounded) + up(&remainders);
-    Bound {
-        size,
-        computed: round_up(&computed, format.digits),
-        error: round_up(&error, DIGITS),
-    }
+    Bound { size, computed: round_up(&computed, format.digits), error: round_up(&error, DIGITS) }
 }
 
 fn negative_if(negative: bool, x: Dyadic) -> Dyadic {

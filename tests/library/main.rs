@@ -11,6 +11,7 @@ mod floors;
 mod map;
 mod margins;
 mod oracle;
+mod proofs;
 mod response;
 mod severity;
 mod strategy;

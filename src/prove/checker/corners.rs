@@ -76,7 +76,7 @@ where
     let bounds: Vec<T> = bounds.iter().map(of).collect::<Option<_>>()?;
     let weights = weights.iter().map(|(weight, relative)| Some((of(weight)?, *relative)));
     let weights: Vec<Weight<T>> = weights.collect::<Option<_>>()?;
-    let mut values = vec![T::zero(); rows.len()];
+    let (mut values, mut slopes) = (vec![T::zero(); rows.len()], vec![T::zero(); rows.len()]);
     let (mut best, mut at, mut sizes) = (T::zero(), 0, values.clone());
     for corner in 0..corners {
         // A step stays as it was at the corner before if no changed variable is in it.
@@ -101,7 +101,7 @@ where
             continue;
         }
         // The derivatives of the last step by each step.
-        let mut slopes = vec![T::zero(); rows.len()];
+        slopes.fill(T::zero());
         slopes[rows.len() - 1] = T::one();
         let mut sum = T::zero();
         for (k, row) in rows.iter().enumerate().rev() {

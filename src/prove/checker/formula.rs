@@ -1,10 +1,9 @@
 //! The formula of a lemma: variables, steps, and what their rounding errors add up to.
 
 use super::corners::{Row, search};
-use super::number::{Bound, F32, F64, Format, Number, power, round_up, split};
-use super::program::{Leaf, Program, Term, indices, terms};
+use super::number::{Bound, ERROR_DIGITS, F32, F64, Format, Number, power, round_up, split};
+use super::program::{Leaf, MOST_ROWS, Program, Term, indices, terms};
 use super::reader::{Outcome, Reader, ensure};
-use super::{ERROR_DIGITS, MOST_ROWS};
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 use std::collections::HashSet;
@@ -387,7 +386,8 @@ impl Step<'_> {
             let twice = &format.tiny + &format.tiny;
             let remainders = products.iter().map(|x| format.half_ulp(x)).sum::<Number>() + &twice;
             let both = format.float_up(&remainders);
-            bound.error = format.half_ulp(&rounded) + &both + format.half_ulp(&remainders) + twice;
+            let error = format.half_ulp(&rounded) + &both + format.half_ulp(&remainders) + twice;
+            bound.error = round_up(&error, ERROR_DIGITS);
             bound.computed = format.float_up(&(format.float_up(&rounded) + both));
         }
         bound

@@ -13,17 +13,15 @@ pub use number::{Bound, Number};
 
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
-use number::{F32, F64, Format, root_up, round_up};
+use number::{ERROR_DIGITS, F32, F64, Format, root_up, round_up};
 use program::{DIRECTION_FLOOR, Domain, FLOOR, Operation, Program, QUOTIENT, indices};
 use reader::{Outcome, Reader, ensure};
 use std::fmt::{self, Display};
 
-/// Limits that keep a hostile text from taking long: bytes, and operations or steps in a row.
+/// Longer texts are refused.
 const MOST_BYTES: usize = 1 << 22;
-const MOST_ROWS: usize = 1 << 12;
-/// Binary digits of a lemma's size and of its errors.
+/// Binary digits of a lemma's size.
 const SIZE_DIGITS: i64 = 12;
-const ERROR_DIGITS: i64 = 24;
 
 /// A bound that a certificate proves.
 #[derive(Clone, Debug, PartialEq, Eq)]

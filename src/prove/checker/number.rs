@@ -7,6 +7,8 @@ use num_traits::{One, Zero};
 /// An exact number.
 pub type Number = BigRational;
 
+/// Binary digits of a lemma's errors.
+pub const ERROR_DIGITS: i64 = 24;
 /// Larger exponents are not read.
 const MOST_EXPONENT: i64 = 1 << 12;
 

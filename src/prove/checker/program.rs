@@ -1,11 +1,13 @@
 //! One program of a certificate: its operations, the decisions of its path, and the bounds so far.
 
-use super::MOST_ROWS;
 use super::number::{Bound, Format, Number, number, power};
 use super::reader::{Outcome, Reader};
 use num_bigint::BigInt;
 use num_traits::Signed;
 use std::collections::{HashMap, HashSet};
+
+/// Longer programs and formulas are refused.
+pub const MOST_ROWS: usize = 1 << 12;
 
 /// Bounds of the inputs, in the order of their names.
 #[derive(Clone)]

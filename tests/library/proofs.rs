@@ -1,0 +1,365 @@
+//! The checker of certificates accepts what the prover writes and nothing that differs from it in a number.
+
+use hairline::internals::arith::Real;
+use hairline::internals::arith::recorded::Operation;
+use hairline::internals::kernel::{self, Path, Scalar};
+use hairline::internals::prove::certificate::{self, Claim, Heading};
+use hairline::internals::prove::checker::{Number, check};
+use hairline::internals::prove::{Domain, Dyadic, Format, Prover, is_impossible};
+use num_traits::Signed;
+use std::collections::BTreeSet;
+
+/// The first path of a kernel that an input may take.
+fn path<F: Scalar>(kernel: &str) -> Path {
+    let entry = kernel::find(kernel).unwrap();
+    let paths = F::subject(entry).unwrap().gated().unwrap().paths().unwrap();
+    paths.into_iter().find(|path| !is_impossible(path)).unwrap()
+}
+
+/// A certificate of bounds of some numbers.
+fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> String {
+    let format = if scalar == "f32" { Format::F32 } else { Format::F64 };
+    let mut prover = Prover::new(path, domain, format);
+    places.iter().for_each(|place| drop(prover.bound(*place).unwrap()));
+    let claims: Vec<_> = places.iter().map(|place| Claim { gate: "gate", place: *place }).collect();
+    certificate::heading(&Heading { kernel: "kernel", scalar, format, domain })
+        + &certificate::program(path, &prover.lemmas, &claims)
+}
+
+/// Everything that the gates of a kernel compare and that has a bound.
+fn quantities<F: Scalar>(kernel: &str, scalar: &str) -> String {
+    let path = path::<F>(kernel);
+    let format = if scalar == "f32" { Format::F32 } else { Format::F64 };
+    let mut prover = Prover::new(&path, Domain::UNIT, format);
+    let all = path.compared.iter().flat_map(|compared| compared.quantities.clone());
+    let places: Vec<u32> = all.filter(|place| prover.bound(*place).is_ok()).collect();
+    certificate_of(&path, scalar, Domain::UNIT, &places)
+}
+
+/// Short certificates with every rule in them, and the domain's names that do not matter to each.
+fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
+    let first = |text: &str, word: &str, count: usize| -> Vec<u32> {
+        let operations = text.lines().filter_map(|line| line.strip_prefix("op "));
+        let found = operations.filter(|line| line.split(' ').nth(1) == Some(word));
+        found.take(count).map(|line| line.split(' ').next().unwrap().parse().unwrap()).collect()
+    };
+    let program = |path: &Path| certificate::program(path, &[], &[]);
+    // A determinant by differences, in f64.
+    let triple = path::<f64>("scalar-triple");
+    let triple_places = &triple.compared[0].quantities;
+    // A length, and products with a reciprocal.
+    let plane = path::<f32>("plane-unit-normal");
+    let plane_places: Vec<u32> = first(&program(&plane), "abs", 1);
+    // Quotients by the largest coordinate of the direction, and a shear of errors that grow with it.
+    let woop = path::<f32>("woop-watertight");
+    let woop_places = &first(&program(&woop), "div", 3)[..];
+    let sheared: Vec<u32> = woop_places.iter().copied().chain([48]).collect();
+    // Quotients of differences that are sums of variables.
+    let baldwin = path::<f32>("baldwin-weber");
+    let baldwin_places = first(&program(&baldwin), "div", 6);
+    // So low that the order of the direction's coordinates is needed.
+    let low = Domain { floor: Dyadic::power(-8), quotient: Dyadic::power(2), ..Domain::UNIT };
+    vec![
+        (
+            "triple",
+            certificate_of(&triple, "f64", Domain::UNIT, triple_places),
+            &["edge", "world", "extent", "direction-floor", "floor", "quotient"],
+        ),
+        (
+            "plane",
+            certificate_of(&plane, "f32", Domain::UNIT, &plane_places),
+            &["reach", "world", "extent", "direction-floor"],
+        ),
+        (
+            "woop",
+            certificate_of(&woop, "f32", low, &sheared),
+            &["edge", "world", "extent", "floor", "quotient"],
+        ),
+        (
+            "baldwin",
+            certificate_of(&baldwin, "f32", Domain::UNIT, &baldwin_places),
+            &["reach", "direction", "extent", "direction-floor"],
+        ),
+    ]
+}
+
+/// The operations that the claims of a certificate depend on.
+fn used(text: &str) -> BTreeSet<usize> {
+    let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(' ').collect()).collect();
+    let number = |word: &str| word.parse::<usize>().unwrap();
+    let claims = lines.iter().filter(|words| words[0] == "claim");
+    let mut used: BTreeSet<usize> = claims.map(|words| number(words[2])).collect();
+    for words in lines.iter().filter(|words| words[0] == "op").rev() {
+        if used.contains(&number(words[1])) && !["input", "number"].contains(&words[2]) {
+            used.extend(words[3..].iter().map(|word| number(word)));
+        }
+    }
+    used
+}
+
+/// The text with each whole number one larger and one smaller: line, column and result.
+fn mutants(text: &str) -> Vec<(usize, usize, String)> {
+    let bytes = text.as_bytes();
+    let (mut mutants, mut line, mut column, mut i) = (Vec::new(), 0, 0, 0);
+    while i < bytes.len() {
+        (line, column) = match bytes[i] {
+            b'\n' => (line + 1, 0),
+            b' ' => (line, column + 1),
+            _ => (line, column),
+        };
+        if !bytes[i].is_ascii_digit() {
+            i += 1;
+            continue;
+        }
+        let start = if bytes[i - 1] == b'-' { i - 1 } else { i };
+        while i < bytes.len() && bytes[i].is_ascii_digit() {
+            i += 1;
+        }
+        let value: i128 = text[start..i].parse().unwrap();
+        for changed in [value - 1, value + 1] {
+            mutants.push((line, column, format!("{}{changed}{}", &text[..start], &text[i..])));
+        }
+    }
+    mutants
+}
+
+#[test]
+fn what_the_prover_writes_is_accepted() {
+    for kernel in
+        ["scalar-triple-two-sided", "moller-trumbore", "plucker", "baldwin-weber", "cramer"]
+    {
+        for text in [quantities::<f32>(kernel, "f32"), quantities::<f64>(kernel, "f64")] {
+            let proved = check(&text).unwrap_or_else(|refusal| panic!("{kernel}: {refusal}"));
+            assert_eq!(proved.len(), text.matches("\nclaim ").count());
+        }
+    }
+    for (name, text, _) in samples() {
+        check(&text).unwrap_or_else(|refusal| panic!("{name}: {refusal}"));
+    }
+}
+
+/// The bounds of the first operation of a kernel that multiplies twice and subtracts in wider arithmetic.
+fn wide_difference<F: Scalar>(scalar: &str) -> String {
+    let entry = kernel::find("woop-watertight").unwrap();
+    let paths = F::subject(entry).unwrap().gated().unwrap().paths().unwrap();
+    let place = |path: &Path| {
+        let is_wide = |operation: &Operation| matches!(operation, Operation::Minor(..));
+        path.operations.iter().position(is_wide)
+    };
+    let path = paths.iter().find(|path| !is_impossible(path) && place(path).is_some()).unwrap();
+    certificate_of(path, scalar, Domain::UNIT, &[place(path).unwrap() as u32])
+}
+
+#[test]
+fn a_difference_of_products_is_rounded_twice_in_f64() {
+    let [single, double] = [wide_difference::<f32>("f32"), wide_difference::<f64>("f64")];
+    let [single, double] = [check(&single), check(&double)];
+    let [single, double] = [single, double].map(|proved| proved.unwrap().remove(0).bound.error);
+    // Apart from that, the errors differ by 2^-29.
+    assert!(double * Number::from_integer((1i64 << 29).into()) > single);
+    // A result below 2 that is wrong by nearly 2u, twice what one rounding may cost.
+    let exact = |x: f64| Number::from_float(x).unwrap();
+    let digits = [0x13411b4d2cd965u64, 0x1f2bee19622db6, 0x1fba5f0d32f012, 0x16f08d216d65ac];
+    let [a, b, c, d] = digits.map(|digits| digits as f64 / (1u64 << 53) as f64);
+    let computed = f64::difference_of_products(&a, &b, &-c, &d);
+    let error = exact(computed) - (exact(a) * exact(b) + exact(c) * exact(d));
+    let hundredths = Number::from_integer((100i64 << 46).into()) * Number::from_integer(128.into());
+    assert!(computed < 2.0 && Number::from_integer(199.into()) < error.abs() * hundredths);
+}
+
+#[test]
+fn a_number_that_is_off_by_one_is_refused() {
+    for (name, text, free) in samples() {
+        let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(' ').collect()).collect();
+        let used = used(&text);
+        let mutants = mutants(&text);
+        assert!(400 < mutants.len());
+        for (line, column, mutant) in mutants.iter().filter(|(_, _, mutant)| check(mutant).is_ok())
+        {
+            let words = &lines[*line];
+            // What remains is the true certificate of another statement.
+            let is_other_statement = match words[0] {
+                // A bound of the domain that no lemma uses.
+                "domain" => free.contains(&words[column - 1]),
+                // An operation that no claim depends on.
+                "op" => !used.contains(&words[1].parse().unwrap()),
+                // Another path of the same operations. The test below drops the decisions that matter.
+                "decision" => true,
+                // Another number with a lemma.
+                "claim" => true,
+                _ => false,
+            };
+            let changed = mutant.lines().nth(*line).unwrap();
+            assert!(
+                is_other_statement,
+                "{name}, line {}: accepted {changed}, was {words:?}",
+                line + 1
+            );
+        }
+    }
+}
+
+#[test]
+fn a_sign_of_the_corner_or_a_line_less_is_refused() {
+    for (name, text, _) in samples() {
+        let used = used(&text);
+        let lines: Vec<&str> = text.lines().collect();
+        for (i, line) in lines.iter().enumerate() {
+            if let Some(signs) = line.strip_prefix("corner ") {
+                for v in 0..signs.len() {
+                    let mut flipped = signs.as_bytes().to_vec();
+                    flipped[v] = if flipped[v] == b'+' { b'-' } else { b'+' };
+                    let mut changed: Vec<String> =
+                        lines.iter().map(|line| line.to_string()).collect();
+                    changed[i] = format!("corner {}", String::from_utf8(flipped).unwrap());
+                    assert!(check(&changed.join("\n")).is_err(), "{name}: {}", changed[i]);
+                }
+            }
+            let last_operation = lines.iter().rfind(|line| line.starts_with("op ")).unwrap();
+            let is_free = line.starts_with("decision ")
+                || line.starts_with("claim ")
+                || line == last_operation && !used.contains(&(text.matches("\nop ").count() - 1));
+            let rest: Vec<&str> = [&lines[..i], &lines[i + 1..]].concat();
+            assert!(is_free || check(&rest.join("\n")).is_err(), "{name}: without {line}");
+            // Cut off here.
+            assert!(check(&lines[..i].join("\n")).is_err(), "{name}: up to line {i}");
+        }
+    }
+}
+
+#[test]
+fn a_lemma_less_is_refused() {
+    for (name, text, _) in samples() {
+        let starts: Vec<usize> = text.match_indices("\nlemma ").map(|(at, _)| at).collect();
+        for at in starts {
+            let end =
+                ["\nlemma ", "\nclaim "].iter().filter_map(|word| text[at + 1..].find(word)).min();
+            let rest = text[..at].to_owned() + &text[at + 1 + end.unwrap()..];
+            assert!(check(&rest).is_err(), "{name}: {}", &text[at..at + 20]);
+        }
+    }
+}
+
+fn sample(name: &str) -> String {
+    samples().into_iter().find(|(known, _, _)| *known == name).unwrap().1
+}
+
+fn refusal(text: &str) -> String {
+    check(text).expect_err("it is accepted").to_string()
+}
+
+#[test]
+fn an_order_that_no_decision_states_is_refused() {
+    let text = sample("woop");
+    let without: Vec<&str> =
+        text.lines().filter(|line| !line.starts_with("decision less")).collect();
+    assert!(check(&without.join("\n")).is_err());
+    // The answer counts, and that the sizes are compared.
+    let opposite = text.replacen("decision less 18 19 no", "decision less 18 19 yes", 1);
+    let unsized_inputs = text.replacen("decision less 18 19 no", "decision less 3 4 no", 1);
+    for changed in [opposite, unsized_inputs] {
+        assert_ne!(changed, text);
+        assert!(check(&changed).is_err());
+    }
+}
+
+#[test]
+fn a_bound_whose_way_overflows_is_refused() {
+    // The squares of a length overflow, though the length does not; or a reciprocal does, though the
+    // product with it does not.
+    let large = Domain { edge: Dyadic::power(50), floor: Dyadic::power(90), ..Domain::UNIT };
+    let tiny = Dyadic::power(-130);
+    let steep = Domain { direction: tiny, direction_floor: tiny, reach: tiny, ..Domain::UNIT };
+    let is_root = |operation: &Operation| matches!(operation, Operation::Sqrt(_));
+    for (kernel, domain) in [("plane-unit-normal", large), ("woop-watertight", steep)] {
+        let path = path::<f32>(kernel);
+        let is_reciprocal = |place: u32| matches!(path.operations[place as usize], Operation::Div(one, _) if path.operations[one as usize] == Operation::Number(1));
+        let place = path.operations.iter().position(|operation| {
+            is_root(operation) || matches!(operation, Operation::Mul(a, _) if is_reciprocal(*a))
+        });
+        let place = place.unwrap() as u32;
+        // The prover may refuse it too.
+        if Prover::new(&path, domain, Format::F32).bound(place).is_ok() {
+            let text = certificate_of(&path, "f32", domain, &[place]);
+            assert!(refusal(&text).ends_with("which may overflow"), "{}", refusal(&text));
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_line() {
+    let text = sample("triple");
+    let line = |word: &str| 1 + text.lines().position(|line| line.starts_with(word)).unwrap();
+    assert_eq!(refusal(""), "line 1: found the end of the file, expected `hairline proof 1`");
+    let domain = line("domain");
+    let cyclic = text.replacen(
+        "\nvariable ",
+        "\nvariable difference 1 0 0\nvariable difference 0 1 0\nvariable ",
+        1,
+    );
+    assert!(refusal(&cyclic).contains("expected an independent one"), "{}", refusal(&cyclic));
+    let first = text.lines().find(|line| line.starts_with("first ")).unwrap();
+    let message = refusal(&text.replacen(first, "first 1*2^-60", 1));
+    assert!(
+        message.starts_with(&format!("line {}: found `first 1*2^-60`", line("first "))),
+        "{message}"
+    );
+    let negative = text.replacen("edge 1", "edge -1", 1);
+    assert!(refusal(&negative).starts_with(&format!("line {domain}: ")));
+    let claimed = text.replace("\nclaim gate ", "\nclaim gate 0\nclaim gate ");
+    assert!(refusal(&claimed).contains("expected one with a lemma above"));
+    // A product of a number with itself is not affine in it.
+    let square = "hairline proof 1\nkernel k f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 \
+        direction 1 extent 1 direction-floor 1 floor 1 quotient 1\nprogram\nop 0 input 3\nop 1 mul 0 0\n\
+        lemma 1 sum\nvariable direction 0\nstep 0 variables +0\nstep 1 mul 0 0\n";
+    assert_eq!(
+        refusal(square),
+        "line 11: found `step 1 mul 0 0`, expected factors without a variable in common"
+    );
+    let other = square.replace("mul 0 0\n", "add 0 0\n").replace("op 1 add", "op 1 mul");
+    assert_eq!(
+        refusal(&other),
+        "line 11: found `step 1 add 0 0`, expected the operation of the program with its operands"
+    );
+}
+
+#[test]
+fn hostile_text_is_refused_at_once() {
+    let text = sample("plane");
+    let long = "9".repeat(1 << 16);
+    for (from, to) in [
+        ("edge 1", "edge 1*2^999999999"),
+        ("edge 1", "edge 1*2^4096"),
+        ("edge 1", "edge é"),
+        ("format 24 -149 127", "format 60 -2048 2048"),
+        ("op 0 input 0", "op 0 input 18446744073709551615"),
+        ("op 0 input 0", "op 18446744073709551616 input 0"),
+        ("step 18 variables +0", "step 18 variables"),
+        ("step 18 variables +0", "step 18 variables é"),
+        ("step 18 variables +0", "step"),
+        ("corner ", "corner \u{0}"),
+        ("size ", &long),
+    ] {
+        assert!(text.contains(from), "{from}");
+        assert!(check(&text.replacen(from, to, 1)).is_err(), "{to}");
+    }
+    let many = "variable quotient\n".repeat(40);
+    assert!(check(&text.replacen("variable quotient\n", &many, 1)).is_err());
+    assert!(check(&"\n".repeat(1 << 23)).is_err());
+    // Any byte may change to any other, and any piece may be missing: never a panic.
+    let mut state = 1u64;
+    let mut random = |end: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % end
+    };
+    for _ in 0..400 {
+        let mut bytes = text.clone().into_bytes();
+        let at = random(bytes.len());
+        match random(3) {
+            0 => bytes[at] = b" \n+-*^0123456789quv"[random(19)],
+            1 => drop(bytes.drain(at..(at + random(40)).min(text.len()))),
+            _ => bytes.insert(at, bytes[random(text.len())]),
+        }
+        let _ = check(&String::from_utf8_lossy(&bytes));
+    }
+}
