@@ -84,8 +84,7 @@ fn wider_unit(format: Format) -> Dyadic {
 impl Relative {
     /// The factor of a filter: a sign is right where |computed| is at least this times the permanent as
     /// it is computed, in the same order. It covers the rounding of the last sum of both, and that of the
-    /// product of the factor and the permanent. A strict comparison needs one of these less; see
-    /// docs/guide/proof.md.
+    /// product of the factor and the permanent. It holds for sums and products, without underflow.
     pub fn filter(&self, format: Format) -> Big {
         let three = Roundings { of_format: 3, wider: 0 };
         (self.for_sign.power(format) - Big::one()) * three.power(format)

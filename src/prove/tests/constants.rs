@@ -1,7 +1,7 @@
 //! Published constants of filters, reproduced.
 
 use super::super::dyadic::{Big, round_up};
-use super::super::{Domain, Dyadic, Format, Formula, Prover, Source, Step, relative};
+use super::super::{Bound, Domain, Dyadic, Format, Formula, Prover, Source, Step, relative};
 use super::{difference, orient2d, orient3d, recorded};
 use crate::arith::recorded::Recorded;
 use num_traits::{One, ToPrimitive};
@@ -98,41 +98,32 @@ fn our_static_bounds_are_smaller_than_the_published_ones() {
 
 /// Steps of a formula whose leaves are independent rounded differences, at most one in size.
 #[derive(Default)]
-struct Steps {
-    formula: Formula,
-    computed: Vec<Dyadic>,
-}
+struct Steps(Formula);
 
 impl Steps {
-    fn push(&mut self, step: Step, size: Dyadic, before: Dyadic) -> usize {
-        let format = Format::F64;
-        let formula = &mut self.formula;
+    fn push(&mut self, step: Step, given: Option<Bound>) -> usize {
+        let formula = &mut self.0;
         formula.steps.push(step);
         formula.places.push(None);
-        formula.sizes.push(size);
-        formula.errors.push(format.half_ulp(before));
+        formula.given.push(given);
         formula.relative.push(false);
         formula.rounds.push(true);
-        self.computed.push(before.round_up(format.digits));
-        self.computed.len() - 1
+        formula.steps.len() - 1
     }
     fn difference(&mut self) -> usize {
-        self.formula.variables.push(Dyadic::ONE);
-        self.formula.sources.push(Source::Quotient);
-        let variable = vec![(self.formula.variables.len() - 1, 1)];
-        self.push(Step::Variables(variable), Dyadic::ONE, Dyadic::ONE)
+        let one = Dyadic::ONE;
+        self.0.variables.push(one);
+        self.0.sources.push(Source::Quotient);
+        let variable = vec![(self.0.variables.len() - 1, 1)];
+        let given = Bound { size: one, computed: one, error: Format::F64.half_ulp(one) };
+        self.push(Step::Variables(variable), Some(given))
     }
     fn times(&mut self, a: usize, b: usize) -> usize {
-        let size = self.formula.sizes[a] * self.formula.sizes[b];
-        self.push(Step::Mul(a, b), size, self.computed[a] * self.computed[b])
-    }
-    fn sum(&mut self, step: Step, a: usize, b: usize) -> usize {
-        let size = self.formula.sizes[a] + self.formula.sizes[b];
-        self.push(step, size, self.computed[a] + self.computed[b])
+        self.push(Step::Mul(a, b), None)
     }
     fn minor(&mut self, a: usize, b: usize, c: usize, d: usize) -> usize {
         let (p, q) = (self.times(a, b), self.times(c, d));
-        self.sum(Step::Sub(p, q), p, q)
+        self.push(Step::Sub(p, q), None)
     }
 }
 
@@ -148,13 +139,11 @@ fn the_determinant_of_three_normals_has_less_than_784_units() {
     let [x, y, z] = [(wy, uz, wz, uy), (wx, uz, wz, ux), (wx, uy, wy, ux)]
         .map(|(a, b, c, d)| steps.minor(a, b, c, d));
     let [da, db, dc] = [(vx, x), (vz, z), (vy, y)].map(|(a, b)| steps.times(a, b));
-    let sum = steps.sum(Step::Add(da, db), da, db);
-    steps.sum(Step::Sub(sum, dc), sum, dc);
-    let mut formula = steps.formula;
+    let sum = steps.push(Step::Add(da, db), None);
+    steps.push(Step::Sub(sum, dc), None);
+    let mut formula = steps.0;
     let mut units = |last: bool| {
-        if !last {
-            *formula.errors.last_mut().expect("a step") = Dyadic::ZERO;
-        }
+        *formula.rounds.last_mut().expect("a step") = last;
         let found = formula.maximum(Format::F64).expect("multi-affine");
         (found.first.to_f64() + found.rest.to_f64()) * 2f64.powi(53)
     };

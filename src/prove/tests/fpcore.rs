@@ -148,7 +148,7 @@ fn value(text: &str, inputs: &[f64; 17]) -> f64 {
 }
 
 /// Every number of a path's program, by the operations of its floats.
-fn run<F: Float>(path: &Path, inputs: &[F; 17]) -> Vec<F> {
+pub(super) fn run<F: Float>(path: &Path, inputs: &[F; 17]) -> Vec<F> {
     let mut values: Vec<F> = Vec::with_capacity(path.operations.len());
     for operation in &path.operations {
         let of = |place: Place| values[place as usize];
@@ -172,7 +172,7 @@ fn run<F: Float>(path: &Path, inputs: &[F; 17]) -> Vec<F> {
 }
 
 /// Whether inputs of these numbers take a path.
-fn is_taken<F: Float>(path: &Path, values: &[F]) -> bool {
+pub(super) fn is_taken<F: Float>(path: &Path, values: &[F]) -> bool {
     let of = |place: Place| values[place as usize];
     path.decisions.iter().all(|(comparison, answer)| {
         let holds = match *comparison {
@@ -190,7 +190,7 @@ fn cores_compute_what_a_kernel_does<F: Scalar>(entry: &Entry, format: Format) ->
     let paths = gated.paths().expect("recorded");
     let mut draw = Draw::new("fpcore", 1, 1);
     let mut compared = 0;
-    for round in 0..24 {
+    for round in 0..16 {
         // Every other case on a lattice, where determinants vanish.
         let mut number = || match round % 2 {
             0 => draw.symmetric::<F>(),

@@ -6,6 +6,10 @@ use crate::kernel::{Path, Scalar, find};
 use std::io::{ErrorKind, Write};
 use std::process::{Command, Stdio};
 
+/// Everything at most 1.
+const BOX: Domain =
+    Domain { edge: Dyadic::ONE, reach: Dyadic::ONE, world: Dyadic::ONE, ..Domain::UNIT };
+
 /// What Gappa answers to a script: whether it proved it, and what it wrote. None if there is no Gappa.
 fn answer(script: &str) -> Option<(bool, String)> {
     let spawned = Command::new("gappa")
@@ -55,13 +59,13 @@ fn both<F: Scalar>(kernel: &str, gate: &str, wanted: fn(&Path) -> bool) -> Optio
     let format = if F::DIGITS == 24 { Format::F32 } else { Format::F64 };
     let (path, place) = quantity::<F>(kernel, gate, wanted);
     let name = format!("{kernel} {gate}");
-    let script = |goal| gappa(&path, place, Domain::UNIT, format, &name, goal).expect("a script");
+    let script = |goal| gappa(&path, place, BOX, format, &name, goal).expect("a script");
     let (proved, text) = answer(&script(None))?;
     assert!(proved, "{name}: {text}\n{}", script(None));
     let theirs = found(&text).unwrap_or_else(|| panic!("{name}: {text}"));
     let (proved, text) = answer(&script(Some(theirs)))?;
     assert!(proved, "{name}: {text}");
-    let ours = Prover::new(&path, Domain::UNIT, format).bound(place).expect("a bound").error;
+    let ours = Prover::new(&path, BOX, format).bound(place).expect("a bound").error;
     Some([theirs, ours].map(|bound| bound.to_f64() / format.unit().to_f64()))
 }
 
@@ -88,8 +92,8 @@ fn gappa_refuses_a_goal_that_is_too_small() {
     let (path, place) = quantity::<f64>("moller-trumbore", "parallel", |_| true);
     let goal = |units: i128| Dyadic::new(units, -53);
     for (units, expected) in [(21, true), (1, false)] {
-        let script = gappa(&path, place, Domain::UNIT, Format::F64, "det", Some(goal(units)))
-            .expect("a script");
+        let script =
+            gappa(&path, place, BOX, Format::F64, "det", Some(goal(units))).expect("a script");
         let Some((proved, text)) = answer(&script) else { return };
         assert_eq!(proved, expected, "{units} u: {text}");
     }

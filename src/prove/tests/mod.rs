@@ -1,6 +1,7 @@
 mod constants;
 mod fpcore;
 mod gappa;
+mod permanent;
 mod tiny;
 
 use crate::arith::recorded::{Place, Recorded, record};

@@ -92,8 +92,9 @@ impl Worst {
         let (low, high) = values.iter().fold((0.0f64, 0.0f64), |(l, h), x| (l.min(*x), h.max(*x)));
         let size = Dyadic::from_f64(high - low).expect("finite");
         let domain = Domain { edge: size, reach: size, ..Domain::UNIT };
-        let bound =
-            Prover::new(path, domain, format).bound(place).expect("a polynomial").error.to_f64();
+        let mut prover = Prover::new(path, domain, format);
+        let bound = prover.bound(place).expect("a polynomial").error.to_f64();
+        let before_last = prover.bound_before_last(place).expect("a polynomial").to_f64();
         let form = relative(path, place, domain, format).expect("a polynomial");
         let factor = form.factor.to_f64();
         let mut run = Run::new(path);
@@ -108,6 +109,9 @@ impl Worst {
                 run.step(path, at, digits);
             }
             let (computed, exact) = (run.computed[last], run.exact[last]);
+            // A wrong sign and a zero are only as wrong as what the last operation rounds.
+            assert!(computed * exact >= 0.0 || exact.abs() <= before_last);
+            assert!(exact != 0.0 || computed.abs() <= before_last);
             let error = (computed - exact).abs();
             self.of_bound = self.of_bound.max(error / bound);
             if run.permanent[last] > 0.0 {
