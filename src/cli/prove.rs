@@ -21,7 +21,6 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::io::Write;
 
 /// What to prove, and how to report it.
 #[derive(Args)]

@@ -249,7 +249,7 @@ impl<'a, F: Searched> Search<'a, F> {
                 computed,
                 Bounded::new,
                 |x, y| {
-                    let difference = x.clone() - y;
+                    let difference = *x - y;
                     difference.approximate().and_then(|d| d.partial_cmp(&0.0))
                 },
                 |x| x.approximate(),
