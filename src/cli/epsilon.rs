@@ -1,5 +1,7 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
+mod scene;
+
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
@@ -49,9 +51,14 @@ pub struct EpsilonArguments {
         value_delimiter = ',',
         value_name = "2^K",
         default_value = "2^-20,2^-10,1,2^10,2^20",
+        conflicts_with = "scene",
         allow_hyphen_values = true
     )]
     scales: Vec<String>,
+
+    /// With --scene: what a wrong answer costs; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
+    #[arg(long, value_name = "KIND=COST,...", requires = "scene", allow_hyphen_values = true)]
+    cost: Option<String>,
 
     #[command(flatten)]
     sources: SourceArguments,
@@ -78,6 +85,9 @@ const SCALE_COUNT: u64 = 4000;
 
 /// Runs the command.
 pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
+    if arguments.sources.scene.is_some() {
+        return scene::run(arguments);
+    }
     let outputs = paired_outputs(
         EPSILON_FORMATS,
         |format| format.name,

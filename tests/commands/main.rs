@@ -20,6 +20,7 @@ mod own;
 mod plugin;
 mod program;
 mod rows;
+mod scene;
 mod screen;
 mod shards;
 mod shrink;

@@ -12,6 +12,7 @@ mod map;
 mod margins;
 mod oracle;
 mod response;
+mod scenes;
 mod severity;
 mod strategy;
 mod trials;
