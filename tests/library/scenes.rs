@@ -178,7 +178,7 @@ fn shares(setting: &Setting<'_, f32>, all: &[Asked], epsilons: &[f32]) -> Vec<f6
     }
     let kernel = f32::subject(setting.row.entry).unwrap();
     let (mut wrong, mut of) = (vec![0; setting.counts.len()], vec![0; setting.counts.len()]);
-    let mut verdicts = vec![Verdict::miss(None); 8];
+    let mut verdicts = [Verdict::miss(None); 8];
     for Asked { count, cases } in all {
         let verdicts = &mut verdicts[..cases.len()];
         kernel.run(cases, &of_gates, verdicts);

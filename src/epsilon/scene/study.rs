@@ -56,7 +56,7 @@ pub fn study_scene<F: Scalar>(
     let (counts, fresh) = (setting.counts, fresh_seed(seed));
     let own = own_epsilons(setting.row, setting.knobs);
     let zero = vec![F::zero(); setting.knobs.len()];
-    let best = cheapest(setting, &[own.clone()], costs, seed, count, observer);
+    let best = cheapest(setting, std::slice::from_ref(&own), costs, seed, count, observer);
     let found = limits(setting, &best, seed, count, observer);
     let mut vectors = vec![best.clone()];
     for other in [own, zero].iter().chain(at) {

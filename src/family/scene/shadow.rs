@@ -32,7 +32,7 @@ fn hit<F: Scalar>(
         let case = interior_case::<F>(draw, scene);
         let Some(measured) = gated.map(|kernel| kernel.measure(&case)) else { break };
         let Some(values) = measured.values else { continue };
-        if measured.margins.iter().any(|margin| !(F::zero() <= *margin)) {
+        if !measured.margins.iter().all(|margin| F::zero() <= *margin) {
             continue;
         }
         let triangle = case.triangle.vertices().map(Into::into);
