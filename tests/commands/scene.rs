@@ -120,3 +120,25 @@ fn bad_scenes_get_one_clear_line() {
     let (_, error) = ends(&folder, &["epsilon", "--cost", "crack=1"], 2);
     assert!(error.contains("--scene"), "{error}");
 }
+
+#[test]
+fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
+    let folder = scratch("scene-columns");
+    let screen = |kernel: &str, more: &[&str]| {
+        let mut all = vec!["epsilon", "--kernel", kernel, "--scene", "unit", "-n", "500"];
+        all.extend(["--scalar", "f32"]);
+        all.extend(more);
+        ends(&folder, &all, 0).0
+    };
+    let head = |screen: &str| -> Vec<String> {
+        let line = screen.lines().find(|line| line.starts_with("wrong on fresh rays")).unwrap();
+        line.split_once(':').unwrap().1.split_whitespace().map(str::to_owned).collect()
+    };
+    let both = screen("plane-unit-normal", &[]);
+    assert_eq!(head(&both), ["this", "zero", "1e-6"]);
+    assert_eq!(both.matches("  use  ").count(), 1, "{both}");
+    let at = screen("moller-trumbore", &["--gate", "t_min", "--at", "1e-7,3e-3"]);
+    assert_eq!(head(&at), ["this", "as", "published", "1e-7", "3e-3"]);
+    let given = screen("moller-trumbore", &["--epsilon", "parallel=1e-9,edge=-1e-5"]);
+    assert!(head(&given).join(" ").starts_with("this as given zero"), "{given}");
+}

@@ -7,7 +7,9 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
 use crate::cli::sources::{scalars_in_use, set_threads};
-use crate::epsilon::scene::{Costs, Knob, MOST_KNOBS, Setting, contract_with, counts, study_scene};
+use crate::epsilon::scene::{
+    Costs, Knob, MOST_KNOBS, Setting, contract_with, counts, own_epsilons, study_scene,
+};
 use crate::family::Stratum;
 use crate::kernel::Scalar;
 use crate::report::Style;
@@ -33,17 +35,22 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let (scene, unit) = arguments.sources.scene_and_unit()?;
     let rows = arguments.kernels.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
-    let mut tuned = Vec::new();
+    let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
     for row in &rows {
+        let name = row.entry.info.name;
+        if let Some(known) = tuned.iter_mut().find(|known| known.row.entry.info.name == name) {
+            known.sets.push(row);
+            continue;
+        }
         match arguments.knobs(row) {
-            Ok(knobs) => tuned.push((row, knobs)),
-            Err(reason) if rows.len() == 1 => return Err(Failure::usage(reason)),
-            Err(reason) if !arguments.quiet => eprintln!("left out: {reason}"),
-            Err(_) => {}
+            Ok(knobs) => tuned.push(Tuned { row, sets: vec![row], knobs }),
+            Err(reason) => reasons.push(reason),
         }
     }
-    if tuned.is_empty() {
-        return Err(Failure::usage("no kernel has a number that can be chosen"));
+    match reasons.first() {
+        Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
+        _ if arguments.quiet => {}
+        _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
     }
     let (seed, count) = arguments.sources.seed_and_count(COUNT);
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
@@ -52,12 +59,13 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
     let at = &arguments.at;
     let run = Run { scene: &scene, costs: &costs, at, seed, count, progress: &progress };
     let mut parts = Vec::new();
-    for (row, knobs) in &tuned {
-        if scalars[0] && row.entry.scalars()[0] {
-            parts.push(run.study::<f32>(row, knobs)?);
+    for tuned in &tuned {
+        let in_scalar = tuned.row.entry.scalars();
+        if scalars[0] && in_scalar[0] {
+            parts.push(run.study::<f32>(tuned)?);
         }
-        if scalars[1] && row.entry.scalars()[1] {
-            parts.push(run.study::<f64>(row, knobs)?);
+        if scalars[1] && in_scalar[1] {
+            parts.push(run.study::<f64>(tuned)?);
         }
     }
     progress.finish();
@@ -67,6 +75,13 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         (format.write)(&record, style, out)
     })?;
     Ok(Status::Success)
+}
+
+/// A kernel, the rows of its epsilon sets, and what is chosen of it.
+struct Tuned<'a> {
+    row: &'a Row,
+    sets: Vec<&'a Row>,
+    knobs: Vec<Knob>,
 }
 
 struct Run<'a> {
@@ -79,10 +94,11 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn study<F: Scalar>(&self, row: &Row, knobs: &[Knob]) -> Result<SceneKernelPart, Failure> {
+    fn study<F: Scalar>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
+        let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
         let shown = || Failure::usage(format!("{name} does not show its gates in {}", F::NAME));
-        let row = Row { contract: contract_with(knobs, &row.contract), ..row.clone() };
+        let row = Row { contract: contract_with(knobs, &row.contract), ..(*row).clone() };
         let counts = counts(knobs, &row.contract);
         let setting = Setting {
             row: &row,
@@ -92,13 +108,15 @@ impl Run<'_> {
             scene: self.scene,
             relative: false,
         };
-        let at = self.at.iter().map(|text| {
+        let own = |set: &&Row| (set.set.clone(), own_epsilons::<F>(set, knobs));
+        let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
+        named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
+        for text in self.at {
             let value = F::parse(text).filter(|value| value.is_finite());
             let wrong = || format!("--at: '{text}' is not a finite number of {}", F::NAME);
-            value.map(|value| vec![value]).ok_or_else(|| Failure::usage(wrong()))
-        });
-        let at = at.collect::<Result<Vec<Vec<F>>, _>>()?;
-        let study = study_scene(&setting, self.costs, &at, self.seed, self.count, self.progress)
+            named.push((text.clone(), vec![value.ok_or_else(|| Failure::usage(wrong()))?]));
+        }
+        let study = study_scene(&setting, self.costs, &named, self.seed, self.count, self.progress)
             .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
         Ok(kernel_part(&setting, &study))
     }

@@ -15,8 +15,8 @@ use crate::kernel::{Scalar, Verdict};
 pub struct SceneStudy<F> {
     /// By knob: the cheapest epsilons together.
     pub best: Vec<F>,
-    /// What epsilons do on fresh rays: the cheapest, the row's own, and zero, without those that are
-    /// equal to one before.
+    /// What epsilons do on fresh rays: the cheapest, and the named ones, without those that are equal to
+    /// one before.
     pub tried: Vec<Tried<F>>,
     /// How far each knob may move, and how often that was wrong on fresh rays.
     pub limits: Vec<(Limit<F>, Trials)>,
@@ -28,6 +28,8 @@ pub struct SceneStudy<F> {
 
 /// What epsilons do on fresh rays.
 pub struct Tried<F> {
+    /// What they are called.
+    pub name: String,
     /// By knob.
     pub epsilons: Vec<F>,
     /// By count: the wrong answers.
@@ -44,28 +46,28 @@ pub fn fresh_seed(seed: u64) -> u64 {
 /// A scale-free form is worth saying if it leaves less than this share of the cost.
 const WORTH_SAYING: f64 = 0.8;
 
-/// Runs a study, which also tries the epsilons `at`. The error is a disagreement between margins and the kernel's own run: a fault of this tool.
+/// Runs a study, which also weighs and tries epsilons with names. The error is a disagreement between margins and the kernel's own run: a fault of this tool.
 pub fn study_scene<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
-    at: &[Vec<F>],
+    named: &[(String, Vec<F>)],
     seed: u64,
     count: u64,
     observer: &dyn Observer,
 ) -> Result<SceneStudy<F>, String> {
     let (counts, fresh) = (setting.counts, fresh_seed(seed));
-    let own = own_epsilons(setting.row, setting.knobs);
-    let zero = vec![F::zero(); setting.knobs.len()];
-    let best = cheapest(setting, std::slice::from_ref(&own), costs, seed, count, observer);
+    let given: Vec<Vec<F>> = named.iter().map(|(_, epsilons)| epsilons.clone()).collect();
+    let best = cheapest(setting, &given, costs, seed, count, observer);
     let found = limits(setting, &best, seed, count, observer);
-    let mut vectors = vec![best.clone()];
-    for other in [own, zero].iter().chain(at) {
-        if !vectors.contains(other) {
-            vectors.push(other.clone());
+    let mut vectors = vec![("recommended".to_owned(), best.clone())];
+    for (name, epsilons) in named {
+        if !vectors.iter().any(|(_, known)| known == epsilons) {
+            vectors.push((name.clone(), epsilons.clone()));
         }
     }
     let plain = vectors.len();
-    let mut attempts: Vec<Attempt<F>> = vectors.iter().cloned().map(Attempt::new).collect();
+    let mut attempts: Vec<Attempt<F>> =
+        vectors.iter().map(|(_, epsilons)| Attempt::new(epsilons.clone())).collect();
     attempts.extend(found.iter().filter_map(|limit| Attempt::at_limit(limit, &best)));
     let mut wrong = run_at(setting, &attempts, fresh, count, observer)?;
     let mut of_limits = wrong.split_off(plain).into_iter();
@@ -75,17 +77,18 @@ pub fn study_scene<F: Scalar>(
         (limit, trials)
     };
     let found = found.into_iter().map(with_trials).collect();
-    let tried = |(epsilons, wrong): (&Vec<F>, Vec<Trials>)| {
+    let tried = |((name, epsilons), wrong): ((String, Vec<F>), Vec<Trials>)| {
         let cost = costs.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)));
-        Tried { epsilons: epsilons.clone(), wrong, cost }
+        Tried { name, epsilons, wrong, cost }
     };
-    let all: Vec<Tried<F>> = vectors.iter().zip(wrong).map(tried).collect();
+    let all: Vec<Tried<F>> = vectors.into_iter().zip(wrong).map(tried).collect();
     let relative = Setting { relative: true, ..*setting };
     let followed = cheapest(&relative, &[], costs, seed, count, observer);
     let relative_limits = limits(&relative, &followed, seed, count, observer);
     let attempt = [Attempt::new(followed.clone())];
     let wrong = count_at(&relative, &attempt, fresh, count, observer);
-    let relative = wrong.into_iter().next().map(|wrong| tried((&followed, wrong)));
+    let relative =
+        wrong.into_iter().next().map(|wrong| tried((("scale-free".to_owned(), followed), wrong)));
     let relative = relative.filter(|relative| relative.cost < WORTH_SAYING * all[0].cost);
     Ok(SceneStudy { best, tried: all, limits: found, relative, relative_limits })
 }

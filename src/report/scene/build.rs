@@ -6,9 +6,7 @@ use crate::arith::Float;
 use crate::case::{DirectionLength, Scene};
 use crate::contract::Extent;
 use crate::epsilon::scale_free_form;
-use crate::epsilon::scene::{
-    Costs, Kind, Knob, Limit, SceneStudy, Setting, Tried, fresh_seed, own_epsilons,
-};
+use crate::epsilon::scene::{Costs, Kind, Knob, Limit, SceneStudy, Setting, Tried, fresh_seed};
 use crate::kernel::Scalar;
 use crate::report::epsilon::shortest;
 use crate::report::record::Rate;
@@ -49,18 +47,7 @@ pub fn kernel_part<F: Scalar>(setting: &Setting<'_, F>, study: &SceneStudy<F>) -
             form: scale_free_form(dimension),
         }
     };
-    let names = (0..study.tried.len()).map(|i| {
-        let epsilons = &study.tried[i].epsilons;
-        match i {
-            0 => "recommended".to_owned(),
-            _ if epsilons.iter().all(F::is_zero) => "zero".to_owned(),
-            _ if *epsilons == own_epsilons::<F>(setting.row, setting.knobs) => {
-                setting.row.set.clone()
-            }
-            _ => epsilons.iter().copied().map(shortest).collect::<Vec<_>>().join(","),
-        }
-    });
-    let tried = names.zip(&study.tried).map(|(name, tried)| tried_part(name, tried)).collect();
+    let tried = study.tried.iter().map(tried_part).collect();
     let limits = study.limits.iter().map(|(limit, trials)| {
         let knob = setting.knobs[limit.knob];
         LimitPart {
@@ -91,7 +78,7 @@ pub fn kernel_part<F: Scalar>(setting: &Setting<'_, F>, study: &SceneStudy<F>) -
         tried,
         limits: limits.collect(),
         conflicts: conflicts(study),
-        relative: study.relative.as_ref().map(|tried| tried_part("scale-free".to_owned(), tried)),
+        relative: study.relative.as_ref().map(tried_part),
     }
 }
 
@@ -129,9 +116,9 @@ fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
     (0..study.best.len()).filter_map(conflict).collect()
 }
 
-fn tried_part<F: Float>(name: String, tried: &Tried<F>) -> TriedPart {
+fn tried_part<F: Float>(tried: &Tried<F>) -> TriedPart {
     TriedPart {
-        name,
+        name: tried.name.clone(),
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
         cost: tried.cost,

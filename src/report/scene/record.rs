@@ -91,7 +91,7 @@ pub struct CountPart {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TriedPart {
-    /// `recommended`, the name of the row's own set, `zero`, the value of `--at`, or `scale-free`.
+    /// `recommended`, the name of one of the kernel's sets, `zero`, a value of `--at`, or `scale-free`.
     pub name: String,
     /// By knob.
     pub epsilons: Vec<String>,

@@ -124,6 +124,7 @@ fn effects(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) ->
         let name = match tried.name.as_str() {
             "recommended" => "this",
             "source" => "as published",
+            name if WIDTH <= name.len() => "as given",
             name => name,
         };
         write!(out, "{name:>WIDTH$}")?;
@@ -185,8 +186,8 @@ fn limits(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) -> 
     if part.limits.is_empty() {
         return Ok(());
     }
-    let title = "each alone may move to (95 % sure):";
-    writeln!(out, "{title:<54}{:>12}{:>WIDTH$}", "at most", "fresh rays")?;
+    let title = "each alone may move to (95 % sure, so 1 in 20 fails):";
+    writeln!(out, "{title:<55}{:>11}{:>WIDTH$}", "at most", "fresh rays")?;
     let unit = |knob: &KnobPart| match (knob.role.as_str(), record.unit_directions) {
         ("t", true) => spaced(&record.unit),
         _ => String::new(),
@@ -200,18 +201,12 @@ fn limits(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) -> 
         });
         writeln!(
             out,
-            "  {:<8} {:<13} {what:<29}{:>12}{fresh:>WIDTH$}",
+            "  {:<8} {:<13} {what:<29}{:>12}{fresh:>WIDTH$}{}",
             knob.name,
             bound(limit, &unit(knob)),
             format!("1 in {}", group_digits(limit.one_in)),
+            if limit.set_by.is_some() { " *" } else { "" },
         )?;
-    }
-    for limit in &part.limits {
-        if let Some(set_by) = &limit.set_by {
-            let knob = &part.knobs[limit.knob];
-            let bound = bound(limit, &unit(knob));
-            writeln!(out, "  {} {bound} is set by {set_by}", knob.name)?;
-        }
     }
     for conflict in &part.conflicts {
         let (lower, upper) = (&part.limits[conflict.lower], &part.limits[conflict.upper]);
@@ -228,7 +223,7 @@ fn limits(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) -> 
                 format!("{form} in its place does both, with e from {from} to {to}")
             }
             (_, _, "t") => "start the ray off the surface instead".to_owned(),
-            _ => "rounding decides those rays; wider numbers or another kernel can".to_owned(),
+            _ => "rounding decides those rays: it takes wider numbers or another kernel".to_owned(),
         };
         writeln!(out, "  {instead}")?;
     }
@@ -244,5 +239,9 @@ fn legend(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()> {
         out,
         "almost parallel: sines from 1/8 to an eighth of an ulp of 1, evenly by halvings"
     )?;
+    let is_set = |limit: &LimitPart| limit.set_by.is_some();
+    if record.kernels.iter().any(|part| part.limits.iter().any(is_set)) {
+        writeln!(out, "* set by the scene's sizes, distances and angles as well as by rounding")?;
+    }
     writeln!(out, "beside: within about one triangle's size; every share is of its own row")
 }
