@@ -148,12 +148,9 @@ fn effects(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) ->
             None => format!("{}: {e}", knob.name),
         });
         let forms: Vec<String> = forms.collect();
-        writeln!(
-            out,
-            "epsilons that follow each triangle's size would cost {:.3}: {}",
-            relative.cost,
-            forms.join(", ")
-        )?;
+        let cost = relative.cost;
+        writeln!(out, "epsilons that follow each triangle's size would cost {cost:.3}:")?;
+        writeln!(out, "  {}", forms.join(", "))?;
     }
     Ok(())
 }
@@ -216,8 +213,8 @@ fn limits(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) -> 
             let count = &part.counts[limit.count];
             format!("{} ({})", bound(limit, &unit), label(&count.stratum, &count.kind))
         };
-        writeln!(out, "no {} does both:", knob.name)?;
-        writeln!(out, "  {} and {};", what(lower), what(upper))?;
+        writeln!(out, "no {} does both {}", knob.name, what(lower))?;
+        writeln!(out, "  and {}:", what(upper))?;
         let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
             (Some([from, to]), Some(form), _) => {
                 format!("{form} in its place does both, with e from {from} to {to}")
