@@ -16,7 +16,8 @@ use crate::kernel::{Gate, Gated, Scalar};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
 use crate::suggest::nearest_name;
-use clap::Args;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args};
 
 /// Which kernel, gate and cases, and how to report.
 #[derive(Args)]
@@ -84,9 +85,10 @@ pub struct EpsilonArguments {
 const SCALE_COUNT: u64 = 4000;
 
 /// Runs the command.
-pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
+pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
     if arguments.sources.scene.is_some() {
-        return scene::run(arguments);
+        let source = matches.and_then(|matches| matches.value_source("count"));
+        return scene::run(arguments, source == Some(ValueSource::CommandLine));
     }
     let outputs = paired_outputs(
         EPSILON_FORMATS,

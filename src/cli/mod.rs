@@ -188,7 +188,9 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     };
     let outcome = match command {
         Command::Audit(arguments) => audit::run(&arguments),
-        Command::Epsilon(arguments) => epsilon::run(&arguments),
+        Command::Epsilon(arguments) => {
+            epsilon::run(&arguments, matches.subcommand_matches("epsilon"))
+        }
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),

@@ -28,15 +28,16 @@ pub struct SourceArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// How many cases of each family [default: 20000, or 40000 of `epsilon --scene`]
+    /// How many cases of each family (40000 with `epsilon --scene`, unless given)
     #[arg(
         long,
         short = 'n',
+        default_value_t = COUNT,
         value_name = "N",
         value_parser = case_count,
         allow_hyphen_values = true
     )]
-    count: Option<u64>,
+    count: u64,
 
     /// Run every case of the lattice family instead of a sample
     #[arg(long, help_heading = RUNNING)]
@@ -92,8 +93,8 @@ impl SourceArguments {
         self.scene.iter().for_each(|scene| add("--scene", scene));
         self.mesh.iter().for_each(|path| add("--mesh", path));
         self.corpus.iter().for_each(|path| add("--corpus", path));
-        if let Some(count) = self.count.filter(|count| *count != COUNT) {
-            add("-n", &count.to_string());
+        if self.count != COUNT {
+            add("-n", &self.count.to_string());
         }
         if self.seed != SEED {
             add("--seed", &self.seed.to_string());
@@ -124,9 +125,9 @@ impl SourceArguments {
         Ok((self.scene()?.unwrap_or_default(), unit))
     }
 
-    /// The seed, and how many cases of each family, which the flags may leave to the command.
-    pub fn seed_and_count(&self, usual: u64) -> (u64, u64) {
-        (self.seed, self.count.unwrap_or(usual))
+    /// The seed, and how many cases of each family.
+    pub fn seed_and_count(&self) -> (u64, u64) {
+        (self.seed, self.count)
     }
 
     /// Whether families are named.
@@ -146,7 +147,7 @@ impl SourceArguments {
         quiet: bool,
         usual: impl Fn(&Family) -> bool,
     ) -> Result<Vec<Source>, Failure> {
-        let (seed, count) = self.seed_and_count(COUNT);
+        let (seed, count) = self.seed_and_count();
         let parameters = self.parameters()?;
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";

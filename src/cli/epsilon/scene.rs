@@ -24,8 +24,8 @@ const MOST_AT: usize = 5;
 /// Passes over every stratum: the grid, the limits and the fresh rays, and again for scale-free forms.
 const PASSES: u64 = 6;
 
-/// Runs the command.
-pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
+/// Runs the command; the flags may leave the count to it.
+pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
     arguments.refuse_what_scenes_do_not_take()?;
     let outputs =
         paired_outputs(SCENE_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
@@ -52,7 +52,8 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         _ if arguments.quiet => {}
         _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
     }
-    let (seed, count) = arguments.sources.seed_and_count(COUNT);
+    let (seed, count) = arguments.sources.seed_and_count();
+    let count = if is_count_given { count } else { COUNT };
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
     let total = PASSES * Stratum::ALL.len() as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.quiet);
