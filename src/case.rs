@@ -2,6 +2,10 @@
 
 #![forbid(unsafe_code)]
 
+mod scene;
+
+pub use scene::{DirectionLength, SCENES, Scene, ScenePreset};
+
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
 use std::fmt;
 use std::str::FromStr;
@@ -144,6 +148,10 @@ pub struct Parameters {
     pub unit_direction: bool,
     /// The digest of the mesh that the cases come from.
     pub mesh: Option<String>,
+    /// The scene that the cases come from.
+    pub scene: Option<Scene>,
+    /// The kernel at whose hit points a scene's shadow rays start.
+    pub kernel: Option<String>,
 }
 
 impl Parameters {
@@ -170,6 +178,8 @@ impl fmt::Display for Parameters {
             words.push("unit".to_owned());
         }
         words.extend(self.mesh.iter().map(|digest| format!("mesh={digest}")));
+        words.extend(self.scene.iter().map(Scene::to_string));
+        words.extend(self.kernel.iter().map(|kernel| format!("kernel={kernel}")));
         f.write_str(if words.is_empty() { "-".to_owned() } else { words.join(",") }.as_str())
     }
 }
@@ -181,16 +191,30 @@ impl FromStr for Parameters {
         let mut parameters = Parameters::default();
         for word in text.split(',').filter(|word| *word != "-") {
             let (key, value) = word.split_once('=').unwrap_or((word, ""));
+            let mut scene = parameters.scene.clone().unwrap_or_default();
+            if scene.set(key, value)? {
+                parameters.scene = Some(scene);
+                continue;
+            }
             match key {
                 "scale" => parameters.scale = parse_power_of_two(value)?,
                 "scale-direction" => parameters.scale_direction = true,
                 "offset" => parameters.offset = parse_offset(value)?,
                 "unit" => parameters.unit_direction = true,
                 "mesh" => parameters.mesh = Some(value.to_owned()),
+                "kernel" => parameters.kernel = Some(value.to_owned()),
                 _ => {
-                    let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest";
+                    let known = "scale=2^k, scale-direction, offset=x:y:z, unit, mesh=digest, \
+                                 the words of a scene, kernel=name";
                     return Err(format!("unknown parameter '{key}'; there are {known}"));
                 }
+            }
+        }
+        if let Some(scene) = &parameters.scene {
+            scene.check()?;
+            let scales = parameters.scale != 0 || parameters.scale_direction;
+            if scales || !parameters.keep_truth() {
+                return Err("a scene has sizes of its own: no scale, offset or unit".to_owned());
             }
         }
         Ok(parameters)
@@ -360,6 +384,7 @@ mod tests {
             "edge-near@1/f32/-/42/17",
             "fan@3/f64/scale=2^-10,scale-direction,offset=1e6:0e0:-2.5e0,unit/0/5.2",
             "mesh@1/f32/mesh=0123456789abcdef/7/1000000",
+            "scene-shadow@1/f32/extent=5,edge=0.01..3,distance=0..10,direction=unit,kernel=cramer/1/2",
         ] {
             assert_eq!(text.parse::<CaseId>().unwrap().to_string(), text);
         }

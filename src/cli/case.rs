@@ -7,7 +7,7 @@ use crate::case::{Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
 use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
-use crate::kernel::Scalar;
+use crate::kernel::{self, Scalar};
 use crate::mesh::{Part, Targets, Topology};
 use crate::report::number_of;
 use clap::Args;
@@ -141,6 +141,14 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
         None => (id.family.as_str(), false),
     };
     let family = family_of(id, name)?;
+    if let Some(scene) = &id.parameters.scene {
+        scene.check_in::<F>().map_err(|error| Failure::usage(format!("'{id}': {error}")))?;
+    }
+    if let Some(name) = &id.parameters.kernel {
+        let names = kernel::all().into_iter().map(|entry| entry.info.name);
+        kernel::find(name)
+            .ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))?;
+    }
     if family.size.map_or(in_order, |size| id.index >= size) {
         return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
     }

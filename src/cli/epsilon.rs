@@ -1,5 +1,7 @@
 //! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
 
+mod scene;
+
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
@@ -14,7 +16,8 @@ use crate::kernel::{Gate, Gated, Scalar};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
 use crate::suggest::nearest_name;
-use clap::Args;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args};
 
 /// Which kernel, gate and cases, and how to report.
 #[derive(Args)]
@@ -49,9 +52,14 @@ pub struct EpsilonArguments {
         value_delimiter = ',',
         value_name = "2^K",
         default_value = "2^-20,2^-10,1,2^10,2^20",
+        conflicts_with = "scene",
         allow_hyphen_values = true
     )]
     scales: Vec<String>,
+
+    /// With --scene: what a wrong answer costs; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
+    #[arg(long, value_name = "KIND=COST,...", requires = "scene", allow_hyphen_values = true)]
+    cost: Option<String>,
 
     #[command(flatten)]
     sources: SourceArguments,
@@ -77,7 +85,11 @@ pub struct EpsilonArguments {
 const SCALE_COUNT: u64 = 4000;
 
 /// Runs the command.
-pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
+pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
+    if arguments.sources.scene.is_some() {
+        let source = matches.and_then(|matches| matches.value_source("count"));
+        return scene::run(arguments, source == Some(ValueSource::CommandLine));
+    }
     let outputs = paired_outputs(
         EPSILON_FORMATS,
         |format| format.name,

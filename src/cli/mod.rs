@@ -191,7 +191,9 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     };
     let outcome = match command {
         Command::Audit(arguments) => audit::run(&arguments),
-        Command::Epsilon(arguments) => epsilon::run(&arguments),
+        Command::Epsilon(arguments) => {
+            epsilon::run(&arguments, matches.subcommand_matches("epsilon"))
+        }
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Prove(arguments) => prove::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

@@ -4,8 +4,8 @@ use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_set, read_mesh};
 use crate::audit::{Row, Source, shell_word};
-use crate::case::{Parameters, parse_offset, parse_power_of_two};
-use crate::family::{FAMILIES, Family, MeshFamily, find};
+use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
+use crate::family::{FAMILIES, Family, MeshFamily, STRATA, find};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use std::collections::HashSet;
@@ -28,7 +28,7 @@ pub struct SourceArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// How many cases of each family
+    /// How many cases of each family (40000 with `epsilon --scene`, unless given)
     #[arg(
         long,
         short = 'n',
@@ -63,6 +63,11 @@ pub struct SourceArguments {
     #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true, help_heading = RUNNING)]
     direction: Option<String>,
 
+    /// Run rays in a scene instead of the families: unit, room, city or cad-mm, or what is known of yours,
+    /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit
+    #[arg(long, value_name = "SCENE")]
+    pub(super) scene: Option<String>,
+
     /// Run rays at the edges, vertices and faces of an OBJ file; may be repeated
     #[arg(long, value_name = "FILE")]
     mesh: Vec<String>,
@@ -85,6 +90,7 @@ impl SourceArguments {
         if !self.family.is_empty() {
             add("--family", &self.family.join(","));
         }
+        self.scene.iter().for_each(|scene| add("--scene", scene));
         self.mesh.iter().for_each(|path| add("--mesh", path));
         self.corpus.iter().for_each(|path| add("--corpus", path));
         if self.count != COUNT {
@@ -112,6 +118,23 @@ impl SourceArguments {
         flags.join(" ")
     }
 
+    /// The scene, which both scalars of the run can hold, and its unit of length; the default without one.
+    pub fn scene_and_unit(&self) -> Result<(Scene, &'static str), Failure> {
+        let parsed = self.scene.as_deref().map_or(Ok((Scene::default(), "")), Scene::parse);
+        let (_, unit) = parsed.map_err(|error| Failure::usage(format!("--scene: {error}")))?;
+        Ok((self.scene()?.unwrap_or_default(), unit))
+    }
+
+    /// The seed, and how many cases of each family.
+    pub fn seed_and_count(&self) -> (u64, u64) {
+        (self.seed, self.count)
+    }
+
+    /// Whether families are named.
+    pub fn names_families(&self) -> bool {
+        !self.family.is_empty()
+    }
+
     /// Whether in `f32`, and whether in `f64`.
     pub fn scalars(&self) -> Result<[bool; 2], Failure> {
         chosen_scalars(&self.scalar)
@@ -124,7 +147,8 @@ impl SourceArguments {
         quiet: bool,
         usual: impl Fn(&Family) -> bool,
     ) -> Result<Vec<Source>, Failure> {
-        let (count, parameters, seed) = (self.count, self.parameters()?, self.seed);
+        let (seed, count) = self.seed_and_count();
+        let parameters = self.parameters()?;
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
@@ -169,10 +193,10 @@ impl SourceArguments {
     fn families(&self, usual: impl Fn(&Family) -> bool) -> Result<Vec<&'static Family>, Failure> {
         if self.family.is_empty() {
             let others = !self.mesh.is_empty() || !self.corpus.is_empty();
-            return Ok(if others {
-                Vec::new()
-            } else {
-                FAMILIES.iter().filter(|family| usual(family)).collect()
+            return Ok(match (others, &self.scene) {
+                (true, _) => Vec::new(),
+                (false, Some(_)) => STRATA.iter().collect(),
+                (false, None) => FAMILIES.iter().filter(|family| usual(family)).collect(),
             });
         }
         refuse_twice("--family", &self.family)?;
@@ -194,7 +218,35 @@ impl SourceArguments {
             offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
             unit_direction: self.direction.is_some(),
             mesh: None,
+            scene: self.scene()?,
+            kernel: None,
         })
+    }
+
+    /// The scene, which both scalars of the run can hold.
+    fn scene(&self) -> Result<Option<Scene>, Failure> {
+        let Some(text) = &self.scene else { return Ok(None) };
+        let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
+        let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
+        if sized || self.direction.is_some() {
+            let sizes = "a scene has sizes of its own: leave out --scale, --offset and --direction";
+            return Err(wrong(sizes.to_owned()));
+        }
+        if !self.mesh.is_empty() || !self.corpus.is_empty() {
+            return Err(wrong("leave out --mesh and --corpus".to_owned()));
+        }
+        let (scene, _) = Scene::parse(text).map_err(wrong)?;
+        if let Some(other) = self.family.iter().find(|name| !name.starts_with("scene-")) {
+            return Err(wrong(format!("'{other}' is no part of a scene")));
+        }
+        let [in_f32, in_f64] = self.scalars()?;
+        let held = [(in_f32, scene.check_in::<f32>()), (in_f64, scene.check_in::<f64>())];
+        for (chosen, held) in held {
+            if chosen {
+                held.map_err(wrong)?;
+            }
+        }
+        Ok(Some(scene))
     }
 }
 

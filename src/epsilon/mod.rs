@@ -14,6 +14,7 @@ mod map;
 mod relative;
 mod run;
 mod scaling;
+pub mod scene;
 mod sketch;
 mod study;
 

@@ -19,12 +19,14 @@ mod origin;
 mod polygon;
 mod question;
 mod range;
+mod scene;
 mod shape;
 mod sizes;
 
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
+pub use scene::{STRATA, Stratum};
 
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
@@ -175,9 +177,9 @@ pub static FAMILIES: &[Family] = &[
     Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },
 ];
 
-/// The family of a name.
+/// The family of a name, be it a stratum of a scene.
 pub fn find(name: &str) -> Option<&'static Family> {
-    FAMILIES.iter().find(|family| family.name == name)
+    FAMILIES.iter().chain(STRATA).find(|family| family.name == name)
 }
 
 impl Family {

@@ -30,6 +30,7 @@ mod rate;
 mod record;
 mod row_view;
 mod sarif;
+pub mod scene;
 mod screen;
 mod shard;
 mod text;

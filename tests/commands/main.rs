@@ -21,6 +21,7 @@ mod plugin;
 mod program;
 mod prove;
 mod rows;
+mod scene;
 mod screen;
 mod shards;
 mod shrink;

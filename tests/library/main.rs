@@ -14,6 +14,7 @@ mod oracle;
 mod proofs;
 mod prove;
 mod response;
+mod scenes;
 mod severity;
 mod strategy;
 mod trials;

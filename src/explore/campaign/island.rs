@@ -196,6 +196,6 @@ fn parameters(draw: &mut Draw) -> Parameters {
         scale_direction: draw.coin(),
         offset,
         unit_direction: draw.below(8) == 0,
-        mesh: None,
+        ..Parameters::default()
     }
 }

@@ -6,7 +6,6 @@ mod plot;
 mod record;
 mod text;
 
-#[cfg(feature = "cli")]
 pub(crate) use build::shortest;
 pub use build::{parts, record};
 pub use record::*;

@@ -1,0 +1,292 @@
+//! A scene in a few numbers that a person knows: where its triangles are, how large they are, and how far
+//! rays travel.
+
+use crate::arith::{Float, scale_by_power_of_two};
+use std::fmt;
+
+/// What the rays and triangles of a scene measure, in the scene's own unit of length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Every coordinate of a triangle is within ± this.
+    pub extent: f64,
+    /// The shortest and the longest length of a triangle's longest edge; each doubling between them is
+    /// equally likely.
+    pub edge: [f64; 2],
+    /// How far a ray starts from the point that it is aimed at: at least, and at most.
+    pub distance: [f64; 2],
+    /// The length of the directions.
+    pub direction: DirectionLength,
+}
+
+/// How long the directions of a scene's rays are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DirectionLength {
+    /// Rounded unit vectors: t is a length.
+    Unit,
+    /// From the origin to the target: t = 1 there.
+    Target,
+}
+
+/// A scene with a name.
+pub struct ScenePreset {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Its unit of length; empty if it has none.
+    pub unit: &'static str,
+    /// The scene.
+    pub scene: Scene,
+}
+
+const fn preset(
+    name: &'static str,
+    unit: &'static str,
+    extent: f64,
+    edge: [f64; 2],
+    distance: [f64; 2],
+) -> ScenePreset {
+    let scene = Scene { extent, edge, distance, direction: DirectionLength::Unit };
+    ScenePreset { name, unit, scene }
+}
+
+/// The scenes with names; the first is the default.
+pub const SCENES: &[ScenePreset] = &[
+    preset("unit", "", 1.0, [0.1, 1.0], [0.0, 4.0]),
+    preset("room", "m", 5.0, [0.01, 3.0], [0.0, 10.0]),
+    preset("city", "m", 1000.0, [0.01, 10.0], [0.0, 2000.0]),
+    preset("cad-mm", "mm", 500.0, [0.05, 200.0], [0.0, 1000.0]),
+];
+
+impl Default for Scene {
+    fn default() -> Scene {
+        SCENES[0].scene.clone()
+    }
+}
+
+/// The words of a scene, as errors list them.
+const WORDS: &str = "extent=1000, edge=0.01..10, distance=0..2000, direction=unit or target";
+
+impl Scene {
+    /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
+    /// the preset `unit`. Also the unit of length of the preset.
+    pub fn parse(text: &str) -> Result<(Scene, &'static str), String> {
+        let (mut scene, mut unit, mut known) = (Scene::default(), "", Vec::new());
+        for (i, word) in text.split(',').map(str::trim).enumerate() {
+            match (word.split_once('='), SCENES.iter().find(|preset| preset.name == word)) {
+                (None, Some(preset)) if i == 0 => {
+                    (scene, unit) = (preset.scene.clone(), preset.unit);
+                }
+                (Some((key, value)), _) => {
+                    let (key, value) = (key.trim(), value.trim());
+                    if known.contains(&key) {
+                        return Err(format!("'{key}' is given twice"));
+                    }
+                    if !scene.set(key, value)? {
+                        return Err(format!("unknown word '{key}'; there are {WORDS}"));
+                    }
+                    known.push(key);
+                }
+                _ => {
+                    let names: Vec<&str> = SCENES.iter().map(|preset| preset.name).collect();
+                    return Err(format!(
+                        "'{word}' is no scene: begin with one of {}, or write {WORDS}",
+                        names.join(", ")
+                    ));
+                }
+            }
+        }
+        scene.check()?;
+        Ok((scene, unit))
+    }
+
+    /// Sets what a word names; false if it names nothing of a scene.
+    pub(super) fn set(&mut self, key: &str, value: &str) -> Result<bool, String> {
+        match key {
+            "extent" => self.extent = number(key, value)?,
+            "edge" => self.edge = range(key, value)?,
+            "distance" => self.distance = range(key, value)?,
+            "direction" => {
+                self.direction = match value {
+                    "unit" => DirectionLength::Unit,
+                    "target" => DirectionLength::Target,
+                    _ => return Err(format!("direction={value}: write direction=unit or target")),
+                }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// An error if the numbers make no scene.
+    pub(super) fn check(&self) -> Result<(), String> {
+        let Scene { extent, edge: [shortest, longest], distance: [nearest, farthest], .. } = *self;
+        if extent <= 0.0 {
+            return Err(format!("extent={extent}: must be above 0"));
+        }
+        if shortest <= 0.0 {
+            return Err(format!("edge={}: must be above 0", Range(self.edge)));
+        }
+        if extent < longest {
+            return Err(format!(
+                "edge={}: no triangle of that size fits within extent={}",
+                Range(self.edge),
+                Number(extent)
+            ));
+        }
+        if nearest < 0.0 || farthest <= 0.0 {
+            return Err(format!(
+                "distance={}: must be from 0 up, and not 0 alone",
+                Range(self.distance)
+            ));
+        }
+        Ok(())
+    }
+
+    /// An error if a scalar cannot hold the scene: its triangles collapse, or products underflow or
+    /// overflow.
+    pub fn check_in<F: Float>(&self) -> Result<(), String> {
+        let (shortest, name) = (self.edge[0], F::NAME);
+        let smallest_normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
+        let reach = self.extent + self.distance[1];
+        if !F::from_f64(reach * reach * reach).is_finite() {
+            return Err(format!(
+                "products of three lengths such as {} overflow in {name}: use a larger unit of length",
+                Number(reach)
+            ));
+        }
+        if shortest * shortest * F::EPSILON.to_f64() < smallest_normal {
+            return Err(format!(
+                "the areas of triangles of edge {} underflow in {name}: use a smaller unit of length",
+                Number(shortest)
+            ));
+        }
+        let spacing = F::from_f64(self.extent).ulp().to_f64();
+        if shortest < 32.0 * spacing {
+            return Err(format!(
+                "triangles of edge {} collapse at coordinates of {}, where the numbers of {name} are {spacing:.1e} apart{}",
+                Number(shortest),
+                Number(self.extent),
+                if F::NAME == f32::NAME { " (see --scalar f64)" } else { "" }
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A finite number.
+fn number(key: &str, text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| format!("{key}={text}: '{}' is not a finite number", text.trim()))
+}
+
+/// Two finite numbers in order; one stands for both.
+fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
+    let (low, high) = text.split_once("..").unwrap_or((text, text));
+    let [low, high] = [number(key, low)?, number(key, high)?];
+    if high < low {
+        return Err(format!("{key}={text}: the range is empty; write the smaller number first"));
+    }
+    Ok([low, high])
+}
+
+/// A number in as few digits as bring it back.
+pub(crate) struct Number(pub f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            0.0 => f.write_str("0"),
+            size if (1e-4..1e7).contains(&size) => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
+        }
+    }
+}
+
+struct Range([f64; 2]);
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [low, high] if low == high => write!(f, "{}", Number(low)),
+            [low, high] => write!(f, "{}..{}", Number(low), Number(high)),
+        }
+    }
+}
+
+impl fmt::Display for Scene {
+    /// The words that make it again, as they stand in case ids.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let direction = match self.direction {
+            DirectionLength::Unit => "unit",
+            DirectionLength::Target => "target",
+        };
+        let (edge, distance) = (Range(self.edge), Range(self.distance));
+        let extent = Number(self.extent);
+        write!(f, "extent={extent},edge={edge},distance={distance},direction={direction}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_survive_their_text() {
+        for text in [
+            "extent=1000,edge=0.01..10,distance=0..2000,direction=unit",
+            "extent=1e-7,edge=1e-9,distance=5e-9..1e-8,direction=target",
+        ] {
+            assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
+        }
+        let (city, unit) = Scene::parse("city").unwrap();
+        assert_eq!(Scene::parse("extent=1000, edge=0.01..10, distance=0..2000").unwrap().0, city);
+        assert_eq!(unit, "m");
+        let (near, unit) = Scene::parse("city, distance = 0..20").unwrap();
+        assert_eq!((near.distance, near.extent, unit), ([0.0, 20.0], 1000.0, "m"));
+    }
+
+    #[test]
+    fn bad_scenes_say_what_was_expected() {
+        for (text, part) in [
+            ("", "'' is no scene"),
+            ("palace", "begin with one of unit, room, city, cad-mm"),
+            ("edge=1,room", "'room' is no scene"),
+            ("size=3", "unknown word 'size'"),
+            ("extent=nan", "'nan' is not a finite number"),
+            ("extent=inf", "not a finite number"),
+            ("extent=0", "extent=0: must be above 0"),
+            ("extent=-1", "must be above 0"),
+            ("edge=0..1", "edge=0..1: must be above 0"),
+            ("edge=1..", "'' is not a finite number"),
+            ("edge=0.5..0.25", "the range is empty"),
+            ("edge=0.5..2", "fits within extent=1"),
+            ("distance=0", "not 0 alone"),
+            ("distance=-1..2", "from 0 up"),
+            ("direction=long", "direction=unit or target"),
+            ("extent=1,extent=2", "'extent' is given twice"),
+        ] {
+            let error = Scene::parse(text).unwrap_err();
+            assert!(error.contains(part) && !error.contains('\n'), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_scalar_refuses_what_it_cannot_hold() {
+        let refused = |text: &str| {
+            let (scene, _) = Scene::parse(text).unwrap();
+            [scene.check_in::<f32>(), scene.check_in::<f64>()].map(|held| held.err())
+        };
+        for preset in SCENES {
+            assert_eq!(refused(preset.name), [None, None], "{}", preset.name);
+        }
+        let [f32, f64] = refused("extent=1e6,edge=0.1..1,distance=0..10");
+        assert!(f32.unwrap().contains("collapse at coordinates of 1000000") && f64.is_none());
+        let [f32, f64] = refused("extent=1e-17,edge=1e-18..1e-17,distance=0..1e-17");
+        assert!(f32.unwrap().contains("underflow in f32") && f64.is_none());
+        let [f32, f64] = refused("extent=1e14,edge=1e13,distance=0..1e14");
+        assert!(f32.unwrap().contains("overflow in f32") && f64.is_none());
+        let [_, f64] = refused("extent=1e-150,edge=1e-151..1e-150,distance=0..1e-150");
+        assert!(f64.unwrap().contains("underflow in f64"));
+        let [_, f64] = refused("extent=1e300,edge=1e299,distance=0..1e300");
+        assert!(f64.unwrap().contains("overflow in f64"));
+    }
+}

@@ -1,0 +1,176 @@
+//! `hairline epsilon --scene`: which epsilons, all together, for a scene.
+
+use super::{EpsilonArguments, gated};
+use crate::audit::Row;
+use crate::case::Scene;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::output::{ColorChoice, paired_outputs, write_results};
+use crate::cli::progress::Progress;
+use crate::cli::sources::{scalars_in_use, set_threads};
+use crate::epsilon::scene::{
+    Costs, Knob, MOST_KNOBS, Setting, contract_with, counts, own_epsilons, study_scene,
+};
+use crate::family::Stratum;
+use crate::kernel::Scalar;
+use crate::report::Style;
+use crate::report::scene::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
+
+/// Rays of each stratum, if the flags do not say: enough to show one in 10,000.
+const COUNT: u64 = 40_000;
+
+/// The most values of --at.
+const MOST_AT: usize = 5;
+
+/// Passes over every stratum: the grid, the limits and the fresh rays, and again for scale-free forms.
+const PASSES: u64 = 6;
+
+/// Runs the command; the flags may leave the count to it.
+pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
+    arguments.refuse_what_scenes_do_not_take()?;
+    let outputs =
+        paired_outputs(SCENE_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    set_threads(arguments.threads)?;
+    let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
+    let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
+    let (scene, unit) = arguments.sources.scene_and_unit()?;
+    let rows = arguments.kernels.rows()?;
+    let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
+    let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
+    for row in &rows {
+        let name = row.entry.info.name;
+        if let Some(known) = tuned.iter_mut().find(|known| known.row.entry.info.name == name) {
+            known.sets.push(row);
+            continue;
+        }
+        match arguments.knobs(row) {
+            Ok(knobs) => tuned.push(Tuned { row, sets: vec![row], knobs }),
+            Err(reason) => reasons.push(reason),
+        }
+    }
+    match reasons.first() {
+        Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
+        _ if arguments.quiet => {}
+        _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
+    }
+    let (seed, count) = arguments.sources.seed_and_count();
+    let count = if is_count_given { count } else { COUNT };
+    let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
+    let total = PASSES * Stratum::ALL.len() as u64 * count * studies as u64;
+    let progress = Progress::new(total, "indices", arguments.quiet);
+    let at = &arguments.at;
+    let run = Run { scene: &scene, costs: &costs, at, seed, count, progress: &progress };
+    let mut parts = Vec::new();
+    for tuned in &tuned {
+        let in_scalar = tuned.row.entry.scalars();
+        if scalars[0] && in_scalar[0] {
+            parts.push(run.study::<f32>(tuned)?);
+        }
+        if scalars[1] && in_scalar[1] {
+            parts.push(run.study::<f64>(tuned)?);
+        }
+    }
+    progress.finish();
+    let record = scene_record(&scene, unit, &costs, seed, count, parts);
+    write_results(outputs, |format, _, out| {
+        let style = Style { color: ColorChoice::Never.enabled(false), details: false };
+        (format.write)(&record, style, out)
+    })?;
+    Ok(Status::Success)
+}
+
+/// A kernel, the rows of its epsilon sets, and what is chosen of it.
+struct Tuned<'a> {
+    row: &'a Row,
+    sets: Vec<&'a Row>,
+    knobs: Vec<Knob>,
+}
+
+struct Run<'a> {
+    scene: &'a Scene,
+    costs: &'a Costs,
+    at: &'a [String],
+    seed: u64,
+    count: u64,
+    progress: &'a Progress,
+}
+
+impl Run<'_> {
+    fn study<F: Scalar>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
+        let Tuned { row, sets, knobs } = tuned;
+        let name = row.entry.info.name;
+        let shown = || Failure::usage(format!("{name} does not show its gates in {}", F::NAME));
+        let row = Row { contract: contract_with(knobs, &row.contract), ..(*row).clone() };
+        let counts = counts(knobs, &row.contract);
+        let setting = Setting {
+            row: &row,
+            gated: gated::<F>(&row).ok_or_else(shown)?,
+            knobs,
+            counts: &counts,
+            scene: self.scene,
+            relative: false,
+        };
+        let own = |set: &&Row| (set.set.clone(), own_epsilons::<F>(set, knobs));
+        let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
+        named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
+        for text in self.at {
+            let value = F::parse(text).filter(|value| value.is_finite());
+            let wrong = || format!("--at: '{text}' is not a finite number of {}", F::NAME);
+            named.push((text.clone(), vec![value.ok_or_else(|| Failure::usage(wrong()))?]));
+        }
+        let study = study_scene(&setting, self.costs, &named, self.seed, self.count, self.progress)
+            .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
+        Ok(kernel_part(&setting, &study))
+    }
+}
+
+impl EpsilonArguments {
+    fn refuse_what_scenes_do_not_take(&self) -> Result<(), Failure> {
+        if !self.at.is_empty() && self.gate.len() != 1 {
+            return Err(Failure::usage("--at: name one --gate, whose values they are"));
+        }
+        if MOST_AT < self.at.len() {
+            return Err(Failure::usage(format!("--at: at most {MOST_AT} values fit the screen")));
+        }
+        let given = [
+            ("--exact", self.exact),
+            ("--relative", self.relative),
+            ("--map", self.map),
+            ("--family", self.sources.names_families()),
+        ];
+        match given.iter().find(|(_, given)| *given) {
+            Some((flag, _)) => Err(Failure::usage(format!("{flag} is not for --scene"))),
+            None => Ok(()),
+        }
+    }
+
+    /// What is chosen of a kernel, or why it cannot be studied.
+    fn knobs(&self, row: &Row) -> Result<Vec<Knob>, String> {
+        let info = row.entry.info;
+        let name = info.name;
+        if gated::<f32>(row).is_none() && gated::<f64>(row).is_none() {
+            return Err(format!(
+                "{name} does not show its gates: `hairline audit --scene … --epsilon GATE=VALUE` runs it at one epsilon"
+            ));
+        }
+        let all = Knob::all(row);
+        let names: Vec<&str> = all.iter().map(|knob| knob.name(info.gates)).collect();
+        if let Some(unknown) = self.gate.iter().find(|gate| !names.contains(&gate.as_str())) {
+            return Err(format!(
+                "{name} has no '{unknown}' to choose: there are {}",
+                names.join(", ")
+            ));
+        }
+        let is_chosen = |knob: &Knob| {
+            self.gate.is_empty() || self.gate.iter().any(|gate| gate == knob.name(info.gates))
+        };
+        let chosen: Vec<Knob> = all.into_iter().filter(is_chosen).collect();
+        match chosen.len() {
+            0 => Err(format!("{name} has no number that can be chosen")),
+            n if n > MOST_KNOBS => Err(format!(
+                "{name} has {n} numbers to choose ({}): name at most {MOST_KNOBS} with --gate",
+                names.join(", ")
+            )),
+            _ => Ok(chosen),
+        }
+    }
+}

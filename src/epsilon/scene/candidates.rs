@@ -1,0 +1,158 @@
+//! The values that are weighed for each knob: round numbers over the range in which they matter.
+
+use super::joint::Grid;
+use super::knob::{Knob, MOST_KNOBS};
+use super::trials::{Setting, Trial};
+use crate::arith::{Float, scale_by_power_of_two};
+use crate::case::{DirectionLength, Scene};
+use crate::engine::{Merge, Observer};
+use crate::kernel::{Dimension, Gate, Role, Scalar};
+
+/// The first indices of a set show the range.
+const PILOT: u64 = 2048;
+
+/// The most values of a knob on each side of zero.
+const MOST_VALUES: usize = 60;
+
+/// The most points of a grid.
+const MOST_POINTS: usize = 300_000;
+
+/// The largest size of a knob that means anything: a tolerance as large as the largest triangle, or the
+/// longest way.
+fn cap(knob: Knob, gates: &[Gate], scene: &Scene) -> f64 {
+    let Dimension { length, direction } = knob.dimension(gates);
+    let farthest = scene.distance[1].max(scene.edge[1]);
+    let size = if knob.role(gates) == Role::T { farthest } else { scene.edge[1] };
+    let [shortest, longest] = match scene.direction {
+        DirectionLength::Unit => [1.0, 1.0],
+        DirectionLength::Target => [scene.edge[0], farthest],
+    };
+    let speed = if direction < 0 { shortest } else { longest };
+    size.powi(length.into()) * speed.powi(direction.into())
+}
+
+/// By knob: the smallest and the largest margin above zero, and of those below zero their sizes.
+struct Ranges {
+    above: [Option<[f64; 2]>; MOST_KNOBS],
+    below: [Option<[f64; 2]>; MOST_KNOBS],
+}
+
+fn widen(range: &mut Option<[f64; 2]>, size: f64) {
+    let [low, high] = range.unwrap_or([size, size]);
+    *range = Some([low.min(size), high.max(size)]);
+}
+
+impl Merge for Ranges {
+    fn merge(&mut self, other: Ranges) {
+        let pairs = self.above.iter_mut().zip(other.above);
+        for (range, more) in pairs.chain(self.below.iter_mut().zip(other.below)) {
+            more.into_iter().flatten().for_each(|size| widen(range, size));
+        }
+    }
+}
+
+/// The grid of a setting: for each knob zero, the values given, and round numbers. Also whether some round
+/// numbers were left out to keep it small.
+pub fn grid<F: Scalar>(
+    setting: &Setting<'_, F>,
+    given: &[Vec<F>],
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> (Grid<F>, bool) {
+    let gates = setting.row.entry.info.gates;
+    let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
+    let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
+        let counted = setting.counts[trial.count];
+        for (k, knob) in setting.knobs.iter().enumerate() {
+            let margins = trial.margins.iter().map(|margins| margins[k]);
+            let margin = margins.fold(-F::infinity(), |most, m| if most < m { m } else { most });
+            if !margin.is_finite() || margin.is_zero() {
+                continue;
+            }
+            let size = margin.to_f64().abs().min(cap(*knob, gates, setting.scene));
+            match (margin < F::zero(), counted.kind.is_wrong_if_refused()) {
+                (true, true) => widen(&mut ranges.below[k], size),
+                (false, false) => widen(&mut ranges.above[k], size),
+                _ => {}
+            }
+        }
+    };
+    let pilot = count.min(PILOT);
+    let ranges = setting.sum(seed, pilot, observer, empty, add);
+    let mut step = 0;
+    loop {
+        let of_knob = |(k, knob): (usize, &Knob)| {
+            let mut values = vec![F::zero()];
+            values.extend(given.iter().map(|values| values[k]));
+            let rounds = |range| rounds::<F>(range, step);
+            values.extend(ranges.above[k].into_iter().flat_map(rounds));
+            if knob.takes_negative(gates) {
+                values.extend(ranges.below[k].into_iter().flat_map(rounds).map(|x| -x));
+            }
+            values.sort_by_key(|value| value.place());
+            values.dedup_by(|a, b| a == b);
+            values
+        };
+        let values: Vec<Vec<F>> = setting.knobs.iter().enumerate().map(of_knob).collect();
+        let points: usize = values.iter().map(|values| values.len() + 1).product();
+        if points <= MOST_POINTS || step == 8 {
+            return (Grid::new(values), 0 < step);
+        }
+        step += 1;
+    }
+}
+
+/// Round numbers from one at or below a range to one at or above it; fewer with every step.
+fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
+    // Below the normal numbers a machine may flush to zero.
+    let normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
+    let digits: &[u32] = if step == 0 { &[1, 2, 5] } else { &[1] };
+    let every = 1 << step.saturating_sub(1);
+    let decades = (-330..=310).filter(|k| k % every == 0);
+    let all = decades.flat_map(|k| digits.iter().map(move |d| format!("{d}e{k}")));
+    let all = all.filter_map(|text| Some((text.parse::<f64>().ok()?, F::parse(&text)?)));
+    let all: Vec<(f64, F)> =
+        all.filter(|(wide, value)| normal <= *wide && value.is_finite()).collect();
+    let first = all.partition_point(|(wide, _)| *wide <= low).saturating_sub(1);
+    let last = (all.partition_point(|(wide, _)| *wide < high) + 1).min(all.len());
+    if last - first > MOST_VALUES && step < 8 {
+        return rounds([low, high], step + 1);
+    }
+    all[first..last].iter().map(|(_, value)| *value).collect()
+}
+
+/// The grid of all round numbers within a factor of ten of a point, and the point itself.
+pub fn around<F: Float>(point: &[F]) -> Grid<F> {
+    let near = |x: &F| {
+        let size = x.to_f64().abs();
+        let sign = if *x < F::zero() { -F::one() } else { F::one() };
+        let mut values = vec![F::zero(), *x];
+        if 0.0 < size {
+            values.extend(rounds::<F>([size / 10.0, size * 10.0], 0).into_iter().map(|y| y * sign));
+        }
+        values.sort_by_key(|value| value.place());
+        values.dedup_by(|a, b| a == b);
+        values
+    };
+    Grid::new(point.iter().map(near).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_numbers_enclose_the_range() {
+        assert_eq!(rounds::<f32>([0.3, 4.0], 0), [0.2, 0.5, 1.0, 2.0, 5.0]);
+        assert_eq!(rounds::<f32>([0.5, 5.0], 1), [0.1, 1.0, 10.0]);
+        assert_eq!(rounds::<f64>([1e-3, 1e-3], 0), [1e-3]);
+        let all = rounds::<f32>([0.0, f64::MAX], 1);
+        assert!(f32::MIN_POSITIVE <= all[0] && *all.last().unwrap() == 1e38);
+        // 1-2-5 from 1e-12 to 1 are 37; from the smallest number only some decades are kept.
+        assert_eq!(rounds::<f64>([1e-12, 1.0], 0).len(), 37);
+        let few = rounds::<f64>([5e-324, 1.0], 0);
+        assert!(few.len() <= MOST_VALUES && few.contains(&1.0) && few[0] < 1e-290, "{few:?}");
+        assert_eq!(rounds::<f32>([1e-50, 1e-45], 0), [2e-38]);
+    }
+}

@@ -1,0 +1,266 @@
+//! All knobs together: the counts at every combination of some values, and the cheapest of them.
+
+use super::trials::{Count, Kind, Margins, Setting, Trial};
+use crate::arith::Float;
+use crate::engine::Merge;
+use crate::engine::Observer;
+use crate::kernel::Scalar;
+
+/// What a wrong answer of each kind costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Costs {
+    of: [f64; Kind::ALL.len()],
+}
+
+impl Default for Costs {
+    /// A crack shows as a hole in a surface: it costs ten times as much as another wrong answer.
+    fn default() -> Costs {
+        Costs { of: [10.0, 1.0, 1.0, 1.0] }
+    }
+}
+
+impl Costs {
+    /// From words such as `crack=10,miss=1`; what is not named keeps its default.
+    pub fn parse(text: &str) -> Result<Costs, String> {
+        let (mut costs, mut named) = (Costs::default(), Vec::new());
+        for word in text.split(',').map(str::trim) {
+            let expected = "write crack=10,miss=1,hit=1,self-hit=1";
+            let (key, value) =
+                word.split_once('=').ok_or_else(|| format!("'{word}' is no cost: {expected}"))?;
+            let kind = Kind::ALL.into_iter().find(|kind| kind.name() == key.trim());
+            let kind = kind.ok_or_else(|| format!("unknown kind '{key}': {expected}"))?;
+            if named.contains(&kind) {
+                return Err(format!("'{key}' is given twice"));
+            }
+            named.push(kind);
+            let value = value.trim();
+            let cost = value.parse().ok().filter(|cost: &f64| (0.0..=1e9).contains(cost));
+            costs.of[kind as usize] =
+                cost.ok_or_else(|| format!("{key}={value}: not a number from 0 to 1e9"))?;
+        }
+        match costs.of.iter().all(|cost| *cost == 0.0) {
+            true => Err("every cost is 0, so every epsilon is as good".to_owned()),
+            false => Ok(costs),
+        }
+    }
+
+    /// What one wrong answer costs.
+    pub fn of(&self, kind: Kind) -> f64 {
+        self.of[kind as usize]
+    }
+
+    /// The sum of the shares of wrong answers, each times its cost.
+    pub fn total(&self, counts: &[Count], shares: impl IntoIterator<Item = f64>) -> f64 {
+        counts.iter().zip(shares).map(|(count, share)| self.of(count.kind) * share).sum()
+    }
+}
+
+/// The values that are weighed for each knob, in order; one place for each of the most knobs.
+pub struct Grid<F> {
+    values: Vec<Vec<F>>,
+}
+
+/// The counts at every point of a grid.
+pub struct Joint<F> {
+    grid: Grid<F>,
+    /// By count: how many trials.
+    of: Vec<u64>,
+    /// By count, then by point: how many trials report a hit.
+    hits: Vec<Vec<i64>>,
+}
+
+impl<F: Float> Grid<F> {
+    /// From each knob's values, in order.
+    pub fn new(values: Vec<Vec<F>>) -> Grid<F> {
+        Grid { values }
+    }
+
+    /// How many points there are, with one more in each direction.
+    fn cells(&self) -> usize {
+        self.values.iter().map(|values| values.len() + 1).product()
+    }
+
+    /// How many values of each knob accept margins.
+    fn accepted(&self, margins: &Margins<F>) -> Vec<usize> {
+        let axes = self.values.iter().zip(margins);
+        axes.map(|(values, margin)| values.partition_point(|value| value <= margin)).collect()
+    }
+
+    fn cell(&self, places: &[usize]) -> usize {
+        let axes = self.values.iter().zip(places);
+        axes.fold(0, |cell, (values, place)| cell * (values.len() + 1) + place)
+    }
+
+    fn point(&self, places: &[usize]) -> Vec<F> {
+        self.values.iter().zip(places).map(|(values, place)| values[*place]).collect()
+    }
+}
+
+struct Sums {
+    of: Vec<u64>,
+    cells: Vec<Vec<i64>>,
+}
+
+impl Merge for Sums {
+    fn merge(&mut self, other: Sums) {
+        self.of.iter_mut().zip(other.of).for_each(|(sum, more)| *sum += more);
+        for (cells, more) in self.cells.iter_mut().zip(other.cells) {
+            if cells.is_empty() {
+                *cells = more;
+            } else {
+                cells.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+            }
+        }
+    }
+}
+
+impl<F: Scalar> Joint<F> {
+    /// Counts at every point of a grid.
+    pub fn count(
+        setting: &Setting<'_, F>,
+        grid: Grid<F>,
+        seed: u64,
+        count: u64,
+        observer: &dyn Observer,
+    ) -> Joint<F> {
+        let number = setting.counts.len();
+        let empty = || Sums { of: vec![0; number], cells: vec![Vec::new(); number] };
+        let add = |sums: &mut Sums, trial: Trial<'_, F>| {
+            sums.of[trial.count] += 1;
+            let cells = &mut sums.cells[trial.count];
+            cells.resize(grid.cells(), 0);
+            for (sign, places) in union(trial.margins.iter().map(|m| grid.accepted(m)).collect()) {
+                cells[grid.cell(&places)] += sign;
+            }
+        };
+        let Sums { of, cells } = setting.sum(seed, count, observer, empty, add);
+        let hits = cells.into_iter().map(|cells| accumulated(&grid, cells)).collect();
+        Joint { grid, of, hits }
+    }
+
+    /// The share of wrong answers of each count at a point; 0 of nothing.
+    fn shares(&self, counts: &[Count], places: &[usize]) -> impl Iterator<Item = f64> {
+        // A point's hits are those that accept one value more than its place.
+        let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
+        let cell = self.grid.cell(&above);
+        let wrong = counts.iter().zip(&self.of).zip(&self.hits).map(move |((count, of), hits)| {
+            let hits = hits.get(cell).copied().unwrap_or(0) as u64;
+            let wrong = if count.kind.is_wrong_if_refused() { of - hits } else { hits };
+            wrong as f64 / (*of).max(1) as f64
+        });
+        wrong.collect::<Vec<_>>().into_iter()
+    }
+
+    /// The point with the least cost. Of points with equal cost along a knob the one with the value 0, or
+    /// else the middle one.
+    pub fn best(&self, counts: &[Count], costs: &Costs) -> Vec<F> {
+        let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
+        let mut best: Option<(f64, Vec<usize>)> = None;
+        let mut places = vec![0; self.grid.values.len()];
+        loop {
+            let found = cost(&places);
+            if best.as_ref().is_none_or(|(least, _)| found < *least) {
+                best = Some((found, places.clone()));
+            }
+            let Some(next) =
+                (0..places.len()).rev().find(|&k| places[k] + 1 < self.grid.values[k].len())
+            else {
+                break;
+            };
+            places[next] += 1;
+            places[next + 1..].fill(0);
+        }
+        let (least, mut places) = best.expect("a grid has a point");
+        for k in 0..places.len() {
+            let values = &self.grid.values[k];
+            let as_good = |place: usize| {
+                let mut moved = places.clone();
+                moved[k] = place;
+                cost(&moved) <= least
+            };
+            let first = (0..places[k]).rev().take_while(|p| as_good(*p)).last();
+            let last = (places[k] + 1..values.len()).take_while(|p| as_good(*p)).last();
+            let (first, last) = (first.unwrap_or(places[k]), last.unwrap_or(places[k]));
+            let zero = (first..=last).find(|place| values[*place].is_zero());
+            places[k] = zero.unwrap_or((first + last) / 2);
+        }
+        self.grid.point(&places)
+    }
+}
+
+/// The union of boxes from the origin as a sum of boxes with signs, by inclusion and exclusion.
+fn union(mut boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
+    // One that lies in another adds nothing.
+    let inside = |a: &[usize], b: &[usize]| a.iter().zip(b).all(|(a, b)| a <= b);
+    let mut kept: Vec<Vec<usize>> = Vec::new();
+    for one in boxes.drain(..) {
+        if !kept.iter().any(|other| inside(&one, other)) {
+            kept.retain(|other| !inside(other, &one));
+            kept.push(one);
+        }
+    }
+    let mut terms: Vec<(i64, Vec<usize>)> = Vec::new();
+    for one in kept {
+        let met = terms
+            .iter()
+            .map(|(sign, other)| (-sign, one.iter().zip(other).map(|(a, b)| *a.min(b)).collect()));
+        let met: Vec<_> = met.collect();
+        terms.extend(met);
+        terms.push((1, one));
+    }
+    terms
+}
+
+/// By cell, the sum over all cells at or above it in every direction.
+fn accumulated<F: Float>(grid: &Grid<F>, mut cells: Vec<i64>) -> Vec<i64> {
+    let mut stride = 1;
+    for values in grid.values.iter().rev() {
+        let length = values.len() + 1;
+        for cell in (0..cells.len()).rev() {
+            if cell / stride % length + 1 < length {
+                cells[cell] += cells[cell + stride];
+            }
+        }
+        stride *= length;
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+
+    #[test]
+    fn a_union_counts_each_point_once() {
+        let mut draw = Draw::new("union", 1, 0);
+        for _ in 0..500 {
+            let boxes: Vec<Vec<usize>> =
+                (0..draw.below(6) + 1).map(|_| (0..3).map(|_| draw.below(4)).collect()).collect();
+            let terms = union(boxes.clone());
+            for point in 0..64usize {
+                let point = [point / 16, point / 4 % 4, point % 4];
+                let holds = |corner: &Vec<usize>| point.iter().zip(corner).all(|(p, c)| p < c);
+                let sum: i64 = terms.iter().filter(|(_, c)| holds(c)).map(|(sign, _)| sign).sum();
+                assert_eq!(sum, i64::from(boxes.iter().any(holds)), "{boxes:?} {point:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn costs_are_words_between_commas() {
+        let costs = Costs::parse("miss=0, crack=2.5").unwrap();
+        assert_eq!(Kind::ALL.map(|kind| costs.of(kind)), [2.5, 0.0, 1.0, 1.0]);
+        for (text, part) in [
+            ("", "is no cost"),
+            ("crack", "is no cost"),
+            ("cracks=1", "unknown kind"),
+            ("crack=nan", "not a number from 0"),
+            ("crack=-1", "not a number from 0"),
+            ("miss=1,miss=2", "given twice"),
+            ("crack=0,miss=0,hit=0,self-hit=0", "every cost is 0"),
+        ] {
+            assert!(Costs::parse(text).unwrap_err().contains(part), "{text}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! What of a kernel can be set: its gates' epsilons, and the least t that counts.
+
+use crate::audit::Row;
+use crate::contract::{Contract, Extent};
+use crate::kernel::{Dimension, Gate, Role, Tunable};
+
+/// The most knobs of a study: it weighs them jointly.
+pub const MOST_KNOBS: usize = 3;
+
+/// One number that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knob {
+    /// The epsilon of the gate at this place of the kernel's chain.
+    Gate(usize),
+    /// The least t that counts as a hit: the interval's start, or a comparison of the caller's.
+    LeastT,
+}
+
+/// The name of [`Knob::LeastT`].
+pub const LEAST_T: &str = "t_min";
+
+impl Knob {
+    /// All knobs of a kernel under a contract. A gate on t is one if its epsilon is a t and the kernel takes
+    /// no interval; otherwise the least t is, if the kernel reports t.
+    pub fn all(row: &Row) -> Vec<Knob> {
+        let info = row.entry.info;
+        let is_t = |gate: &Gate| gate.dimension == Dimension::new(1, -1);
+        let has_interval = row.contract.extent == Extent::Interval;
+        let (mut knobs, mut guards_start) = (Vec::new(), false);
+        for (place, gate) in info.gates.iter().enumerate() {
+            let tunable = gate.epsilon != Tunable::Fixed;
+            let usable = gate.role != Role::T || is_t(gate) && !has_interval;
+            if tunable && usable {
+                guards_start |= gate.role == Role::T;
+                knobs.push(Knob::Gate(place));
+            }
+        }
+        if !guards_start && info.gives.t {
+            knobs.push(Knob::LeastT);
+        }
+        knobs
+    }
+
+    /// The name on the command line.
+    pub fn name(self, gates: &[Gate]) -> &'static str {
+        match self {
+            Knob::Gate(gate) => gates[gate].name,
+            Knob::LeastT => LEAST_T,
+        }
+    }
+
+    /// What it is there to refuse.
+    pub fn role(self, gates: &[Gate]) -> Role {
+        match self {
+            Knob::Gate(gate) => gates[gate].role,
+            Knob::LeastT => Role::T,
+        }
+    }
+
+    /// The dimension of what is compared with it.
+    pub fn dimension(self, gates: &[Gate]) -> Dimension {
+        match self {
+            Knob::Gate(gate) => gates[gate].dimension,
+            Knob::LeastT => Dimension::new(1, -1),
+        }
+    }
+
+    /// Whether values below zero mean anything. A negative least t only adds hits behind the origin.
+    pub fn takes_negative(self, gates: &[Gate]) -> bool {
+        match self {
+            Knob::Gate(gate) => {
+                gates[gate].epsilon == Tunable::Signed && gates[gate].role != Role::T
+            }
+            Knob::LeastT => false,
+        }
+    }
+}
+
+/// The contract in a scene: with a least t, a kernel that is judged on the whole line is judged on the ray.
+pub fn contract_with(knobs: &[Knob], contract: &Contract) -> Contract {
+    let on_line = contract.extent == Extent::Line && knobs.contains(&Knob::LeastT);
+    let extent = if on_line { Extent::Ray } else { contract.extent };
+    Contract { extent, ..*contract }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::EpsilonChoice;
+    use crate::kernel::KERNELS;
+
+    #[test]
+    fn each_kernel_has_the_knobs_that_a_caller_can_turn() {
+        let of = |kernel: &str| {
+            let entry = crate::kernel::find(kernel).unwrap();
+            let row = &EpsilonChoice::Source.rows(&[entry], None).unwrap()[0];
+            let gates = entry.info.gates;
+            Knob::all(row).into_iter().map(|knob| knob.name(gates)).collect::<Vec<_>>()
+        };
+        assert_eq!(of("moller-trumbore"), ["parallel", "edge", "t_min"]);
+        assert_eq!(of("plane-unit-normal"), ["parallel", "t", "edge"]);
+        assert_eq!(of("woop-watertight"), ["edge", "parallel", "t_min"]);
+        assert_eq!(of("cramer"), ["parallel", "edge", "t_min"]);
+        assert_eq!(of("havel-herout"), ["t_min"]);
+        assert_eq!(of("scalar-triple"), ["edge"]);
+        for entry in KERNELS {
+            assert!((1..=MOST_KNOBS).contains(&of(entry.info.name).len()), "{}", entry.info.name);
+        }
+    }
+}

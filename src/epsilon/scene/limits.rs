@@ -1,0 +1,232 @@
+//! How far a knob may move while the others stay: limits by order statistics, with a confidence. From below
+//! they are about all that must be refused; from above, about the hits that the other knobs leave.
+//!
+//! Of n trials let m be the k-th smallest margin. The share of all trials with a margin below m is at most p
+//! with confidence P(at least k of n trials are among the lowest share p), which is a binomial
+//! probability, whatever the distribution of margins is (Wilks 1941).
+
+use super::trials::{Count, Kind, Setting, Trial, accepts};
+use crate::arith::{Float, scale_by_power_of_two};
+use crate::engine::{Merge, Observer};
+use crate::family::Stratum;
+use crate::kernel::{Role, Scalar};
+use libm::{exp, lgamma, log, log1p};
+
+/// How sure a limit is.
+pub const CONFIDENCE: f64 = 0.95;
+
+/// The most margins that are kept of each count: the k-th is the limit, and k is far smaller.
+const KEPT: usize = 64;
+
+/// A limit of one knob by one count.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit<F> {
+    /// The knob's place in the setting.
+    pub knob: usize,
+    /// The count's place in the setting.
+    pub count: usize,
+    /// Whether values must be at or above the limit, or at or below it.
+    pub is_lower: bool,
+    /// The value; none if no value of the knob keeps the share.
+    pub value: Option<F>,
+    /// At most one in this many answers is wrong at the limit.
+    pub one_in: u64,
+}
+
+/// Of one knob and count: how many trials, and the margins at the end that decides.
+struct Tail<F> {
+    of: u64,
+    /// Sorted, the most decisive first.
+    margins: Vec<F>,
+}
+
+impl<F: Float> Tail<F> {
+    fn add(&mut self, margin: F, lowest_first: bool) {
+        let before = |a: &F, b: &F| if lowest_first { a < b } else { b < a };
+        if self.margins.len() == KEPT && !before(&margin, &self.margins[KEPT - 1]) {
+            return;
+        }
+        let place = self.margins.partition_point(|kept| before(kept, &margin));
+        self.margins.insert(place, margin);
+        self.margins.truncate(KEPT);
+    }
+}
+
+struct Tails<F>(Vec<(usize, usize, bool, Tail<F>)>);
+
+impl<F: Float> Merge for Tails<F> {
+    fn merge(&mut self, other: Tails<F>) {
+        for ((.., is_lower, tail), (.., more)) in self.0.iter_mut().zip(other.0) {
+            tail.of += more.of;
+            more.margins.into_iter().for_each(|margin| tail.add(margin, !*is_lower));
+        }
+    }
+}
+
+/// Whether a count limits a knob from below (true) or from above (false), if what it counts is what such a
+/// knob is chosen by. No limit comes from the rays beside a triangle: it would be how near they pass.
+fn side(role: Role, count: Count) -> Option<bool> {
+    match (role, count.stratum, count.kind) {
+        (Role::Parallel, Stratum::Grazing | Stratum::Parallel, Kind::Hit) => Some(true),
+        (Role::T, Stratum::Shadow, Kind::SelfHit) => Some(true),
+        (Role::Parallel | Role::T, Stratum::Interior, Kind::Miss) => Some(false),
+        (Role::Edge | Role::Other, Stratum::Edges | Stratum::Vertices, Kind::Crack) => Some(false),
+        _ => None,
+    }
+}
+
+/// The limits of every knob around given epsilons.
+pub fn limits<F: Scalar>(
+    setting: &Setting<'_, F>,
+    epsilons: &[F],
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> Vec<Limit<F>> {
+    let gates = setting.row.entry.info.gates;
+    let mut pairs = Vec::new();
+    for (k, knob) in setting.knobs.iter().enumerate() {
+        for (c, counted) in setting.counts.iter().enumerate() {
+            pairs.extend(side(knob.role(gates), *counted).map(|is_lower| (k, c, is_lower)));
+        }
+    }
+    let empty = || {
+        let tail = |(k, c, lower): &(usize, usize, bool)| {
+            (*k, *c, *lower, Tail { of: 0, margins: Vec::new() })
+        };
+        Tails(pairs.iter().map(tail).collect())
+    };
+    let add = |tails: &mut Tails<F>, trial: Trial<'_, F>| {
+        for (k, c, is_lower, tail) in &mut tails.0 {
+            if *c == trial.count {
+                let margin = alone(&trial, *k, epsilons);
+                // What the other knobs refuse is no loss of this one's.
+                if *is_lower || -F::infinity() < margin {
+                    tail.of += 1;
+                    tail.add(margin, !*is_lower);
+                }
+            }
+        }
+    };
+    let Tails(tails) = setting.sum(seed, count, observer, empty, add);
+    let limit = |(knob, count, is_lower, tail): (usize, usize, bool, Tail<F>)| {
+        let (k, one_in) = rank(tail.of)?;
+        let margin = *tail.margins.get(k as usize - 1)?;
+        let value = match is_lower {
+            true if margin == F::infinity() => None,
+            // Where too few are accepted at any value, there is nothing to keep out.
+            true if !margin.is_finite() => return None,
+            true => Some(short(above(margin), true)),
+            false if !margin.is_finite() => return None,
+            false => Some(short(margin, false)),
+        };
+        Some(Limit { knob, count, is_lower, value, one_in })
+    };
+    tails.into_iter().filter_map(limit).collect()
+}
+
+/// The largest value of one knob at which a trial is a hit while the others stay.
+fn alone<F: Float>(trial: &Trial<'_, F>, knob: usize, epsilons: &[F]) -> F {
+    let mut most = -F::infinity();
+    for margins in trial.margins {
+        let mut others = *margins;
+        others[knob] = F::infinity();
+        if accepts(&others, epsilons) && most < margins[knob] {
+            most = margins[knob];
+        }
+    }
+    most
+}
+
+/// The next number above another; above zero the next that no machine flushes to zero.
+fn above<F: Float>(x: F) -> F {
+    let normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
+    let next = x.offset_ulps(1);
+    if F::zero() < next && next.to_f64() < normal { F::from_f64(normal) } else { next }
+}
+
+/// A number of three digits at or above another, or at or below it.
+fn short<F: Float>(x: F, above: bool) -> F {
+    let is_right = |y: &F| y.is_finite() && if above { x <= *y } else { *y <= x };
+    let text = format!("{:.2e}", x.to_f64());
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = (digits.parse::<f64>().unwrap_or(0.0) * 100.0).round() as i64;
+    let moved = |by: i64| F::parse(&format!("{}e{exponent}", (digits + by) as f64 / 100.0));
+    let tries = [0, if above { 1 } else { -1 }];
+    tries.into_iter().filter_map(moved).find(is_right).unwrap_or(x)
+}
+
+/// For n trials, the smallest round share that they can show with confidence, as one in how many, and the
+/// rank of the margin that shows it. None of fewer than 29 trials, which cannot even show one in ten.
+pub fn rank(n: u64) -> Option<(u64, u64)> {
+    let round = (1..=12).flat_map(|k| [1u64, 2, 5].map(|d| d * 10u64.pow(k)));
+    let shown = |one_in: u64| {
+        let most = (1..=KEPT as u64).take_while(|k| CONFIDENCE <= at_least(*k, n, one_in)).last();
+        Some((most?, one_in))
+    };
+    round.map_while(shown).last()
+}
+
+/// The probability that at least k of n trials succeed if one in so many does.
+fn at_least(k: u64, n: u64, one_in: u64) -> f64 {
+    let (n, p) = (n as f64, 1.0 / one_in as f64);
+    let fewer = |i: u64| {
+        let i = i as f64;
+        let ways = lgamma(n + 1.0) - lgamma(i + 1.0) - lgamma(n - i + 1.0);
+        if n < i { 0.0 } else { exp(ways + i * log(p) + (n - i) * log1p(-p)) }
+    };
+    1.0 - (0..k).map(fewer).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+
+    #[test]
+    fn ranks_are_those_of_the_tables() {
+        // 1 - 0.99^299 = 0.9505 and 1 - 0.99^298 = 0.9500 (Wilks: 299 for one in a hundred).
+        assert_eq!(rank(28), None);
+        assert_eq!(rank(29), Some((1, 10)));
+        assert_eq!(rank(298), Some((1, 50)).map(|(_, of)| (rank(298).unwrap().0, of)));
+        assert_eq!(rank(299).unwrap(), (1, 100));
+        assert_eq!(rank(29_956).unwrap(), (1, 10_000));
+        assert_eq!(rank(29_955).unwrap().1, 5_000);
+        // Nonparametric tolerance limits: the second smallest needs 473 for one in a hundred.
+        assert!(CONFIDENCE <= at_least(2, 473, 100) && at_least(2, 472, 100) < CONFIDENCE);
+        assert!(rank(10_u64.pow(12)).unwrap().1 >= 10_u64.pow(11));
+    }
+
+    #[test]
+    fn short_numbers_are_on_the_side_that_is_named() {
+        assert_eq!((short(1.2344f64, true), short(1.2344f64, false)), (1.24, 1.23));
+        assert_eq!((short(-1.2344f64, true), short(-1.2344f64, false)), (-1.23, -1.24));
+        assert_eq!((short(9.999f32, true), short(9.999f32, false)), (10.0, 9.9));
+        assert_eq!(short(0.0f32, true), 0.0);
+        let mut draw = Draw::new("short", 1, 0);
+        for _ in 0..20_000 {
+            let x = f32::from_bits(draw.bits() as u32);
+            if x.is_finite() {
+                assert!(short(x, false) <= x && x <= short(x, true), "{x:e}");
+            }
+        }
+    }
+
+    /// Of a distribution whose quantiles are known: the uniform one.
+    #[test]
+    fn limits_are_violated_no_more_often_than_stated() {
+        let (runs, n) = (4000, 700);
+        let (k, one_in) = rank(n).unwrap();
+        let violated = (0..runs).filter(|run| {
+            let mut draw = Draw::new("limits", 1, *run);
+            let mut tail = Tail { of: n, margins: Vec::new() };
+            (0..n).for_each(|_| tail.add(draw.unit(), true));
+            // The share below a number is that number.
+            1.0 / (one_in as f64) < tail.margins[k as usize - 1]
+        });
+        let violated = violated.count() as f64 / runs as f64;
+        assert!(violated <= 0.05 + 3.0 * (0.05f64 * 0.95 / runs as f64).sqrt(), "{violated}");
+        // And the limit is not far from the share: no more confidence is given away than there is to be.
+        assert!(0.01 < violated, "{violated}");
+    }
+}

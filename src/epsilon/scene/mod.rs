@@ -1,0 +1,21 @@
+//! Which epsilons for a scene: all of a kernel's together, weighed by what wrong answers cost.
+//!
+//! A *knob* is a number that can be chosen: a gate's epsilon, or the least t that counts. Each ray of a
+//! stratum is a trial, and its margins say at which values of the knobs it is a hit. One pass counts
+//! trials on a grid of all knobs; the cheapest point is the recommendation. Further passes find how far
+//! each knob may move, and try everything on rays of another seed.
+
+mod candidates;
+mod joint;
+mod knob;
+mod limits;
+mod study;
+mod trials;
+
+pub use joint::Costs;
+pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
+pub use limits::{CONFIDENCE, Limit, limits, rank};
+pub use study::{
+    Attempt, SceneStudy, Tried, cheapest, count_at, fresh_seed, own_epsilons, study_scene,
+};
+pub use trials::{Count, Kind, Setting, Trial, counts};

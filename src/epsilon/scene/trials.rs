@@ -1,0 +1,234 @@
+//! What a kernel is tried on in a scene, and one pass over it.
+
+use super::super::relative::Scales;
+use super::knob::{Knob, MOST_KNOBS};
+use crate::arith::Float;
+use crate::audit::{Chunk, Row, Source, SourceSummary};
+use crate::case::{Case, Parameters, Scene};
+use crate::contract::{Contract, Extent, Sides};
+use crate::engine::{self, Merge, Observer};
+use crate::family::Stratum;
+use crate::judge::{GroupTruth, Obligation};
+use crate::kernel::{Gated, Scalar};
+use std::ops::Range;
+
+/// What can go wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A ray slips through between triangles that share an edge or a vertex.
+    Crack,
+    /// A hit is lost.
+    Miss,
+    /// A hit is reported where there is none.
+    Hit,
+    /// A ray hits the triangle that it starts on.
+    SelfHit,
+}
+
+impl Kind {
+    /// All of them, in the order of `--cost`.
+    pub const ALL: [Kind; 4] = [Kind::Crack, Kind::Miss, Kind::Hit, Kind::SelfHit];
+
+    /// The word in `--cost`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Crack => "crack",
+            Kind::Miss => "miss",
+            Kind::Hit => "hit",
+            Kind::SelfHit => "self-hit",
+        }
+    }
+
+    /// Whether refusing is what is wrong.
+    pub fn is_wrong_if_refused(self) -> bool {
+        matches!(self, Kind::Crack | Kind::Miss)
+    }
+}
+
+/// What is counted: one kind in one stratum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// Where.
+    pub stratum: Stratum,
+    /// What.
+    pub kind: Kind,
+}
+
+/// What is counted of a kernel with these knobs under a contract, in the order of reports. Without a
+/// least t nothing can keep a ray from hitting the triangle that it starts on.
+pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
+    use Stratum::*;
+    let starts = contract.extent != Extent::Line;
+    let culls = contract.sides == Sides::Front;
+    let all = [
+        (Interior, Kind::Miss, true),
+        (Interior, Kind::Hit, culls),
+        (Edges, Kind::Crack, true),
+        (Vertices, Kind::Crack, true),
+        (Grazing, Kind::Miss, true),
+        (Grazing, Kind::Hit, true),
+        (Parallel, Kind::Hit, true),
+        (Shadow, Kind::SelfHit, starts && !knobs.is_empty()),
+        (Outside, Kind::Hit, true),
+    ];
+    let counted = all.into_iter().filter(|(.., is_counted)| *is_counted);
+    counted.map(|(stratum, kind, _)| Count { stratum, kind }).collect()
+}
+
+/// The largest epsilon of each knob at which one triangle is accepted; +inf beyond the last knob.
+pub type Margins<F> = [F; MOST_KNOBS];
+
+/// What a pass runs: a kernel, its knobs and a scene.
+pub struct Setting<'a, F: 'static> {
+    /// The kernel, its contract, and the epsilons of the gates that are no knobs.
+    pub row: &'a Row,
+    /// The kernel's gates.
+    pub gated: &'static dyn Gated<F>,
+    /// At most [`MOST_KNOBS`].
+    pub knobs: &'a [Knob],
+    /// What is counted.
+    pub counts: &'a [Count],
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Epsilons are multiplied by each case's own size.
+    pub relative: bool,
+}
+
+/// What happens once on each ray that counts for something.
+pub struct Trial<'a, F: Float> {
+    /// Which of the setting's counts it is for.
+    pub count: usize,
+    /// Of each triangle; a hit is reported if one is accepted.
+    pub margins: &'a [Margins<F>],
+    /// The triangles with their ray.
+    pub cases: &'a [Case<F>],
+}
+
+impl<F: Float> Trial<'_, F> {
+    /// Whether a hit is reported with these epsilons.
+    pub fn is_hit(&self, epsilons: &[F]) -> bool {
+        self.margins.iter().any(|margins| accepts(margins, epsilons))
+    }
+}
+
+/// Whether margins accept epsilons.
+pub fn accepts<F: Float>(margins: &Margins<F>, epsilons: &[F]) -> bool {
+    epsilons.iter().zip(margins).all(|(epsilon, margin)| epsilon <= margin)
+}
+
+impl<F: Scalar> Setting<'_, F> {
+    /// Runs all trials of a seed's first indices of every stratum, and sums what `add` makes of them.
+    pub fn sum<S: Merge>(
+        &self,
+        seed: u64,
+        count: u64,
+        observer: &dyn Observer,
+        empty: impl Fn() -> S + Sync,
+        add: impl Fn(&mut S, Trial<'_, F>) + Sync,
+    ) -> S {
+        let mut total = empty();
+        for stratum in Stratum::ALL {
+            if !self.counts.iter().any(|count| count.stratum == stratum) {
+                continue;
+            }
+            let source = Source::Family {
+                family: stratum.family(),
+                parameters: self.parameters(stratum),
+                seed,
+                count,
+                exhaustive: false,
+            };
+            let add =
+                |sums: &mut S, indices| self.chunk(&source, stratum, indices, |t| add(sums, t));
+            total.merge(engine::sum(0..count, source.chunk(), observer, &empty, add));
+        }
+        total
+    }
+
+    /// What makes a stratum's cases again.
+    pub fn parameters(&self, stratum: Stratum) -> Parameters {
+        let kernel = (stratum == Stratum::Shadow).then(|| self.row.entry.info.name.to_owned());
+        Parameters { scene: Some(self.scene.clone()), kernel, ..Parameters::default() }
+    }
+
+    fn chunk(
+        &self,
+        source: &Source,
+        stratum: Stratum,
+        indices: Range<u64>,
+        mut add: impl FnMut(Trial<'_, F>),
+    ) {
+        let mut summary = SourceSummary::new(0, F::NAME);
+        let chunk = Chunk::<F>::make(source, indices, &crate::engine::Unobserved, &mut summary);
+        let margins = self.margins(&chunk.cases);
+        let contract = &self.row.contract;
+        let of =
+            |kind: Kind| self.counts.iter().position(|count| *count == Count { stratum, kind });
+        if let Some(count) = of(Kind::SelfHit) {
+            for (case, margins) in chunk.cases.iter().zip(&margins) {
+                let (margins, cases) = (std::slice::from_ref(margins), std::slice::from_ref(case));
+                add(Trial { count, margins, cases });
+            }
+        } else if let Some(count) = of(Kind::Crack) {
+            let groups = chunk.groups().zip(chunk.group_truths(contract));
+            for ((_, range), truth) in groups {
+                if truth == GroupTruth::Crossing {
+                    let cases = &chunk.cases[range.clone()];
+                    add(Trial { count, margins: &margins[range], cases });
+                }
+            }
+        } else {
+            let [misses, hits] = [of(Kind::Miss), of(Kind::Hit)];
+            for (i, obligation) in chunk.obligations(contract).into_iter().enumerate() {
+                let count = match obligation {
+                    Obligation::MustHit => misses,
+                    Obligation::MustMiss => hits,
+                    Obligation::Free => None,
+                };
+                if let Some(count) = count {
+                    let (margins, cases) = (&margins[i..=i], &chunk.cases[i..=i]);
+                    add(Trial { count, margins, cases });
+                }
+            }
+        }
+    }
+
+    /// Each case's margins of the knobs; where another gate refuses, -inf.
+    fn margins(&self, cases: &[Case<F>]) -> Vec<Margins<F>> {
+        let gates = self.row.entry.info.gates;
+        let epsilons = self.row.epsilons::<F>();
+        let mut all = vec![F::zero(); cases.len() * gates.len()];
+        self.gated.margins(cases, &mut all);
+        let scales: Vec<Option<Scales<F>>> = self
+            .knobs
+            .iter()
+            .map(|knob| self.relative.then(|| Scales::new(cases, knob.dimension(gates))))
+            .collect();
+        let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
+        let least_t = self.knobs.contains(&Knob::LeastT);
+        let rows = all.chunks_exact(gates.len().max(1)).zip(cases).enumerate();
+        let of_case = |(i, (row, case)): (usize, (&[F], &Case<F>))| {
+            let refused = (0..gates.len()).any(|g| is_fixed(g) && row[g] < epsilons[g]);
+            let mut margins = [F::infinity(); MOST_KNOBS];
+            if refused {
+                return [-F::infinity(); MOST_KNOBS];
+            }
+            let t = least_t.then(|| self.t(case));
+            for ((margin, knob), scales) in margins.iter_mut().zip(self.knobs).zip(&scales) {
+                let absolute = match knob {
+                    Knob::Gate(gate) => row[*gate],
+                    Knob::LeastT => t.unwrap_or(F::infinity()),
+                };
+                *margin = scales.as_ref().map_or(absolute, |s| s.relative(i, absolute));
+            }
+            margins
+        };
+        rows.map(of_case).collect()
+    }
+
+    /// The t that a hit would report; -inf if it is no number, for no comparison accepts that.
+    fn t(&self, case: &Case<F>) -> F {
+        let t = self.gated.measure(case).values.and_then(|hit| hit.t);
+        t.filter(|t| !t.is_nan()).unwrap_or(-F::infinity())
+    }
+}

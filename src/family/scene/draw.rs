@@ -1,0 +1,166 @@
+//! What the strata share: sizes, places, orientations, and the ray toward a target.
+
+use super::super::{integer, unit};
+use crate::arith::Float;
+use crate::case::{DirectionLength, Draw, Parameters, Scene};
+use glam::DVec3;
+
+pub fn with_scene<T>(parameters: &Parameters, make: impl FnOnce(&Scene) -> T) -> T {
+    match &parameters.scene {
+        Some(scene) => make(scene),
+        None => make(&Scene::default()),
+    }
+}
+
+/// A number between two positive ones, each doubling equally likely: 2^-8 of the range on a scale of
+/// powers, and even within.
+pub fn between_powers(draw: &mut Draw, [low, high]: [f64; 2]) -> f64 {
+    let (mut low, mut high) = (low, high);
+    let mut bits = draw.bits();
+    for _ in 0..8 {
+        let middle = low.sqrt() * high.sqrt();
+        if bits & 1 == 0 {
+            high = middle
+        } else {
+            low = middle
+        }
+        bits >>= 1;
+    }
+    low + (high - low) * draw.unit()
+}
+
+pub fn between(draw: &mut Draw, [low, high]: [f64; 2]) -> f64 {
+    low + (high - low) * draw.unit()
+}
+
+pub fn symmetric(draw: &mut Draw) -> f64 {
+    2.0 * draw.unit() - 1.0
+}
+
+/// A unit vector, uniform on the sphere.
+pub fn any_direction(draw: &mut Draw) -> DVec3 {
+    loop {
+        let v = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw));
+        let square = v.dot(v);
+        if (0.0625..=1.0).contains(&square) {
+            return v / square.sqrt();
+        }
+    }
+}
+
+/// Three axes at right angles: along, across and the normal, turned uniformly.
+pub struct Frame {
+    pub along: DVec3,
+    pub across: DVec3,
+    pub normal: DVec3,
+}
+
+impl Frame {
+    pub fn draw(draw: &mut Draw) -> Frame {
+        let normal = any_direction(draw);
+        loop {
+            let across = normal.cross(any_direction(draw));
+            let square = across.dot(across);
+            if 0.0625 < square {
+                let across = across / square.sqrt();
+                return Frame { along: across.cross(normal), across, normal };
+            }
+        }
+    }
+
+    /// The vector of coordinates along and across.
+    pub fn flat(&self, x: f64, y: f64) -> DVec3 {
+        self.along * x + self.across * y
+    }
+}
+
+pub fn rounded<F: Float>(point: DVec3) -> [F; 3] {
+    point.to_array().map(F::from_f64)
+}
+
+pub fn wide<F: Float>(point: [F; 3]) -> DVec3 {
+    point.map(F::to_f64).into()
+}
+
+/// A point so far inside the extent that all within `size` of it is inside too, where there is one.
+pub fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
+    let reach = (scene.extent - size).max(0.0);
+    DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach
+}
+
+/// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the
+/// longest; its height is at least an eighth of that.
+pub fn apex(draw: &mut Draw, size: f64) -> (f64, f64) {
+    loop {
+        let (x, y) = (draw.unit(), 0.125 + 0.875 * draw.unit());
+        if x * x + y * y <= 1.0 && (1.0 - x) * (1.0 - x) + y * y <= 1.0 {
+            return (x * size, y * size);
+        }
+    }
+}
+
+/// A triangle and the frame of its plane.
+pub fn triangle<F: Float>(draw: &mut Draw, scene: &Scene) -> ([[F; 3]; 3], Frame) {
+    let size = between_powers(draw, scene.edge);
+    let (a, frame) = (place(draw, scene, size), Frame::draw(draw));
+    let (x, y) = apex(draw, size);
+    let (b, c) = (a + frame.flat(size, 0.0), a + frame.flat(x, y));
+    let corners = integer::shuffle(draw, [a, b, c]);
+    (corners.map(rounded), frame)
+}
+
+/// The point of given weights, in `f64`.
+pub fn point_of<F: Float>(triangle: [[F; 3]; 3], [u, v]: [f64; 2]) -> DVec3 {
+    let [a, b, c] = triangle.map(wide);
+    a + (b - a) * u + (c - a) * v
+}
+
+/// Weights of b and c, uniform in the triangle.
+pub fn inside(draw: &mut Draw) -> [f64; 2] {
+    let (u, v) = (draw.unit(), draw.unit());
+    if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] }
+}
+
+/// Weights of b and c, uniform in a rhomboid three times as large on each side, but outside.
+pub fn beside(draw: &mut Draw) -> [f64; 2] {
+    loop {
+        let (u, v) = (3.0 * draw.unit() - 1.0, 3.0 * draw.unit() - 1.0);
+        if u < 0.0 || v < 0.0 || 1.0 < u + v {
+            return [u, v];
+        }
+    }
+}
+
+/// The ray that goes toward a target along a unit vector: its origin and its direction.
+pub fn ray<F: Float>(
+    draw: &mut Draw,
+    scene: &Scene,
+    target: DVec3,
+    toward: DVec3,
+) -> ([F; 3], [F; 3]) {
+    let start: [F; 3] = rounded(target - toward * between(draw, scene.distance));
+    (start, direction(scene, target - wide(start), toward))
+}
+
+/// The direction of a way in a scene; of no way, that of the unit vector.
+pub fn direction<F: Float>(scene: &Scene, way: DVec3, toward: DVec3) -> [F; 3] {
+    // Nearer than the shortest edge, the target's own rounding would turn the ray.
+    let is_short = way.dot(way) < scene.edge[0] * scene.edge[0];
+    match scene.direction {
+        DirectionLength::Target if is_short => rounded(toward * scene.edge[0]),
+        DirectionLength::Target => rounded(way),
+        DirectionLength::Unit if is_short => unit(rounded(toward)),
+        DirectionLength::Unit => unit::<f64>(way.to_array()).map(F::from_f64),
+    }
+}
+
+/// A unit vector in the plane of a frame, uniform on the circle.
+pub fn in_plane(draw: &mut Draw, frame: &Frame) -> DVec3 {
+    loop {
+        let (x, y) = (symmetric(draw), symmetric(draw));
+        let square = x * x + y * y;
+        if (0.0625..=1.0).contains(&square) {
+            return frame.flat(x, y) / square.sqrt();
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Rays from a kernel's own hit points.
+
+use super::super::{Made, control::combination};
+use super::aimed::interior_case;
+use super::draw::{any_direction, between, direction, point_of, rounded, triangle, with_scene};
+use crate::arith::Vector;
+use crate::case::{Case, Draw, Parameters, Scene};
+use crate::kernel::{Gated, Scalar, find};
+
+/// The kernel at whose hit points shadow rays start, unless the parameters name another.
+const DEFAULT_SHADOW_KERNEL: &str = "moller-trumbore";
+
+pub fn shadow<F: Scalar>(parameters: &Parameters, draw: &mut Draw, _: u64) -> Made<F> {
+    let name = parameters.kernel.as_deref().unwrap_or(DEFAULT_SHADOW_KERNEL);
+    let gated = find(name).and_then(F::subject).and_then(|subject| subject.gated());
+    with_scene(parameters, |scene| {
+        let (point, triangle) = hit(draw, scene, gated);
+        let toward = any_direction(draw);
+        let way = toward * between(draw, scene.distance);
+        Made::One(Case::new(point, direction(scene, way, toward), triangle))
+    })
+}
+
+/// A hit of a kernel with every epsilon at zero: its point, in one of the two ways in which renderers form
+/// it, and the triangle. A triangle's middle if the kernel reports no point.
+fn hit<F: Scalar>(
+    draw: &mut Draw,
+    scene: &Scene,
+    gated: Option<&dyn Gated<F>>,
+) -> ([F; 3], [[F; 3]; 3]) {
+    for _ in 0..64 {
+        let case = interior_case::<F>(draw, scene);
+        let Some(measured) = gated.map(|kernel| kernel.measure(&case)) else { break };
+        let Some(values) = measured.values else { continue };
+        if !measured.margins.iter().all(|margin| F::zero() <= *margin) {
+            continue;
+        }
+        let triangle = case.triangle.vertices().map(Into::into);
+        let on_ray = |t: F| case.ray.origin.plus(&case.ray.direction.times(&t)).into();
+        let by_weights = |(u, v): (F, F)| combination(triangle, [F::one() - u - v, u, v]);
+        let points: [Option<[F; 3]>; 2] = [values.t.map(on_ray), values.uv.map(by_weights)];
+        let first = usize::from(draw.coin());
+        let point = points[first].or(points[1 - first]);
+        if let Some(point) = point.filter(|point| point.iter().all(F::is_finite)) {
+            return (point, triangle);
+        }
+    }
+    let (triangle, _) = triangle(draw, scene);
+    (rounded(point_of(triangle, [1.0 / 3.0; 2])), triangle)
+}

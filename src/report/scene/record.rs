@@ -1,0 +1,134 @@
+//! The versioned record of a study of a scene.
+
+use crate::report::record::Rate;
+use serde::{Deserialize, Serialize};
+
+/// The schema's name and version.
+pub const SCENE_SCHEMA: &str = "hairline-scene/1";
+
+/// Everything that a study found; the same bytes whatever the number of threads.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneRecord {
+    /// [`SCENE_SCHEMA`].
+    pub schema: String,
+    /// The scene's words.
+    pub scene: String,
+    /// Its unit of length; empty if it has none.
+    pub unit: String,
+    /// Whether directions have unit length, so that t is a length.
+    pub unit_directions: bool,
+    /// The shortest and the longest longest edge of a triangle.
+    pub edge: [f64; 2],
+    /// The seed of the rays from which epsilons are chosen.
+    pub seed: u64,
+    /// The seed of the fresh rays on which they are tried.
+    pub fresh_seed: u64,
+    /// How many indices of each stratum.
+    pub count: u64,
+    /// What a wrong answer costs, by kind.
+    pub costs: Vec<(String, f64)>,
+    /// One entry for each kernel and scalar.
+    pub kernels: Vec<SceneKernelPart>,
+}
+
+/// One kernel in one scalar. Epsilons are shortest decimals of the scalar.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneKernelPart {
+    /// The kernel's name.
+    pub kernel: String,
+    /// The flag that chooses it.
+    pub selector: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// What it is judged by.
+    pub contract: String,
+    /// Whether it takes an interval of t.
+    pub takes_interval: bool,
+    /// What can be chosen.
+    pub knobs: Vec<KnobPart>,
+    /// What is counted.
+    pub counts: Vec<CountPart>,
+    /// What epsilons do on fresh rays; the cheapest first.
+    pub tried: Vec<TriedPart>,
+    /// How far each knob may move while the others stay.
+    pub limits: Vec<LimitPart>,
+    /// The knobs for which no value keeps every limit, and what does.
+    pub conflicts: Vec<ConflictPart>,
+    /// Epsilons that follow each case's size, if they are cheaper by a fifth; counted, no kernel runs
+    /// with them.
+    pub relative: Option<TriedPart>,
+}
+
+/// A number that can be chosen.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnobPart {
+    /// The gate's name, or `t_min`.
+    pub name: String,
+    /// Whether it is a gate's epsilon, which `--epsilon` takes.
+    pub is_gate: bool,
+    /// What it is there to refuse: `parallel`, `t`, `edge` or `other`.
+    pub role: String,
+    /// The powers of length and of |d| in what is compared with it.
+    pub dimension: [i8; 2],
+    /// The form without a unit, if it has one: `e * L^2 * |d|`.
+    pub form: Option<String>,
+}
+
+/// What is counted: a kind of wrong answer in a stratum.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CountPart {
+    /// The stratum's family.
+    pub stratum: String,
+    /// `crack`, `miss`, `hit` or `self-hit`.
+    pub kind: String,
+}
+
+/// What epsilons do on fresh rays.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TriedPart {
+    /// `recommended`, the name of one of the kernel's sets, `zero`, a value of `--at`, or `scale-free`.
+    pub name: String,
+    /// By knob.
+    pub epsilons: Vec<String>,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Rate>,
+    /// The sum of their shares, each times its cost.
+    pub cost: f64,
+}
+
+/// How far a knob may move while the others stay.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LimitPart {
+    /// The knob's place.
+    pub knob: usize,
+    /// The count's place.
+    pub count: usize,
+    /// Whether values must be at or above the limit.
+    pub is_lower: bool,
+    /// The limit; none if no value keeps the share.
+    pub value: Option<String>,
+    /// At most one in this many answers is wrong at the limit, with a confidence of 95 %.
+    pub one_in: u64,
+    /// The wrong answers on fresh rays at the limit.
+    pub fresh: Option<Rate>,
+    /// What in the scene sets the limit, if not the kernel's rounding.
+    pub set_by: Option<String>,
+}
+
+/// Two limits of one knob that do not meet.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConflictPart {
+    /// The place of the limit from below in the list of limits.
+    pub lower: usize,
+    /// The place of the limit from above.
+    pub upper: usize,
+    /// If the limits of epsilons that follow each case's size meet, from where to where.
+    pub scale_free: Option<[String; 2]>,
+}

@@ -1,0 +1,144 @@
+//! `--scene`: scenes as sources of cases, and `hairline epsilon --scene`.
+
+use crate::program::{ends, scratch};
+use hairline::internals::report::scene::SceneRecord;
+
+#[test]
+fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
+    let folder = scratch("scene-screen");
+    let study = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room", "-n", "4000"];
+    let (screen, error) = ends(&folder, &study, 0);
+    assert_eq!(error, "");
+    let lines: Vec<&str> = screen.lines().collect();
+    assert!(lines.len() <= 60, "{} lines", lines.len());
+    let long = lines.iter().find(|line| line.chars().count() > 84);
+    assert!(long.is_none(), "{long:?}");
+    let used: Vec<&str> = lines.iter().filter_map(|line| line.strip_prefix("  use  ")).collect();
+    assert_eq!(used.len(), 2, "{screen}");
+    for line in used {
+        let (flags, t) = line.split_once("  and  count a hit only if t >= ").unwrap();
+        assert!(t.ends_with(" m"), "{line}");
+        let mut audit = vec!["audit", "--kernel", "moller-trumbore", "-n", "100", "-q"];
+        audit.extend(flags.split(' '));
+        ends(&folder, &audit, 0);
+    }
+    for part in ["almost parallel: false hits", "shadow rays: self-hits", "fresh rays"] {
+        assert!(screen.contains(part), "{part}: {screen}");
+    }
+}
+
+#[test]
+fn a_study_is_the_same_on_any_number_of_threads_and_for_each_scalar_alone() {
+    let folder = scratch("scene-threads");
+    let run = |more: &[&str]| -> SceneRecord {
+        let mut all = vec!["epsilon", "--kernel", "woop-watertight", "--format", "json"];
+        all.extend(["--scene", "extent=10, edge=0.1..1, distance=0..5", "-n", "3000", "-q"]);
+        all.extend(more);
+        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+    };
+    let text = |record: &SceneRecord| serde_json::to_string(&record.kernels).unwrap();
+    let both = run(&["--threads", "1"]);
+    assert_eq!(text(&both), text(&run(&["--threads", "3"])));
+    let alone = run(&["--scalar", "f64"]);
+    assert_eq!(both.kernels.len(), 2);
+    let [one] = &alone.kernels[..] else { panic!("one scalar") };
+    assert_eq!(
+        serde_json::to_string(one).unwrap(),
+        serde_json::to_string(&both.kernels[1]).unwrap()
+    );
+    assert_eq!(both.scene, "extent=10,edge=0.1..1,distance=0..5,direction=unit");
+    // Another seed shows other rays.
+    assert_ne!(text(&alone), text(&run(&["--scalar", "f64", "--seed", "9"])));
+}
+
+#[test]
+fn costs_decide_what_is_recommended() {
+    let folder = scratch("scene-costs");
+    let edge = |costs: &str| -> f64 {
+        let mut all = vec!["epsilon", "--kernel", "moller-trumbore", "--format", "json", "-q"];
+        all.extend(["--scene", "room", "-n", "4000", "--scalar", "f32", "--cost", costs]);
+        let record: SceneRecord = serde_json::from_str(&ends(&folder, &all, 0).0).unwrap();
+        record.kernels[0].tried[0].epsilons[1].parse().unwrap()
+    };
+    assert!(edge("crack=1000") < edge("crack=0.001,hit=1000"));
+}
+
+#[test]
+fn scenes_are_sources_whose_cases_explain_themselves() {
+    let folder = scratch("scene-source");
+    let audit = ["audit", "--scene", "city", "-n", "500", "--kernel", "cramer", "--format", "json"];
+    let (record, _) = ends(&folder, &audit, 0);
+    let id = record.split('"').find(|word| word.starts_with("scene-")).unwrap();
+    assert!(record.contains("scene-shadow") && record.contains("scene-grazing"), "{id}");
+    let id = "scene-edges@1/f32/extent=1000,edge=0.01..10,distance=0..2000,direction=unit/1/17";
+    let (told, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
+    assert!(told.contains("cramer"), "{told}");
+    let id = "scene-shadow@1/f32/extent=1,edge=0.1..1,distance=0..4,direction=unit,kernel=X/1/17";
+    let (_, error) = ends(&folder, &["explain", id], 2);
+    assert!(error.contains("unknown kernel 'X'"), "{error}");
+    let id = "scene-interior@1/f32/extent=1e9,edge=0.1/1/17";
+    let (_, error) = ends(&folder, &["explain", id], 2);
+    assert!(error.contains("collapse"), "{error}");
+}
+
+#[test]
+fn bad_scenes_get_one_clear_line() {
+    let folder = scratch("scene-bad");
+    let scenes = [
+        ("extent=1,edge=2", "no triangle of that size fits within extent=1"),
+        ("edge=1..0.5", "the range is empty"),
+        ("extent=nan", "'nan' is not a finite number"),
+        ("extent=1e-17,edge=1e-18,distance=0..1e-17", "underflow in f32"),
+        ("extent=1e6,edge=0.01,distance=0..1", "(see --scalar f64)"),
+        ("extent=1e30,edge=1e29,distance=0..1e30", "overflow in f32"),
+        ("castle", "begin with one of unit, room, city, cad-mm"),
+    ];
+    for (scene, part) in scenes {
+        for command in ["epsilon", "audit"] {
+            let arguments = [command, "--kernel", "moller-trumbore", "--scene", scene];
+            let (out, error) = ends(&folder, &arguments, 2);
+            assert!(out.is_empty() && error.lines().count() == 1, "{scene}: {error}");
+            assert!(error.contains("--scene: ") && error.contains(part), "{scene}: {error}");
+        }
+    }
+    let flags: [(&[&str], &str); 8] = [
+        (&["--scale", "2^3"], "leave out --scale"),
+        (&["--direction", "unit"], "leave out --scale, --offset and --direction"),
+        (&["--at", "1e-3"], "--at: name one --gate"),
+        (&["--map"], "--map is not for --scene"),
+        (&["--family", "interior"], "--family is not for --scene"),
+        (&["--cost", "crack=-1"], "--cost: crack=-1"),
+        (&["--gate", "paralel"], "there are parallel, edge, t_min"),
+        (&["--format", "svg"], "there are text, json"),
+    ];
+    for (flags, part) in flags {
+        let mut arguments = vec!["epsilon", "--kernel", "moller-trumbore", "--scene", "room"];
+        arguments.extend(flags);
+        let (_, error) = ends(&folder, &arguments, 2);
+        assert!(error.contains(part) && error.lines().count() == 1, "{flags:?}: {error}");
+    }
+    let (_, error) = ends(&folder, &["epsilon", "--cost", "crack=1"], 2);
+    assert!(error.contains("--scene"), "{error}");
+}
+
+#[test]
+fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
+    let folder = scratch("scene-columns");
+    let screen = |kernel: &str, more: &[&str]| {
+        let mut all = vec!["epsilon", "--kernel", kernel, "--scene", "unit", "-n", "500"];
+        all.extend(["--scalar", "f32"]);
+        all.extend(more);
+        ends(&folder, &all, 0).0
+    };
+    let head = |screen: &str| -> Vec<String> {
+        let line = screen.lines().find(|line| line.starts_with("wrong on fresh rays")).unwrap();
+        line.split_once(':').unwrap().1.split_whitespace().map(str::to_owned).collect()
+    };
+    let both = screen("plane-unit-normal", &[]);
+    assert_eq!(head(&both), ["this", "zero", "1e-6"]);
+    assert_eq!(both.matches("  use  ").count(), 1, "{both}");
+    let at = screen("moller-trumbore", &["--gate", "t_min", "--at", "1e-7,3e-3"]);
+    assert_eq!(head(&at), ["this", "as", "published", "1e-7", "3e-3"]);
+    let given = screen("moller-trumbore", &["--epsilon", "parallel=1e-9,edge=-1e-5"]);
+    assert!(head(&given).join(" ").starts_with("this as given zero"), "{given}");
+}
