@@ -35,7 +35,7 @@ pub use gates::{Proof, Quantity, Uses};
 pub use permanent::{Relative, Roundings, relative};
 pub use scene::Scene;
 pub use sizes::BySize;
-pub use statement::{Published, about_edges, statements};
+pub use statement::{Published, about_edges, in_short, statements};
 pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched, run};

@@ -1,9 +1,9 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
 use super::sizes::BySize;
-use super::summary::{GateSummary, Summary, Witness};
+use super::summary::{GateSummary, Summary, Witness, format_of};
 use super::witness::Searched;
-use super::{Scene, Symmetry};
+use super::{Domain, Proof, Quantity, Scene, Symmetry, Uses};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -188,6 +188,25 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              it is rounded. Nothing follows for folds."
         }
     }
+}
+
+/// What is proved of a gate's epsilons in the unit domain, in one sentence; none where the proof supposes more
+/// than sizes of differences and directions.
+pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
+    let paths = F::subject(entry)?.gated()?.paths().ok()?;
+    let proof = Proof::new(paths, Some(gate), Domain::UNIT, format_of::<F>());
+    let beta = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
+    let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::and);
+    if uses.floor || uses.world || uses.extent {
+        return None;
+    }
+    let of = if uses.edge { "edges" } else { "vectors from the origin to the vertices" };
+    let what = match entry.info.gates[gate].role {
+        Role::Parallel => format!("an e above {} refuses every exactly parallel ray", above(beta)),
+        Role::Edge => format!("an e below {} loses no hit at an edge", signed(-beta)),
+        _ => return None,
+    };
+    Some(format!("for every float with coordinates of {of} below 1 and |d| <= 1: {what}"))
 }
 
 /// A positive number in three digits, not below it.

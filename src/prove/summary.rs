@@ -177,7 +177,7 @@ fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
 
 impl Uses {
     /// What either supposes.
-    fn and(self, other: Uses) -> Uses {
+    pub(super) fn and(self, other: Uses) -> Uses {
         Uses {
             edge: self.edge | other.edge,
             reach: self.reach | other.reach,

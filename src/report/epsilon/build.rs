@@ -11,6 +11,7 @@ use crate::epsilon::{
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, Scalar};
+use crate::prove::in_short;
 use crate::report::Rate;
 use crate::report::build::{explain_command, planned_source};
 
@@ -91,6 +92,7 @@ fn gate_part<F: Scalar>(
         trade: trade_part(plan.row, sources, gate_study),
         prices: price_parts(plan.row, sources, study, n),
         scaling: scaling_part(gate, gate_study),
+        proved: in_short::<F>(plan.row.entry, gate_study.gate).filter(|_| !plan.relative),
     }
 }
 

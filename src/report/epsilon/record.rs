@@ -79,6 +79,9 @@ pub struct GatePart {
     pub prices: Vec<PricePart>,
     /// How the limits move with scale.
     pub scaling: Option<ScalingPart>,
+    /// What is proved of this gate's epsilons, whatever the cases.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proved: Option<String>,
 }
 
 /// An epsilon with a name.

@@ -14,6 +14,9 @@ pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Resul
         }
         heading(part, record.result.sources.len(), out)?;
         limits(part, out)?;
+        if let Some(proved) = &part.proved {
+            writeln!(out, "  proved {proved} (hairline prove --kernel {})", part.kernel)?;
+        }
         prices(part, out)?;
         if let Some(scaling) = &part.scaling {
             write_scaling(part, scaling, out)?;
