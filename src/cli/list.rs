@@ -6,7 +6,7 @@ use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
 use crate::audit::EpsilonText;
 use crate::contract::NAMED;
-use crate::family::FAMILIES;
+use crate::family::{FAMILIES, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, PresetValue, Tunable};
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
@@ -42,6 +42,7 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
         What::Kernels => kernel::all().iter().try_for_each(|entry| write_kernel(out, entry.info)),
         What::Families => FAMILIES
             .iter()
+            .chain(STRATA)
             .try_for_each(|family| writeln!(out, "{:<18} {}", family.name, family.promise)),
         What::Contracts => {
             writeln!(out, "{:<18} each kernel by what its own source states (the default)", "own")?;

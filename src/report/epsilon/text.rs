@@ -79,7 +79,7 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         None => Ok(()),
     };
     let what = "possible false hits of the kinds that this gate is there to refuse";
-    writeln!(out, "  right epsilons:")?;
+    writeln!(out, "  right epsilons: seen on these cases (--scene has limits with a confidence)")?;
     if misses.command.is_none() {
         writeln!(out, "    every e: {}", least(misses, "possible false misses"))?;
     } else {
