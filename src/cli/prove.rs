@@ -724,7 +724,11 @@ fn export(
 
 /// A scene's words.
 fn scene_text(scene: &Scene) -> String {
-    let Scene { coordinates, edge: [low, high], distance, min_angle, grazing } = scene;
+    let short = |x: f64| format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
+    let digits = |x: f64| if x < 0.001 { format!("{x:.2e}") } else { short(x) };
+    let Scene { coordinates, edge: [low, high], distance, min_angle, grazing } = *scene;
+    let [coordinates, low, high, distance, min_angle, grazing] =
+        [coordinates, low, high, distance, min_angle, grazing].map(digits);
     format!(
         "coordinates up to {coordinates}, edges from {low} to {high}, origins up to {distance} from the \
          vertices, angles of {min_angle} degrees and more, rays at {grazing} degrees to the plane and more, |d| <= 1"

@@ -19,6 +19,11 @@ fn text(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// Without the breaks of its lines.
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 fn refused(arguments: &[&str], code: i32, message: &str) {
     let output = hairline(arguments);
     let error = String::from_utf8_lossy(&output.stderr);
@@ -33,7 +38,10 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     let out = text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
     // 17 u by hand: see docs/guide/proof.md.
     assert!(out.contains("never wrong by more than 1.02e-6 (16.99 u)"), "{out}");
-    assert!(out.contains("An epsilon above 1.02e-6 refuses every ray that is exactly parallel."));
+    assert!(
+        out.contains("An epsilon above 1.02e-6 refuses every ray that is exactly parallel."),
+        "{out}"
+    );
     assert!(
         out.contains("e = 1e-6 (source, truck) is proved to refuse every parallel ray"),
         "{out}"
@@ -56,7 +64,7 @@ fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
     for name in ["plucker", "plucker+fma"] {
         assert!(!kernel(name));
         let out = text(&["prove", "--kernel", name, "--scalar", "f64"]);
-        assert!(out.contains("opposite signs, bit for bit"), "{out}");
+        assert!(words(&out).contains("opposite signs, bit for bit"), "{out}");
     }
 }
 
@@ -64,7 +72,7 @@ fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
 fn every_witness_is_below_its_bound_and_near_it() {
     let record = json(&hairline(&["prove", "--format", "json", "--quiet"]));
     let gates = record["gates"].as_array().unwrap();
-    assert!(gates.len() > 80, "{}", gates.len());
+    assert!(gates.len() > 70, "{}", gates.len());
     for gate in gates {
         let name = format!("{} {} {}", gate["kernel"], gate["scalar"], gate["gate"]);
         let Some(bound) = gate["bound_units"].as_f64() else {
@@ -129,13 +137,16 @@ fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
     let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "1000"];
     let out = text(&[&kernel[..], &scene[..]].concat());
     assert!(out.contains("Scene: coordinates up to 1000"), "{out}");
-    assert!(out.contains("determinants are no larger than that"), "{out}");
+    assert!(words(&out).contains("determinants are no larger than that"), "{out}");
     // In f64 the same gate costs little.
     let out = text(
         &[&["prove", "--kernel", "moller-trumbore", "--scalar", "f64", "-n", "1000"], &scene[..]]
             .concat(),
     );
-    assert!(out.contains("only where the ray meets the smallest triangles at less than"), "{out}");
+    assert!(
+        words(&out).contains("only where the ray meets the smallest triangles at less than"),
+        "{out}"
+    );
     let bad = |coordinates: &str, edge: &str, message: &str| {
         let scene = ["prove", "--coordinates", coordinates, "--edge", edge];
         refused(&scene, 2, message);
@@ -146,7 +157,7 @@ fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
     bad("1", "1..10", "does not fit into coordinates up to 1");
     refused(&["prove", "--distance", "5"], 2, "--distance needs");
     refused(&["prove", "--edge", "1..2"], 2, "--edge needs --coordinates");
-    refused(&["prove", "--kernel", "moller"], 2, "moller-trumbore");
+    refused(&["prove", "--kernel", "moller"], 2, "unknown kernel 'moller'");
     let empty = scratch("prove-mesh").join("empty.obj");
     fs::write(&empty, "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").unwrap();
     let empty = empty.to_str().unwrap();
@@ -175,7 +186,9 @@ fn a_meshs_triangles_have_bounds_of_their_own() {
         "--quiet",
     ]);
     assert!(out.contains("Triangle by triangle the bound goes from"), "{out}");
-    assert!(out.contains("e = 1e-6 (source, truck) refuses every parallel ray at"), "{out}");
+    let all = words(&out);
+    assert!(all.contains("e = 1e-6 (source, truck) is proved at 1280 of 1280."), "{out}");
+    assert!(all.contains("e = 1e-12 (jolt) is proved at 0 of 1280."), "{out}");
 }
 
 #[test]
