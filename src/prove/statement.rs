@@ -164,7 +164,7 @@ fn edge<F>(
         None => format!("{} / |det| of the way across the triangle", above(beta)),
     };
     lines.push(format!(
-        "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss through farther outside,          than {most}."
+        "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss through farther outside, than {most}."
     ));
 }
 
