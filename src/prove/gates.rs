@@ -1,8 +1,9 @@
 //! The bounds of all gates of a kernel: every path, every quantity, each program once.
 
-use super::bound::{Lemma, Prover, is_impossible, unsigned};
+use super::bound::{Lemma, Prover};
 use super::forms::Leaf;
 use super::formula::Source;
+use super::order::{is_impossible, unsigned};
 use super::{Bound, Domain, Format, Rule};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
@@ -24,6 +25,8 @@ pub struct Quantity {
     pub gate: usize,
     /// The path.
     pub path: usize,
+    /// Whether it is compared with the epsilon itself; else with zero, at an epsilon of 0.
+    pub is_margin: bool,
     /// How many decisions of the path come before the comparison.
     pub decisions: usize,
     /// Its place in the path's program, without a sign around it.
@@ -98,6 +101,7 @@ impl Proof {
                     quantities.push(Quantity {
                         gate: compared.gate,
                         path: index,
+                        is_margin: compared.refuse.is_some(),
                         decisions: compared.decisions,
                         place,
                         bound,

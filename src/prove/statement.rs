@@ -39,6 +39,11 @@ pub fn statements<F: Searched + Scalar>(
     }];
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
+        _ if !gate.is_margin => lines.push(format!(
+            "At an epsilon of 0 this gate decides otherwise than exact arithmetic only where the exact number \
+             is within {} of 0.",
+            above(beta)
+        )),
         Role::Parallel if tunable => {
             parallel(gate, scene, beta, &mut lines);
             for epsilon in published.iter().filter(|(_, e)| *e > 0.0) {
@@ -161,7 +166,10 @@ fn edge<F>(
             return;
         }
         Some(depth) => format!("{} of the way across the triangle{flat}", above(depth)),
-        None => format!("{} / |det| of the way across the triangle", above(beta)),
+        None => format!(
+            "{} / S of the way across the triangle, S being the sum of its three edge values",
+            above(beta)
+        ),
     };
     lines.push(format!(
         "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss through farther outside, than {most}."
@@ -181,8 +189,8 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              for vertices, nor where a triangle faces away from its neighbour (folds)."
         }
         Symmetry::ExactSigns => {
-            "Watertight, proved: at a shared edge both triangles compute opposite values, and a value that is \
-             not zero has the sign of the exact determinant of the rounded, sheared vertices. So at an epsilon \
+            "Watertight, proved (short of underflow): at a shared edge both triangles compute opposite values, \
+             and a value that is not zero has the sign of the exact determinant of the rounded, sheared vertices. So at an epsilon \
              of 0 the kernel decides as an exact test would on the mesh with its vertices so rounded: no ray \
              passes between the triangles of an edge, nor of a closed fan that stays closed and unfolded when \
              it is rounded. Nothing follows for folds."
@@ -197,7 +205,8 @@ pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
     let proof = Proof::new(paths, Some(gate), Domain::UNIT, format_of::<F>());
     let beta = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
     let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::and);
-    if uses.floor || uses.world || uses.extent {
+    let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
+    if uses.floor || uses.world || uses.extent || !is_margin {
         return None;
     }
     let of = if uses.edge { "edges" } else { "vectors from the origin to the vertices" };
@@ -206,7 +215,7 @@ pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
         Role::Edge => format!("an e below {} loses no hit at an edge", signed(-beta)),
         _ => return None,
     };
-    Some(format!("for every float with coordinates of {of} below 1 and |d| <= 1: {what}"))
+    Some(format!("for every float with coordinates of {of} up to 0.999 and |d| <= 1: {what}"))
 }
 
 /// A positive number in three digits, not below it.

@@ -34,6 +34,8 @@ pub struct GateSummary<F> {
     pub bound: Result<Dyadic, String>,
     /// What the bound supposes.
     pub uses: Uses,
+    /// Whether what it compares is compared with the epsilon itself; else with zero, at an epsilon of 0.
+    pub is_margin: bool,
     /// The worst inputs known for each goal, in the order of [`GOALS`].
     pub witnesses: [Option<Witness<F>>; 3],
 }
@@ -108,6 +110,7 @@ impl<F: Searched + Scalar> Summary<F> {
             let bound = proof.gate(index)?;
             let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
             let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::and);
+            let is_margin = of_gate().all(|quantity| quantity.is_margin);
             let witnesses = GOALS.map(|goal| {
                 let wanted = goal == Goal::Error || goal == goal_of(gate.role);
                 let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
@@ -117,7 +120,7 @@ impl<F: Searched + Scalar> Summary<F> {
                 found.max_by(|a, b| a.score.total_cmp(&b.score))
             });
             let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
-            Some(GateSummary { index, gate: *gate, bound, uses, witnesses })
+            Some(GateSummary { index, gate: *gate, bound, uses, is_margin, witnesses })
         });
         let gates: Vec<GateSummary<F>> = gates.collect();
         let edges = |path: usize| {

@@ -1,34 +1,12 @@
 //! Witnesses: inputs of a proof's domain on which a number is as wrong as a search can make it.
 
 use super::gates::Quantity;
+use super::run::{Number, cone, run};
 use super::{Domain, Leaf, Proof, Rule, Source};
 use crate::arith::recorded::{Comparison, Operation, Place};
-use crate::arith::{Bounded, Exact, Float, Real};
+use crate::arith::{Bounded, Exact, Float};
 use crate::case::Draw;
 use std::cmp::Ordering;
-
-/// A number that a recorded program runs on.
-pub trait Number: Real {
-    /// `a*b + c`, rounded once if it rounds.
-    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
-        a.clone() * b + c
-    }
-}
-
-impl Number for f32 {
-    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
-        Float::mul_add(*a, *b, *c)
-    }
-}
-
-impl Number for f64 {
-    fn fused(a: &Self, b: &Self, c: &Self) -> Self {
-        Float::mul_add(*a, *b, *c)
-    }
-}
-
-impl Number for Bounded {}
-impl Number for Exact {}
 
 /// A scalar, with the arithmetic in which a search takes the exact numbers: right to far less than an ulp of
 /// the scalar. What a search finds is measured again in [`Exact`] numbers.
@@ -85,37 +63,6 @@ impl Goal {
 
 /// The seventeen numbers of a case, in the order of `Case::hex`.
 pub type Inputs<F> = [F; 17];
-
-/// Runs a program up to a place.
-pub fn run<R: Number>(
-    operations: &[Operation],
-    last: Place,
-    inputs: &[R; 17],
-    values: &mut Vec<R>,
-) {
-    values.clear();
-    for operation in &operations[..=last as usize] {
-        let of = |place: Place| &values[place as usize];
-        let value = match *operation {
-            Operation::Input(i) => inputs[usize::from(i)].clone(),
-            Operation::Number(0) => R::zero(),
-            Operation::Number(value) => {
-                let size = (0..value.abs()).fold(R::zero(), |sum, _| sum + R::one());
-                if value < 0 { -size } else { size }
-            }
-            Operation::Add(a, b) => of(a).clone() + of(b),
-            Operation::Sub(a, b) => of(a).clone() - of(b),
-            Operation::Mul(a, b) => of(a).clone() * of(b),
-            Operation::Div(a, b) => of(a).clone() / of(b),
-            Operation::Neg(a) => -of(a).clone(),
-            Operation::Abs(a) => of(a).abs(),
-            Operation::Sqrt(a) => of(a).sqrt(),
-            Operation::Fma(a, b, c) => R::fused(of(a), of(b), of(c)),
-            Operation::Minor(a, b, c, d) => R::difference_of_products(of(a), of(b), of(c), of(d)),
-        };
-        values.push(value);
-    }
-}
 
 /// One condition of a domain on the exact numbers of a program.
 #[derive(Clone, Copy, Debug)]
@@ -301,7 +248,7 @@ impl<'a, F: Searched> Search<'a, F> {
         let mut best: Option<(Inputs<F>, f64)> = None;
         let mut current: Option<(Inputs<F>, f64)> = None;
         let mut stale = 0;
-        for evaluation in 0..evaluations {
+        for _ in 0..evaluations {
             // Starts again where nothing better came for long; sometimes from a known case.
             if current.is_none() || stale > 20_000 {
                 let inputs = match known {
@@ -333,7 +280,6 @@ impl<'a, F: Searched> Search<'a, F> {
             if best.is_none_or(|(_, best)| found > best) {
                 (best, stale) = (Some((tried, found)), 0);
             }
-            let _ = evaluation;
         }
         let (inputs, _) = best?;
         self.exact(&inputs, goal).map(|score| (inputs, score))
@@ -443,38 +389,6 @@ fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
     for axis in 0..3 {
         inputs[3 + axis] = inputs[to + axis] - inputs[from + axis];
     }
-}
-
-/// The operations that a place needs, and where each went.
-fn cone(operations: &[Operation], last: Place) -> (Vec<Operation>, Vec<Option<Place>>) {
-    let mut needed = vec![false; operations.len()];
-    needed[last as usize] = true;
-    for place in (0..operations.len()).rev().filter(|p| *p <= last as usize) {
-        if needed[place] {
-            operations[place].operands().iter().for_each(|p| needed[*p as usize] = true);
-        }
-    }
-    let mut renamed = vec![None; operations.len()];
-    let mut kept = Vec::new();
-    for (place, operation) in operations.iter().enumerate().filter(|(place, _)| needed[*place]) {
-        let of = |place: Place| -> Place { renamed[place as usize].expect("operands come first") };
-        use Operation::*;
-        let operation = match *operation {
-            Input(_) | Number(_) => *operation,
-            Add(a, b) => Add(of(a), of(b)),
-            Sub(a, b) => Sub(of(a), of(b)),
-            Mul(a, b) => Mul(of(a), of(b)),
-            Div(a, b) => Div(of(a), of(b)),
-            Neg(a) => Neg(of(a)),
-            Abs(a) => Abs(of(a)),
-            Sqrt(a) => Sqrt(of(a)),
-            Fma(a, b, c) => Fma(of(a), of(b), of(c)),
-            Minor(a, b, c, d) => Minor(of(a), of(b), of(c), of(d)),
-        };
-        renamed[place] = Some(kept.len() as Place);
-        kept.push(operation);
-    }
-    (kept, renamed)
 }
 
 /// Whether a coordinate is used otherwise than in a difference of points.

@@ -1,6 +1,7 @@
 //! Proofs as text.
 
-use super::{GatePart, Record, scene_text};
+use super::record::{GatePart, Record};
+use super::scenes::scene_text;
 use crate::prove::Scene;
 use std::io::{self, Write};
 

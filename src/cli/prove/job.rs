@@ -1,0 +1,171 @@
+//! One kernel in one scalar: what is proved of it, as parts of the record.
+
+use super::record::{GatePart, KernelPart, WitnessPart};
+use super::witnesses::StoredWitness;
+use crate::arith::Float;
+use crate::audit::EpsilonText;
+use crate::kernel::{Entry, PRESETS, Role, Scalar};
+use crate::prove::{
+    BySize, Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry,
+    about_edges, statements,
+};
+
+/// What is the same for all kernels.
+pub struct Job<'a> {
+    pub scene: Option<Scene>,
+    /// Of a mesh: the largest coordinate of each triangle's edges.
+    pub triangles: Vec<f64>,
+    pub domain: Domain,
+    pub effort: Effort,
+    /// Whether to say of every published epsilon how far it carries.
+    pub published: bool,
+    pub stored: &'a [StoredWitness],
+}
+
+/// What comes out for a kernel in a scalar.
+#[derive(Default)]
+pub struct Parts {
+    pub gates: Vec<GatePart>,
+    pub kernel: Option<KernelPart>,
+    pub witnesses: Vec<StoredWitness>,
+    pub note: Option<String>,
+    /// A witness above its bound.
+    pub contradiction: Option<String>,
+}
+
+impl Job<'_> {
+    /// Proves and searches.
+    pub fn run<F: Searched + Scalar>(&self, entry: &Entry) -> Parts {
+        let name = entry.info.name;
+        let is_of = |w: &&StoredWitness| w.kernel == name && w.scalar == F::NAME;
+        let known: Vec<[F; 17]> =
+            self.stored.iter().filter(is_of).filter_map(StoredWitness::numbers).collect();
+        let summary = match Summary::<F>::new(entry, self.domain, &known, self.effort) {
+            Ok(summary) => summary,
+            Err(why) => {
+                let note = Some(format!("{name}, {}: no proof: {why}", F::NAME));
+                return Parts { note, ..Parts::default() };
+            }
+        };
+        if let Some(contradiction) = summary.contradiction() {
+            let contradiction = Some(format!("self-check: {name}, {}: {contradiction}", F::NAME));
+            return Parts { contradiction, ..Parts::default() };
+        }
+        let unit = summary.format.unit().to_f64();
+        let part = |gate: &GateSummary<F>| {
+            let witness = |i: usize| {
+                gate.witnesses[i].filter(|w| w.score > 0.0).map(|w| WitnessPart {
+                    value: w.score,
+                    units: w.score / unit,
+                    inputs: w.inputs.iter().map(|x| x.hex()).collect(),
+                })
+            };
+            let published = if self.published { published::<F>(entry, gate) } else { Vec::new() };
+            GatePart {
+                kernel: name.to_owned(),
+                scalar: F::NAME,
+                gate: gate.gate.name,
+                compares: gate.gate.refuses,
+                bound: gate.bound.as_ref().ok().map(|bound| bound.to_f64()),
+                bound_units: gate.bound.as_ref().ok().map(|bound| bound.to_f64() / unit),
+                why: gate.bound.as_ref().err().cloned(),
+                witness: witness(0),
+                factor: gate.factor(),
+                supposes: supposes(gate),
+                parallel_passes: witness(1),
+                hit_lost: witness(2),
+                statements: statements(entry, &summary, gate, self.scene.as_ref(), &published)
+                    .into_iter()
+                    .chain(self.by_triangle::<F>(entry, gate, &published))
+                    .collect(),
+            }
+        };
+        let witnesses = summary.gates.iter().flat_map(|gate| {
+            gate.witnesses.iter().zip(GOALS).filter_map(move |(witness, goal)| {
+                let witness = witness.filter(|witness| witness.score > 0.0)?;
+                Some(StoredWitness {
+                    kernel: name.to_owned(),
+                    scalar: F::NAME.to_owned(),
+                    gate: gate.gate.name.to_owned(),
+                    goal: goal.name().to_owned(),
+                    inputs: witness.inputs.iter().map(|x| x.hex()).collect(),
+                    units: witness.score / unit,
+                })
+            })
+        });
+        Parts {
+            witnesses: witnesses.collect(),
+            kernel: Some(KernelPart {
+                kernel: name.to_owned(),
+                scalar: F::NAME,
+                paths: summary.proof.paths.len(),
+                edges: about_edges(summary.symmetry),
+                watertight: summary.symmetry == Symmetry::ExactSigns,
+            }),
+            gates: summary.gates.iter().map(part).collect(),
+            ..Parts::default()
+        }
+    }
+}
+
+impl Job<'_> {
+    /// What each triangle's own bound says of a gate that knows nothing but its edges.
+    fn by_triangle<F: Searched + Scalar>(
+        &self,
+        entry: &Entry,
+        gate: &GateSummary<F>,
+        published: &[Published],
+    ) -> Option<String> {
+        let is_of_edges = gate.gate.role == Role::Parallel && gate.uses.is_of_edges_alone();
+        if self.triangles.is_empty() || !is_of_edges {
+            return None;
+        }
+        let mut sizes = BySize::<F>::new(entry, gate.index)?;
+        let own = self.triangles.iter().filter_map(|size| sizes.bound(*size));
+        let mut bounds: Vec<f64> = own.map(|bound| bound.to_f64()).collect();
+        bounds.sort_by(f64::total_cmp);
+        let (least, most) = (bounds.first()?, bounds.last()?);
+        let mut text = format!(
+            "Triangle by triangle the bound goes from {least:.2e} to {most:.2e}; half of them are below {:.2e}.",
+            bounds[bounds.len() / 2]
+        );
+        for (name, value) in published.iter().filter(|(_, value)| *value > 0.0) {
+            let count = bounds.iter().filter(|bound| *bound < value).count();
+            let of = self.triangles.len();
+            text +=
+                &format!(" e = {name} refuses every parallel ray at {count} of {of} triangles.");
+        }
+        Some(text)
+    }
+}
+
+fn supposes<F>(gate: &GateSummary<F>) -> Vec<&'static str> {
+    let uses = gate.uses;
+    let all = [
+        (uses.edge, "edges"),
+        (uses.reach, "origin to vertices"),
+        (uses.world, "coordinates"),
+        (uses.extent, "t_min and t_max"),
+        (uses.floor, "divisors"),
+    ];
+    all.into_iter().filter(|(is_used, _)| *is_used).map(|(_, name)| name).collect()
+}
+
+/// The epsilons of the kernel's own sets and of the presets that fit a gate.
+fn published<F: Float>(entry: &Entry, gate: &GateSummary<F>) -> Vec<Published> {
+    let own = entry.info.epsilon_sets.iter().map(|set| (set.name, set.values[gate.index]));
+    let own = own.filter_map(|(name, text)| Some((name, EpsilonText::of(text)?)));
+    let presets = PRESETS.iter().flat_map(|preset| {
+        let fitting = preset.entries.iter().filter(|entry| entry.fits(&gate.gate));
+        fitting.map(|entry| (preset.name, EpsilonText::from(entry.value)))
+    });
+    let mut found: Vec<Published> = Vec::new();
+    for (name, text) in own.chain(presets) {
+        let Some(value) = text.value::<F>().map(F::to_f64) else { continue };
+        match found.iter_mut().find(|(_, known)| *known == value) {
+            Some((names, _)) => names.insert_str(names.len() - 1, &format!(", {name}")),
+            None => found.push((format!("{text} ({name})"), value)),
+        }
+    }
+    found
+}

@@ -1,0 +1,82 @@
+//! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
+
+use crate::prove::Domain;
+use serde::Serialize;
+
+/// The record of a run.
+#[derive(Serialize)]
+pub struct Record {
+    pub schema: &'static str,
+    pub version: &'static str,
+    pub domain: DomainPart,
+    pub gates: Vec<GatePart>,
+    pub kernels: Vec<KernelPart>,
+}
+
+#[derive(Serialize)]
+pub struct DomainPart {
+    pub edge: f64,
+    pub reach: f64,
+    pub world: f64,
+    pub direction: f64,
+    pub extent: f64,
+    pub divisor_at_least: f64,
+    pub quotient_at_most: f64,
+}
+
+/// One gate of one kernel in one scalar.
+#[derive(Serialize)]
+pub struct GatePart {
+    pub kernel: String,
+    pub scalar: &'static str,
+    pub gate: &'static str,
+    pub compares: &'static str,
+    /// No computed number is farther from the exact one.
+    pub bound: Option<f64>,
+    /// The same in units of 2^-p.
+    pub bound_units: Option<f64>,
+    /// Why there is no bound.
+    pub why: Option<String>,
+    pub witness: Option<WitnessPart>,
+    /// bound / witness
+    pub factor: Option<f64>,
+    /// What the bound supposes beside |d| <= 1.
+    pub supposes: Vec<&'static str>,
+    /// The largest computed number of a ray that is exactly parallel, of those known.
+    pub parallel_passes: Option<WitnessPart>,
+    /// A hit that is lost: how far below zero its computed number is, of those known.
+    pub hit_lost: Option<WitnessPart>,
+    pub statements: Vec<String>,
+}
+
+#[derive(Serialize)]
+pub struct WitnessPart {
+    pub value: f64,
+    pub units: f64,
+    pub inputs: Vec<String>,
+}
+
+/// What is said of a kernel as a whole.
+#[derive(Serialize)]
+pub struct KernelPart {
+    pub kernel: String,
+    pub scalar: &'static str,
+    pub paths: usize,
+    pub edges: &'static str,
+    pub watertight: bool,
+}
+
+impl DomainPart {
+    /// In floats.
+    pub fn new(domain: &Domain) -> DomainPart {
+        DomainPart {
+            edge: domain.edge.to_f64(),
+            reach: domain.reach.to_f64(),
+            world: domain.world.to_f64(),
+            direction: domain.direction.to_f64(),
+            extent: domain.extent.to_f64(),
+            divisor_at_least: domain.floor.to_f64(),
+            quotient_at_most: domain.quotient.to_f64(),
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The stored witnesses: `corpora/proofs/witnesses.ndjson`.
+
+use crate::arith::Float;
+use crate::cli::exit::Failure;
+use crate::corpus::InputError;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The witnesses that the program was built with.
+pub const KNOWN: &str = include_str!("../../../corpora/proofs/witnesses.ndjson");
+
+/// A stored witness.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredWitness {
+    pub kernel: String,
+    pub scalar: String,
+    pub gate: String,
+    /// What it is a witness of: see `GOALS`.
+    pub goal: String,
+    /// The seventeen numbers, as bits in hexadecimal.
+    pub inputs: Vec<String>,
+    /// Its score in units of 2^-p. It is computed again whenever it is used.
+    pub units: f64,
+}
+
+impl StoredWitness {
+    /// As numbers of a scalar; none if they are not seventeen.
+    pub fn numbers<F: Float>(&self) -> Option<[F; 17]> {
+        let bits = |text: &String| u64::from_str_radix(text, 16).ok().map(F::from_bits);
+        let numbers: Vec<F> = self.inputs.iter().map(bits).collect::<Option<_>>()?;
+        numbers.try_into().ok()
+    }
+}
+
+/// The witnesses of a file's text, one a line.
+pub fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Failure> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    lines
+        .map(|(i, line)| {
+            let witness: StoredWitness = serde_json::from_str(line)
+                .map_err(|error| InputError::at(path, i + 1, error.to_string()))?;
+            if witness.numbers::<f64>().is_none() {
+                return Err(InputError::at(path, i + 1, "not seventeen numbers as bits").into());
+            }
+            Ok(witness)
+        })
+        .collect()
+}
+
+/// Puts found witnesses into the table; how many are new or worse than those there.
+pub fn merge(stored: &mut Vec<StoredWitness>, found: Vec<StoredWitness>) -> usize {
+    let key =
+        |w: &StoredWitness| (w.kernel.clone(), w.scalar.clone(), w.gate.clone(), w.goal.clone());
+    let mut table: BTreeMap<_, StoredWitness> = stored.drain(..).map(|w| (key(&w), w)).collect();
+    let mut raised = 0;
+    for witness in found {
+        let known = table.get(&key(&witness));
+        if known.is_none_or(|known| known.units < witness.units) {
+            raised += 1;
+            table.insert(key(&witness), witness);
+        }
+    }
+    stored.extend(table.into_values());
+    raised
+}
