@@ -187,8 +187,16 @@ fn a_meshs_triangles_have_bounds_of_their_own() {
     ]);
     assert!(out.contains("Triangle by triangle the bound goes from"), "{out}");
     let all = words(&out);
-    assert!(all.contains("e = 1e-6 (source, truck) is proved at 1280 of 1280."), "{out}");
-    assert!(all.contains("e = 1e-12 (jolt) is proved at 0 of 1280."), "{out}");
+    assert!(
+        all.contains(
+            "e = 1e-6 (source, truck) is proved to refuse every parallel ray at 1280 of 1280"
+        ),
+        "{out}"
+    );
+    assert!(
+        all.contains("e = 1e-12 (jolt) is proved to refuse every parallel ray at 0 of 1280"),
+        "{out}"
+    );
 }
 
 #[test]

@@ -132,8 +132,9 @@ impl Job<'_> {
         for (name, value) in published.iter().filter(|(_, value)| *value > 0.0) {
             let count = bounds.iter().filter(|bound| *bound < value).count();
             let of = self.triangles.len();
-            text +=
-                &format!(" e = {name} refuses every parallel ray at {count} of {of} triangles.");
+            text += &format!(
+                " e = {name} is proved to refuse every parallel ray at {count} of {of} triangles."
+            );
         }
         Some(text)
     }
