@@ -116,7 +116,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     let entries = arguments.entries()?;
     let scalars = chosen_scalars(&arguments.scalar)?;
-    let (scene, triangles) = arguments.scene()?;
+    let (scene, shapes) = arguments.scene()?;
     let domain = match &scene {
         Some(scene) => scene.domain().map_err(Failure::usage)?,
         None => Domain::UNIT,
@@ -141,7 +141,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         return files::certify(&entries, scalars, domain, path);
     }
     let published = arguments.kernel.len() == 1;
-    let job = Job { scene, triangles, domain, effort, published, stored: &stored };
+    let job = Job { scene, shapes, domain, effort, published, stored: &stored };
     let tasks: Vec<(&Entry, bool)> = entries
         .iter()
         .flat_map(|entry| [(*entry, false), (*entry, true)])
@@ -220,12 +220,12 @@ impl ProveArguments {
         found.map(Some).ok_or_else(|| unknown("gate", name, gates(), &list))
     }
 
-    /// The scene, and of a mesh the largest coordinate of each triangle's edges.
-    fn scene(&self) -> Result<(Option<Scene>, Vec<f64>), Failure> {
+    /// The scene, and the sizes and areas of its triangles.
+    fn scene(&self) -> Result<(Option<Scene>, Vec<(f64, f64)>), Failure> {
         if let Some(path) = &self.mesh {
             let distance = self.distance.expect("required by --mesh");
-            let (scene, sizes) = mesh_scene(path, distance, self.grazing, self.quiet)?;
-            return Ok((Some(scene), sizes));
+            let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.quiet)?;
+            return Ok((Some(scene), shapes));
         }
         let Some(edge) = self.edge else {
             return match self.distance {
@@ -242,6 +242,8 @@ impl ProveArguments {
         };
         let distance = self.distance.unwrap_or(2.0 * coordinates);
         let (min_angle, grazing) = (self.min_angle, self.grazing);
-        Ok((Some(Scene { coordinates, edge, distance, min_angle, grazing }), Vec::new()))
+        let scene = Scene { coordinates, edge, distance, min_angle, grazing, shape: None };
+        let shapes = scene.domain().map_or(Vec::new(), |_| scene.shapes());
+        Ok((Some(scene), shapes))
     }
 }

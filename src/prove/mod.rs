@@ -39,7 +39,7 @@ pub use permanent::{Relative, Roundings, relative};
 pub use run::{Number, run};
 pub use scene::Scene;
 pub use sizes::BySize;
-pub use statement::{Published, about_edges, in_short, statements};
+pub use statement::{Published, Triangles, about_edges, in_short, statements};
 pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};

@@ -15,6 +15,8 @@ pub struct Scene {
     pub min_angle: f64,
     /// No ray of interest meets its triangle's plane at a smaller angle, in degrees.
     pub grazing: f64,
+    /// Twice the smallest area, if it is known.
+    pub shape: Option<f64>,
 }
 
 /// Binary digits of a domain's bounds; the corners are computed with them exactly.
@@ -23,7 +25,8 @@ const DIGITS: u32 = 10;
 impl Scene {
     /// The domain; an error in one sentence if there is none.
     pub fn domain(&self) -> Result<Domain, String> {
-        let Scene { coordinates, edge: [shortest, longest], distance, min_angle, grazing } = *self;
+        let Scene { coordinates, edge: [shortest, longest], distance, min_angle, grazing, .. } =
+            *self;
         let lengths = [
             ("coordinates", coordinates),
             ("shortest edge", shortest),
@@ -31,10 +34,10 @@ impl Scene {
             ("distance", distance),
         ];
         if let Some((name, value)) = lengths.iter().find(|(_, x)| !(x.is_finite() && *x > 0.0)) {
-            return Err(format!("the {name} is {value}; it must be a positive number"));
+            return Err(format!("{name}: expected a positive number, found {value}"));
         }
         if let Some((name, value)) = lengths.iter().find(|(_, x)| !(1e-30..=1e30).contains(x)) {
-            return Err(format!("the {name} is {value}; lengths from 1e-30 to 1e30 are supported"));
+            return Err(format!("{name}: expected a length from 1e-30 to 1e30, found {value:e}"));
         }
         if shortest > longest {
             return Err(format!(
@@ -44,6 +47,12 @@ impl Scene {
         if longest > 3.5 * coordinates {
             return Err(format!(
                 "an edge of {longest} does not fit into coordinates up to {coordinates}"
+            ));
+        }
+        // Some vertex is as far from the origin as half an edge.
+        if distance < longest / 2.0 {
+            return Err(format!(
+                "no origin is within {distance} of all vertices of a triangle with an edge of {longest}"
             ));
         }
         let angles = [("smallest angle", min_angle, 60.0), ("grazing angle", grazing, 90.0)];
@@ -75,7 +84,26 @@ impl Scene {
 
     /// Twice the smallest area, or slightly less.
     pub fn least_shape(&self) -> f64 {
-        self.edge[0] * self.edge[0] * sine(self.min_angle)
+        let of_angles = self.edge[0] * self.edge[0] * sine(self.min_angle);
+        self.shape.map_or(of_angles, |shape| shape * 0.999_999)
+    }
+
+    /// The sizes of triangles, in steps: the longest edge, and the least that twice the area is from the step
+    /// before on. A triangle whose longest edge is l has another of at least l/2 at an angle of at least the smallest.
+    pub fn shapes(&self) -> Vec<(f64, f64)> {
+        let [shortest, longest] = self.edge;
+        let mut shapes = Vec::new();
+        let mut size = shortest;
+        while size < longest || shapes.is_empty() {
+            let next = (size * std::f64::consts::SQRT_2).min(longest).max(size);
+            let least = (size * size / 2.0).max(shortest * shortest) * sine(self.min_angle);
+            shapes.push((next, least));
+            if next <= size {
+                break;
+            }
+            size = next;
+        }
+        shapes
     }
 }
 

@@ -9,12 +9,22 @@ use crate::kernel::{Entry, Role, Scalar};
 /// An epsilon, and where it comes from.
 pub type Published = (String, f64);
 
+/// A scene, and the triangles that it has.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Of its triangles the largest coordinate of the edges, and twice the area: of each triangle of a mesh, or
+    /// the largest and the smallest of each kind that the scene may have.
+    pub shapes: &'a [(f64, f64)],
+}
+
 /// The sentences about a gate; of each published epsilon it is said how far it carries.
 pub fn statements<F: Searched + Scalar>(
     entry: &Entry,
     summary: &Summary<F>,
     gate: &GateSummary<F>,
-    scene: Option<&Scene>,
+    scene: Option<Triangles>,
     published: &[Published],
 ) -> Vec<String> {
     let bound = match &gate.bound {
@@ -23,20 +33,22 @@ pub fn statements<F: Searched + Scalar>(
     };
     let beta = bound.to_f64();
     let unit = summary.format.unit().to_f64();
-    let mut lines = vec![match &gate.witnesses[0] {
-        Some(Witness { score, .. }) => format!(
-            "What it compares is never wrong by more than {} ({:.2} u); {} ({:.2} u) is known.",
-            above(beta),
-            beta / unit,
-            below(*score),
-            score / unit
-        ),
-        None => format!(
-            "What it compares is never wrong by more than {} ({:.2} u).",
-            above(beta),
-            beta / unit
-        ),
-    }];
+    let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit));
+    let where_ = if gate.uses.floor {
+        let Domain { floor, quotient, .. } = summary.domain;
+        format!(
+            ", where divisors are at least {} and quotients at most {}",
+            below(floor.to_f64()),
+            above(quotient.to_f64())
+        )
+    } else {
+        String::new()
+    };
+    let known = gate.witnesses[0].as_ref().map_or(String::new(), |Witness { score, .. }| {
+        format!("; {} ({} u) is known", below(*score), units(score / unit))
+    });
+    let what = "What it compares is never wrong by more than";
+    let mut lines = vec![format!("{what} {}{where_}{known}.", in_units(beta))];
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
         _ if !gate.is_margin => lines.push(format!(
@@ -45,12 +57,17 @@ pub fn statements<F: Searched + Scalar>(
             above(beta)
         )),
         Role::Parallel if tunable => {
-            parallel(gate, scene, beta, &mut lines);
-            for epsilon in published.iter().filter(|(_, e)| *e > 0.0) {
-                lines.push(about_epsilon(entry, summary, gate, scene, epsilon, beta));
+            let mut sizes = BySize::<F>::new(entry, gate.index);
+            let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
+            parallel(gate, scene, own, beta, published, &mut lines);
+            let sizes = sizes.filter(|_| scene.is_none() && !gate.uses.floor);
+            if let Some(mut sizes) = sizes {
+                for epsilon in published.iter().filter(|(_, e)| *e > 0.0) {
+                    lines.push(about_epsilon(summary, gate, &mut sizes, epsilon));
+                }
             }
         }
-        Role::Edge => edge(gate, scene, beta, tunable, &mut lines),
+        Role::Edge => edge(gate, scene.map(|triangles| triangles.scene), beta, tunable, &mut lines),
         _ if tunable => lines.push(format!(
             "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing that \
              it refuses.",
@@ -61,7 +78,14 @@ pub fn statements<F: Searched + Scalar>(
     lines
 }
 
-fn parallel<F>(gate: &GateSummary<F>, scene: Option<&Scene>, beta: f64, lines: &mut Vec<String>) {
+fn parallel<F: Searched + Scalar>(
+    gate: &GateSummary<F>,
+    scene: Option<Triangles>,
+    own: Option<&mut BySize<F>>,
+    beta: f64,
+    published: &[Published],
+    lines: &mut Vec<String>,
+) {
     let passes = gate.witnesses[1].as_ref().filter(|witness| witness.score > 0.0);
     let known = passes.map_or(String::new(), |witness| {
         format!(" A parallel ray is known that reaches {}.", below(witness.score))
@@ -70,50 +94,64 @@ fn parallel<F>(gate: &GateSummary<F>, scene: Option<&Scene>, beta: f64, lines: &
         "An epsilon above {} refuses every ray that is exactly parallel.{known}",
         above(beta)
     ));
-    lines.push(match scene {
-        None => format!(
+    let Some(Triangles { shapes, .. }) = scene else {
+        lines.push(format!(
             "With an epsilon e this gate refuses a hit only where the exact value is below e + {}.",
             above(beta)
-        ),
-        Some(scene) => {
-            format!("With that epsilon this gate refuses hits {}.", cost(scene, 2.0 * beta))
+        ));
+        return;
+    };
+    // Each triangle with its own bound, where the gate knows nothing but its edges.
+    let mut errors = vec![beta; shapes.len()];
+    if let Some(sizes) = own {
+        for (error, (size, _)) in errors.iter_mut().zip(shapes) {
+            *error = sizes.bound(*size).map_or(beta, |bound| bound.to_f64().min(beta));
         }
-    });
-}
-
-/// Where the exact |det| can be below a number.
-fn cost(scene: &Scene, value: f64) -> String {
-    // |det| = 2 * area * |d| * sine of the angle to the plane.
-    let sine = value / scene.least_shape();
-    if sine < 1.0 {
-        let angle = libm::asin(sine).to_degrees();
-        format!("only where the ray meets the smallest triangles at less than {}", degrees(angle))
-    } else {
-        "at any angle on the smallest triangles: their determinants are no larger than that"
-            .to_owned()
+    }
+    let is_angle = gate.gate.dimension.length == 0;
+    let mut say = |name: &str, value: f64| {
+        // |det| = 2 * area * |d| * sine of the angle to the plane.
+        let sine = shapes
+            .iter()
+            .zip(&errors)
+            .map(|((_, shape), error)| (value + error) / if is_angle { 1.0 } else { *shape });
+        let sine = sine.fold(0.0, f64::max);
+        let cost = if sine < 1.0 {
+            let angle = libm::asin(sine).to_degrees();
+            format!("keeps every hit at {} to the plane and more", degrees(angle))
+        } else {
+            "is proved to keep every hit at no angle".to_owned()
+        };
+        let refuses = if beta < value {
+            "refuses every parallel ray".to_owned()
+        } else {
+            let proved = errors.iter().filter(|error| **error < value).count();
+            match proved {
+                0 => "is not proved to refuse parallel rays".to_owned(),
+                _ if shapes.len() == proved => "refuses every parallel ray".to_owned(),
+                _ => format!(
+                    "is proved to refuse every parallel ray at {} % of the sizes of triangles only",
+                    100 * proved / shapes.len()
+                ),
+            }
+        };
+        lines.push(format!("In this scene, for |d| = 1, {name} {refuses}, and {cost}."));
+    };
+    say("that epsilon", beta * (1.0 + 1e-9));
+    for (name, value) in published.iter().filter(|(_, e)| *e > 0.0) {
+        say(&format!("e = {name}"), *value);
     }
 }
 
 /// How far one published epsilon carries.
 fn about_epsilon<F: Searched + Scalar>(
-    entry: &Entry,
     summary: &Summary<F>,
     gate: &GateSummary<F>,
-    scene: Option<&Scene>,
+    sizes: &mut BySize<F>,
     (name, value): &Published,
-    beta: f64,
 ) -> String {
-    if let Some(scene) = scene {
-        let refuses = if *value > beta {
-            "refuses every parallel ray of this scene"
-        } else {
-            "is not proved to refuse every parallel ray of this scene"
-        };
-        return format!("e = {name} {refuses}; it refuses hits {}.", cost(scene, value + beta));
-    }
     let what = if gate.uses.edge { "edges" } else { "vectors from the origin to the vertices" };
-    let mut sizes = BySize::<F>::new(entry, gate.index);
-    let proved = sizes.as_mut().and_then(|sizes| sizes.largest(*value)).map_or_else(
+    let proved = sizes.largest(*value).map_or_else(
         || format!("e = {name} is proved for no size of {what}."),
         |size| {
             format!(
@@ -124,10 +162,10 @@ fn about_epsilon<F: Searched + Scalar>(
     );
     // A power of two changes no rounding, so the known case passes e at every larger power of two.
     let passes = gate.witnesses[1].as_ref().map(|witness| witness.score).filter(|x| *x > 0.0);
-    let fails = passes.map(|score| {
+    let length = gate.gate.dimension.length;
+    let fails = passes.filter(|_| length > 0).map(|score| {
         let bound = if gate.uses.edge { summary.domain.edge } else { summary.domain.reach };
-        let power = f64::from(gate.gate.dimension.length.max(1));
-        let exponent = ((value / score).log2() / power).floor() as i32 + 1;
+        let exponent = ((value / score).log2() / f64::from(length)).floor() as i32 + 1;
         let size = bound.to_f64() * 2f64.powi(exponent);
         format!(" A known parallel ray passes it where they are up to {}.", above(size))
     });
@@ -141,13 +179,6 @@ fn edge<F>(
     tunable: bool,
     lines: &mut Vec<String>,
 ) {
-    if tunable {
-        let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
-        let known = lost.map_or(String::new(), |witness| {
-            format!(" At {} a hit is known to be lost.", signed(-witness.score))
-        });
-        lines.push(format!("An epsilon below {} loses no hit at an edge.{known}", signed(-beta)));
-    }
     let length = gate.gate.dimension.length;
     let depth = match scene {
         _ if length == 0 => Some(beta),
@@ -158,13 +189,23 @@ fn edge<F>(
         _ => None,
     };
     let flat = scene.map_or(String::new(), |scene| {
-        format!(", for rays that meet the plane at {} or more", degrees(scene.grazing))
+        format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
     });
+    if depth.is_some_and(|depth| depth >= 0.5) {
+        lines.push(format!("This bound is of no use for the smallest triangles{flat}."));
+        return;
+    }
+    if tunable {
+        let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
+        let known = lost.map_or(String::new(), |witness| {
+            format!(
+                " A number that is not below 0 is known to be computed as {}.",
+                signed(-witness.score)
+            )
+        });
+        lines.push(format!("An epsilon below {} loses no hit at an edge.{known}", signed(-beta)));
+    }
     let most = match depth {
-        Some(depth) if depth >= 1.0 => {
-            lines.push(format!("The bound says nothing of the smallest triangles{flat}."));
-            return;
-        }
         Some(depth) => format!("{} of the way across the triangle{flat}", above(depth)),
         None => format!(
             "{} / S of the way across the triangle, S being the sum of its three edge values",
@@ -172,7 +213,8 @@ fn edge<F>(
         ),
     };
     lines.push(format!(
-        "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss through farther outside, than {most}."
+        "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss of this domain through farther \
+         outside, than {most}."
     ));
 }
 
@@ -254,6 +296,11 @@ fn short(x: f64, up: bool) -> String {
     } else {
         format!("{:.2}e{exponent}", digits / 100.0)
     }
+}
+
+/// A number of units.
+fn units(x: f64) -> String {
+    if (0.01..1e6).contains(&x) { format!("{x:.2}") } else { format!("{x:.2e}") }
 }
 
 fn degrees(angle: f64) -> String {

@@ -9,6 +9,8 @@ use crate::kernel::{Entry, Path, Scalar};
 use crate::prove::certificate::{Claim, Heading, heading, program};
 use crate::prove::{Domain, Effort, Format, Quantity, Searched, Summary, checker, fpcore, gappa};
 use crate::report::number_of;
+use num_traits::ToPrimitive;
+use std::collections::BTreeMap;
 
 /// Writes the certificate of one kernel in one scalar.
 pub fn certify(
@@ -56,10 +58,20 @@ fn certificate<F: Searched + Scalar>(entry: &Entry, domain: Domain) -> Result<St
 pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
     let mut lines = Vec::new();
     for file in &arguments.check {
-        let proved = checker::check(&read_text(file)?)
+        let text = read_text(file)?;
+        let proved = checker::check(&text)
             .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
         let bounds = number_of(proved.len() as u64, "bound", "bounds");
-        lines.push(format!("{file}: {bounds} proved"));
+        // The largest error of each gate.
+        let mut gates: BTreeMap<&str, f64> = BTreeMap::new();
+        for claim in &proved {
+            let error = claim.bound.error.to_f64().unwrap_or(f64::INFINITY);
+            let most = gates.entry(&claim.gate).or_default();
+            *most = most.max(error);
+        }
+        let gates: Vec<String> = gates.iter().map(|(gate, x)| format!("{gate} {x:.3e}")).collect();
+        let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
+        lines.push(format!("{file}: {bounds} proved of {kernel}: {}", gates.join(", ")));
     }
     write_result(&arguments.output, |out| {
         lines.iter().try_for_each(|line| writeln!(out, "{line}"))

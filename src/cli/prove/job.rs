@@ -4,9 +4,9 @@ use super::record::{GatePart, KernelPart, WitnessPart};
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
-use crate::kernel::{Entry, PRESETS, Role, Scalar};
+use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
-    BySize, Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry,
+    Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry, Triangles,
     about_edges, statements,
 };
 
@@ -14,7 +14,7 @@ use crate::prove::{
 pub struct Job<'a> {
     pub scene: Option<Scene>,
     /// Of a mesh: the largest coordinate of each triangle's edges.
-    pub triangles: Vec<f64>,
+    pub shapes: Vec<(f64, f64)>,
     pub domain: Domain,
     pub effort: Effort,
     /// Whether to say of every published epsilon how far it carries.
@@ -52,6 +52,8 @@ impl Job<'_> {
             return Parts { contradiction, ..Parts::default() };
         }
         let unit = summary.format.unit().to_f64();
+        let shapes = &self.shapes;
+        let triangles = self.scene.as_ref().map(|scene| Triangles { scene, shapes });
         let part = |gate: &GateSummary<F>| {
             let witness = |i: usize| {
                 gate.witnesses[i].filter(|w| w.score > 0.0).map(|w| WitnessPart {
@@ -74,10 +76,7 @@ impl Job<'_> {
                 supposes: supposes(gate),
                 parallel_passes: witness(1),
                 hit_lost: witness(2),
-                statements: statements(entry, &summary, gate, self.scene.as_ref(), &published)
-                    .into_iter()
-                    .chain(self.by_triangle::<F>(entry, gate, &published))
-                    .collect(),
+                statements: statements(entry, &summary, gate, triangles, &published),
             }
         };
         let witnesses = summary.gates.iter().flat_map(|gate| {
@@ -105,38 +104,6 @@ impl Job<'_> {
             gates: summary.gates.iter().map(part).collect(),
             ..Parts::default()
         }
-    }
-}
-
-impl Job<'_> {
-    /// What each triangle's own bound says of a gate that knows nothing but its edges.
-    fn by_triangle<F: Searched + Scalar>(
-        &self,
-        entry: &Entry,
-        gate: &GateSummary<F>,
-        published: &[Published],
-    ) -> Option<String> {
-        let is_of_edges = gate.gate.role == Role::Parallel && gate.uses.is_of_edges_alone();
-        if self.triangles.is_empty() || !is_of_edges {
-            return None;
-        }
-        let mut sizes = BySize::<F>::new(entry, gate.index)?;
-        let own = self.triangles.iter().filter_map(|size| sizes.bound(*size));
-        let mut bounds: Vec<f64> = own.map(|bound| bound.to_f64()).collect();
-        bounds.sort_by(f64::total_cmp);
-        let (least, most) = (bounds.first()?, bounds.last()?);
-        let mut text = format!(
-            "Triangle by triangle the bound goes from {least:.2e} to {most:.2e}; half of them are below {:.2e}.",
-            bounds[bounds.len() / 2]
-        );
-        for (name, value) in published.iter().filter(|(_, value)| *value > 0.0) {
-            let count = bounds.iter().filter(|bound| *bound < value).count();
-            let of = self.triangles.len();
-            text += &format!(
-                " e = {name} is proved to refuse every parallel ray at {count} of {of} triangles."
-            );
-        }
-        Some(text)
     }
 }
 

@@ -18,59 +18,65 @@ pub fn degrees(text: &str) -> Result<f64, String> {
     number.parse().map_err(|_| format!("'{text}' is no angle in degrees"))
 }
 
-/// The scene that a mesh is, and the largest coordinate of each triangle's edges.
+/// The scene that a mesh is, and of each triangle the largest coordinate of its edges and twice its area
+/// (infinite where there is none: no ray hits it).
 pub fn mesh_scene(
     path: &str,
     distance: f64,
     grazing: f64,
     quiet: bool,
-) -> Result<(Scene, Vec<f64>), Failure> {
-    let mut triangles = Vec::new();
+) -> Result<(Scene, Vec<(f64, f64)>), Failure> {
+    let mut shapes = Vec::new();
     let mesh = read_mesh(path, quiet)?;
     let mut edge = [f64::INFINITY, 0.0f64];
-    let (mut min_angle, mut coordinates) = (180.0f64, 0.0f64);
+    let (mut min_angle, mut coordinates) = (60.0f64, 0.0f64);
     for triangle in 0..mesh.triangles.len() {
-        let vertices = mesh.vertices::<f64>(triangle);
-        let length = |p: [f64; 3], q: [f64; 3]| {
-            (0..3).map(|i| (p[i] - q[i]) * (p[i] - q[i])).sum::<f64>().sqrt()
-        };
-        let sides = [0, 1, 2].map(|i| length(vertices[i], vertices[(i + 1) % 3]));
-        let angle = (0..3).map(|i| {
-            let [a, b, c] = [0, 1, 2].map(|k| sides[(i + k) % 3]);
-            ((b * b + c * c - a * a) / (2.0 * b * c)).clamp(-1.0, 1.0).acos().to_degrees()
-        });
-        let angle = angle.fold(180.0, f64::min);
-        if angle.is_nan() || angle <= 0.0 {
-            continue;
+        let (mut size, mut shape) = (0.0f64, f64::INFINITY);
+        // As the mesh is in either scalar.
+        let of_f32 = mesh.vertices::<f32>(triangle).map(|vertex| vertex.map(f64::from));
+        for vertices in [mesh.vertices::<f64>(triangle), of_f32] {
+            let side = |i: usize| {
+                let (p, q) = (vertices[i], vertices[(i + 1) % 3]);
+                [0, 1, 2].map(|axis| q[axis] - p[axis])
+            };
+            let sides = [side(0), side(1), side(2)];
+            let lengths = sides.map(|side| side.iter().map(|x| x * x).sum::<f64>().sqrt());
+            let [u, v] = [sides[0], sides[1]];
+            let cross = |i: usize, j: usize| u[i] * v[j] - u[j] * v[i];
+            let normal = [cross(1, 2), cross(2, 0), cross(0, 1)];
+            let area = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+            size = sides.iter().flatten().fold(size, |most, x| most.max(x.abs()));
+            coordinates = vertices.iter().flatten().fold(coordinates, |most, x| most.max(x.abs()));
+            edge[1] = lengths.into_iter().fold(edge[1], f64::max);
+            if area > 0.0 {
+                shape = shape.min(area);
+                edge[0] = lengths.into_iter().fold(edge[0], f64::min);
+                let angle = (0..3).map(|i| (area / (lengths[i] * lengths[(i + 1) % 3])).min(1.0));
+                let angle = angle.fold(1.0, f64::min).asin().to_degrees();
+                min_angle = min_angle.min(angle);
+            }
         }
-        let size = |(p, q): (usize, usize)| {
-            (0..3).map(move |i| (vertices[p][i] - vertices[q][i]).abs()).fold(0.0, f64::max)
-        };
-        triangles.push([(0, 1), (1, 2), (2, 0)].map(size).into_iter().fold(0.0, f64::max));
-        for side in sides {
-            edge = [edge[0].min(side), edge[1].max(side)];
-        }
-        min_angle = min_angle.min(angle);
-        let sizes = vertices.iter().flatten().map(|x| x.abs());
-        coordinates = sizes.fold(coordinates, f64::max);
+        shapes.push((size, shape));
     }
-    if edge[1] == 0.0 {
+    let shape = shapes.iter().map(|(_, shape)| *shape).fold(f64::INFINITY, f64::min);
+    if !shape.is_finite() {
         return Err(InputError::of(path, "no triangle with an area").into());
     }
     // Origins are up to the distance away from the vertices.
     let coordinates = coordinates + distance;
-    Ok((Scene { coordinates, edge, distance, min_angle, grazing }, triangles))
+    Ok((Scene { coordinates, edge, distance, min_angle, grazing, shape: Some(shape) }, shapes))
 }
 
 /// A scene's words.
 pub fn scene_text(scene: &Scene) -> String {
     let short = |x: f64| format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
-    let digits = |x: f64| if x < 0.001 { format!("{x:.2e}") } else { short(x) };
-    let Scene { coordinates, edge: [low, high], distance, min_angle, grazing } = *scene;
+    let is_plain = |x: f64| (0.001..1e7).contains(&x);
+    let digits = |x: f64| if is_plain(x) { short(x) } else { format!("{x:.2e}") };
+    let Scene { coordinates, edge: [low, high], distance, min_angle, grazing, .. } = *scene;
     let [coordinates, low, high, distance, min_angle, grazing] =
         [coordinates, low, high, distance, min_angle, grazing].map(digits);
     format!(
         "coordinates up to {coordinates}, edges from {low} to {high}, origins up to {distance} from the \
-         vertices, angles of {min_angle} degrees and more, rays at {grazing} degrees to the plane and more, |d| <= 1"
+         vertices, angles of {min_angle} degrees and more, rays at {grazing} degrees to the plane and more, coordinates of d up to 1"
     )
 }

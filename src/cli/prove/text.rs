@@ -81,7 +81,11 @@ pub fn kernel(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io
         writeln!(out, "\n  edges")?;
         paragraph(kernel.edges, out)?;
     }
-    Ok(())
+    let name = record.kernels.first().map_or("K", |kernel| &kernel.kernel);
+    writeln!(
+        out,
+        "\nWhat epsilons do to your rays, and which to use: hairline epsilon --kernel {name} --scene room"
+    )
 }
 
 /// A sentence in lines of at most 100 columns.
@@ -104,8 +108,9 @@ fn domain(record: &Record, scene: Option<&Scene>) -> String {
         None => {
             let part = &record.domain;
             format!(
-                "Unit domain: coordinates and their differences below {:.3}, |d| <= {}; where a kernel divides, \
-                 divisors of {} and more,\nquotients up to {}. Powers of two scale it: lengths by s scale det by s^2.",
+                "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}; where a \
+                 kernel divides,\ndivisors of {} and more, quotients up to {}. A bound supposes, and its witness keeps, \
+                 only what the gate's numbers use.\nPowers of two scale it: lengths by s scale det by s^2.",
                 part.edge, part.direction, part.divisor_at_least, part.quotient_at_most
             )
         }
