@@ -304,5 +304,7 @@ fn units(x: f64) -> String {
 }
 
 fn degrees(angle: f64) -> String {
-    format!("{} degrees", above(angle))
+    let text = above(angle);
+    let unit = if text == "1" { "degree" } else { "degrees" };
+    format!("{text} {unit}")
 }
