@@ -13,7 +13,7 @@ use super::flags::{chosen_scalars, unknown};
 use super::input::read_text;
 use super::output::write_result;
 use crate::kernel::{self, Entry};
-use crate::prove::{Domain, Effort, Scene};
+use crate::prove::{Domain, Effort, Scene, Shape};
 use clap::{Args, ValueEnum};
 use job::{Job, Parts};
 use rayon::prelude::*;
@@ -221,7 +221,7 @@ impl ProveArguments {
     }
 
     /// The scene, and the sizes and areas of its triangles.
-    fn scene(&self) -> Result<(Option<Scene>, Vec<(f64, f64)>), Failure> {
+    fn scene(&self) -> Result<(Option<Scene>, Vec<Shape>), Failure> {
         if let Some(path) = &self.mesh {
             let distance = self.distance.expect("required by --mesh");
             let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.quiet)?;

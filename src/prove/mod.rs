@@ -37,7 +37,7 @@ pub use gates::{Proof, Quantity, Uses};
 pub use order::is_impossible;
 pub use permanent::{Relative, Roundings, relative};
 pub use run::{Number, run};
-pub use scene::Scene;
+pub use scene::{Scene, Shape};
 pub use sizes::BySize;
 pub use statement::{Published, Triangles, about_edges, in_short, statements};
 pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of};

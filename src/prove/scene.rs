@@ -19,6 +19,9 @@ pub struct Scene {
     pub shape: Option<f64>,
 }
 
+/// A triangle: the largest coordinate of its edges, and twice its area.
+pub type Shape = (f64, f64);
+
 /// Binary digits of a domain's bounds; the corners are computed with them exactly.
 const DIGITS: u32 = 10;
 
@@ -90,7 +93,7 @@ impl Scene {
 
     /// The sizes of triangles, in steps: the longest edge, and the least that twice the area is from the step
     /// before on. A triangle whose longest edge is l has another of at least l/2 at an angle of at least the smallest.
-    pub fn shapes(&self) -> Vec<(f64, f64)> {
+    pub fn shapes(&self) -> Vec<Shape> {
         let [shortest, longest] = self.edge;
         let mut shapes = Vec::new();
         let mut size = shortest;

@@ -3,7 +3,7 @@
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness, format_of};
 use super::witness::Searched;
-use super::{Domain, Proof, Quantity, Scene, Symmetry, Uses};
+use super::{Domain, Proof, Quantity, Scene, Shape, Symmetry, Uses};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -16,7 +16,7 @@ pub struct Triangles<'a> {
     pub scene: &'a Scene,
     /// Of its triangles the largest coordinate of the edges, and twice the area: of each triangle of a mesh, or
     /// the largest and the smallest of each kind that the scene may have.
-    pub shapes: &'a [(f64, f64)],
+    pub shapes: &'a [Shape],
 }
 
 /// The sentences about a gate; of each published epsilon it is said how far it carries.

@@ -6,15 +6,15 @@ use crate::arith::Float;
 use crate::audit::EpsilonText;
 use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
-    Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Summary, Symmetry, Triangles,
-    about_edges, statements,
+    Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Shape, Summary, Symmetry,
+    Triangles, about_edges, statements,
 };
 
 /// What is the same for all kernels.
 pub struct Job<'a> {
     pub scene: Option<Scene>,
     /// Of a mesh: the largest coordinate of each triangle's edges.
-    pub shapes: Vec<(f64, f64)>,
+    pub shapes: Vec<Shape>,
     pub domain: Domain,
     pub effort: Effort,
     /// Whether to say of every published epsilon how far it carries.

@@ -3,7 +3,7 @@
 use crate::cli::exit::Failure;
 use crate::cli::input::read_mesh;
 use crate::corpus::InputError;
-use crate::prove::Scene;
+use crate::prove::{Scene, Shape};
 
 /// `0.01..10`, or one number for both.
 pub fn range(text: &str) -> Result<[f64; 2], String> {
@@ -25,7 +25,7 @@ pub fn mesh_scene(
     distance: f64,
     grazing: f64,
     quiet: bool,
-) -> Result<(Scene, Vec<(f64, f64)>), Failure> {
+) -> Result<(Scene, Vec<Shape>), Failure> {
     let mut shapes = Vec::new();
     let mesh = read_mesh(path, quiet)?;
     let mut edge = [f64::INFINITY, 0.0f64];
