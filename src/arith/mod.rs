@@ -22,7 +22,7 @@ pub use arithmetic::Arithmetic;
 pub use bounded::{Bounded, bounded};
 pub use emulated::Emulated;
 pub use exact::Exact;
-pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two};
+pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two, smallest_normal};
 pub use fraction::Fraction;
 pub use tracked::{Exceptions, Tracked, tracked};
 pub use triple::{ExactVector, Triple};

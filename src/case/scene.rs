@@ -1,7 +1,7 @@
 //! A scene in a few numbers that a person knows: where its triangles are, how large they are, and how far
 //! rays travel.
 
-use crate::arith::{Float, scale_by_power_of_two};
+use crate::arith::{Float, smallest_normal};
 use std::fmt;
 
 /// What the rays and triangles of a scene measure, in the scene's own unit of length.
@@ -145,7 +145,6 @@ impl Scene {
     /// overflow.
     pub fn check_in<F: Float>(&self) -> Result<(), String> {
         let (shortest, name) = (self.edge[0], F::NAME);
-        let smallest_normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
         let reach = self.extent + self.distance[1];
         if !F::from_f64(reach * reach * reach).is_finite() {
             return Err(format!(
@@ -153,7 +152,7 @@ impl Scene {
                 Number(reach)
             ));
         }
-        if shortest * shortest * F::EPSILON.to_f64() < smallest_normal {
+        if shortest * shortest * F::EPSILON.to_f64() < smallest_normal::<F>() {
             return Err(format!(
                 "the areas of triangles of edge {} underflow in {name}: use a smaller unit of length",
                 Number(shortest)

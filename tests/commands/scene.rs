@@ -71,8 +71,8 @@ fn scenes_are_sources_whose_cases_explain_themselves() {
     let id = record.split('"').find(|word| word.starts_with("scene-")).unwrap();
     assert!(record.contains("scene-shadow") && record.contains("scene-grazing"), "{id}");
     let id = "scene-edges@1/f32/extent=1000,edge=0.01..10,distance=0..2000,direction=unit/1/17";
-    let (told, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
-    assert!(told.contains("cramer"), "{told}");
+    let (shown, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
+    assert!(shown.contains("cramer"), "{shown}");
     let id = "scene-shadow@1/f32/extent=1,edge=0.1..1,distance=0..4,direction=unit,kernel=X/1/17";
     let (_, error) = ends(&folder, &["explain", id], 2);
     assert!(error.contains("unknown kernel 'X'"), "{error}");

@@ -133,14 +133,14 @@ fn setting<'a>(
     Setting { row, gated, knobs, counts, scene, relative: false }
 }
 
-/// A case or group and what must be done with it.
-struct Asked {
+/// A case or group, and which of the counts it is for.
+struct Counted {
     count: usize,
     cases: Vec<Case<f32>>,
 }
 
 /// Everything that is counted, straight from the generators, the oracle and the judge.
-fn all_asked(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Asked> {
+fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counted> {
     let contract = &setting.row.contract;
     let mut all = Vec::new();
     for (count, Count { stratum, kind }) in setting.counts.iter().enumerate() {
@@ -159,7 +159,7 @@ fn all_asked(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Asked> {
                 Kind::Hit => asked(&cases[0], &truths[0], contract, false) == Obligation::MustMiss,
             };
             if is_counted {
-                all.push(Asked { count, cases });
+                all.push(Counted { count, cases });
             }
         }
     }
@@ -167,7 +167,7 @@ fn all_asked(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Asked> {
 }
 
 /// The shares of wrong answers of a kernel that is run with some epsilons.
-fn shares(setting: &Setting<'_, f32>, all: &[Asked], epsilons: &[f32]) -> Vec<f64> {
+fn shares(setting: &Setting<'_, f32>, all: &[Counted], epsilons: &[f32]) -> Vec<f64> {
     let mut of_gates = setting.row.epsilons::<f32>();
     let mut least_t = f32::NEG_INFINITY;
     for (knob, epsilon) in setting.knobs.iter().zip(epsilons) {
@@ -179,7 +179,7 @@ fn shares(setting: &Setting<'_, f32>, all: &[Asked], epsilons: &[f32]) -> Vec<f6
     let kernel = f32::subject(setting.row.entry).unwrap();
     let (mut wrong, mut of) = (vec![0; setting.counts.len()], vec![0; setting.counts.len()]);
     let mut verdicts = [Verdict::miss(None); 8];
-    for Asked { count, cases } in all {
+    for Counted { count, cases } in all {
         let verdicts = &mut verdicts[..cases.len()];
         kernel.run(cases, &of_gates, verdicts);
         let has_least_t = least_t != f32::NEG_INFINITY;
@@ -203,7 +203,7 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
     for kernel in ["moller-trumbore", "plane-unit-normal", "woop-watertight", "plucker"] {
         let (row, knobs, counts) = tuned(kernel);
         let setting = setting(&row, &knobs, &counts, &scene);
-        let all = all_asked(&setting, seed, number);
+        let all = all_counted(&setting, seed, number);
         for costs in ["crack=10", "crack=1,self-hit=30", "miss=0.01,hit=5"] {
             let costs = Costs::parse(costs).unwrap();
             let best = cheapest(&setting, &[], &costs, seed, number, &Unobserved);

@@ -6,7 +6,7 @@ use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary};
 use crate::case::{Case, Parameters, Scene};
 use crate::contract::{Contract, Extent, Sides};
-use crate::engine::{self, Merge, Observer};
+use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::Stratum;
 use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Gated, Scalar};
@@ -159,7 +159,7 @@ impl<F: Scalar> Setting<'_, F> {
         mut add: impl FnMut(Trial<'_, F>),
     ) {
         let mut summary = SourceSummary::new(0, F::NAME);
-        let chunk = Chunk::<F>::make(source, indices, &crate::engine::Unobserved, &mut summary);
+        let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
         let margins = self.margins(&chunk.cases);
         let contract = &self.row.contract;
         let of =

@@ -5,6 +5,7 @@ use crate::arith::Float;
 use crate::case::{DirectionLength, Draw, Parameters, Scene};
 use glam::DVec3;
 
+/// Makes something of the scene that the parameters hold, or of the default one.
 pub fn with_scene<T>(parameters: &Parameters, make: impl FnOnce(&Scene) -> T) -> T {
     match &parameters.scene {
         Some(scene) => make(scene),
@@ -142,7 +143,7 @@ pub fn ray<F: Float>(
     (start, direction(scene, target - wide(start), toward))
 }
 
-/// The direction of a way in a scene; of no way, that of the unit vector.
+/// The direction along a way in a scene; along a unit vector if the way is too short.
 pub fn direction<F: Float>(scene: &Scene, way: DVec3, toward: DVec3) -> [F; 3] {
     // Nearer than the shortest edge, the target's own rounding would turn the ray.
     let is_short = way.dot(way) < scene.edge[0] * scene.edge[0];
@@ -154,13 +155,19 @@ pub fn direction<F: Float>(scene: &Scene, way: DVec3, toward: DVec3) -> [F; 3] {
     }
 }
 
-/// A unit vector in the plane of a frame, uniform on the circle.
-pub fn in_plane(draw: &mut Draw, frame: &Frame) -> DVec3 {
+/// A point of the unit circle, uniform.
+pub fn circle(draw: &mut Draw) -> [f64; 2] {
     loop {
         let (x, y) = (symmetric(draw), symmetric(draw));
         let square = x * x + y * y;
         if (0.0625..=1.0).contains(&square) {
-            return frame.flat(x, y) / square.sqrt();
+            return [x / square.sqrt(), y / square.sqrt()];
         }
     }
+}
+
+/// A unit vector in the plane of a frame, uniform on the circle.
+pub fn in_plane(draw: &mut Draw, frame: &Frame) -> DVec3 {
+    let [x, y] = circle(draw);
+    frame.flat(x, y)
 }

@@ -1,7 +1,10 @@
 //! Rays almost and exactly parallel to the plane of a triangle.
 
 use super::super::{Made, integer, unit};
-use super::draw::*;
+use super::draw::{
+    Frame, any_direction, apex, beside, between, between_powers, circle, in_plane, inside, place,
+    point_of, ray, rounded, symmetric, triangle, wide, with_scene,
+};
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, DirectionLength, Draw, Parameters, Scene};
 use crate::kernel::Scalar;
@@ -133,13 +136,7 @@ fn level<F: Float>(
 ) -> ([[F; 3]; 3], [F; 3]) {
     let base = place(draw, scene, size);
     let mut frame = Frame { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
-    let turned = loop {
-        let (x, y) = (symmetric(draw), symmetric(draw));
-        let square = x * x + y * y;
-        if (0.0625..=1.0).contains(&square) {
-            break [x / square.sqrt(), y / square.sqrt()];
-        }
-    };
+    let turned = circle(draw);
     (frame.along[i], frame.along[j]) = (turned[0], turned[1]);
     (frame.across[i], frame.across[j]) = (-turned[1], turned[0]);
     frame.normal[k] = 1.0;

@@ -7,6 +7,9 @@ use crate::report::record::Rate;
 use crate::report::{Style, group_digits};
 use std::io::{self, Write};
 
+/// The width of a column of the tables.
+const WIDTH: usize = 13;
+
 /// Writes the recommendation first, then the evidence.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
     for (i, part) in record.kernels.iter().enumerate() {
@@ -107,8 +110,6 @@ fn degrees(sine: f64) -> String {
     if angle < 0.01 { format!("{angle:.0e}\u{b0}") } else { format!("{angle:.2}\u{b0}") }
 }
 
-const WIDTH: usize = 13;
-
 /// A shortest decimal as people write it.
 fn human(epsilon: &str) -> String {
     match epsilon.parse::<f64>() {
@@ -169,7 +170,7 @@ fn share(rate: &Rate) -> String {
     }
 }
 
-/// `>= 1.2e-6`, or nothing.
+/// `>= 1.2e-6`, or that no value keeps the limit.
 fn bound(limit: &LimitPart, unit: &str) -> String {
     match &limit.value {
         Some(value) => {
@@ -213,11 +214,11 @@ fn limits(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) -> 
             let count = &part.counts[limit.count];
             format!("{} ({})", bound(limit, &unit), label(&count.stratum, &count.kind))
         };
-        writeln!(out, "no {} does both {}", knob.name, what(lower))?;
+        writeln!(out, "no value of {} is both {}", knob.name, what(lower))?;
         writeln!(out, "  and {}:", what(upper))?;
         let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
             (Some([from, to]), Some(form), _) => {
-                format!("{form} in its place does both, with e from {from} to {to}")
+                format!("{form} in its place is within both limits, with e from {from} to {to}")
             }
             (_, _, "t") => "start the ray off the surface instead".to_owned(),
             _ => "rounding decides those rays: it takes wider numbers or another kernel".to_owned(),
