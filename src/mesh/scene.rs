@@ -138,7 +138,7 @@ impl OfMesh<'_> {
     }
 
     /// A face's vertices in its winding, turned so that a point is the first.
-    fn from_point<F: Float>(&self, face: u32, point: u32) -> Corners<F> {
+    fn turned_to<F: Float>(&self, face: u32, point: u32) -> Corners<F> {
         let mesh = self.mesh.surface.mesh();
         let vertices = mesh.triangles[face as usize];
         let is_point = |vertex: &u32| self.topology.points[*vertex as usize] == point;
@@ -158,20 +158,20 @@ impl<F: Float> Triangles<F> for OfMesh<'_> {
         let [first, second] = edge.faces;
         let [one, other] = edge.ends;
         // The winding of the first face decides at which end its edge starts.
-        let [p, q, r] = self.from_point::<F>(first, one);
+        let [p, q, r] = self.turned_to::<F>(first, one);
         let end: [F; 3] = self.mesh.surface.mesh().position(other);
         if q == end {
-            let [.., s] = self.from_point::<F>(second, other);
+            let [.., s] = self.turned_to::<F>(second, other);
             [p, q, r, s]
         } else {
-            let [.., s] = self.from_point::<F>(second, one);
+            let [.., s] = self.turned_to::<F>(second, one);
             [end, p, q, s]
         }
     }
 
     fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>> {
         let (center, faces) = self.topology.fans.get(draw.below(self.topology.fans.len()));
-        faces.iter().map(|face| self.from_point(*face, center)).collect()
+        faces.iter().map(|face| self.turned_to(*face, center)).collect()
     }
 
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
