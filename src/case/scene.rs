@@ -7,8 +7,10 @@ use std::fmt;
 /// What the rays and triangles of a scene measure, in the scene's own unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Every coordinate of a triangle is within ± this.
+    /// Every coordinate of a triangle is within ± this of the center.
     pub extent: f64,
+    /// All three coordinates of the scene's center.
+    pub center: f64,
     /// The shortest and the longest length of a triangle's longest edge; each doubling between them is
     /// equally likely.
     pub edge: [f64; 2],
@@ -44,7 +46,7 @@ const fn preset(
     edge: [f64; 2],
     distance: [f64; 2],
 ) -> ScenePreset {
-    let scene = Scene { extent, edge, distance, direction: DirectionLength::Unit };
+    let scene = Scene { extent, center: 0.0, edge, distance, direction: DirectionLength::Unit };
     ScenePreset { name, unit, scene }
 }
 
@@ -63,7 +65,8 @@ impl Default for Scene {
 }
 
 /// The words of a scene, as errors list them.
-const WORDS: &str = "extent=1000, edge=0.01..10, distance=0..2000, direction=unit or target";
+const WORDS: &str =
+    "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target";
 
 impl Scene {
     /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
@@ -102,6 +105,7 @@ impl Scene {
     pub(super) fn set(&mut self, key: &str, value: &str) -> Result<bool, String> {
         match key {
             "extent" => self.extent = number(key, value)?,
+            "center" => self.center = number(key, value)?,
             "edge" => self.edge = range(key, value)?,
             "distance" => self.distance = range(key, value)?,
             "direction" => {
@@ -141,12 +145,17 @@ impl Scene {
         Ok(())
     }
 
+    /// The largest coordinate of a triangle.
+    pub fn largest(&self) -> f64 {
+        self.center.abs() + self.extent
+    }
+
     /// An error if a scalar cannot hold the scene: its triangles collapse, or products underflow or
     /// overflow.
     pub fn check_in<F: Float>(&self) -> Result<(), String> {
         let (shortest, name) = (self.edge[0], F::NAME);
         let smallest_normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
-        let reach = self.extent + self.distance[1];
+        let reach = self.largest() + self.distance[1];
         if !F::from_f64(reach * reach * reach).is_finite() {
             return Err(format!(
                 "products of three lengths such as {} overflow in {name}: use a larger unit of length",
@@ -159,12 +168,12 @@ impl Scene {
                 Number(shortest)
             ));
         }
-        let spacing = F::from_f64(self.extent).ulp().to_f64();
+        let spacing = F::from_f64(self.largest()).ulp().to_f64();
         if shortest < 32.0 * spacing {
             return Err(format!(
                 "triangles of edge {} collapse at coordinates of {}, where the numbers of {name} are {spacing:.1e} apart{}",
                 Number(shortest),
-                Number(self.extent),
+                Number(self.largest()),
                 if F::NAME == f32::NAME { " (see --scalar f64)" } else { "" }
             ));
         }
@@ -221,7 +230,11 @@ impl fmt::Display for Scene {
         };
         let (edge, distance) = (Range(self.edge), Range(self.distance));
         let extent = Number(self.extent);
-        write!(f, "extent={extent},edge={edge},distance={distance},direction={direction}")
+        write!(f, "extent={extent},")?;
+        if self.center != 0.0 {
+            write!(f, "center={},", Number(self.center))?;
+        }
+        write!(f, "edge={edge},distance={distance},direction={direction}")
     }
 }
 
@@ -234,6 +247,7 @@ mod tests {
         for text in [
             "extent=1000,edge=0.01..10,distance=0..2000,direction=unit",
             "extent=1e-7,edge=1e-9,distance=5e-9..1e-8,direction=target",
+            "extent=10,center=-100000,edge=1,distance=0..4,direction=unit",
         ] {
             assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
         }
@@ -255,6 +269,7 @@ mod tests {
             ("extent=inf", "not a finite number"),
             ("extent=0", "extent=0: must be above 0"),
             ("extent=-1", "must be above 0"),
+            ("center=nan", "not a finite number"),
             ("edge=0..1", "edge=0..1: must be above 0"),
             ("edge=1..", "'' is not a finite number"),
             ("edge=0.5..0.25", "the range is empty"),
@@ -280,6 +295,8 @@ mod tests {
         }
         let [f32, f64] = refused("extent=1e6,edge=0.1..1,distance=0..10");
         assert!(f32.unwrap().contains("collapse at coordinates of 1000000") && f64.is_none());
+        let [f32, f64] = refused("extent=10,center=-1e6,edge=0.1..1,distance=0..10");
+        assert!(f32.unwrap().contains("collapse at coordinates of 1000010") && f64.is_none());
         let [f32, f64] = refused("extent=1e-17,edge=1e-18..1e-17,distance=0..1e-17");
         assert!(f32.unwrap().contains("underflow in f32") && f64.is_none());
         let [f32, f64] = refused("extent=1e14,edge=1e13,distance=0..1e14");

@@ -23,9 +23,11 @@ mod scene;
 mod shape;
 mod sizes;
 
+pub(crate) use control::combination;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
+pub(crate) use scene::any_direction;
 pub use scene::{STRATA, Stratum};
 
 use crate::arith::Float;

@@ -16,6 +16,7 @@ mod prove;
 mod response;
 mod scenes;
 mod severity;
+mod spawn;
 mod strategy;
 mod trials;
 mod watertight;

@@ -85,7 +85,9 @@ pub fn wide<F: Float>(point: [F; 3]) -> DVec3 {
 /// A point so far inside the extent that all within `size` of it is inside too, where there is one.
 pub fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
     let reach = (scene.extent - size).max(0.0);
-    DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach
+    let from_center = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach;
+    // Adding 0 would take the sign from zeros.
+    if scene.center == 0.0 { from_center } else { from_center + DVec3::splat(scene.center) }
 }
 
 /// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the

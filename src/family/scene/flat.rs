@@ -52,9 +52,9 @@ pub fn parallel<F: Scalar>(parameters: &Parameters, draw: &mut Draw, _: u64) -> 
     })
 }
 
-/// The spacing of floats near the extent, on whose multiples small sums are exact.
+/// The spacing of floats near the largest coordinate, on whose multiples small sums are exact.
 fn grid<F: Float>(scene: &Scene) -> f64 {
-    F::from_f64(scene.extent).ulp().to_f64()
+    F::from_f64(scene.largest()).ulp().to_f64()
 }
 
 /// The multiple of a spacing next to a number.

@@ -12,6 +12,7 @@ mod shadow;
 use super::{Family, Grouping, Question};
 use crate::truth::Truth;
 use aimed::{edges, interior, outside, vertices};
+pub(crate) use draw::any_direction;
 use flat::{grazing, parallel};
 use shadow::shadow;
 
