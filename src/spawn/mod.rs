@@ -14,6 +14,7 @@
 
 #![forbid(unsafe_code)]
 
+mod hit;
 mod plane;
 mod published;
 mod run;
@@ -22,12 +23,11 @@ mod scheme;
 mod sums;
 mod trial;
 
+pub use hit::{HitPoint, Offset, Start};
 pub use plane::Plane;
 pub use published::{PUBLISHED, Parameter, Published};
 pub use run::{Plan, new_ray, run};
 pub use safe::{Least, least};
-pub use scheme::{
-    HitPoint, Offset, Scheme, Start, all, default_schemes, describe, parse, register,
-};
+pub use scheme::{Scheme, all, default_schemes, describe, parse, register};
 pub use sums::{Heights, Lengths, OfScheme, Sums};
 pub use trial::{PointKind, Trial, Trials, first_ray_id};

@@ -1,6 +1,6 @@
 //! The table of published schemes and their formulas, in the order of operations of their sources.
 
-use super::scheme::{HitPoint, Start};
+use super::hit::{HitPoint, Start};
 use crate::arith::Float;
 
 /// A published offset scheme: a row of the table.

@@ -1,9 +1,10 @@
 //! A run: every scheme on the hit points of one kernel in one scene.
 
+use super::hit::Start;
 use super::plane::Plane;
 use super::published::largest;
 use super::safe::{Least, least};
-use super::scheme::{Scheme, Start};
+use super::scheme::Scheme;
 use super::sums::{OfScheme, Sums};
 use super::trial::{PointKind, Trial, Trials};
 use crate::arith::Float;

@@ -1,7 +1,7 @@
 //! The smallest offset along the normal that is safe, of one case.
 
+use super::hit::HitPoint;
 use super::published::{along, largest};
-use super::scheme::HitPoint;
 use crate::arith::{Float, ordered_midpoint};
 
 /// The smallest offset along the normal whose start is right.

@@ -1,6 +1,6 @@
 //! First rays, their hit points, and the directions of the rays that leave them.
 
-use super::scheme::HitPoint;
+use super::hit::HitPoint;
 use crate::arith::{Float, Vector};
 use crate::case::{Case, Draw, Parameters, Scene};
 use crate::family::{Stratum, any_direction, combination};
