@@ -10,7 +10,9 @@
 
 mod arithmetic;
 mod bounded;
+mod digits;
 mod emulated;
+mod environment;
 mod exact;
 mod float;
 mod fraction;
@@ -20,9 +22,11 @@ mod triple;
 
 pub use arithmetic::Arithmetic;
 pub use bounded::{Bounded, bounded};
+pub use digits::three_digits;
 pub use emulated::Emulated;
+pub use environment::FloatEnvironment;
 pub use exact::Exact;
-pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two};
+pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two, smallest_normal};
 pub use fraction::Fraction;
 pub use tracked::{Exceptions, Tracked, tracked};
 pub use triple::{ExactVector, Triple};

@@ -27,7 +27,10 @@ pub(crate) use control::combination;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
-pub(crate) use scene::any_direction;
+pub(crate) use scene::{
+    Corners, Frame, Parallel, Triangles, along_axis, any_direction, circle, flat_along, in_plane,
+    rounded, wide,
+};
 pub use scene::{STRATA, Stratum};
 
 use crate::arith::Float;

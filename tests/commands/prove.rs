@@ -36,8 +36,8 @@ fn refused(arguments: &[&str], code: i32, message: &str) {
 #[test]
 fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     let out = text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
-    // 17 u by hand: see docs/guide/proof.md.
-    assert!(out.contains("never wrong by more than 1.02e-6 (16.99 u)"), "{out}");
+    // 17 u to first order by hand: see tests/library/prove.rs.
+    assert!(out.contains("never wrong by more than 1.02e-6 (17.00 u)"), "{out}");
     assert!(
         out.contains("An epsilon above 1.02e-6 refuses every ray that is exactly parallel."),
         "{out}"
@@ -97,10 +97,26 @@ fn certificates_are_checked_and_a_changed_number_is_refused() {
     let kernel = ["--kernel", "moller-trumbore-culling", "--scalar", "f32"];
     text(&[&["prove"], &kernel[..], &["--certificate", file]].concat());
     let proved = format!(
-        "{file}: 5 bounds proved of moller-trumbore-culling f32: edge 3.634e-6, parallel 1.013e-6\n"
+        "{file}: 5 bounds proved of moller-trumbore-culling f32: edge 3.634e-6, parallel 1.013e-6 \
+         (all that the kernel compares)\n"
     );
     assert_eq!(text(&["prove", "--check", file]), proved);
     let good = fs::read_to_string(file).unwrap();
+    // The same proofs under another name, and one of them less.
+    let renamed = |name: &str| {
+        fs::write(file, good.replacen("moller-trumbore-culling", name, 1)).unwrap();
+    };
+    renamed("moller-trumbore");
+    let message = ":5: the proof is right, but moller-trumbore has no such program here";
+    refused(&["prove", "--check", file], 1, &format!("{file}{message}"));
+    renamed("mine");
+    assert!(
+        text(&["prove", "--check", file])
+            .ends_with("(no kernel of that name is here to compare)\n")
+    );
+    let last = good.rfind("\nprogram\n").unwrap();
+    fs::write(file, &good[..=last]).unwrap();
+    assert!(text(&["prove", "--check", file]).ends_with("(without all of edge)\n"));
     let line = good.lines().position(|line| line.starts_with("first ")).unwrap();
     let first = good.lines().nth(line).unwrap();
     let mantissa: i64 = first["first ".len()..].split('*').next().unwrap().parse().unwrap();
@@ -126,12 +142,34 @@ fn stored_certificates_are_those_of_the_kernels() {
     let names: Vec<&str> = files.iter().map(String::as_str).collect();
     let out = text(&[&["prove", "--check"], &names[..]].concat());
     assert_eq!(out.lines().count(), 64);
-    // One of them is written again.
+    // Some of every kind are written again.
     let again = scratch("prove-again").join("a.proof");
     let again = again.to_str().unwrap();
-    text(&["prove", "--kernel", "woop-watertight", "--scalar", "f64", "--certificate", again]);
-    let stored = fs::read_to_string(format!("{folder}/woop-watertight-f64.proof")).unwrap();
-    assert_eq!(fs::read_to_string(again).unwrap(), stored);
+    for (kernel, scalar) in [
+        ("woop-watertight", "f64"),
+        ("woop-watertight+fma", "f32"),
+        ("plane-unit-normal", "f32"),
+        ("baldwin-weber", "f64"),
+        ("cramer+fma", "f64"),
+        ("moller-trumbore", "f32"),
+        ("plucker", "f32"),
+    ] {
+        text(&["prove", "--kernel", kernel, "--scalar", scalar, "--certificate", again]);
+        let stored = fs::read_to_string(format!("{folder}/{kernel}-{scalar}.proof")).unwrap();
+        assert!(fs::read_to_string(again).unwrap() == stored, "{kernel} {scalar}");
+    }
+}
+
+/// Subnormal numbers that are zero have errors of their own.
+#[test]
+fn what_flushes_subnormal_numbers_has_no_proof() {
+    let output = hairline(&["prove", "--kernel", "plucker+ftz"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{error}");
+    assert!(
+        error.contains("no proof: its arithmetic flushes subnormal numbers to zero"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -262,4 +300,40 @@ fn programs_are_written_for_other_tools() {
     assert!(out.contains("float<ieee_32"), "{out}");
     refused(&gappa, 2, "--format gappa is of one --kernel");
     refused(&[&gappa[..], &["--gate", "edgy"]].concat(), 2, "unknown gate 'edgy'");
+}
+
+/// A number in two decimals, not below it, or not above it.
+fn hundredths(x: f64, up: bool) -> String {
+    let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
+    format!("{:.2}", hundreds / 100.0)
+}
+
+#[test]
+fn the_guides_table_is_what_is_proved_and_known() {
+    let record = json(&hairline(&["prove", "--format", "json"]));
+    let gates = record["gates"].as_array().unwrap();
+    let cells = |gate: &serde_json::Value| match gate["bound_units"].as_f64() {
+        None => "none | | |".to_owned(),
+        Some(bound) => {
+            let witness = gate["witness"]["units"].as_f64().unwrap();
+            let factor = gate["factor"].as_f64().unwrap();
+            format!("{} | {} | {factor:.2} |", hundredths(bound, true), hundredths(witness, false))
+        }
+    };
+    let mut table = String::new();
+    for single in gates.iter().filter(|gate| gate["scalar"] == "f32") {
+        let is_double = |gate: &&serde_json::Value| {
+            gate["scalar"] == "f64" && ["kernel", "gate"].iter().all(|key| gate[key] == single[key])
+        };
+        let double = gates.iter().find(is_double).unwrap();
+        let supposes: Vec<&str> =
+            single["supposes"].as_array().unwrap().iter().map(|x| x.as_str().unwrap()).collect();
+        let [kernel, gate] = ["kernel", "gate"].map(|key| single[key].as_str().unwrap());
+        let (single, double) = (cells(single), cells(double));
+        let end = format!("{} |", supposes.join(", "));
+        table += &format!("| {kernel} | {gate} | {single} {double} {}\n", end.trim_start());
+    }
+    let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/proof.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    assert!(guide.contains(&table), "the table of docs/guide/proof.md should be\n{table}");
 }

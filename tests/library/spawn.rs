@@ -370,6 +370,20 @@ fn published_facts_come_out() {
 }
 
 #[test]
+fn waechter_binder_is_wrong_on_a_large_triangle_where_pbrt_is_not() {
+    // The only one of 10^7: hairline spawn --scene extent=1e3,edge=900 -n 10000000
+    let (row, scene, index) = (row("moller-trumbore"), scene("extent=1e3,edge=900"), 4_467_797);
+    let (kind, epsilons) = (PointKind::Weights, row.epsilons::<f32>());
+    let of = Trials::in_scene(row.entry, &epsilons, kind, &scene, 1, index..index + 1);
+    let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
+    let is_right = |scheme: &str| rise(trial, &start(scheme, &trial.hit)).is_positive();
+    assert!(!is_right("waechter-binder") && is_right("pbrt-v3") && is_right("pbrt-v4"));
+    // The triangle is hundreds of units away from a point whose coordinates are near 0.
+    let [x, y, z] = trial.hit.point.map(f32::abs);
+    assert!(x < 12.0 && y < 0.1 && z < 0.05, "{:?}", trial.hit);
+}
+
+#[test]
 fn schemes_of_ones_own_have_names_and_scalars() {
     let lift =
         |hit: &HitPoint<f32>| Start::at([hit.point[0] + hit.normal[0], hit.point[1], hit.point[2]]);

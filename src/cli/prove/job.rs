@@ -13,13 +13,15 @@ use crate::prove::{
 /// What is the same for all kernels.
 pub struct Job<'a> {
     pub scene: Option<Scene>,
-    /// Of a mesh: the largest coordinate of each triangle's edges.
+    /// The sizes and areas of its triangles.
     pub shapes: Vec<Shape>,
     pub domain: Domain,
     pub effort: Effort,
     /// Whether to say of every published epsilon how far it carries.
     pub published: bool,
     pub stored: &'a [StoredWitness],
+    /// Whether the stored witnesses of other kernels are tried too.
+    pub shared: bool,
 }
 
 /// What comes out for a kernel in a scalar.
@@ -37,7 +39,7 @@ impl Job<'_> {
     /// Proves and searches.
     pub fn run<F: Searched + Scalar>(&self, entry: &Entry) -> Parts {
         let name = entry.info.name;
-        let is_of = |w: &&StoredWitness| w.kernel == name && w.scalar == F::NAME;
+        let is_of = |w: &&StoredWitness| w.scalar == F::NAME && (self.shared || w.kernel == name);
         let known: Vec<[F; 17]> =
             self.stored.iter().filter(is_of).filter_map(StoredWitness::numbers).collect();
         let summary = match Summary::<F>::new(entry, self.domain, &known, self.effort) {
@@ -47,7 +49,7 @@ impl Job<'_> {
                 return Parts { note, ..Parts::default() };
             }
         };
-        if let Some(contradiction) = summary.contradiction() {
+        if let Some(contradiction) = &summary.contradiction {
             let contradiction = Some(format!("self-check: {name}, {}: {contradiction}", F::NAME));
             return Parts { contradiction, ..Parts::default() };
         }
@@ -75,7 +77,7 @@ impl Job<'_> {
                 factor: gate.factor(),
                 supposes: supposes(gate),
                 parallel_passes: witness(1),
-                hit_lost: witness(2),
+                computed_below_zero: witness(2),
                 statements: statements(entry, &summary, gate, triangles, &published),
             }
         };
