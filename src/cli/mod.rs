@@ -65,7 +65,7 @@ enum Command {
     Audit(Box<audit::AuditArguments>),
     /// Show what every epsilon of a kernel would do, and which to use
     Epsilon(Box<epsilon::EpsilonArguments>),
-    /// Show how new rays, such as shadow rays, must start so that they do not hit their own surface
+    /// Show which offset new rays, such as shadow rays, need to leave their own surface
     Spawn(Box<spawn::SpawnArguments>),
     /// Send rays at every edge and vertex of a mesh, and report where they slip through
     Mesh(Box<mesh::MeshArguments>),
