@@ -125,9 +125,9 @@ fn the_limits_of_a_settled_gate_are_where_the_counts_change() {
 fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
     let part = only(record(&["--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"]));
     let zero = part.prices.iter().find(|price| price.epsilon == "0").unwrap();
-    let respawn = zero.families.iter().find(|family| family.family == "respawn").unwrap();
-    assert!(respawn.let_through.rate.unwrap() > 0.3, "self-hits at 0: {respawn:?}");
-    assert_eq!(respawn.lost.of, 0);
+    let secondary = zero.families.iter().find(|family| family.family == "secondary-ray").unwrap();
+    assert!(secondary.let_through.rate.unwrap() > 0.3, "self-hits at 0: {secondary:?}");
+    assert_eq!(secondary.lost.of, 0);
     let near = |epsilon: &str| {
         let price = part.prices.iter().find(|price| price.epsilon == epsilon).unwrap();
         price.families.iter().find(|family| family.family == "origin-near").unwrap().lost.count
@@ -139,13 +139,14 @@ fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
 fn a_gate_is_on_t_by_its_role_whatever_its_dimension() {
     // Of dimension length / |d|, length³ / |d| and length³.
     for kernel in ["cramer", "woop-watertight", "plucker"] {
-        let family = ["--family", "respawn,interior", "--scales", "none", "--scalar", "f32"];
+        let family = ["--family", "secondary-ray,interior", "--scales", "none", "--scalar", "f32"];
         let part = only(record(&[&["--kernel", kernel, "--gate", "t"][..], &family].concat()));
         let zero = part.prices.iter().find(|price| price.epsilon == "0").expect("weighed");
-        let respawn = zero.families.iter().find(|family| family.family == "respawn").unwrap();
+        let secondary =
+            zero.families.iter().find(|family| family.family == "secondary-ray").unwrap();
         // Every ray that starts on its triangle is this gate's to keep off it.
-        assert_eq!((respawn.lost.of, respawn.let_through.of), (0, 2000), "{kernel}");
-        assert!(respawn.let_through.count > 0, "{kernel}");
+        assert_eq!((secondary.lost.of, secondary.let_through.of), (0, 2000), "{kernel}");
+        assert!(secondary.let_through.count > 0, "{kernel}");
         assert_eq!(zero.lost.of, 2000, "{kernel}: the hits of `interior`");
     }
 }

@@ -15,6 +15,10 @@ use aimed::{edges, interior, outside, vertices};
 use flat::{grazing, parallel};
 use shadow::shadow;
 
+pub(super) use draw::{Frame, any_direction, rounded, wide};
+pub(super) use flat::{grazing_case, grazing_sine};
+pub(super) use shadow::hit_point;
+
 /// A part of a scene whose rates are reported by themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stratum {
@@ -113,7 +117,7 @@ pub static STRATA: &[Family] = &[
     stratum!(
         "scene-shadow",
         Ends,
-        Respawn,
+        SecondaryRay,
         shadow,
         with_area,
         "from a kernel's own rounded hit point on the triangle, in every direction"
