@@ -43,6 +43,9 @@ pub enum Operation {
 }
 
 impl Operation {
+    /// What stands for infinity. No program that uses it is analysed.
+    pub const INFINITY: Operation = Operation::Number(i32::MAX);
+
     /// Its operands.
     pub fn operands(&self) -> Vec<Place> {
         use Operation::*;
@@ -298,9 +301,8 @@ impl Real for Recorded {
     fn is_finite(&self) -> bool {
         true
     }
-    /// Only margins need it, and none is taken here.
     fn infinity() -> Self {
-        Recorded::at(Operation::Number(i32::MAX))
+        Recorded::at(Operation::INFINITY)
     }
     fn just_below(&self) -> Self {
         self.clone()

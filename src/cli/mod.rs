@@ -45,7 +45,7 @@ use exit::{Failure, Status};
 use crate::kernel::{self, Entry};
 use crate::plugin;
 use clap::builder::Styles;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -189,6 +189,9 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
             return printed.map_or_else(ended, |()| Status::Success.into());
         }
     };
+    if let Err(failure) = check_outputs(&self::command(), &matches) {
+        return ended(failure);
+    }
     let outcome = match command {
         Command::Audit(arguments) => audit::run(&arguments),
         Command::Epsilon(arguments) => {
@@ -219,6 +222,20 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Ok(status) => status.into(),
         Err(failure) => ended(failure),
     }
+}
+
+/// Refuses outputs that could not be written, before any work.
+fn check_outputs(command: &clap::Command, matches: &ArgMatches) -> Result<(), Failure> {
+    let is_file = |argument: &Arg| {
+        argument.get_id() == "output" && argument.get_value_names() == Some(&["FILE".into()])
+    };
+    if command.get_arguments().any(is_file) {
+        let files = matches.get_many::<String>("output");
+        files.into_iter().flatten().try_for_each(|file| output::check_place(file))?;
+    }
+    let own =
+        matches.subcommand().and_then(|(name, own)| Some((command.find_subcommand(name)?, own)));
+    own.map_or(Ok(()), |(command, matches)| check_outputs(command, matches))
 }
 
 /// Says why a command stops.

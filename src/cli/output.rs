@@ -90,6 +90,17 @@ pub fn write_results<T>(
     files.into_iter().try_for_each(Beside::put_in_place)
 }
 
+/// Refuses a file that could not be written, before the work whose result it would hold.
+pub fn check_place(name: &str) -> Result<(), Failure> {
+    let path = linked(Path::new(name));
+    // A pipe may have but one writer.
+    let is_stream = fs::metadata(&path).is_ok_and(|old| !old.is_file() && !old.is_dir());
+    if name == "-" || is_stream || is_descriptor(&path) {
+        return Ok(());
+    }
+    Place::of(Path::new(name)).map(drop).map_err(|error| Failure::of_path(Path::new(name), &error))
+}
+
 /// Writes a result; a file still has to be put in its place.
 fn written(
     name: &Path,

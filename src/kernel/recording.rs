@@ -84,13 +84,19 @@ impl Sink<Recorded> for Recording {
     }
 }
 
-/// Every path of a kernel in an arithmetic; an error in one sentence if there are too many.
+/// Every path of a kernel in an arithmetic; an error in one sentence if it has no program, or too many paths.
 pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, String> {
+    if arithmetic.flushed {
+        return Err("its arithmetic flushes subnormal numbers to zero".to_owned());
+    }
     let mut paths = Vec::new();
     let mut script = Vec::new();
     loop {
         let (compared, tape) = record(&script, arithmetic.fused, run::<K>);
         let decisions = tape.decisions;
+        if tape.operations.contains(&Operation::INFINITY) {
+            return Err("it computes with infinity".to_owned());
+        }
         paths.push(Path { operations: tape.operations, compared, decisions });
         if paths.len() > MOST_PATHS {
             return Err(format!("its program has more than {MOST_PATHS} paths"));

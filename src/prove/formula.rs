@@ -81,8 +81,29 @@ pub struct Maximum {
     pub rest: Dyadic,
     /// The corner of the maximum: whether each variable is at its negative end.
     pub corner: Vec<bool>,
-    /// The largest exact size of the result.
-    pub size: Dyadic,
+}
+
+impl Maximum {
+    /// The bound of the error.
+    pub fn error(&self) -> Big {
+        Big::from(self.first) + Big::from(self.rest)
+    }
+}
+
+impl Step {
+    /// The variables in it as bits, from those in earlier steps. Beyond 64 variables, which are too many, two may
+    /// share a bit.
+    pub fn support(&self, earlier: &[u64]) -> u64 {
+        let of = |i: usize| earlier[i];
+        match *self {
+            Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
+            Step::Number(_) => 0,
+            Step::Neg(a) => of(a),
+            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => of(a) | of(b),
+            Step::Fma(a, b, c) => of(a) | of(b) | of(c),
+            Step::Minor(a, b, c, d) => of(a) | of(b) | of(c) | of(d),
+        }
+    }
 }
 
 /// More variables than this are too many corners.
@@ -93,40 +114,42 @@ const MOST_TO_CHOOSE: usize = 12;
 pub const DIGITS: u32 = 24;
 
 impl Formula {
-    /// The variables of each step, as bits. None if a product has one variable in both factors, or there
-    /// are too many.
-    pub fn supports(&self) -> Option<Vec<u64>> {
-        if self.variables.len() > MOST_VARIABLES {
-            return None;
-        }
+    /// Whether no product has one variable in both factors.
+    fn is_multi_affine(&self) -> bool {
         let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
-            let of = |i: usize| supports[i];
-            let product = |a: usize, b: usize| (of(a) & of(b) == 0).then_some(of(a) | of(b));
-            supports.push(match *step {
-                Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << v),
-                Step::Number(_) => 0,
-                Step::Add(a, b) | Step::Sub(a, b) => of(a) | of(b),
-                Step::Mul(a, b) => product(a, b)?,
-                Step::Neg(a) => of(a),
-                Step::Fma(a, b, c) => product(a, b)? | of(c),
-                Step::Minor(a, b, c, d) => product(a, b)? | product(c, d)?,
-            });
+            let apart = |a: usize, b: usize| supports[a] & supports[b] == 0;
+            let is_fit = match *step {
+                Step::Mul(a, b) | Step::Fma(a, b, _) => apart(a, b),
+                Step::Minor(a, b, c, d) => apart(a, b) && apart(c, d),
+                _ => true,
+            };
+            if !is_fit {
+                return false;
+            }
+            supports.push(step.support(&supports));
         }
-        Some(supports)
+        true
     }
 
-    /// The maximum over all corners; none if the formula is not multi-affine. Chooses, step by step, the
-    /// bound of its error that makes the maximum smaller.
-    pub fn maximum(&mut self, format: Format) -> Option<Maximum> {
-        self.supports()?;
+    /// The maximum over all corners, or in one sentence why there is none. Chooses, step by step, the bound
+    /// of its error that makes the maximum smaller.
+    pub fn maximum(&mut self, format: Format) -> Result<Maximum, String> {
         let count = self.variables.len();
+        if count > MOST_VARIABLES {
+            return Err(format!(
+                "its formula has {count} variables, and {MOST_VARIABLES} can be tried"
+            ));
+        }
+        if !self.is_multi_affine() {
+            return Err("its formula has a variable in both factors of a product".to_owned());
+        }
+        let too_long = || "its bound needs more digits than there are".to_owned();
         let sizes = self.corner_sizes();
         if sizes.iter().any(|size| !size.is_number()) {
-            return None;
+            return Err(too_long());
         }
         self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
-        let mut size = Dyadic::ZERO;
         let mut values = vec![Dyadic::ZERO; self.steps.len()];
         let mut slopes = values.clone();
         let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
@@ -138,7 +161,6 @@ impl Formula {
         for corner in 0..1u64 << count {
             self.evaluate(|v| negative_if(corner >> v & 1 == 1, self.variables[v]), &mut values);
             self.slopes(&values, &mut slopes);
-            size = size.max(values[values.len() - 1].abs());
             let effect = |i: usize| {
                 let slope = slopes[i].abs();
                 [slope * self.bounds[i].error, slope * values[i].abs() * format.unit()]
@@ -180,7 +202,11 @@ impl Formula {
         }
         let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
         let rest = self.higher_order(format, &self.relative, None).0;
-        Some(Maximum { first, rest, corner, size })
+        if first.is_number() && rest.is_number() {
+            Ok(Maximum { first, rest, corner })
+        } else {
+            Err(too_long())
+        }
     }
 
     fn evaluate(&self, variable: impl Fn(usize) -> Dyadic, values: &mut [Dyadic]) {

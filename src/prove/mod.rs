@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod bound;
+mod builder;
 pub mod certificate;
 pub mod checker;
 mod domain;
@@ -15,9 +16,9 @@ mod gappa;
 mod gates;
 mod order;
 mod permanent;
+mod quotient;
 mod run;
 mod scene;
-mod sign;
 mod sizes;
 mod statement;
 mod summary;
@@ -39,7 +40,7 @@ pub use permanent::{Relative, Roundings, relative};
 pub use run::{Number, run};
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
-pub use statement::{Published, Triangles, about_edges, in_short, statements};
-pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of};
+pub use statement::{Published, Triangles, about_edges, in_short, statements, units};
+pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of, paths_of};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};

@@ -62,15 +62,17 @@ impl Scene {
         let outside = |(_, x, most): &&(&str, f64, f64)| !(*x > 0.0 && x <= most);
         if let Some((name, value, most)) = angles.iter().find(outside) {
             return Err(format!(
-                "the {name} is {value} degrees; it must be above 0 and at most {most}"
+                "{name}: expected above 0 and at most {most} degrees, found {value}"
             ));
         }
         // Slightly more, for what rounding took from the numbers themselves.
         let up = |x: f64| Dyadic::from_f64(x * (1.0 + 1e-9)).expect("finite").round_up(DIGITS);
         // A difference of coordinates is at most twice the largest of them.
         let reach = distance.min(2.0 * coordinates);
+        // Divisors are det = N·d, N·N, |N|, the largest coordinate of N, and N·d over it or over |N|.
         let shape = self.least_shape();
-        let floor = shape * (shape.min(1.0)).min(sine(grazing));
+        let divisors = [shape * sine(grazing), shape * shape, shape * 0.577, sine(grazing)];
+        let floor = divisors.into_iter().fold(f64::INFINITY, f64::min);
         let floor = Dyadic::from_f64(floor * 0.999_999).expect("finite").round_down(DIGITS);
         let quotient = up(distance.max(1.0 / (shortest * sine(min_angle))).max(1.0));
         Ok(Domain {

@@ -1,7 +1,7 @@
 //! The bound of one gate by the size of the triangle: how far an epsilon carries, and each triangle's own
 //! bound in a mesh.
 
-use super::summary::format_of;
+use super::summary::{format_of, paths_of};
 use super::witness::Searched;
 use super::{Domain, Dyadic, Proof};
 use crate::kernel::{Entry, Path, Scalar};
@@ -26,7 +26,7 @@ pub struct BySize<F> {
 impl<F: Searched + Scalar> BySize<F> {
     /// For a gate; none of a kernel without a program.
     pub fn new(entry: &Entry, gate: usize) -> Option<BySize<F>> {
-        let paths = F::subject(entry)?.gated()?.paths().ok()?;
+        let paths = paths_of::<F>(entry).ok()?;
         Some(BySize { paths, gate, known: HashMap::new(), scalar: PhantomData })
     }
 

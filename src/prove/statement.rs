@@ -1,9 +1,9 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
 use super::sizes::BySize;
-use super::summary::{GateSummary, Summary, Witness, format_of};
+use super::summary::{GateSummary, Summary, Witness, format_of, paths_of};
 use super::witness::Searched;
-use super::{Domain, Proof, Quantity, Scene, Shape, Symmetry, Uses};
+use super::{Domain, Proof, Quantity, Relative, Scene, Shape, Symmetry, Uses};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -33,7 +33,7 @@ pub fn statements<F: Searched + Scalar>(
     };
     let beta = bound.to_f64();
     let unit = summary.format.unit().to_f64();
-    let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit));
+    let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit, true));
     let where_ = if gate.uses.floor {
         let Domain { floor, quotient, .. } = summary.domain;
         format!(
@@ -45,10 +45,18 @@ pub fn statements<F: Searched + Scalar>(
         String::new()
     };
     let known = gate.witnesses[0].as_ref().map_or(String::new(), |Witness { score, .. }| {
-        format!("; {} ({} u) is known", below(*score), units(score / unit))
+        format!("; {} ({} u) is known", below(*score), units(score / unit, false))
     });
     let what = "What it compares is never wrong by more than";
     let mut lines = vec![format!("{what} {}{where_}{known}.", in_units(beta))];
+    if let Some(Relative { factor, underflow, .. }) = &gate.relative {
+        lines.push(format!(
+            "At any exponents, short of overflow, it is wrong by at most {} u times its permanent (the sum of the \
+             sizes of its terms), and {} more where products underflow.",
+            units(factor.to_f64() / unit, true),
+            above(underflow.to_f64())
+        ));
+    }
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
         _ if !gate.is_margin => lines.push(format!(
@@ -243,10 +251,10 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
 /// What is proved of a gate's epsilons in the unit domain, in one sentence; none where the proof supposes more
 /// than sizes of differences and directions.
 pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
-    let paths = F::subject(entry)?.gated()?.paths().ok()?;
+    let paths = paths_of::<F>(entry).ok()?;
     let proof = Proof::new(paths, Some(gate), Domain::UNIT, format_of::<F>());
     let beta = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
-    let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::and);
+    let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::or);
     let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
     if uses.floor || uses.world || uses.extent || !is_margin {
         return None;
@@ -298,9 +306,14 @@ fn short(x: f64, up: bool) -> String {
     }
 }
 
-/// A number of units.
-fn units(x: f64) -> String {
-    if (0.01..1e6).contains(&x) { format!("{x:.2}") } else { format!("{x:.2e}") }
+/// A number of units in two decimals, not below it, or not above it.
+pub fn units(x: f64, up: bool) -> String {
+    if (0.01..1e6).contains(&x) {
+        let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
+        format!("{:.2}", hundreds / 100.0)
+    } else {
+        short(x, up)
+    }
 }
 
 fn degrees(angle: f64) -> String {

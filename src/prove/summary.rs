@@ -1,12 +1,13 @@
 //! What is proved of a kernel, and the worst that is known, gate by gate.
 
 use super::gates::{Proof, Quantity, Uses};
+use super::permanent::{Relative, relative};
 use super::watertight::{Symmetry, symmetry};
 use super::witness::{Goal, Inputs, Search, Searched};
 use super::{Domain, Dyadic, Format};
 use crate::arith::Float;
 use crate::case::Draw;
-use crate::kernel::{Entry, Gate, Role, Scalar};
+use crate::kernel::{Entry, Gate, Path, Role, Scalar};
 
 /// A kernel in one scalar and one domain.
 #[derive(Debug)]
@@ -21,6 +22,8 @@ pub struct Summary<F> {
     pub gates: Vec<GateSummary<F>>,
     /// What is known of its edges.
     pub symmetry: Symmetry,
+    /// A witness above the bound of its quantity, if there is one: then the proof is wrong, or the search.
+    pub contradiction: Option<String>,
 }
 
 /// One gate.
@@ -32,6 +35,8 @@ pub struct GateSummary<F> {
     pub gate: Gate,
     /// The bound of the error of what it compares, or why there is none.
     pub bound: Result<Dyadic, String>,
+    /// The error relative to the permanent of what it compares, if it has one: the largest of its quantities.
+    pub relative: Option<Relative>,
     /// What the bound supposes.
     pub uses: Uses,
     /// Whether what it compares is compared with the epsilon itself; else with zero, at an epsilon of 0.
@@ -66,22 +71,10 @@ pub fn format_of<F: Float>() -> Format {
     if F::DIGITS == 24 { Format::F32 } else { Format::F64 }
 }
 
-impl<F> Summary<F> {
-    /// A witness above its bound, if there is one: then the proof is wrong, or the search.
-    pub fn contradiction(&self) -> Option<String> {
-        let contradicts = |gate: &&GateSummary<F>| match (&gate.bound, &gate.witnesses[0]) {
-            // The score is rounded to a float.
-            (Ok(bound), Some(witness)) => witness.score > bound.to_f64() * (1.0 + 1e-12),
-            _ => false,
-        };
-        let gate = self.gates.iter().find(contradicts)?;
-        let score = gate.witnesses[0].as_ref().map_or(0.0, |witness| witness.score);
-        Some(format!(
-            "gate '{}': an error of {score:e} is known, and {:e} is the bound",
-            gate.gate.name,
-            gate.bound.as_ref().map_or(0.0, |bound| bound.to_f64())
-        ))
-    }
+/// The recorded paths of a kernel; an error in one sentence if it has no program.
+pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
+    let subject = F::subject(entry).ok_or("it does not run in this scalar")?;
+    subject.gated().ok_or("it is not written for every arithmetic")?.paths()
 }
 
 /// How hard to search, and from where.
@@ -101,26 +94,41 @@ impl<F: Searched + Scalar> Summary<F> {
         known: &[Inputs<F>],
         effort: Effort,
     ) -> Result<Summary<F>, String> {
-        let subject = F::subject(entry).ok_or("it does not run in this scalar")?;
-        let gated = subject.gated().ok_or("it is not written for every arithmetic")?;
         let format = format_of::<F>();
-        let proof = Proof::new(gated.paths()?, None, domain, format);
+        let proof = Proof::new(paths_of::<F>(entry)?, None, domain, format);
         let known = scaled(known, &domain);
+        let mut contradiction = None;
         let gates = entry.info.gates.iter().enumerate().filter_map(|(index, gate)| {
             let bound = proof.gate(index)?;
             let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
-            let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::and);
+            let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::or);
+            let forms = of_gate().map(|quantity| {
+                let path = &proof.paths[quantity.path];
+                relative(path, quantity.place, domain, format).ok()
+            });
+            let forms: Option<Vec<Relative>> = forms.collect();
+            let relative = forms.and_then(|forms| forms.into_iter().max_by_key(|form| form.factor));
             let is_margin = of_gate().all(|quantity| quantity.is_margin);
             let witnesses = GOALS.map(|goal| {
                 let wanted = goal == Goal::Error || goal == goal_of(gate.role);
                 let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
                 let found = quantities.filter_map(|quantity| {
-                    worst::<F>(&proof, quantity, domain, goal, &known, effort)
+                    let found = worst::<F>(&proof, quantity, domain, goal, &known, effort)?;
+                    let bound = quantity.bound.as_ref().map_or(0.0, |bound| bound.error.to_f64());
+                    // Both are rounded to floats.
+                    if goal == Goal::Error && found.score > bound * (1.0 + 1e-12) {
+                        let Witness { score, .. } = found;
+                        contradiction = Some(format!(
+                            "gate '{}': an error of {score:e} is known, and {bound:e} is its bound",
+                            gate.name
+                        ));
+                    }
+                    Some(found)
                 });
                 found.max_by(|a, b| a.score.total_cmp(&b.score))
             });
             let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
-            Some(GateSummary { index, gate: *gate, bound, uses, is_margin, witnesses })
+            Some(GateSummary { index, gate: *gate, bound, relative, uses, is_margin, witnesses })
         });
         let gates: Vec<GateSummary<F>> = gates.collect();
         let edges = |path: usize| {
@@ -130,7 +138,7 @@ impl<F: Searched + Scalar> Summary<F> {
         let paths = (0..proof.paths.len()).filter(|path| edges(*path).next().is_some());
         let symmetries = paths.map(|path| symmetry(&proof.paths[path], edges(path)));
         let symmetry = symmetries.min().unwrap_or(Symmetry::None);
-        Ok(Summary { domain, format, gates, symmetry, proof })
+        Ok(Summary { domain, format, gates, symmetry, contradiction, proof })
     }
 }
 
@@ -180,7 +188,7 @@ fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
 
 impl Uses {
     /// What either supposes.
-    pub(super) fn and(self, other: Uses) -> Uses {
+    pub(super) fn or(self, other: Uses) -> Uses {
         Uses {
             edge: self.edge | other.edge,
             reach: self.reach | other.reach,

@@ -296,7 +296,7 @@ fn no_failure_touches_an_output() {
         (&["corpus", "generate", "--family", "tiny", "--scalar", "f16", "-o", "old"], 2),
         (&[&quick[..], &["--format", "text,json", "-o", "old", "-o", "no/where"]].concat(), 74),
         (&[&quick[..], &["--format", "text,json", "-o", "old", "-o", "/dev/full"]].concat(), 74),
-        (&["map", "--kernel", "cramer", "--size", "4", "-o", "old", "-o", "no/where.svg"], 2),
+        (&["map", "--kernel", "cramer", "--size", "4", "-o", "old", "-o", "new.svg"], 2),
         (
             &[
                 "map", "--kernel", "cramer", "--size", "4", "--format", "text,svg", "-o", "old",
@@ -307,6 +307,8 @@ fn no_failure_touches_an_output() {
         (&["fuzz", "worst", "--update", "finds.jsonl", "--kernel", "cramer", "-n", "9"], 65),
         (&["fuzz", "triage", "half.jsonl", "-o", "."], 65),
         (&[&quick[..], &["-o", "."]].concat(), 74),
+        // What cannot be written is refused before a kernel starts.
+        (&[&quick[..], &["--kernel-cmd", "sh -c 'touch ran'", "-o", "no/where"]].concat(), 74),
     ] {
         // /dev/full is Linux's.
         if !cfg!(target_os = "linux") && arguments.contains(&"/dev/full") {

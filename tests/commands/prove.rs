@@ -36,8 +36,8 @@ fn refused(arguments: &[&str], code: i32, message: &str) {
 #[test]
 fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
     let out = text(&["prove", "--kernel", "moller-trumbore", "--scalar", "f32"]);
-    // 17 u by hand: see docs/guide/proof.md.
-    assert!(out.contains("never wrong by more than 1.02e-6 (16.99 u)"), "{out}");
+    // 17 u to first order by hand: see tests/library/prove.rs.
+    assert!(out.contains("never wrong by more than 1.02e-6 (17.00 u)"), "{out}");
     assert!(
         out.contains("An epsilon above 1.02e-6 refuses every ray that is exactly parallel."),
         "{out}"
@@ -97,10 +97,26 @@ fn certificates_are_checked_and_a_changed_number_is_refused() {
     let kernel = ["--kernel", "moller-trumbore-culling", "--scalar", "f32"];
     text(&[&["prove"], &kernel[..], &["--certificate", file]].concat());
     let proved = format!(
-        "{file}: 5 bounds proved of moller-trumbore-culling f32: edge 3.634e-6, parallel 1.013e-6\n"
+        "{file}: 5 bounds proved of moller-trumbore-culling f32: edge 3.634e-6, parallel 1.013e-6 \
+         (all that the kernel compares)\n"
     );
     assert_eq!(text(&["prove", "--check", file]), proved);
     let good = fs::read_to_string(file).unwrap();
+    // The same proofs under another name, and one of them less.
+    let renamed = |name: &str| {
+        fs::write(file, good.replacen("moller-trumbore-culling", name, 1)).unwrap();
+    };
+    renamed("moller-trumbore");
+    let message = ":5: the proof is right, but moller-trumbore has no such program here";
+    refused(&["prove", "--check", file], 1, &format!("{file}{message}"));
+    renamed("mine");
+    assert!(
+        text(&["prove", "--check", file])
+            .ends_with("(no kernel of that name is here to compare)\n")
+    );
+    let last = good.rfind("\nprogram\n").unwrap();
+    fs::write(file, &good[..=last]).unwrap();
+    assert!(text(&["prove", "--check", file]).ends_with("(without all of edge)\n"));
     let line = good.lines().position(|line| line.starts_with("first ")).unwrap();
     let first = good.lines().nth(line).unwrap();
     let mantissa: i64 = first["first ".len()..].split('*').next().unwrap().parse().unwrap();
@@ -126,12 +142,34 @@ fn stored_certificates_are_those_of_the_kernels() {
     let names: Vec<&str> = files.iter().map(String::as_str).collect();
     let out = text(&[&["prove", "--check"], &names[..]].concat());
     assert_eq!(out.lines().count(), 64);
-    // One of them is written again.
+    // Some of every kind are written again.
     let again = scratch("prove-again").join("a.proof");
     let again = again.to_str().unwrap();
-    text(&["prove", "--kernel", "woop-watertight", "--scalar", "f64", "--certificate", again]);
-    let stored = fs::read_to_string(format!("{folder}/woop-watertight-f64.proof")).unwrap();
-    assert_eq!(fs::read_to_string(again).unwrap(), stored);
+    for (kernel, scalar) in [
+        ("woop-watertight", "f64"),
+        ("woop-watertight+fma", "f32"),
+        ("plane-unit-normal", "f32"),
+        ("baldwin-weber", "f64"),
+        ("cramer+fma", "f64"),
+        ("moller-trumbore", "f32"),
+        ("plucker", "f32"),
+    ] {
+        text(&["prove", "--kernel", kernel, "--scalar", scalar, "--certificate", again]);
+        let stored = fs::read_to_string(format!("{folder}/{kernel}-{scalar}.proof")).unwrap();
+        assert!(fs::read_to_string(again).unwrap() == stored, "{kernel} {scalar}");
+    }
+}
+
+/// Subnormal numbers that are zero have errors of their own.
+#[test]
+fn what_flushes_subnormal_numbers_has_no_proof() {
+    let output = hairline(&["prove", "--kernel", "plucker+ftz"]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{error}");
+    assert!(
+        error.contains("no proof: its arithmetic flushes subnormal numbers to zero"),
+        "{error}"
+    );
 }
 
 #[test]

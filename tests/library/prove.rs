@@ -13,7 +13,7 @@ fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
             let entry = in_arithmetic(kernel, arithmetic).unwrap();
             let effort = Effort { evaluations, seed: 7 };
             let summary = Summary::<F>::new(entry, Domain::UNIT, &[], effort).unwrap();
-            assert_eq!(summary.contradiction(), None, "{}", entry.info.name);
+            assert_eq!(summary.contradiction, None, "{}", entry.info.name);
             let bounded = summary.gates.iter().filter(|gate| gate.bound.is_ok());
             assert!(bounded.clone().count() > 0, "{}", entry.info.name);
             for gate in bounded.filter(|gate| !gate.uses.floor && !gate.uses.world) {

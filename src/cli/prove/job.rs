@@ -13,7 +13,7 @@ use crate::prove::{
 /// What is the same for all kernels.
 pub struct Job<'a> {
     pub scene: Option<Scene>,
-    /// Of a mesh: the largest coordinate of each triangle's edges.
+    /// The sizes and areas of its triangles.
     pub shapes: Vec<Shape>,
     pub domain: Domain,
     pub effort: Effort,
@@ -47,7 +47,7 @@ impl Job<'_> {
                 return Parts { note, ..Parts::default() };
             }
         };
-        if let Some(contradiction) = summary.contradiction() {
+        if let Some(contradiction) = &summary.contradiction {
             let contradiction = Some(format!("self-check: {name}, {}: {contradiction}", F::NAME));
             return Parts { contradiction, ..Parts::default() };
         }
@@ -75,7 +75,7 @@ impl Job<'_> {
                 factor: gate.factor(),
                 supposes: supposes(gate),
                 parallel_passes: witness(1),
-                hit_lost: witness(2),
+                computed_below_zero: witness(2),
                 statements: statements(entry, &summary, gate, triangles, &published),
             }
         };

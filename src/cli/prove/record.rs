@@ -20,6 +20,7 @@ pub struct DomainPart {
     pub world: f64,
     pub direction: f64,
     pub extent: f64,
+    pub largest_of_direction_at_least: f64,
     pub divisor_at_least: f64,
     pub quotient_at_most: f64,
 }
@@ -44,8 +45,8 @@ pub struct GatePart {
     pub supposes: Vec<&'static str>,
     /// The largest computed number of a ray that is exactly parallel, of those known.
     pub parallel_passes: Option<WitnessPart>,
-    /// A hit that is lost: how far below zero its computed number is, of those known.
-    pub hit_lost: Option<WitnessPart>,
+    /// A number that is not below zero: how far below it is computed, of those known.
+    pub computed_below_zero: Option<WitnessPart>,
     pub statements: Vec<String>,
 }
 
@@ -75,6 +76,7 @@ impl DomainPart {
             world: domain.world.to_f64(),
             direction: domain.direction.to_f64(),
             extent: domain.extent.to_f64(),
+            largest_of_direction_at_least: domain.direction_floor.to_f64(),
             divisor_at_least: domain.floor.to_f64(),
             quotient_at_most: domain.quotient.to_f64(),
         }

@@ -2,7 +2,7 @@
 
 use super::record::{GatePart, Record};
 use super::scenes::scene_text;
-use crate::prove::Scene;
+use crate::prove::{Scene, units};
 use std::io::{self, Write};
 
 /// All kernels: a line a gate.
@@ -44,23 +44,15 @@ fn row(gate: &GatePart, width: usize, out: &mut dyn Write) -> io::Result<()> {
     if let Some(why) = &gate.why {
         return writeln!(out, "{kernel:width$}  {name:8}  no bound: {why}");
     }
-    let number = |x: Option<f64>| x.map_or("-".to_owned(), short);
+    let number = |x: Option<f64>, up: bool| x.map_or("-".to_owned(), |x| units(x, up));
     writeln!(
         out,
         "{kernel:width$}  {name:8}  {:>9}  {:>9}  {:>6}  {}",
-        number(gate.bound_units),
-        number(gate.witness.as_ref().map(|w| w.units)),
+        number(gate.bound_units, true),
+        number(gate.witness.as_ref().map(|w| w.units), false),
         gate.factor.map_or("-".to_owned(), |x| format!("{x:.2}")),
         gate.supposes.join(", ")
     )
-}
-
-fn short(x: f64) -> String {
-    match x {
-        _ if x >= 1e7 => format!("{x:.1e}"),
-        _ if x >= 1000.0 => format!("{x:.0}"),
-        _ => format!("{x:.2}"),
-    }
 }
 
 /// One kernel: the sentences.
@@ -108,9 +100,10 @@ fn domain(record: &Record, scene: Option<&Scene>) -> String {
         None => {
             let part = &record.domain;
             format!(
-                "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}; where a \
-                 kernel divides,\ndivisors of {} and more, quotients up to {}. A bound supposes, and its witness keeps, \
-                 only what the gate's numbers use.\nPowers of two scale it: lengths by s scale det by s^2.",
+                "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a \
+                 kernel divides,\ndivisors of {} and more (the largest coordinate of d too), quotients up to {}. A \
+                 bound supposes, and its\nwitness keeps, only what the gate's numbers use. Powers of two scale it: \
+                 lengths by s scale det by s^2.",
                 part.edge, part.direction, part.divisor_at_least, part.quotient_at_most
             )
         }

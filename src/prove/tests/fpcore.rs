@@ -1,6 +1,6 @@
 //! FPCore, read back by an evaluator that knows the standard and not the writer.
 
-use super::super::{Domain, Format, fpcore};
+use super::super::{Domain, Format, Number, fpcore};
 use crate::arith::Float;
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::case::{Case, Draw};
@@ -80,32 +80,26 @@ impl Scope {
             "signbit" => truth(of[0].is_sign_negative()),
             _ if precision == "binary32" => {
                 let of: Vec<f32> = of.iter().map(|x| *x as f32).collect();
-                f64::from(match (head.as_str(), &of[..]) {
-                    ("+", [a, b]) => a + b,
-                    ("-", [a, b]) => a - b,
-                    ("-", [a]) => -a,
-                    ("*", [a, b]) => a * b,
-                    ("/", [a, b]) => a / b,
-                    ("fma", [a, b, c]) => a.mul_add(*b, *c),
-                    ("sqrt", [a]) => a.sqrt(),
-                    ("fabs", [a]) => a.abs(),
-                    ("cast", [a]) => *a,
-                    _ => panic!("{head} of {of:?}"),
-                })
+                f64::from(rounded(head, &of))
             }
-            _ => match (head.as_str(), &of[..]) {
-                ("+", [a, b]) => a + b,
-                ("-", [a, b]) => a - b,
-                ("-", [a]) => -a,
-                ("*", [a, b]) => a * b,
-                ("/", [a, b]) => a / b,
-                ("fma", [a, b, c]) => a.mul_add(*b, *c),
-                ("sqrt", [a]) => a.sqrt(),
-                ("fabs", [a]) => a.abs(),
-                ("cast", [a]) => *a,
-                _ => panic!("{head} of {of:?}"),
-            },
+            _ => rounded(head, &of),
         }
+    }
+}
+
+/// One operation of FPCore, rounded in the scalar.
+fn rounded<F: Float + Number>(head: &str, of: &[F]) -> F {
+    match (head, of) {
+        ("+", [a, b]) => *a + b,
+        ("-", [a, b]) => *a - b,
+        ("-", [a]) => -*a,
+        ("*", [a, b]) => *a * b,
+        ("/", [a, b]) => *a / b,
+        ("fma", [a, b, c]) => F::fused(a, b, c),
+        ("sqrt", [a]) => a.sqrt(),
+        ("fabs", [a]) => a.abs(),
+        ("cast", [a]) => *a,
+        _ => panic!("{head} of {of:?}"),
     }
 }
 

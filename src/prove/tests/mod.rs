@@ -2,6 +2,7 @@ mod constants;
 mod fpcore;
 mod gappa;
 mod permanent;
+mod sign;
 mod tiny;
 
 use crate::arith::recorded::{Place, Recorded, record};

@@ -1,9 +1,9 @@
 //! What the last rounding cannot change: signs, and how large a number can be that is exactly zero.
 
-use super::dyadic::{Big, round_up};
-use super::formula::DIGITS;
-use super::{Dyadic, Prover, Rule};
 use crate::arith::recorded::{Operation, Place};
+use crate::prove::dyadic::round_up;
+use crate::prove::formula::DIGITS;
+use crate::prove::{Dyadic, Prover, Rule};
 
 impl Prover<'_> {
     /// The bound of the difference of a number's exact value and what its last operation rounds.
@@ -26,7 +26,7 @@ impl Prover<'_> {
         let last = formula.steps.len() - 1;
         formula.rounds[last] = false;
         formula.relative.fill(false);
-        let maximum = formula.maximum(self.format).ok_or("its formula has too many variables")?;
-        Ok(round_up(&(Big::from(maximum.first) + Big::from(maximum.rest)), DIGITS))
+        let maximum = formula.maximum(self.format)?;
+        Ok(round_up(&maximum.error(), DIGITS))
     }
 }

@@ -1,0 +1,193 @@
+//! A number's program as a formula: inputs and numbers with lemmas of their own are its variables.
+
+use super::bound::{Bound, Prover};
+use super::forms::{Forms, Leaf};
+use super::formula::{Formula, Maximum, Source, Step};
+use super::{Dyadic, Format};
+use crate::arith::recorded::{Operation, Place};
+use std::collections::HashMap;
+
+impl Prover<'_> {
+    /// The formula of a number, and what its corners say.
+    pub(super) fn formula(&mut self, place: Place) -> Result<(Formula, Maximum), String> {
+        let mut builder = Builder::new(self);
+        builder.expand(place)?;
+        builder.finish()
+    }
+
+    /// numerator - quotient * divisor, the quotient of this size; no numerator is one.
+    pub(super) fn formula_of_quotient(
+        &mut self,
+        numerator: Option<Place>,
+        divisor: Place,
+        size: Dyadic,
+    ) -> Result<(Formula, Maximum), String> {
+        let mut builder = Builder::new(self);
+        let n = match numerator {
+            Some(numerator) => builder.expand(numerator)?,
+            None => builder.number(1),
+        };
+        let d = builder.expand(divisor)?;
+        let q = builder.variable(Source::Quotient, exactly(size));
+        let product = builder.push(Step::Mul(q, d), None);
+        builder.push(Step::Sub(n, product), None);
+        builder.finish()
+    }
+}
+
+/// Expands a number into a formula.
+struct Builder<'p, 'a> {
+    prover: &'p mut Prover<'a>,
+    formula: Formula,
+    supports: Vec<u64>,
+    steps: HashMap<Place, usize>,
+    forms: Forms,
+}
+
+impl<'p, 'a> Builder<'p, 'a> {
+    fn new(prover: &'p mut Prover<'a>) -> Self {
+        Builder {
+            prover,
+            formula: Formula::default(),
+            supports: Vec::new(),
+            steps: HashMap::new(),
+            forms: Forms::default(),
+        }
+    }
+
+    /// The formula and its corners; the last step is the result.
+    fn finish(mut self) -> Result<(Formula, Maximum), String> {
+        let maximum = self.formula.maximum(self.prover.format)?;
+        for bound in &self.formula.bounds {
+            self.prover.check_range(bound.computed)?;
+        }
+        Ok((self.formula, maximum))
+    }
+
+    /// A step that does not round; it is given if something is known of it.
+    fn push(&mut self, step: Step, given: Option<Bound>) -> usize {
+        self.supports.push(step.support(&self.supports));
+        let Formula { steps, places, given: all_given, relative, rounds, .. } = &mut self.formula;
+        steps.push(step);
+        places.push(None);
+        all_given.push(given);
+        relative.push(false);
+        rounds.push(false);
+        self.supports.len() - 1
+    }
+
+    fn rounded(&mut self, step: Step) -> usize {
+        let step = self.push(step, None);
+        self.formula.rounds[step] = true;
+        step
+    }
+
+    fn number(&mut self, value: i32) -> usize {
+        let size = Dyadic::new(i128::from(value).abs(), 0);
+        self.push(Step::Number(value), Some(exactly(size)))
+    }
+
+    /// A new variable with an error of its own.
+    fn variable(&mut self, source: Source, bound: Bound) -> usize {
+        self.formula.variables.push(bound.size);
+        self.formula.sources.push(source);
+        let sum = vec![(self.formula.variables.len() - 1, 1)];
+        self.push(Step::Variables(sum), Some(bound))
+    }
+
+    /// A number that is a variable here; its lemma says the rest.
+    fn cut(&mut self, place: Place) -> Result<usize, String> {
+        let bound = self.prover.bound(place)?;
+        let step = self.variable(Source::Cut(place), bound);
+        self.formula.places[step] = Some(place);
+        Ok(step)
+    }
+
+    fn leaf(&mut self, leaf: Leaf) -> usize {
+        let size = leaf.bound(&self.prover.domain);
+        let (sum, is_new) = self.forms.sum(leaf, self.formula.variables.len());
+        if is_new {
+            self.formula.variables.push(size);
+            self.formula.sources.push(Source::Leaf(leaf));
+        }
+        let format = self.prover.format;
+        let given = if leaf.is_difference() {
+            let computed = size.round_up(format.digits);
+            Bound { size, computed, error: format.half_ulp(size) }
+        } else {
+            exactly(size)
+        };
+        let step = self.push(Step::Variables(sum), Some(given));
+        self.formula.rounds[step] = leaf.is_difference();
+        step
+    }
+
+    fn expand(&mut self, place: Place) -> Result<usize, String> {
+        if let Some(step) = self.steps.get(&place) {
+            return Ok(*step);
+        }
+        let operation = self.prover.operation(place);
+        let step = if self.prover.quotient(place).is_some() {
+            self.cut(place)?
+        } else if let Some(leaf) = Leaf::of(operation, &self.prover.path.operations) {
+            self.leaf(leaf)
+        } else {
+            self.operation(place, operation)?
+        };
+        self.formula.places[step] = Some(place);
+        self.steps.insert(place, step);
+        Ok(step)
+    }
+
+    fn operation(&mut self, place: Place, operation: Operation) -> Result<usize, String> {
+        let step = match operation {
+            Operation::Input(_) => unreachable!("inputs are leaves"),
+            Operation::Number(value) => return Ok(self.number(value)),
+            Operation::Neg(a) => {
+                let a = self.expand(a)?;
+                return Ok(self.push(Step::Neg(a), None));
+            }
+            Operation::Div(..) | Operation::Sqrt(_) | Operation::Abs(_) => return self.cut(place),
+            Operation::Add(a, b) => Step::Add(self.expand(a)?, self.expand(b)?),
+            Operation::Sub(a, b) => Step::Sub(self.expand(a)?, self.expand(b)?),
+            Operation::Mul(a, b) => {
+                let [a, b] = self.factors(a, b)?;
+                Step::Mul(a, b)
+            }
+            Operation::Fma(a, b, c) => {
+                let [a, b] = self.factors(a, b)?;
+                Step::Fma(a, b, self.expand(c)?)
+            }
+            Operation::Minor(a, b, c, d) => {
+                let [a, b] = self.factors(a, b)?;
+                let [c, d] = self.factors(c, d)?;
+                let step = Step::Minor(a, b, c, d);
+                if self.prover.format == Format::F64 {
+                    // It rounds more than once, so that its error is no share of its result.
+                    return Ok(self.push(step, None));
+                }
+                step
+            }
+        };
+        Ok(self.rounded(step))
+    }
+
+    /// Two factors without a variable in common: if there is one, the second factor becomes a variable of
+    /// its own.
+    fn factors(&mut self, a: Place, b: Place) -> Result<[usize; 2], String> {
+        let first = self.expand(a)?;
+        let before = (self.formula.clone(), self.steps.clone(), self.forms.clone());
+        let second = self.expand(b)?;
+        if self.supports[first] & self.supports[second] == 0 {
+            return Ok([first, second]);
+        }
+        (self.formula, self.steps, self.forms) = before;
+        self.supports.truncate(self.formula.steps.len());
+        Ok([first, self.cut(b)?])
+    }
+}
+
+/// A number of this size without an error.
+fn exactly(size: Dyadic) -> Bound {
+    Bound { size, computed: size, error: Dyadic::ZERO }
+}

@@ -1,0 +1,138 @@
+//! Bounds of quotients, and of the lengths of vectors.
+
+use super::Dyadic;
+use super::bound::{Bound, Prover, SIZE_DIGITS};
+use super::dyadic::{Big, root_up, round_up};
+use super::formula::{DIGITS, Formula, Maximum};
+use crate::arith::recorded::{Operation, Place};
+use num_traits::Signed;
+
+impl Prover<'_> {
+    /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
+    pub(super) fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
+        let reciprocal = |place: Place| match self.operation(place) {
+            Operation::Div(one, divisor) if self.operation(one) == Operation::Number(1) => {
+                Some(divisor)
+            }
+            _ => None,
+        };
+        match self.operation(place) {
+            Operation::Div(_, divisor) if reciprocal(place).is_some() => {
+                Some((None, divisor, false))
+            }
+            Operation::Div(numerator, divisor) => Some((Some(numerator), divisor, false)),
+            Operation::Mul(a, b) => reciprocal(b)
+                .map(|divisor| (Some(a), divisor, true))
+                .or_else(|| reciprocal(a).map(|divisor| (Some(b), divisor, true))),
+            _ => None,
+        }
+    }
+
+    /// The bound of a quotient, and the formula that it follows from.
+    pub(super) fn divide(
+        &mut self,
+        numerator: Option<Place>,
+        divisor: Place,
+        twice: bool,
+    ) -> Result<(Formula, Maximum, Bound), String> {
+        let below = self.bound(divisor)?;
+        let floor = self.floor(divisor);
+        if floor <= below.error {
+            return Err(
+                "a divisor may be rounded to zero: the floor of divisors is too low".to_owned()
+            );
+        }
+        let above = match numerator {
+            Some(numerator) => self.bound(numerator)?,
+            None => Bound { size: Dyadic::ONE, computed: Dyadic::ONE, error: Dyadic::ZERO },
+        };
+        let limit = Big::from(above.size) / Big::from(floor);
+        // The path compares computed numbers, which says nothing of the exact ones unless they are equal.
+        let at_most_one = above.error.is_zero()
+            && below.error.is_zero()
+            && numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
+        let size = match numerator {
+            Some(_) if at_most_one => Big::from(Dyadic::ONE),
+            Some(_) => limit.min(Big::from(self.domain.quotient)),
+            None => limit,
+        };
+        let size = round_up(&size, SIZE_DIGITS);
+        let (formula, maximum) = self.formula_of_quotient(numerator, divisor, size)?;
+        // The quotient of the computed numbers against the exact one, then the roundings of the division.
+        let least = Big::from(floor) - Big::from(below.error);
+        let before = maximum.error() / &least;
+        let quotient = Big::from(size) + &before;
+        let mut error = before;
+        let mut rounded = quotient.clone();
+        if twice {
+            let tiny = Big::from(self.format.tiny()) * Big::from(above.computed);
+            let reciprocal = Big::from(self.format.unit()) * quotient + tiny;
+            error += &reciprocal;
+            rounded += reciprocal;
+        }
+        let largest = Big::from(Dyadic::power(self.format.largest));
+        if twice && largest * least <= Big::from(Dyadic::ONE) {
+            return Err("a reciprocal may overflow: the floor of divisors is too low".to_owned());
+        }
+        if at_most_one && !twice {
+            // The quotient of two floats that is at most one is rounded to at most one.
+            rounded = Big::from(Dyadic::ONE);
+        }
+        self.bound_of_rounded(size, error, &rounded).map(|bound| (formula, maximum, bound))
+    }
+
+    /// The length of a vector. The sum of the squares is right to 4u, for no term is negative, and to as
+    /// much again where squares underflow; so the root is right to 3u before it is rounded.
+    pub(super) fn length(&mut self, vector: [Place; 3]) -> Result<Bound, String> {
+        let (mut errors, mut sizes) = (Big::from(Dyadic::ZERO), Big::from(Dyadic::ZERO));
+        for place in vector {
+            let Bound { size, error, .. } = self.bound(place)?;
+            errors += Big::from(error) * Big::from(error);
+            sizes += Big::from(size) * Big::from(size);
+        }
+        let shift = Big::from(root_up(&errors, DIGITS));
+        let size = root_up(&sizes, SIZE_DIGITS);
+        let (unit, three) = (Big::from(self.format.unit()), Big::from(Dyadic::new(3, 0)));
+        let least = Big::from(self.domain.floor) - &shift;
+        let tiny = Big::from(self.format.tiny()) * &three;
+        if !least.is_positive() || tiny > &unit * &least * &least {
+            return Err(
+                "a length may be rounded to zero: the floor of divisors is too low".to_owned()
+            );
+        }
+        let largest = Big::from(size) + &shift;
+        let relative = three * unit * &largest;
+        let rounded = largest + &relative;
+        if &rounded * &rounded >= Big::from(Dyadic::power(self.format.largest)) {
+            return Err("the square of a length may overflow".to_owned());
+        }
+        self.bound_of_rounded(size, shift + relative, &rounded)
+    }
+
+    /// Squares that are added up to a number, if that is what it is.
+    pub(super) fn squares(&self, place: Place) -> Option<[Place; 3]> {
+        let mut squares = Vec::new();
+        let mut open = vec![place];
+        while let Some(place) = open.pop() {
+            match self.operation(place) {
+                Operation::Mul(a, b) if a == b => squares.push(a),
+                Operation::Fma(a, b, c) if a == b => {
+                    squares.push(a);
+                    open.push(c);
+                }
+                Operation::Add(a, b) => open.extend([a, b]),
+                _ => return None,
+            }
+        }
+        squares.sort_unstable();
+        squares.try_into().ok()
+    }
+
+    /// One more rounding of a number of the given size before it.
+    fn bound_of_rounded(&self, size: Dyadic, error: Big, rounded: &Big) -> Result<Bound, String> {
+        let error = round_up(&(error + Big::from(self.format.half_ulp_of(rounded))), DIGITS);
+        let computed = round_up(rounded, self.format.digits);
+        self.check_range(computed)?;
+        Ok(Bound { size, computed, error })
+    }
+}

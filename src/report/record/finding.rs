@@ -1,0 +1,203 @@
+//! Findings: how often, why, how bad, and cases that show them.
+
+use super::Rate;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// One finding in one class.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct FindingPart {
+    /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
+    pub finding: String,
+    /// The class of the truth.
+    pub class: String,
+    /// How often.
+    pub rate: Rate,
+    /// Why; none where nothing was attributed.
+    pub causes: Option<CausesPart>,
+    /// Of the set of all its cases, whatever their order.
+    pub digest: String,
+    /// The one with the largest severity.
+    pub worst: Example,
+    /// The first by index.
+    pub first: Vec<Example>,
+}
+
+/// Why findings happened, of the first by index.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CausesPart {
+    /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
+    /// examined.
+    pub by: BTreeMap<String, Rate>,
+    /// Findings examined of kernels that cannot tell.
+    pub untold: u64,
+}
+
+/// How far cases with a finding are from where the verdict would be right.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SeverityDistribution {
+    /// In longest edges of the triangle.
+    pub edges: Distribution,
+    /// In ulps of the largest coordinate.
+    pub ulps: Distribution,
+}
+
+/// Counted numbers. Quantiles are rounded up by at most an eighth; an infinite one is left out.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Distribution {
+    /// How many.
+    pub count: u64,
+    /// Half of them are at most this.
+    pub median: Option<f64>,
+    /// 90 % of them.
+    pub percent_90: Option<f64>,
+    /// 99 % of them.
+    pub percent_99: Option<f64>,
+    /// All of them.
+    pub worst: Option<f64>,
+    /// Counts by octave: `2^k` is from 2^k to 2^(k+1); `0` holds what is smaller than any normal
+    /// number, `inf` the infinite.
+    pub octaves: BTreeMap<String, u64>,
+}
+
+/// A case that shows a finding.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Example {
+    /// The id or the name.
+    pub case: String,
+    /// Origin, direction, a, b, c, interval: bit patterns in hexadecimal.
+    pub bits: String,
+    /// Distances; of the worst only, and none of invalid input.
+    pub severity: Option<SeverityPart>,
+    /// Shows the case again.
+    pub command: String,
+}
+
+/// How badly the verdict was wrong. Lengths are in units of the triangle's longest edge.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SeverityPart {
+    /// In the plane, from where the line meets it to the triangle's boundary.
+    pub in_plane: Option<f64>,
+    /// In space, from the line to the boundary.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    pub in_space: f64,
+    /// The longest edge in ulps of the largest coordinate: a distance times it is in ulps.
+    #[serde(deserialize_with = "or_infinite")]
+    #[cfg_attr(test, schemars(with = "Option<f64>"))]
+    pub edge_in_ulps: f64,
+    /// |t - end|·|d| to the nearest finite end of the extent.
+    pub along: Option<f64>,
+}
+
+/// A number beyond the range of an f64 is written as null, since JSON has no infinity.
+fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(number)?.unwrap_or(f64::INFINITY))
+}
+
+/// What the triangles of groups did together.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct AcrossPart {
+    /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
+    pub promised: String,
+    /// Crossings without a hit.
+    pub cracks: Rate,
+    /// Crossings with two hits or more.
+    pub doubles: Rate,
+    /// Folds whose number of hits has the wrong parity.
+    pub odd_folds: Rate,
+    /// Folds without a hit where the exact line has two.
+    pub missed_folds: Rate,
+    /// Ids of the first cracks.
+    pub first_cracks: Vec<String>,
+    /// Ids of the first doubles.
+    pub first_doubles: Vec<String>,
+    /// Of the set of all cracks.
+    pub crack_digest: String,
+    /// Ids of the first folds of wrong parity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_odd_folds: Vec<String>,
+    /// Of the set of all doubles.
+    pub double_digest: String,
+    /// Of the set of all folds of wrong parity.
+    #[serde(default)]
+    pub odd_fold_digest: String,
+    /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elsewhere: Option<Rate>,
+    /// The flag that names the file from which an id makes its group, as `--mesh 'model.obj'`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}
+
+/// What a kernel that takes polygons did with whole ones.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PolygonPart {
+    /// Of the polygons that must be hit, and have a verdict.
+    pub false_misses: Rate,
+    /// Of the polygons that must be missed, and have a verdict.
+    pub false_hits: Rate,
+    /// Of the set of all false misses.
+    pub false_miss_digest: String,
+    /// Of the set of all false hits.
+    pub false_hit_digest: String,
+    /// Ids of the first false misses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_false_misses: Vec<String>,
+    /// Ids of the first false hits.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub first_false_hits: Vec<String>,
+    /// Polygons with a bad value, and those without a verdict.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<PolygonFinding>,
+}
+
+/// A finding on whole polygons.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PolygonFinding {
+    /// `bad-value`, `panic`, `crash`, `timeout`.
+    pub finding: String,
+    /// How often.
+    pub rate: Rate,
+    /// Of the set of all its polygons.
+    pub digest: String,
+    /// Ids of the first.
+    pub first: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_infinite_severity_is_read_back() {
+        let part = SeverityPart {
+            in_plane: None,
+            in_space: f64::INFINITY,
+            edge_in_ulps: f64::INFINITY,
+            along: Some(1.5),
+        };
+        let text = serde_json::to_string(&part).unwrap();
+        let again: SeverityPart = serde_json::from_str(&text).unwrap();
+        assert_eq!((again.in_space, again.edge_in_ulps), (f64::INFINITY, f64::INFINITY), "{text}");
+        assert_eq!(again.along, Some(1.5));
+    }
+}

@@ -1,0 +1,106 @@
+//! What was asked, and where and how it was run.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What was asked.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlanPart {
+    /// SHA-256 of the other fields' JSON, the first 16 hexadecimal digits.
+    pub hash: String,
+    /// Kernels with epsilons.
+    pub rows: Vec<RowPart>,
+    /// Sources, each by the id of its set.
+    pub sources: Vec<PlannedSource>,
+    /// `f32`, `f64`.
+    pub scalars: Vec<String>,
+}
+
+/// A kernel with its epsilons.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RowPart {
+    /// The kernel's name.
+    pub kernel: String,
+    /// The flag that chooses it on a command line.
+    pub selector: String,
+    /// What its epsilons are called.
+    pub set: String,
+    /// By gate; gates that take none are left out.
+    pub epsilons: BTreeMap<String, String>,
+    /// The contract it is judged by, as people read it.
+    pub contract: String,
+    /// The same as `--contract` takes it, where it is not the kernel's own.
+    #[serde(default = "own", skip_serializing_if = "is_own")]
+    pub contract_words: String,
+}
+
+fn own() -> String {
+    "own".to_owned()
+}
+
+fn is_own(words: &String) -> bool {
+    words == "own"
+}
+
+/// A source of cases as planned.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlannedSource {
+    /// The name in tables.
+    pub family: String,
+    /// `family@version`, parameters and seed as in case ids.
+    pub set: String,
+    /// How many indices.
+    pub count: u64,
+}
+
+/// Where and how a record was made.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// `hairline 0.1.0`.
+    pub tool: String,
+    /// `x86_64-linux`.
+    pub target: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// By scalar: nanoseconds a case in the oracle.
+    pub oracle_nanoseconds: BTreeMap<String, f64>,
+    /// By scalar: how often each layer of the oracle decided.
+    pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
+    /// By scalar and row label: nanoseconds a ray in the kernel.
+    pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+    /// The flags of `hairline audit` that make the plan again, where a command line made it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan_flags: Option<PlanFlags>,
+    /// Of the parts that were merged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<Provenance>,
+}
+
+/// The flags that make a plan again, as a shell takes them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlanFlags {
+    /// Those that choose kernels, epsilons and the contract.
+    pub kernels: String,
+    /// Those that choose cases.
+    pub sources: String,
+}
+
+impl PlanFlags {
+    /// The command that runs some kernels on the plan's cases.
+    pub fn command(&self, kernels: &str) -> String {
+        let words = ["hairline audit", kernels, &self.sources];
+        words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+}
