@@ -134,3 +134,20 @@ fn on_generic_planes_a_larger_epsilon_of_moller_trumbore_trades_false_hits_for_h
         assert!(zero[1] + 0.1 < ulp[1] && ulp[1] + 0.1 < published[1], "{seed}");
     }
 }
+
+#[test]
+fn secondary_rays_start_at_hit_points_and_not_in_the_middle() {
+    let third = 1.0f32 / 3.0;
+    let (mut at_middle, mut near) = (0, 0);
+    for case in cases::<f32>("secondary-ray", 2, 4000) {
+        let [o, _, a, b, c] = case.vectors();
+        let middle: [f32; 3] = std::array::from_fn(|i| a[i] * third + b[i] * third + c[i] * third);
+        at_middle += usize::from(o == middle);
+        let n = normal(&case);
+        let from: Point = std::array::from_fn(|i| exact(o)[i].clone() - &exact(a)[i]);
+        let along = dot(&n, &from);
+        let height = ((&along * &along) / dot(&n, &n)).to_f64().unwrap().sqrt();
+        near += usize::from(height < 16.0 * f64::from(f32::EPSILON));
+    }
+    assert!(at_middle < 40 && near > 3960, "{at_middle} in the middle, {near} near the plane");
+}
