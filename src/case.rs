@@ -212,6 +212,9 @@ impl FromStr for Parameters {
         }
         if let Some(scene) = &parameters.scene {
             scene.check()?;
+            if parameters.mesh.is_none() {
+                scene.check_fit()?;
+            }
             let scales = parameters.scale != 0 || parameters.scale_direction;
             if scales || !parameters.keep_truth() {
                 return Err("a scene has sizes of its own: no scale, offset or unit".to_owned());

@@ -82,6 +82,11 @@ fn bracket<F: Float>(guess: F, accepts: &impl Fn(&F) -> bool) -> (F, F) {
     }
 }
 
+/// The smallest positive number of a scalar that no machine flushes to zero.
+pub fn smallest_normal<F: Float>() -> f64 {
+    scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1)
+}
+
 /// `value * 2^exponent`, rounded once (the steps but the last are exact or already zero or
 /// infinite).
 #[inline]

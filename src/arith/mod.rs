@@ -10,6 +10,7 @@
 
 mod arithmetic;
 mod bounded;
+mod digits;
 mod emulated;
 mod exact;
 mod float;
@@ -20,9 +21,10 @@ mod triple;
 
 pub use arithmetic::Arithmetic;
 pub use bounded::{Bounded, bounded};
+pub use digits::three_digits;
 pub use emulated::Emulated;
 pub use exact::Exact;
-pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two};
+pub use float::{Float, decompose, ordered_midpoint, scale_by_power_of_two, smallest_normal};
 pub use fraction::Fraction;
 pub use tracked::{Exceptions, Tracked, tracked};
 pub use triple::{ExactVector, Triple};

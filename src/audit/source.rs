@@ -3,9 +3,9 @@
 use super::row::quoted;
 use crate::arith::Float;
 use crate::case::{Case, Parameters};
-use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily};
+use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
-use crate::mesh::{Part, Surface, Targets};
+use crate::mesh::{Part, SceneMesh, Surface, Targets};
 use crate::truth::Truth;
 use std::sync::Arc;
 
@@ -52,6 +52,19 @@ pub enum Source {
         /// Rays at each edge or vertex.
         directions: u64,
     },
+    /// A stratum of the scene that a mesh is.
+    SceneMesh {
+        /// The mesh.
+        mesh: Arc<SceneMesh>,
+        /// Which rays.
+        stratum: Stratum,
+        /// The mesh's digest, and what rays there are.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+    },
     /// Stored cases.
     Corpus(CorpusSet),
 }
@@ -59,7 +72,9 @@ pub enum Source {
 /// Whether a source of this name in tables makes its cases from a mesh.
 pub(crate) fn is_of_mesh(name: &str) -> bool {
     let kind = name.split_once(':').map(|(kind, _)| kind);
-    kind.is_some_and(|kind| kind == "mesh" || Part::of_family(kind).is_some())
+    kind.is_some_and(|kind| {
+        kind == "mesh" || Part::of_family(kind).is_some() || Stratum::of_family(kind).is_some()
+    })
 }
 
 /// The stored cases of one file.
@@ -91,6 +106,19 @@ impl CorpusSet {
 }
 
 impl Source {
+    /// A stratum of the scene that a mesh is; the parameters get the mesh's digest.
+    pub fn of_scene_mesh(
+        mesh: &Arc<SceneMesh>,
+        stratum: Stratum,
+        parameters: Parameters,
+        seed: u64,
+        count: u64,
+    ) -> Source {
+        let digest = mesh.surface().mesh().digest.clone();
+        let parameters = Parameters { mesh: Some(digest), ..parameters };
+        Source::SceneMesh { mesh: mesh.clone(), stratum, parameters, seed, count }
+    }
+
     /// The name in tables: one line, whatever a file is called.
     pub fn name(&self) -> String {
         let name = match self {
@@ -98,6 +126,9 @@ impl Source {
             Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
             Source::MeshPart { surface, part, .. } => {
                 format!("{}:{}", part.family(), surface.file_name())
+            }
+            Source::SceneMesh { mesh, stratum, .. } => {
+                format!("{}:{}", stratum.family().name, mesh.surface().file_name())
             }
             Source::Corpus(set) => format!("corpus:{}", set.file),
         };
@@ -119,6 +150,7 @@ impl Source {
             Source::MeshPart { part, directions, .. } => {
                 self.targets::<F>().map_or(0, |targets| targets.count(*part) * directions)
             }
+            Source::SceneMesh { mesh, stratum, count, .. } => mesh.count::<F>(*stratum, *count),
             Source::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
             Source::Corpus(set) => set.f64.len() as u64,
         }
@@ -174,7 +206,7 @@ impl Source {
             Source::Family { exhaustive, family, count, .. } => {
                 !exhaustive && family.size.is_none_or(|size| *count < size)
             }
-            Source::Mesh { .. } | Source::MeshPart { .. } => true,
+            Source::Mesh { .. } | Source::MeshPart { .. } | Source::SceneMesh { .. } => true,
             Source::Corpus(_) => false,
         }
     }
@@ -184,6 +216,7 @@ impl Source {
         match self {
             Source::Family { family, .. } => family.grouping,
             Source::MeshPart { part, .. } => part.grouping(),
+            Source::SceneMesh { stratum, .. } => stratum.family().grouping,
             Source::Mesh { .. } | Source::Corpus(_) => Grouping::Single,
         }
     }
@@ -205,6 +238,9 @@ impl Source {
                 self.targets::<F>().expect("a scalar of the run").make(*part, index, &mut cases);
                 Made::Group(cases)
             }
+            Source::SceneMesh { mesh, stratum, parameters, seed, .. } => {
+                mesh.make(*stratum, parameters, *seed, index)
+            }
             Source::Corpus(set) => Made::One(set.get(index).1),
         }
     }
@@ -214,7 +250,7 @@ impl Source {
     pub fn keeps_promise(&self, truths: &[Truth]) -> bool {
         match self {
             Source::Family { family, .. } => family.keeps(truths),
-            Source::Mesh { .. } | Source::MeshPart { .. } | Source::Corpus(_) => true,
+            _ => true,
         }
     }
 
@@ -223,7 +259,7 @@ impl Source {
         match self {
             // Scaling can leave the range at either end.
             Source::Family { parameters, .. } => parameters.keep_truth() && parameters.scale == 0,
-            Source::Mesh { .. } | Source::MeshPart { .. } | Source::Corpus(_) => true,
+            _ => true,
         }
     }
 
@@ -232,7 +268,8 @@ impl Source {
         match self {
             Source::Family { parameters, .. }
             | Source::Mesh { parameters, .. }
-            | Source::MeshPart { parameters, .. } => parameters.keep_truth(),
+            | Source::MeshPart { parameters, .. }
+            | Source::SceneMesh { parameters, .. } => parameters.keep_truth(),
             Source::Corpus(_) => true,
         }
     }
@@ -256,6 +293,9 @@ impl Source {
             Source::MeshPart { surface, part, parameters, seed, .. } => {
                 surface.id::<F>(*part, parameters, *seed, index)
             }
+            Source::SceneMesh { stratum, parameters, seed, .. } => {
+                stratum.family().id::<F>(parameters, *seed, index)
+            }
             Source::Corpus(set) => return set.get::<F>(index).0.to_owned(),
         };
         crate::case::CaseId { triangle, ..id }.to_string()
@@ -276,6 +316,9 @@ impl Source {
             Source::Family { .. } => None,
             Source::Mesh { family, .. } => Some(format!("--mesh {}", quoted(family.path()))),
             Source::MeshPart { surface, .. } => Some(format!("--mesh {}", quoted(surface.path()))),
+            Source::SceneMesh { mesh, .. } => {
+                Some(format!("--mesh {}", quoted(mesh.surface().path())))
+            }
             Source::Corpus(set) => Some(format!("--corpus {}", quoted(&set.file))),
         }
     }

@@ -61,6 +61,19 @@ pub enum StoredSource {
         /// Rays at each edge or vertex.
         directions: u64,
     },
+    /// A stratum of the scene that a mesh is.
+    SceneMesh {
+        /// Its path.
+        path: String,
+        /// The stratum's family.
+        stratum: String,
+        /// What rays there are.
+        parameters: String,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+    },
     /// Stored cases.
     Corpus {
         /// Their file.
@@ -124,6 +137,15 @@ impl StoredSource {
                     parameters: parameters.to_string(),
                     seed: *seed,
                     directions: *directions,
+                }
+            }
+            Source::SceneMesh { mesh, stratum, parameters, seed, count } => {
+                StoredSource::SceneMesh {
+                    path: mesh.surface().path().to_owned(),
+                    stratum: stratum.family().name.to_owned(),
+                    parameters: parameters.to_string(),
+                    seed: *seed,
+                    count: *count,
                 }
             }
             Source::Corpus(set) => StoredSource::Corpus { file: set.file.clone() },

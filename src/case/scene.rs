@@ -1,7 +1,7 @@
 //! A scene in a few numbers that a person knows: where its triangles are, how large they are, and how far
 //! rays travel.
 
-use crate::arith::{Float, scale_by_power_of_two};
+use crate::arith::{Float, smallest_normal};
 use std::fmt;
 
 /// What the rays and triangles of a scene measure, in the scene's own unit of length.
@@ -62,6 +62,9 @@ impl Default for Scene {
     }
 }
 
+/// In place of a preset: the scene of a mesh.
+const OF_MESH: &str = "mesh";
+
 /// The words of a scene, as errors list them.
 const WORDS: &str = "extent=1000, edge=0.01..10, distance=0..2000, direction=unit or target";
 
@@ -69,33 +72,63 @@ impl Scene {
     /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
     /// the preset `unit`. Also the unit of length of the preset.
     pub fn parse(text: &str) -> Result<(Scene, &'static str), String> {
-        let (mut scene, mut unit, mut known) = (Scene::default(), "", Vec::new());
-        for (i, word) in text.split(',').map(str::trim).enumerate() {
-            match (word.split_once('='), SCENES.iter().find(|preset| preset.name == word)) {
-                (None, Some(preset)) if i == 0 => {
-                    (scene, unit) = (preset.scene.clone(), preset.unit);
-                }
-                (Some((key, value)), _) => {
-                    let (key, value) = (key.trim(), value.trim());
-                    if known.contains(&key) {
-                        return Err(format!("'{key}' is given twice"));
-                    }
-                    if !scene.set(key, value)? {
-                        return Err(format!("unknown word '{key}'; there are {WORDS}"));
-                    }
-                    known.push(key);
-                }
-                _ => {
-                    let names: Vec<&str> = SCENES.iter().map(|preset| preset.name).collect();
-                    return Err(format!(
-                        "'{word}' is no scene: begin with one of {}, or write {WORDS}",
-                        names.join(", ")
-                    ));
-                }
-            }
+        let mut words = text.split(',').map(str::trim).peekable();
+        let first = words.peek().copied().unwrap_or_default();
+        if first == OF_MESH {
+            return Err(format!("'{OF_MESH}' needs --mesh FILE"));
         }
+        let preset = SCENES.iter().find(|preset| preset.name == first);
+        let (mut scene, unit) = match preset {
+            Some(preset) => (preset.scene.clone(), preset.unit),
+            None => (Scene::default(), ""),
+        };
+        scene.set_all(words.skip(usize::from(preset.is_some())), |word, is_key| {
+            if is_key {
+                return format!("unknown word '{word}'; there are {WORDS}");
+            }
+            let names: Vec<&str> = SCENES.iter().map(|preset| preset.name).collect();
+            let names = names.join(", ");
+            format!("'{word}' is no scene: begin with one of {names}, or write {WORDS}")
+        })?;
         scene.check()?;
+        scene.check_fit()?;
         Ok((scene, unit))
+    }
+
+    /// The scene of a mesh with what words say of its rays: perhaps `mesh`, then words between commas.
+    pub fn of_mesh(mut self, text: &str) -> Result<Scene, String> {
+        let words = text.split(',').map(str::trim);
+        let words = words.enumerate().filter(|(i, word)| !(*i == 0 && *word == OF_MESH));
+        let (extent, edge) = (self.extent, self.edge);
+        let expected = "write mesh, or mesh,distance=0..20,direction=target";
+        let wrong = |word: &str| format!("'{word}' is no word for the scene of a mesh: {expected}");
+        self.set_all(words.map(|(_, word)| word), |word, _| wrong(word))?;
+        if (extent, edge) != (self.extent, self.edge) {
+            return Err(format!("a mesh has its own extent and edges: {expected}"));
+        }
+        self.check()?;
+        Ok(self)
+    }
+
+    /// Sets what words say; the error for a word that is unknown, or no `key=value`, is the caller's.
+    fn set_all<'a>(
+        &mut self,
+        words: impl Iterator<Item = &'a str>,
+        unknown: impl Fn(&str, bool) -> String,
+    ) -> Result<(), String> {
+        let mut known = Vec::new();
+        for word in words {
+            let (key, value) = word.split_once('=').ok_or_else(|| unknown(word, false))?;
+            let (key, value) = (key.trim(), value.trim());
+            if known.contains(&key) {
+                return Err(format!("'{key}' is given twice"));
+            }
+            if !self.set(key, value)? {
+                return Err(unknown(key, true));
+            }
+            known.push(key);
+        }
+        Ok(())
     }
 
     /// Sets what a word names; false if it names nothing of a scene.
@@ -118,19 +151,12 @@ impl Scene {
 
     /// An error if the numbers make no scene.
     pub(super) fn check(&self) -> Result<(), String> {
-        let Scene { extent, edge: [shortest, longest], distance: [nearest, farthest], .. } = *self;
+        let Scene { extent, edge: [shortest, _], distance: [nearest, farthest], .. } = *self;
         if extent <= 0.0 {
             return Err(format!("extent={extent}: must be above 0"));
         }
         if shortest <= 0.0 {
             return Err(format!("edge={}: must be above 0", Range(self.edge)));
-        }
-        if extent < longest {
-            return Err(format!(
-                "edge={}: no triangle of that size fits within extent={}",
-                Range(self.edge),
-                Number(extent)
-            ));
         }
         if nearest < 0.0 || farthest <= 0.0 {
             return Err(format!(
@@ -141,19 +167,37 @@ impl Scene {
         Ok(())
     }
 
-    /// An error if a scalar cannot hold the scene: its triangles collapse, or products underflow or
-    /// overflow.
-    pub fn check_in<F: Float>(&self) -> Result<(), String> {
-        let (shortest, name) = (self.edge[0], F::NAME);
-        let smallest_normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
+    /// An error if the largest triangles are not within the extent.
+    pub(super) fn check_fit(&self) -> Result<(), String> {
+        if self.extent < self.edge[1] {
+            return Err(format!(
+                "edge={}: no triangle of that size fits within extent={}",
+                Range(self.edge),
+                Number(self.extent)
+            ));
+        }
+        Ok(())
+    }
+
+    /// An error if products of the scene's lengths overflow in a scalar.
+    pub fn check_range_in<F: Float>(&self) -> Result<(), String> {
         let reach = self.extent + self.distance[1];
         if !F::from_f64(reach * reach * reach).is_finite() {
             return Err(format!(
-                "products of three lengths such as {} overflow in {name}: use a larger unit of length",
-                Number(reach)
+                "products of three lengths such as {} overflow in {}: use a larger unit of length",
+                Number(reach),
+                F::NAME
             ));
         }
-        if shortest * shortest * F::EPSILON.to_f64() < smallest_normal {
+        Ok(())
+    }
+
+    /// An error if a scalar cannot hold the scene: its triangles collapse, or products underflow or
+    /// overflow.
+    pub fn check_in<F: Float>(&self) -> Result<(), String> {
+        self.check_range_in::<F>()?;
+        let (shortest, name) = (self.edge[0], F::NAME);
+        if shortest * shortest * F::EPSILON.to_f64() < smallest_normal::<F>() {
             return Err(format!(
                 "the areas of triangles of edge {} underflow in {name}: use a smaller unit of length",
                 Number(shortest)

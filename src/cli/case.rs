@@ -3,14 +3,16 @@
 use super::exit::{Failure, Status};
 use super::flags::unknown;
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
+use crate::arith::Float;
 use crate::case::{Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
-use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, find};
+use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, Stratum, find};
 use crate::kernel::{self, Scalar};
-use crate::mesh::{Part, Targets, Topology};
+use crate::mesh::{Part, SceneMesh, Surface, Targets, Topology};
 use crate::report::number_of;
 use clap::Args;
+use std::sync::Arc;
 
 /// Which case.
 #[derive(Args)]
@@ -119,6 +121,11 @@ fn stored_cases(stored: &StoredCase) -> Cases {
 
 /// The cases of an id, and how they belong together.
 fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failure> {
+    if let Some(name) = &id.parameters.kernel {
+        let names = kernel::all().into_iter().map(|entry| entry.info.name);
+        kernel::find(name)
+            .ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))?;
+    }
     if let Some(digest) = &id.parameters.mesh {
         let path = mesh.ok_or_else(|| {
             Failure::usage(format!("'{id}' is a case of a mesh: add --mesh FILE"))
@@ -133,6 +140,9 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
             return around_target(id, &mesh, part);
         }
         let family = MeshFamily::new(mesh, path);
+        if let Some(stratum) = Stratum::of_family(&id.family) {
+            return of_scene_mesh(id, family, stratum);
+        }
         let case = family.make(&id.parameters, id.seed, id.index);
         return Ok(Group::alone(vec![case], Grouping::Single));
     }
@@ -143,11 +153,6 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
     let family = family_of(id, name)?;
     if let Some(scene) = &id.parameters.scene {
         scene.check_in::<F>().map_err(|error| Failure::usage(format!("'{id}': {error}")))?;
-    }
-    if let Some(name) = &id.parameters.kernel {
-        let names = kernel::all().into_iter().map(|entry| entry.info.name);
-        kernel::find(name)
-            .ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))?;
     }
     if family.size.map_or(in_order, |size| id.index >= size) {
         return Err(Failure::usage(format!("'{id}': family '{name}' has no case of that index")));
@@ -185,6 +190,23 @@ fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Grou
     targets.make(part, id.index, &mut cases);
     let neighbours = targets.neighbours(part, id.index);
     Ok(Group { cases: chosen_triangle(id, cases)?, grouping: part.grouping(), neighbours })
+}
+
+/// The cases of a stratum of the scene that a mesh is.
+fn of_scene_mesh<F: Scalar>(
+    id: &CaseId,
+    family: MeshFamily,
+    stratum: Stratum,
+) -> Result<Group<F>, Failure> {
+    let grouping = family_of(id, &id.family)?.grouping;
+    let scalars = [F::NAME == f32::NAME, F::NAME == f64::NAME];
+    let mesh = SceneMesh::new(Surface::new(Arc::new(family), scalars));
+    if mesh.count::<F>(stratum, 1) == 0 {
+        let message = format!("'{id}': the mesh has nothing that such rays are aimed at");
+        return Err(Failure::Message(Status::BadInput, message));
+    }
+    let made = mesh.make::<F>(stratum, &id.parameters, id.seed, id.index);
+    Ok(Group::alone(chosen_triangle(id, made.cases().to_vec())?, grouping))
 }
 
 /// The family of an id, which must be of the version that this program makes.

@@ -52,13 +52,13 @@ pub struct EpsilonArguments {
         value_delimiter = ',',
         value_name = "2^K",
         default_value = "2^-20,2^-10,1,2^10,2^20",
-        conflicts_with = "scene",
+        conflicts_with_all = ["scene", "mesh"],
         allow_hyphen_values = true
     )]
     scales: Vec<String>,
 
-    /// With --scene: what a wrong answer costs; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
-    #[arg(long, value_name = "KIND=COST,...", requires = "scene", allow_hyphen_values = true)]
+    /// With --scene or --mesh: what a wrong answer costs; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
+    #[arg(long, value_name = "KIND=COST,...", allow_hyphen_values = true)]
     cost: Option<String>,
 
     #[command(flatten)]
@@ -86,9 +86,12 @@ const SCALE_COUNT: u64 = 4000;
 
 /// Runs the command.
 pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
-    if arguments.sources.scene.is_some() {
+    if arguments.sources.names_scene_or_mesh() {
         let source = matches.and_then(|matches| matches.value_source("count"));
         return scene::run(arguments, source == Some(ValueSource::CommandLine));
+    }
+    if arguments.cost.is_some() {
+        return Err(Failure::usage("--cost: needs --scene or --mesh"));
     }
     let outputs = paired_outputs(
         EPSILON_FORMATS,

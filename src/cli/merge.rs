@@ -7,8 +7,8 @@ use super::reporting::{ReportArguments, self_check};
 use crate::audit::{Plan, Source, StoredSource};
 use crate::corpus::InputError;
 use crate::engine::Unobserved;
-use crate::family::MeshFamily;
-use crate::mesh::{Part, Surface};
+use crate::family::{MeshFamily, Stratum};
+use crate::mesh::{Part, SceneMesh, Surface};
 use crate::report::{illustrations, mergeable, merged};
 use clap::Args;
 use std::sync::Arc;
@@ -79,6 +79,17 @@ fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source
                 parameters: parameters.parse()?,
                 seed: *seed,
                 directions: *directions,
+            })
+        }
+        StoredSource::SceneMesh { path, stratum, parameters, seed, count } => {
+            let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+            let unknown = || format!("unknown part of a scene '{stratum}'");
+            Ok(Source::SceneMesh {
+                mesh: Arc::new(SceneMesh::new(Surface::new(family, scalars))),
+                stratum: Stratum::of_family(stratum).ok_or_else(unknown)?,
+                parameters: parameters.parse()?,
+                seed: *seed,
+                count: *count,
             })
         }
         StoredSource::Corpus { file } => Ok(Source::Corpus(corpus_set(file)?)),

@@ -3,9 +3,12 @@
 use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_set, read_mesh};
+use crate::arith::Float;
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
-use crate::family::{FAMILIES, Family, MeshFamily, STRATA, find};
+use crate::corpus::InputError;
+use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum, find};
+use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use std::collections::HashSet;
@@ -64,9 +67,9 @@ pub struct SourceArguments {
     direction: Option<String>,
 
     /// Run rays in a scene instead of the families: unit, room, city or cad-mm, or what is known of yours,
-    /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit
+    /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit; mesh is the scene that --mesh names
     #[arg(long, value_name = "SCENE")]
-    pub(super) scene: Option<String>,
+    scene: Option<String>,
 
     /// Run rays at the edges, vertices and faces of an OBJ file; may be repeated
     #[arg(long, value_name = "FILE")]
@@ -118,11 +121,48 @@ impl SourceArguments {
         flags.join(" ")
     }
 
-    /// The scene, which both scalars of the run can hold, and its unit of length; the default without one.
-    pub fn scene_and_unit(&self) -> Result<(Scene, &'static str), Failure> {
-        let parsed = self.scene.as_deref().map_or(Ok((Scene::default(), "")), Scene::parse);
-        let (_, unit) = parsed.map_err(|error| Failure::usage(format!("--scene: {error}")))?;
-        Ok((self.scene()?.unwrap_or_default(), unit))
+    /// The scene to study, which both scalars of the run can hold: that of the mesh if one is named.
+    pub fn studied_scene(&self, quiet: bool) -> Result<StudiedScene, Failure> {
+        if !self.mesh.is_empty() {
+            let (scene, mesh) = self.mesh_scene(quiet)?;
+            return Ok(StudiedScene { scene, unit: "", mesh: Some(mesh) });
+        }
+        let (scene, unit) = self.scene()?.unwrap_or_default();
+        Ok(StudiedScene { scene, unit, mesh: None })
+    }
+
+    /// Whether a scene or a mesh is named.
+    pub fn names_scene_or_mesh(&self) -> bool {
+        self.scene.is_some() || !self.mesh.is_empty()
+    }
+
+    /// The scene that the mesh is, and the mesh.
+    fn mesh_scene(&self, quiet: bool) -> Result<(Scene, Arc<SceneMesh>), Failure> {
+        self.refuse_sizes()?;
+        let [path] = &self.mesh[..] else {
+            return Err(Failure::usage("--mesh: a scene is of one mesh"));
+        };
+        let text = self.scene.as_deref().unwrap_or("mesh");
+        // What is wrong with the words shows before a large mesh is read.
+        Scene::default().of_mesh(text).map_err(about_scene)?;
+        let scalars = self.scalars()?;
+        let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+        let mesh = SceneMesh::new(Surface::new(family, scalars));
+        for (chosen, faces, name) in [
+            (scalars[0], mesh.face_count::<f32>(), f32::NAME),
+            (scalars[1], mesh.face_count::<f64>(), f64::NAME),
+        ] {
+            if chosen && faces == 0 {
+                let message = format!("no triangle has an area in {name}");
+                return Err(InputError::of(path, message).into());
+            }
+        }
+        let scene = mesh.scene().of_mesh(text).map_err(about_scene)?;
+        let held = [scene.check_range_in::<f32>(), scene.check_range_in::<f64>()];
+        for (held, _) in held.into_iter().zip(scalars).filter(|(_, chosen)| *chosen) {
+            held.map_err(|error| InputError::of(path, error))?;
+        }
+        Ok((scene, Arc::new(mesh)))
     }
 
     /// The seed, and how many cases of each family.
@@ -148,6 +188,9 @@ impl SourceArguments {
         usual: impl Fn(&Family) -> bool,
     ) -> Result<Vec<Source>, Failure> {
         let (seed, count) = self.seed_and_count();
+        if self.scene.is_some() && !self.mesh.is_empty() {
+            return self.strata_of_mesh(quiet);
+        }
         let parameters = self.parameters()?;
         if !self.corpus.is_empty() && parameters != Parameters::default() {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
@@ -190,6 +233,24 @@ impl SourceArguments {
         Ok(sources)
     }
 
+    /// The strata of the scene that the mesh is.
+    fn strata_of_mesh(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
+        if !self.corpus.is_empty() {
+            return Err(about_scene("leave out --corpus".to_owned()));
+        }
+        self.refuse_other_families()?;
+        let (scene, mesh) = self.mesh_scene(quiet)?;
+        let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
+        let strata = Stratum::ALL.into_iter().filter(|stratum| {
+            let name = stratum.family().name;
+            self.family.is_empty() || self.family.iter().any(|family| family == name)
+        });
+        let (seed, count) = self.seed_and_count();
+        let source =
+            |stratum| Source::of_scene_mesh(&mesh, stratum, parameters.clone(), seed, count);
+        Ok(strata.map(source).collect())
+    }
+
     fn families(&self, usual: impl Fn(&Family) -> bool) -> Result<Vec<&'static Family>, Failure> {
         if self.family.is_empty() {
             let others = !self.mesh.is_empty() || !self.corpus.is_empty();
@@ -218,36 +279,57 @@ impl SourceArguments {
             offset: offset.map_err(|e| Failure::usage(format!("--offset: {e}")))?,
             unit_direction: self.direction.is_some(),
             mesh: None,
-            scene: self.scene()?,
+            scene: self.scene()?.map(|(scene, _)| scene),
             kernel: None,
         })
     }
 
-    /// The scene, which both scalars of the run can hold.
-    fn scene(&self) -> Result<Option<Scene>, Failure> {
+    /// The scene, which both scalars of the run can hold, and its unit of length.
+    fn scene(&self) -> Result<Option<(Scene, &'static str)>, Failure> {
         let Some(text) = &self.scene else { return Ok(None) };
-        let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
+        self.refuse_sizes()?;
+        if !self.corpus.is_empty() {
+            return Err(about_scene("leave out --corpus".to_owned()));
+        }
+        let (scene, unit) = Scene::parse(text).map_err(about_scene)?;
+        self.refuse_other_families()?;
+        let [in_f32, in_f64] = self.scalars()?;
+        let held = [(in_f32, scene.check_in::<f32>()), (in_f64, scene.check_in::<f64>())];
+        for (_, held) in held.into_iter().filter(|(chosen, _)| *chosen) {
+            held.map_err(about_scene)?;
+        }
+        Ok(Some((scene, unit)))
+    }
+
+    fn refuse_sizes(&self) -> Result<(), Failure> {
         let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
         if sized || self.direction.is_some() {
             let sizes = "a scene has sizes of its own: leave out --scale, --offset and --direction";
-            return Err(wrong(sizes.to_owned()));
+            return Err(about_scene(sizes.to_owned()));
         }
-        if !self.mesh.is_empty() || !self.corpus.is_empty() {
-            return Err(wrong("leave out --mesh and --corpus".to_owned()));
-        }
-        let (scene, _) = Scene::parse(text).map_err(wrong)?;
-        if let Some(other) = self.family.iter().find(|name| !name.starts_with("scene-")) {
-            return Err(wrong(format!("'{other}' is no part of a scene")));
-        }
-        let [in_f32, in_f64] = self.scalars()?;
-        let held = [(in_f32, scene.check_in::<f32>()), (in_f64, scene.check_in::<f64>())];
-        for (chosen, held) in held {
-            if chosen {
-                held.map_err(wrong)?;
-            }
-        }
-        Ok(Some(scene))
+        Ok(())
     }
+
+    fn refuse_other_families(&self) -> Result<(), Failure> {
+        match self.family.iter().find(|name| Stratum::of_family(name).is_none()) {
+            Some(other) => Err(about_scene(format!("'{other}' is no part of a scene"))),
+            None => Ok(()),
+        }
+    }
+}
+
+fn about_scene(message: String) -> Failure {
+    Failure::usage(format!("--scene: {message}"))
+}
+
+/// A scene to study.
+pub struct StudiedScene {
+    /// In numbers.
+    pub scene: Scene,
+    /// Its unit of length; empty if it has none.
+    pub unit: &'static str,
+    /// The mesh that it is, if it is one.
+    pub mesh: Option<Arc<SceneMesh>>,
 }
 
 /// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no

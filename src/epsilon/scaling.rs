@@ -40,7 +40,7 @@ pub fn scaled(sources: &[Source], exponent: i32, most: u64) -> Vec<Source> {
             seed: *seed,
             count: (*count).min(most),
         }),
-        Source::MeshPart { .. } | Source::Corpus(_) => None,
+        Source::MeshPart { .. } | Source::SceneMesh { .. } | Source::Corpus(_) => None,
     };
     sources.iter().filter_map(scaled).collect()
 }

@@ -51,7 +51,7 @@ pub fn sketch<F: Scalar>(
 pub fn few(sources: &[Source], most: u64) -> Vec<Source> {
     let spans = |source: &&Source| match source {
         Source::Family { family, .. } => SPANNING.contains(&family.name),
-        Source::Mesh { .. } | Source::MeshPart { .. } | Source::Corpus(_) => false,
+        _ => false,
     };
     let few = |source: &Source| {
         Some(match source {
@@ -65,6 +65,13 @@ pub fn few(sources: &[Source], most: u64) -> Vec<Source> {
             },
             Source::Mesh { family, parameters, seed, count } => Source::Mesh {
                 family: family.clone(),
+                parameters: parameters.clone(),
+                seed: *seed,
+                count: (*count).min(most),
+            },
+            Source::SceneMesh { mesh, stratum, parameters, seed, count } => Source::SceneMesh {
+                mesh: mesh.clone(),
+                stratum: *stratum,
                 parameters: parameters.clone(),
                 seed: *seed,
                 count: (*count).min(most),

@@ -4,10 +4,10 @@ use super::integer::{
     IntegerCase, Point, dot, minus, normal, plus, shuffle, times, transversal,
     triangle_with_edge_point,
 };
-use super::scene::{grazing_case, grazing_sine};
+use super::scene::{Stratum, grazing_sine};
 use super::{Made, Recipe};
 use crate::arith::Float;
-use crate::case::{Case, Draw, Scene};
+use crate::case::{Case, Draw, Parameters};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
@@ -110,7 +110,7 @@ impl Recipe for Grazing {
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         if draw.coin() {
-            return Made::One(grazing_case(draw, &Scene::default()));
+            return Stratum::Grazing.make(&Parameters::default(), draw);
         }
         if draw.coin() {
             // The plane at height 0: the height of the origin and of the direction are exact.

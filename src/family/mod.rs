@@ -26,6 +26,9 @@ mod sizes;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
+pub(crate) use scene::{
+    Corners, Frame, Parallel, Triangles, along_axis, circle, flat_along, in_plane, rounded, wide,
+};
 pub use scene::{STRATA, Stratum};
 
 use crate::arith::Float;

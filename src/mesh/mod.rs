@@ -19,6 +19,7 @@ mod fans;
 mod incidence;
 mod neighbours;
 mod rays;
+mod scene;
 mod surface;
 mod topology;
 
@@ -26,5 +27,6 @@ pub use fans::{Fans, VertexKind};
 pub use incidence::Incidence;
 pub use neighbours::MOST_AROUND;
 pub use rays::{Aim, Part, Targets};
+pub use scene::SceneMesh;
 pub use surface::Surface;
 pub use topology::{EdgeKind, FaceKind, Noted, SharedEdge, Topology};

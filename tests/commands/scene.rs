@@ -71,8 +71,8 @@ fn scenes_are_sources_whose_cases_explain_themselves() {
     let id = record.split('"').find(|word| word.starts_with("scene-")).unwrap();
     assert!(record.contains("scene-shadow") && record.contains("scene-grazing"), "{id}");
     let id = "scene-edges@1/f32/extent=1000,edge=0.01..10,distance=0..2000,direction=unit/1/17";
-    let (told, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
-    assert!(told.contains("cramer"), "{told}");
+    let (shown, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
+    assert!(shown.contains("cramer"), "{shown}");
     let id = "scene-shadow@1/f32/extent=1,edge=0.1..1,distance=0..4,direction=unit,kernel=X/1/17";
     let (_, error) = ends(&folder, &["explain", id], 2);
     assert!(error.contains("unknown kernel 'X'"), "{error}");
@@ -141,4 +141,114 @@ fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
     assert_eq!(head(&at), ["this", "as", "published", "1e-7", "3e-3"]);
     let given = screen("moller-trumbore", &["--epsilon", "parallel=1e-9,edge=-1e-5"]);
     assert!(head(&given).join(" ").starts_with("this as given zero"), "{given}");
+}
+
+/// A box of 12 triangles.
+const BOX: &str = "v -2 -1 0\nv 2 -1 0\nv 2 1 0\nv -2 1 0\nv -2 -1 3\nv 2 -1 3\nv 2 1 3\nv -2 1 3\n\
+    f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+#[test]
+fn a_mesh_is_a_scene() {
+    let folder = scratch("scene-mesh");
+    std::fs::write(folder.join("box.obj"), BOX).unwrap();
+    let study = ["epsilon", "--kernel", "moller-trumbore", "--mesh", "box.obj", "-n", "3000", "-q"];
+    let (screen, error) = ends(&folder, &study, 0);
+    assert_eq!(error, "");
+    for part in [
+        "moller-trumbore f32 in box.obj (12 triangles)\n",
+        // Edges are rounded outwards to three digits: a box's diagonals are 4.472, 3.606 and 5.
+        "\n  extent=3,edge=3.6..5,distance=0..5.39,direction=unit\n",
+        "\n  use  --epsilon parallel=",
+        "the smallest triangle is missed at angles below",
+    ] {
+        assert!(screen.contains(part), "{part}: {screen}");
+    }
+    // Every kind of ray was found: edges, vertices and planes that hold an axis.
+    assert!(!screen.lines().any(|line| line.ends_with(" -")), "{screen}");
+    let further = ["--scene", "mesh, distance=0..20, direction=target", "--cost", "miss=3"];
+    let (screen, _) = ends(&folder, &[&study[..], &further[..]].concat(), 0);
+    assert!(screen.contains("distance=0..20,direction=target"), "{screen}");
+}
+
+#[test]
+fn cases_of_a_mesh_explain_themselves() {
+    let folder = scratch("scene-mesh-cases");
+    std::fs::write(folder.join("box.obj"), BOX).unwrap();
+    let audit = ["audit", "--scene", "mesh", "--mesh", "box.obj", "--kernel", "moller-trumbore"];
+    let further = ["-n", "300", "-q", "--format", "json", "--scalar", "f32"];
+    let (record, _) = ends(&folder, &[&audit[..], &further[..]].concat(), 0);
+    let is_id = |word: &&str| word.starts_with("scene-") && word.contains("/f32/");
+    let mut ids: Vec<&str> = record.split(['"', '\'', ' ']).filter(is_id).collect();
+    ids.sort();
+    ids.dedup();
+    for family in ["scene-edges", "scene-vertices"] {
+        let of = |id: &&&str| id.starts_with(&format!("{family}@1/f32/mesh="));
+        let id = ids.iter().find(of).unwrap_or_else(|| panic!("{family}: {ids:?}"));
+        let explain = ["explain", *id, "--mesh", "box.obj", "--kernel", "moller-trumbore"];
+        let (shown, _) = ends(&folder, &explain, 0);
+        assert!(shown.contains("moller-trumbore"), "{shown}");
+        let (_, error) = ends(&folder, &["explain", id], 2);
+        assert!(error.contains("add --mesh FILE"), "{error}");
+    }
+    // A part of a run has the same cases as the whole.
+    let parts = ["0/2", "1/2"].map(|shard| {
+        let file = format!("{}.json", &shard[..1]);
+        let flags = ["--shard", shard, "-o", file.as_str()];
+        ends(&folder, &[&audit[..], &further[..], &flags].concat(), 0);
+        file
+    });
+    let merge = ["merge", &parts[0], &parts[1], "--format", "json", "-q"];
+    let (merged, _) = ends(&folder, &merge, 0);
+    let result = |text: &str| {
+        let record: serde_json::Value = serde_json::from_str(text).unwrap();
+        record["result"]["results"].clone()
+    };
+    assert_eq!(result(&record), result(&merged));
+}
+
+#[test]
+fn meshes_that_are_no_scene_get_one_clear_line() {
+    let folder = scratch("scene-mesh-bad");
+    let files = [
+        ("box.obj", BOX),
+        ("empty.obj", ""),
+        ("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n"),
+        ("tiny.obj", "v 0 0 0\nv 1e-60 0 0\nv 0 1e-60 0\nf 1 2 3\n"),
+        ("huge.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nf 1 2 3\n"),
+    ];
+    for (name, text) in files {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    let run = |flags: &[&str], code: i32, part: &str| {
+        let mut arguments = vec!["epsilon", "--kernel", "moller-trumbore", "-q", "--scalar", "f32"];
+        arguments.extend(flags);
+        let (_, error) = ends(&folder, &arguments, code);
+        assert!(error.contains(part) && error.lines().count() == 1, "{flags:?}: {error}");
+    };
+    run(&["--mesh", "empty.obj"], 65, "empty.obj: the file has no vertices");
+    run(&["--mesh", "flat.obj"], 65, "flat.obj: no triangle has an area in f32");
+    run(&["--mesh", "tiny.obj"], 65, "tiny.obj: no triangle has an area in f32");
+    run(&["--mesh", "huge.obj"], 65, "overflow in f32: use a larger unit of length");
+    run(&["--mesh", "none.obj"], 74, "none.obj");
+    run(&["--mesh", "box.obj", "--mesh", "flat.obj"], 2, "--mesh: a scene is of one mesh");
+    run(&["--mesh", "box.obj", "--scene", "room"], 2, "'room' is no word for the scene of a mesh");
+    run(&["--mesh", "box.obj", "--scene", "extent=9"], 2, "its own extent and edges");
+    run(&["--mesh", "box.obj", "--scene", "distance=-1"], 2, "must be from 0 up");
+    run(&["--mesh", "box.obj", "--exact"], 2, "--exact is not for --scene, nor for --mesh");
+    run(&["--mesh", "box.obj", "--family", "interior"], 2, "--family");
+    run(&["--mesh", "box.obj", "--scale", "2^3"], 2, "leave out --scale");
+    run(&["--scene", "mesh"], 2, "'mesh' needs --mesh FILE");
+    // One triangle has no edge with another: those rows are empty, and the rest is answered.
+    std::fs::write(folder.join("one.obj"), "v 0 0 0\nv 1 0.5 0.25\nv 0.3 1 0.1\nf 1 2 3\n")
+        .unwrap();
+    let one = ["epsilon", "--kernel", "moller-trumbore", "--mesh", "one.obj", "-n", "500", "-q"];
+    let (screen, _) = ends(&folder, &one, 0);
+    let row = |label: &str| screen.lines().find(|line| line.contains(label)).unwrap();
+    for label in ["at a shared edge: cracks", "at a shared vertex: cracks", "exactly parallel"] {
+        assert!(row(label).ends_with(" -"), "{screen}");
+    }
+    assert!(!row("at a triangle: hits lost").ends_with(" -"), "{screen}");
+    let id = "scene-edges@1/f32/mesh=0123456789abcdef,distance=0..1/1/17";
+    let (_, error) = ends(&folder, &["explain", id, "--mesh", "one.obj"], 65);
+    assert!(error.contains("its digest is"), "{error}");
 }

@@ -4,13 +4,17 @@ use hairline::Truth;
 use hairline::internals::arith::Float;
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
+use hairline::internals::corpus::mesh::read_obj;
 use hairline::internals::epsilon::scene::{
     Attempt, Costs, Count, Kind, Knob, Setting, cheapest, contract_with, count_at, counts, limits,
 };
-use hairline::internals::family::Stratum;
+use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::judge::{GroupTruth, Obligation, asked, group_obligation};
 use hairline::internals::kernel::{Scalar, Verdict, find};
+use hairline::internals::mesh::{SceneMesh, Surface};
 use hairline::internals::oracle;
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 fn scenes() -> Vec<Scene> {
     let presets = SCENES.iter().map(|preset| preset.scene.clone());
@@ -130,23 +134,24 @@ fn setting<'a>(
     scene: &'a Scene,
 ) -> Setting<'a, f32> {
     let gated = f32::subject(row.entry).unwrap().gated().unwrap();
-    Setting { row, gated, knobs, counts, scene, relative: false }
+    Setting { row, gated, knobs, counts, scene, mesh: None, relative: false }
 }
 
-/// A case or group and what must be done with it.
-struct Asked {
+/// A case or group, and which of the counts it is for.
+struct Counted {
     count: usize,
     cases: Vec<Case<f32>>,
 }
 
 /// Everything that is counted, straight from the generators, the oracle and the judge.
-fn all_asked(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Asked> {
+fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counted> {
     let contract = &setting.row.contract;
     let mut all = Vec::new();
     for (count, Count { stratum, kind }) in setting.counts.iter().enumerate() {
         let family = stratum.family();
-        for index in 0..number {
-            let made = family.make::<f32>(&setting.parameters(*stratum), seed, index);
+        let source = setting.source(*stratum, seed, number);
+        for index in 0..source.count::<f32>() {
+            let made = source.make::<f32>(index);
             let cases = made.cases().to_vec();
             let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
             let is_counted = match kind {
@@ -159,7 +164,7 @@ fn all_asked(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Asked> {
                 Kind::Hit => asked(&cases[0], &truths[0], contract, false) == Obligation::MustMiss,
             };
             if is_counted {
-                all.push(Asked { count, cases });
+                all.push(Counted { count, cases });
             }
         }
     }
@@ -167,7 +172,7 @@ fn all_asked(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Asked> {
 }
 
 /// The shares of wrong answers of a kernel that is run with some epsilons.
-fn shares(setting: &Setting<'_, f32>, all: &[Asked], epsilons: &[f32]) -> Vec<f64> {
+fn shares(setting: &Setting<'_, f32>, all: &[Counted], epsilons: &[f32]) -> Vec<f64> {
     let mut of_gates = setting.row.epsilons::<f32>();
     let mut least_t = f32::NEG_INFINITY;
     for (knob, epsilon) in setting.knobs.iter().zip(epsilons) {
@@ -179,7 +184,7 @@ fn shares(setting: &Setting<'_, f32>, all: &[Asked], epsilons: &[f32]) -> Vec<f6
     let kernel = f32::subject(setting.row.entry).unwrap();
     let (mut wrong, mut of) = (vec![0; setting.counts.len()], vec![0; setting.counts.len()]);
     let mut verdicts = [Verdict::miss(None); 8];
-    for Asked { count, cases } in all {
+    for Counted { count, cases } in all {
         let verdicts = &mut verdicts[..cases.len()];
         kernel.run(cases, &of_gates, verdicts);
         let has_least_t = least_t != f32::NEG_INFINITY;
@@ -203,7 +208,7 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
     for kernel in ["moller-trumbore", "plane-unit-normal", "woop-watertight", "plucker"] {
         let (row, knobs, counts) = tuned(kernel);
         let setting = setting(&row, &knobs, &counts, &scene);
-        let all = all_asked(&setting, seed, number);
+        let all = all_counted(&setting, seed, number);
         for costs in ["crack=10", "crack=1,self-hit=30", "miss=0.01,hit=5"] {
             let costs = Costs::parse(costs).unwrap();
             let best = cheapest(&setting, &[], &costs, seed, number, &Unobserved);
@@ -287,4 +292,77 @@ fn cases_are_the_same_on_every_machine() {
         [5319908324054485928, 8304969196650282837],
     ];
     assert_eq!(found, pinned, "{found:#018x?}");
+}
+
+/// A box whose faces are cut into triangles, and a tetrahedron with bent edges beside it.
+const MESH: &str = "v -2 -1 0\nv 2 -1 0\nv 2 1 0\nv -2 1 0\nv -2 -1 3\nv 2 -1 3\nv 2 1 3\nv -2 1 3\n\
+    f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n\
+    v 5.1 0.3 0.7\nv 6.4 0.2 0.9\nv 5.7 1.3 0.4\nv 5.8 0.6 1.9\n\
+    f 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\nv 7 7 7\nf 9 9 13\n";
+
+/// A triangle's vertices, the smallest first.
+fn sorted<F: Float>(mut corners: [[F; 3]; 3]) -> [[u64; 3]; 3] {
+    let mut bits = [[0; 3]; 3];
+    for (bits, corner) in bits.iter_mut().zip(&mut corners) {
+        *bits = corner.map(F::to_bits);
+    }
+    bits.sort();
+    bits
+}
+
+fn check_mesh<F: Scalar>(direction: &str) {
+    let mesh = read_obj(MESH.as_bytes(), "box.obj", &mut |_| {}).unwrap();
+    let faces: BTreeSet<_> =
+        (0..mesh.triangles.len()).map(|face| sorted(mesh.vertices::<F>(face))).collect();
+    let surface = Surface::new(Arc::new(MeshFamily::new(mesh, "box.obj")), [true, true]);
+    let mesh = SceneMesh::new(surface);
+    // The last face has no area.
+    assert_eq!((mesh.face_count::<F>(), faces.len()), (16, 17));
+    let scene = mesh.scene().of_mesh(direction).unwrap();
+    let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
+    for stratum in Stratum::ALL {
+        let family = stratum.family();
+        let (mut seen, mut kept, mut hits, mut owed_something) = (BTreeSet::new(), 0, 0, 0);
+        for index in 0..600 {
+            let made = mesh.make::<F>(stratum, &parameters, 3, index);
+            let truths: Vec<Truth> = made.cases().iter().map(oracle::truth).collect();
+            kept += u32::from(family.keeps(&truths));
+            hits += u32::from(truths.iter().any(|truth| truth.hits_closed() == Some(true)));
+            for case in made.cases() {
+                let [o, _, a, b, c] = case.vectors();
+                let corners = sorted([a, b, c]);
+                assert!(faces.contains(&corners), "{stratum:?} {index}");
+                seen.insert(corners);
+                let reach = length(minus(o.map(F::to_f64), a.map(F::to_f64)));
+                assert!(reach <= scene.distance[1] + 4.0 * scene.edge[1], "{reach}");
+            }
+            if stratum == Stratum::Edges {
+                let [one, other] = made.cases() else { panic!("two triangles") };
+                let ends = |case: &Case<F>| -> BTreeSet<_> {
+                    let [.., a, b, c] = case.vectors();
+                    [a, b, c].map(|corner| corner.map(F::to_bits)).into()
+                };
+                assert_eq!(ends(one).intersection(&ends(other)).count(), 2, "{index}");
+                let contract = &tuned("moller-trumbore").0.contract;
+                let owed = group_obligation(made.cases(), &truths, contract, family.grouping);
+                owed_something += u32::from(owed != GroupTruth::Free);
+            }
+        }
+        let is_parallel = stratum == Stratum::Parallel;
+        // Of the tetrahedron no face holds an axis.
+        assert!(kept == 600 || is_parallel && direction != "mesh", "{stratum:?}: {kept}");
+        assert!(500 < kept, "{stratum:?}: {kept}");
+        assert!(400 < owed_something || stratum != Stratum::Edges, "{owed_something}");
+        let all = if is_parallel && direction == "mesh" { 12 } else { 16 };
+        assert_eq!(seen.len(), all, "{stratum:?}");
+        let aimed = [Stratum::Interior, Stratum::Edges, Stratum::Vertices];
+        assert!(!aimed.contains(&stratum) || 400 < hits, "{stratum:?}: {hits}");
+    }
+}
+
+#[test]
+fn strata_of_a_mesh_are_rays_at_its_own_triangles() {
+    check_mesh::<f32>("mesh");
+    check_mesh::<f64>("mesh");
+    check_mesh::<f64>("mesh,direction=target");
 }

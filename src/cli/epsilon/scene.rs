@@ -2,11 +2,10 @@
 
 use super::{EpsilonArguments, gated};
 use crate::audit::Row;
-use crate::case::Scene;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
-use crate::cli::sources::{scalars_in_use, set_threads};
+use crate::cli::sources::{StudiedScene, scalars_in_use, set_threads};
 use crate::epsilon::scene::{
     Costs, Knob, MOST_KNOBS, Setting, contract_with, counts, own_epsilons, study_scene,
 };
@@ -32,7 +31,6 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     set_threads(arguments.threads)?;
     let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
     let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
-    let (scene, unit) = arguments.sources.scene_and_unit()?;
     let rows = arguments.kernels.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
@@ -47,6 +45,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
             Err(reason) => reasons.push(reason),
         }
     }
+    let studied = arguments.sources.studied_scene(arguments.quiet)?;
     match reasons.first() {
         Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
         _ if arguments.quiet => {}
@@ -58,7 +57,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     let total = PASSES * Stratum::ALL.len() as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.quiet);
     let at = &arguments.at;
-    let run = Run { scene: &scene, costs: &costs, at, seed, count, progress: &progress };
+    let run = Run { studied: &studied, costs: &costs, at, seed, count, progress: &progress };
     let mut parts = Vec::new();
     for tuned in &tuned {
         let in_scalar = tuned.row.entry.scalars();
@@ -70,7 +69,8 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         }
     }
     progress.finish();
-    let record = scene_record(&scene, unit, &costs, seed, count, parts);
+    let mesh = studied.mesh.as_ref().map(|mesh| mesh.surface());
+    let record = scene_record(&studied.scene, studied.unit, mesh, &costs, seed, count, parts);
     write_results(outputs, |format, _, out| {
         let style = Style { color: ColorChoice::Never.enabled(false), details: false };
         (format.write)(&record, style, out)
@@ -86,7 +86,7 @@ struct Tuned<'a> {
 }
 
 struct Run<'a> {
-    scene: &'a Scene,
+    studied: &'a StudiedScene,
     costs: &'a Costs,
     at: &'a [String],
     seed: u64,
@@ -106,7 +106,8 @@ impl Run<'_> {
             gated: gated::<F>(&row).ok_or_else(shown)?,
             knobs,
             counts: &counts,
-            scene: self.scene,
+            scene: &self.studied.scene,
+            mesh: self.studied.mesh.as_ref(),
             relative: false,
         };
         let own = |set: &&Row| (set.set.clone(), own_epsilons::<F>(set, knobs));
@@ -138,7 +139,9 @@ impl EpsilonArguments {
             ("--family", self.sources.names_families()),
         ];
         match given.iter().find(|(_, given)| *given) {
-            Some((flag, _)) => Err(Failure::usage(format!("{flag} is not for --scene"))),
+            Some((flag, _)) => {
+                Err(Failure::usage(format!("{flag} is not for --scene, nor for --mesh")))
+            }
             None => Ok(()),
         }
     }

@@ -3,7 +3,7 @@
 use super::joint::Grid;
 use super::knob::{Knob, MOST_KNOBS};
 use super::trials::{Setting, Trial};
-use crate::arith::{Float, scale_by_power_of_two};
+use crate::arith::{Float, smallest_normal};
 use crate::case::{DirectionLength, Scene};
 use crate::engine::{Merge, Observer};
 use crate::kernel::{Dimension, Gate, Role, Scalar};
@@ -90,9 +90,7 @@ pub fn grid<F: Scalar>(
             if knob.takes_negative(gates) {
                 values.extend(ranges.below[k].into_iter().flat_map(rounds).map(|x| -x));
             }
-            values.sort_by_key(|value| value.place());
-            values.dedup_by(|a, b| a == b);
-            values
+            in_order(values)
         };
         let values: Vec<Vec<F>> = setting.knobs.iter().enumerate().map(of_knob).collect();
         let points: usize = values.iter().map(|values| values.len() + 1).product();
@@ -103,10 +101,17 @@ pub fn grid<F: Scalar>(
     }
 }
 
+/// The different values, in order.
+fn in_order<F: Float>(mut values: Vec<F>) -> Vec<F> {
+    values.sort_by_key(|value| value.place());
+    values.dedup_by(|a, b| a == b);
+    values
+}
+
 /// Round numbers from one at or below a range to one at or above it; fewer with every step.
 fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     // Below the normal numbers a machine may flush to zero.
-    let normal = scale_by_power_of_two(1.0, F::MIN_EXPONENT + F::DIGITS as i32 - 1);
+    let normal = smallest_normal::<F>();
     let digits: &[u32] = if step == 0 { &[1, 2, 5] } else { &[1] };
     let every = 1 << step.saturating_sub(1);
     let decades = (-330..=310).filter(|k| k % every == 0);
@@ -131,9 +136,7 @@ pub fn around<F: Float>(point: &[F]) -> Grid<F> {
         if 0.0 < size {
             values.extend(rounds::<F>([size / 10.0, size * 10.0], 0).into_iter().map(|y| y * sign));
         }
-        values.sort_by_key(|value| value.place());
-        values.dedup_by(|a, b| a == b);
-        values
+        in_order(values)
     };
     Grid::new(point.iter().map(near).collect())
 }

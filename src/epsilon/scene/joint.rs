@@ -2,8 +2,7 @@
 
 use super::trials::{Count, Kind, Margins, Setting, Trial};
 use crate::arith::Float;
-use crate::engine::Merge;
-use crate::engine::Observer;
+use crate::engine::{Merge, Observer};
 use crate::kernel::Scalar;
 
 /// What a wrong answer of each kind costs.
@@ -55,7 +54,7 @@ impl Costs {
     }
 }
 
-/// The values that are weighed for each knob, in order; one place for each of the most knobs.
+/// The values that are weighed for each knob, in order.
 pub struct Grid<F> {
     values: Vec<Vec<F>>,
 }
@@ -139,16 +138,16 @@ impl<F: Scalar> Joint<F> {
     }
 
     /// The share of wrong answers of each count at a point; 0 of nothing.
-    fn shares(&self, counts: &[Count], places: &[usize]) -> impl Iterator<Item = f64> {
+    fn shares(&self, counts: &[Count], places: &[usize]) -> Vec<f64> {
         // A point's hits are those that accept one value more than its place.
         let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
         let cell = self.grid.cell(&above);
-        let wrong = counts.iter().zip(&self.of).zip(&self.hits).map(move |((count, of), hits)| {
+        let wrong = counts.iter().zip(&self.of).zip(&self.hits).map(|((count, of), hits)| {
             let hits = hits.get(cell).copied().unwrap_or(0) as u64;
             let wrong = if count.kind.is_wrong_if_refused() { of - hits } else { hits };
             wrong as f64 / (*of).max(1) as f64
         });
-        wrong.collect::<Vec<_>>().into_iter()
+        wrong.collect()
     }
 
     /// The point with the least cost. Of points with equal cost along a knob the one with the value 0, or
@@ -189,11 +188,11 @@ impl<F: Scalar> Joint<F> {
 }
 
 /// The union of boxes from the origin as a sum of boxes with signs, by inclusion and exclusion.
-fn union(mut boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
+fn union(boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
     // One that lies in another adds nothing.
     let inside = |a: &[usize], b: &[usize]| a.iter().zip(b).all(|(a, b)| a <= b);
     let mut kept: Vec<Vec<usize>> = Vec::new();
-    for one in boxes.drain(..) {
+    for one in boxes {
         if !kept.iter().any(|other| inside(&one, other)) {
             kept.retain(|other| !inside(other, &one));
             kept.push(one);

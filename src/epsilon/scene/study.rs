@@ -46,7 +46,8 @@ pub fn fresh_seed(seed: u64) -> u64 {
 /// A scale-free form is worth saying if it leaves less than this share of the cost.
 const WORTH_SAYING: f64 = 0.8;
 
-/// Runs a study, which also weighs and tries epsilons with names. The error is a disagreement between margins and the kernel's own run: a fault of this tool.
+/// Runs a study, which also weighs and tries epsilons with names. The error is a disagreement between
+/// margins and the kernel's own run: a fault of this tool.
 pub fn study_scene<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,

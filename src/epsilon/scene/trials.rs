@@ -6,11 +6,13 @@ use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary};
 use crate::case::{Case, Parameters, Scene};
 use crate::contract::{Contract, Extent, Sides};
-use crate::engine::{self, Merge, Observer};
+use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::Stratum;
 use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Gated, Scalar};
+use crate::mesh::SceneMesh;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What can go wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -90,6 +92,8 @@ pub struct Setting<'a, F: 'static> {
     pub counts: &'a [Count],
     /// The scene.
     pub scene: &'a Scene,
+    /// The mesh that it is, if it is one.
+    pub mesh: Option<&'a Arc<SceneMesh>>,
     /// Epsilons are multiplied by each case's own size.
     pub relative: bool,
 }
@@ -131,24 +135,30 @@ impl<F: Scalar> Setting<'_, F> {
             if !self.counts.iter().any(|count| count.stratum == stratum) {
                 continue;
             }
-            let source = Source::Family {
-                family: stratum.family(),
-                parameters: self.parameters(stratum),
-                seed,
-                count,
-                exhaustive: false,
-            };
+            let source = self.source(stratum, seed, count);
             let add =
                 |sums: &mut S, indices| self.chunk(&source, stratum, indices, |t| add(sums, t));
-            total.merge(engine::sum(0..count, source.chunk(), observer, &empty, add));
+            let indices = 0..source.count::<F>();
+            total.merge(engine::sum(indices, source.chunk(), observer, &empty, add));
         }
         total
     }
 
-    /// What makes a stratum's cases again.
-    pub fn parameters(&self, stratum: Stratum) -> Parameters {
+    /// The first indices of a stratum.
+    pub fn source(&self, stratum: Stratum, seed: u64, count: u64) -> Source {
         let kernel = (stratum == Stratum::Shadow).then(|| self.row.entry.info.name.to_owned());
-        Parameters { scene: Some(self.scene.clone()), kernel, ..Parameters::default() }
+        let scene = Some(self.scene.clone());
+        let parameters = Parameters { scene, kernel, ..Parameters::default() };
+        match self.mesh {
+            Some(mesh) => Source::of_scene_mesh(mesh, stratum, parameters, seed, count),
+            None => Source::Family {
+                family: stratum.family(),
+                parameters,
+                seed,
+                count,
+                exhaustive: false,
+            },
+        }
     }
 
     fn chunk(
@@ -159,7 +169,7 @@ impl<F: Scalar> Setting<'_, F> {
         mut add: impl FnMut(Trial<'_, F>),
     ) {
         let mut summary = SourceSummary::new(0, F::NAME);
-        let chunk = Chunk::<F>::make(source, indices, &crate::engine::Unobserved, &mut summary);
+        let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
         let margins = self.margins(&chunk.cases);
         let contract = &self.row.contract;
         let of =
@@ -179,8 +189,11 @@ impl<F: Scalar> Setting<'_, F> {
             }
         } else {
             let [misses, hits] = [of(Kind::Miss), of(Kind::Hit)];
+            let family = stratum.family();
             for (i, obligation) in chunk.obligations(contract).into_iter().enumerate() {
                 let count = match obligation {
+                    // At a mesh not every parallel ray can be made exactly so.
+                    _ if !family.keeps(&chunk.truths[i..=i]) => None,
                     Obligation::MustHit => misses,
                     Obligation::MustMiss => hits,
                     Obligation::Free => None,

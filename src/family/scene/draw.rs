@@ -1,16 +1,9 @@
 //! What the strata share: sizes, places, orientations, and the ray toward a target.
 
-use super::super::{integer, unit};
+use super::super::unit;
 use crate::arith::Float;
-use crate::case::{DirectionLength, Draw, Parameters, Scene};
+use crate::case::{DirectionLength, Draw, Scene};
 use glam::DVec3;
-
-pub fn with_scene<T>(parameters: &Parameters, make: impl FnOnce(&Scene) -> T) -> T {
-    match &parameters.scene {
-        Some(scene) => make(scene),
-        None => make(&Scene::default()),
-    }
-}
 
 /// A number between two positive ones, each doubling equally likely: 2^-8 of the range on a scale of
 /// powers, and even within.
@@ -48,14 +41,18 @@ pub fn any_direction(draw: &mut Draw) -> DVec3 {
     }
 }
 
-/// Three axes at right angles: along, across and the normal, turned uniformly.
+/// Three axes at right angles.
 pub struct Frame {
+    /// In the plane.
     pub along: DVec3,
+    /// In the plane, at a right angle to the first.
     pub across: DVec3,
+    /// At a right angle to the plane.
     pub normal: DVec3,
 }
 
 impl Frame {
+    /// Turned uniformly.
     pub fn draw(draw: &mut Draw) -> Frame {
         let normal = any_direction(draw);
         loop {
@@ -66,6 +63,18 @@ impl Frame {
                 return Frame { along: across.cross(normal), across, normal };
             }
         }
+    }
+
+    /// Of a triangle's plane, along its first edge; none if `f64` finds no normal.
+    pub fn of<F: Float>(triangle: [[F; 3]; 3]) -> Option<Frame> {
+        let [a, b, c] = triangle.map(wide);
+        let (e, f) = (b - a, c - a);
+        // Edges of about 1, so that products neither overflow nor underflow.
+        let largest = e.abs().max(f.abs()).max_element();
+        let along = (e / largest).normalize();
+        let normal = (e / largest).cross(f / largest).normalize();
+        let is_frame = along.is_finite() && normal.is_finite();
+        is_frame.then(|| Frame { along, across: normal.cross(along), normal })
     }
 
     /// The vector of coordinates along and across.
@@ -80,33 +89,6 @@ pub fn rounded<F: Float>(point: DVec3) -> [F; 3] {
 
 pub fn wide<F: Float>(point: [F; 3]) -> DVec3 {
     point.map(F::to_f64).into()
-}
-
-/// A point so far inside the extent that all within `size` of it is inside too, where there is one.
-pub fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
-    let reach = (scene.extent - size).max(0.0);
-    DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach
-}
-
-/// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the
-/// longest; its height is at least an eighth of that.
-pub fn apex(draw: &mut Draw, size: f64) -> (f64, f64) {
-    loop {
-        let (x, y) = (draw.unit(), 0.125 + 0.875 * draw.unit());
-        if x * x + y * y <= 1.0 && (1.0 - x) * (1.0 - x) + y * y <= 1.0 {
-            return (x * size, y * size);
-        }
-    }
-}
-
-/// A triangle and the frame of its plane.
-pub fn triangle<F: Float>(draw: &mut Draw, scene: &Scene) -> ([[F; 3]; 3], Frame) {
-    let size = between_powers(draw, scene.edge);
-    let (a, frame) = (place(draw, scene, size), Frame::draw(draw));
-    let (x, y) = apex(draw, size);
-    let (b, c) = (a + frame.flat(size, 0.0), a + frame.flat(x, y));
-    let corners = integer::shuffle(draw, [a, b, c]);
-    (corners.map(rounded), frame)
 }
 
 /// The point of given weights, in `f64`.
@@ -142,7 +124,7 @@ pub fn ray<F: Float>(
     (start, direction(scene, target - wide(start), toward))
 }
 
-/// The direction of a way in a scene; of no way, that of the unit vector.
+/// The direction along a way in a scene; along a unit vector if the way is too short.
 pub fn direction<F: Float>(scene: &Scene, way: DVec3, toward: DVec3) -> [F; 3] {
     // Nearer than the shortest edge, the target's own rounding would turn the ray.
     let is_short = way.dot(way) < scene.edge[0] * scene.edge[0];
@@ -154,13 +136,19 @@ pub fn direction<F: Float>(scene: &Scene, way: DVec3, toward: DVec3) -> [F; 3] {
     }
 }
 
-/// A unit vector in the plane of a frame, uniform on the circle.
-pub fn in_plane(draw: &mut Draw, frame: &Frame) -> DVec3 {
+/// Coordinates in a plane, uniform over all directions, and their length.
+pub fn circle(draw: &mut Draw) -> ([f64; 2], f64) {
     loop {
         let (x, y) = (symmetric(draw), symmetric(draw));
         let square = x * x + y * y;
         if (0.0625..=1.0).contains(&square) {
-            return frame.flat(x, y) / square.sqrt();
+            return ([x, y], square.sqrt());
         }
     }
+}
+
+/// A unit vector in the plane of a frame, uniform on the circle.
+pub fn in_plane(draw: &mut Draw, frame: &Frame) -> DVec3 {
+    let ([x, y], length) = circle(draw);
+    frame.flat(x, y) / length
 }

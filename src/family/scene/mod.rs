@@ -8,16 +8,22 @@ mod aimed;
 mod draw;
 mod flat;
 mod shadow;
+mod triangles;
 
-use super::{Family, Grouping, Question};
+pub(super) use draw::any_direction;
+pub(crate) use draw::{Frame, circle, in_plane, rounded, wide};
+pub(super) use flat::grazing_sine;
+pub(super) use shadow::hit_point;
+pub(crate) use triangles::{Corners, Parallel, Triangles, along_axis, flat_along};
+
+use super::{Family, Grouping, Made, Question};
+use crate::arith::Float;
+use crate::case::{Draw, Parameters, Scene};
+use crate::kernel::Scalar;
 use crate::truth::Truth;
 use aimed::{edges, interior, outside, vertices};
 use flat::{grazing, parallel};
 use shadow::shadow;
-
-pub(super) use draw::{Frame, any_direction, rounded, wide};
-pub(super) use flat::{grazing_case, grazing_sine};
-pub(super) use shadow::hit_point;
 
 /// A part of a scene whose rates are reported by themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,10 +60,66 @@ impl Stratum {
     pub fn family(self) -> &'static Family {
         &STRATA[self as usize]
     }
+
+    /// The stratum of a family's name.
+    pub fn of_family(name: &str) -> Option<Stratum> {
+        Stratum::ALL.into_iter().find(|stratum| stratum.family().name == name)
+    }
+
+    /// Case `index` of the set of a seed, at other triangles than those of the scene's numbers.
+    pub(crate) fn make_at<F: Scalar>(
+        self,
+        triangles: &dyn Triangles<F>,
+        parameters: &Parameters,
+        seed: u64,
+        index: u64,
+    ) -> Made<F> {
+        let mut draw = Draw::new(self.family().name, seed, index);
+        with_scene(parameters, |scene| {
+            let kernel = parameters.kernel.as_deref();
+            self.maker()(&Setup { triangles, scene, kernel }, &mut draw)
+        })
+    }
+
+    /// The same at triangles drawn from the scene's numbers.
+    pub(super) fn make<F: Scalar>(self, parameters: &Parameters, draw: &mut Draw) -> Made<F> {
+        with_scene(parameters, |scene| {
+            let kernel = parameters.kernel.as_deref();
+            self.maker()(&Setup { triangles: scene, scene, kernel }, draw)
+        })
+    }
+
+    fn maker<F: Scalar>(self) -> fn(&Setup<'_, F>, &mut Draw) -> Made<F> {
+        match self {
+            Stratum::Interior => interior,
+            Stratum::Edges => edges,
+            Stratum::Vertices => vertices,
+            Stratum::Grazing => grazing,
+            Stratum::Parallel => parallel,
+            Stratum::Shadow => shadow,
+            Stratum::Outside => outside,
+        }
+    }
+}
+
+/// What a stratum's cases are made from.
+struct Setup<'a, F: Float> {
+    triangles: &'a dyn Triangles<F>,
+    scene: &'a Scene,
+    /// The kernel at whose hit points shadow rays start.
+    kernel: Option<&'a str>,
+}
+
+/// Makes something of the scene that the parameters hold, or of the default one.
+fn with_scene<T>(parameters: &Parameters, make: impl FnOnce(&Scene) -> T) -> T {
+    match &parameters.scene {
+        Some(scene) => make(scene),
+        None => make(&Scene::default()),
+    }
 }
 
 macro_rules! stratum {
-    ($name:literal, $question:ident, $grouping:ident, $make:ident, $keeps:expr, $promise:literal) => {
+    ($name:literal, $question:ident, $grouping:ident, $stratum:ident, $keeps:expr, $promise:literal) => {
         Family {
             name: $name,
             version: 1,
@@ -66,8 +128,8 @@ macro_rules! stratum {
             grouping: Grouping::$grouping,
             size: None,
             keeps: $keeps,
-            make_f32: $make::<f32>,
-            make_f64: $make::<f64>,
+            make_f32: |parameters, draw, _| Stratum::$stratum.make(parameters, draw),
+            make_f64: |parameters, draw, _| Stratum::$stratum.make(parameters, draw),
         }
     };
 }
@@ -78,7 +140,7 @@ pub static STRATA: &[Family] = &[
         "scene-interior",
         Inside,
         Single,
-        interior,
+        Interior,
         with_area,
         "at a point inside a triangle, from any direction"
     ),
@@ -86,7 +148,7 @@ pub static STRATA: &[Family] = &[
         "scene-edges",
         Edges,
         SharedEdge,
-        edges,
+        Edges,
         with_area,
         "at a point of an edge that two triangles share, from any direction"
     ),
@@ -94,7 +156,7 @@ pub static STRATA: &[Family] = &[
         "scene-vertices",
         Vertices,
         Fan,
-        vertices,
+        Vertices,
         with_area,
         "at the vertex that six triangles share, from any direction"
     ),
@@ -102,7 +164,7 @@ pub static STRATA: &[Family] = &[
         "scene-grazing",
         Flat,
         Single,
-        grazing,
+        Grazing,
         with_area,
         "almost parallel to a generic plane: sines from 1/8 down to below the rounding of the direction"
     ),
@@ -110,7 +172,7 @@ pub static STRATA: &[Family] = &[
         "scene-parallel",
         Flat,
         Single,
-        parallel,
+        Parallel,
         parallel_or_in_the_plane,
         "exactly parallel to the plane, off it or in it"
     ),
@@ -118,7 +180,7 @@ pub static STRATA: &[Family] = &[
         "scene-shadow",
         Ends,
         SecondaryRay,
-        shadow,
+        Shadow,
         with_area,
         "from a kernel's own rounded hit point on the triangle, in every direction"
     ),
@@ -126,7 +188,7 @@ pub static STRATA: &[Family] = &[
         "scene-outside",
         Inside,
         Single,
-        outside,
+        Outside,
         with_area,
         "at a point of the plane beside the triangle, from any direction"
     ),

@@ -1,40 +1,39 @@
 //! Rays from a kernel's own hit points.
 
 use super::super::{Made, control::combination};
+use super::Setup;
 use super::aimed::interior_case;
-use super::draw::{any_direction, between, direction, point_of, rounded, triangle, with_scene};
+use super::draw::{any_direction, between, direction, point_of, rounded};
 use crate::arith::Vector;
-use crate::case::{Case, Draw, Parameters, Scene};
+use crate::case::{Case, Draw};
 use crate::kernel::{Gated, Scalar, find};
 
 /// The kernel at whose hit points shadow rays start, unless the parameters name another.
 const DEFAULT_SHADOW_KERNEL: &str = "moller-trumbore";
 
-pub fn shadow<F: Scalar>(parameters: &Parameters, draw: &mut Draw, _: u64) -> Made<F> {
-    let name = parameters.kernel.as_deref().unwrap_or(DEFAULT_SHADOW_KERNEL);
+pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+    let name = setup.kernel.unwrap_or(DEFAULT_SHADOW_KERNEL);
     let gated = find(name).and_then(F::subject).and_then(|subject| subject.gated());
-    with_scene(parameters, |scene| {
-        let (point, triangle) = hit(draw, scene, gated);
-        let toward = any_direction(draw);
-        let way = toward * between(draw, scene.distance);
-        Made::One(Case::new(point, direction(scene, way, toward), triangle))
-    })
+    let (point, triangle) = hit(setup, draw, gated);
+    let toward = any_direction(draw);
+    let way = toward * between(draw, setup.scene.distance);
+    Made::One(Case::new(point, direction(setup.scene, way, toward), triangle))
 }
 
 /// A hit of a kernel: its point, and the triangle. A triangle's middle if the kernel reports no point.
 fn hit<F: Scalar>(
+    setup: &Setup<'_, F>,
     draw: &mut Draw,
-    scene: &Scene,
     gated: Option<&dyn Gated<F>>,
 ) -> ([F; 3], [[F; 3]; 3]) {
     for _ in 0..64 {
-        let case = interior_case::<F>(draw, scene);
+        let case = interior_case(setup, draw);
         let Some(kernel) = gated else { break };
         if let Some(point) = hit_point(draw, &case, kernel) {
             return (point, case.triangle.vertices().map(Into::into));
         }
     }
-    let (triangle, _) = triangle(draw, scene);
+    let (triangle, _) = setup.triangles.triangle(draw);
     (rounded(point_of(triangle, [1.0 / 3.0; 2])), triangle)
 }
 

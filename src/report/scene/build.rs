@@ -8,6 +8,7 @@ use crate::contract::Extent;
 use crate::epsilon::scale_free_form;
 use crate::epsilon::scene::{Costs, Kind, Knob, Limit, SceneStudy, Setting, Tried, fresh_seed};
 use crate::kernel::Scalar;
+use crate::mesh::Surface;
 use crate::report::epsilon::shortest;
 use crate::report::record::Rate;
 
@@ -15,6 +16,7 @@ use crate::report::record::Rate;
 pub fn scene_record(
     scene: &Scene,
     unit: &str,
+    mesh: Option<&Surface>,
     costs: &Costs,
     seed: u64,
     count: u64,
@@ -24,6 +26,11 @@ pub fn scene_record(
         schema: SCENE_SCHEMA.to_owned(),
         scene: scene.to_string(),
         unit: unit.to_owned(),
+        mesh: mesh.map(|surface| MeshPart {
+            file: surface.file_name().to_owned(),
+            digest: surface.mesh().digest.clone(),
+            triangles: surface.mesh().triangles.len() as u64,
+        }),
         unit_directions: scene.direction == DirectionLength::Unit,
         edge: scene.edge,
         seed,
@@ -65,6 +72,7 @@ pub fn kernel_part<F: Scalar>(setting: &Setting<'_, F>, study: &SceneStudy<F>) -
         selector: setting.row.entry.selector(),
         scalar: F::NAME.to_owned(),
         contract: setting.row.contract.describe(),
+        least_shape: setting.mesh.map(|mesh| mesh.least_shape::<F>()),
         takes_interval: setting.row.contract.extent == Extent::Interval,
         knobs: setting.knobs.iter().map(knob_part).collect(),
         counts: setting

@@ -16,6 +16,8 @@ pub struct SceneRecord {
     pub scene: String,
     /// Its unit of length; empty if it has none.
     pub unit: String,
+    /// The mesh that it is, if it is one.
+    pub mesh: Option<MeshPart>,
     /// Whether directions have unit length, so that t is a length.
     pub unit_directions: bool,
     /// The shortest and the longest longest edge of a triangle.
@@ -32,6 +34,18 @@ pub struct SceneRecord {
     pub kernels: Vec<SceneKernelPart>,
 }
 
+/// A mesh that is a scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshPart {
+    /// The file's name.
+    pub file: String,
+    /// The digest in case ids.
+    pub digest: String,
+    /// How many triangles.
+    pub triangles: u64,
+}
+
 /// One kernel in one scalar. Epsilons are shortest decimals of the scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,6 +58,8 @@ pub struct SceneKernelPart {
     pub scalar: String,
     /// What it is judged by.
     pub contract: String,
+    /// Twice the area of the smallest triangle, if the scene is a mesh.
+    pub least_shape: Option<f64>,
     /// Whether it takes an interval of t.
     pub takes_interval: bool,
     /// What can be chosen.

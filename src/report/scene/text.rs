@@ -4,8 +4,11 @@
 use super::record::*;
 use super::words::label;
 use crate::report::record::Rate;
-use crate::report::{Style, group_digits};
+use crate::report::{Style, group_digits, number_of};
 use std::io::{self, Write};
+
+/// The width of a column of the tables.
+const WIDTH: usize = 13;
 
 /// Writes the recommendation first, then the evidence.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -50,7 +53,15 @@ fn recommendation(
     part: &SceneKernelPart,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    writeln!(out, "{} {} in {}{}", part.kernel, part.scalar, record.scene, of_unit(&record.unit))?;
+    let SceneRecord { scene, unit, mesh, .. } = record;
+    match mesh {
+        Some(MeshPart { file, triangles, .. }) => {
+            let triangles = number_of(*triangles, "triangle", "triangles");
+            writeln!(out, "{} {} in {file} ({triangles})", part.kernel, part.scalar)?;
+            writeln!(out, "  {scene}")?;
+        }
+        None => writeln!(out, "{} {} in {scene}{}", part.kernel, part.scalar, of_unit(unit))?,
+    }
     let epsilons = &part.tried[0].epsilons;
     let t = least_t(part, epsilons).map(|e| match part.takes_interval {
         true => format!("t_min = {}{} on every ray", human(e), unit_of_t(record)),
@@ -59,7 +70,7 @@ fn recommendation(
     let parts: Vec<String> = flag(part, epsilons).into_iter().chain(t).collect();
     writeln!(out, "  use  {}", parts.join("  and  "))?;
     for (knob, epsilon) in part.knobs.iter().zip(epsilons) {
-        if let Some(meaning) = meaning(record, knob, epsilon) {
+        if let Some(meaning) = meaning(record, part, knob, epsilon) {
             writeln!(out, "       {meaning}")?;
         }
     }
@@ -71,7 +82,12 @@ fn of_unit(unit: &str) -> String {
 }
 
 /// What an epsilon means for the scene's triangles.
-fn meaning(record: &SceneRecord, knob: &KnobPart, epsilon: &str) -> Option<String> {
+fn meaning(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    knob: &KnobPart,
+    epsilon: &str,
+) -> Option<String> {
     let value: f64 = epsilon.parse().ok().filter(|value| *value != 0.0)?;
     let unit = spaced(&record.unit);
     match (knob.role.as_str(), knob.dimension) {
@@ -79,6 +95,17 @@ fn meaning(record: &SceneRecord, knob: &KnobPart, epsilon: &str) -> Option<Strin
             Some(format!("nothing nearer than {}{} is hit", human(epsilon), unit_of_t(record)))
         }
         ("parallel", [2, 1]) if record.unit_directions && 0.0 < value => {
+            if let Some(shape) = part.least_shape {
+                return Some(match value / shape {
+                    small if small < 1.0 => {
+                        format!(
+                            "the smallest triangle is missed at angles below {}",
+                            degrees(small)
+                        )
+                    }
+                    _ => "the smallest triangle is never hit".to_owned(),
+                });
+            }
             // Twice the area of an equilateral triangle, times the sine, is the determinant.
             let small = value / (0.75f64.sqrt() * record.edge[0] * record.edge[0]);
             let least = (value / 0.75f64.sqrt()).sqrt();
@@ -106,8 +133,6 @@ fn degrees(sine: f64) -> String {
     let angle = libm::asin(sine.min(1.0)).to_degrees();
     if angle < 0.01 { format!("{angle:.0e}\u{b0}") } else { format!("{angle:.2}\u{b0}") }
 }
-
-const WIDTH: usize = 13;
 
 /// A shortest decimal as people write it.
 fn human(epsilon: &str) -> String {
@@ -169,7 +194,7 @@ fn share(rate: &Rate) -> String {
     }
 }
 
-/// `>= 1.2e-6`, or nothing.
+/// `>= 1.2e-6`, or that no value keeps the limit.
 fn bound(limit: &LimitPart, unit: &str) -> String {
     match &limit.value {
         Some(value) => {
@@ -213,11 +238,11 @@ fn limits(record: &SceneRecord, part: &SceneKernelPart, out: &mut dyn Write) -> 
             let count = &part.counts[limit.count];
             format!("{} ({})", bound(limit, &unit), label(&count.stratum, &count.kind))
         };
-        writeln!(out, "no {} does both {}", knob.name, what(lower))?;
+        writeln!(out, "no value of {} is both {}", knob.name, what(lower))?;
         writeln!(out, "  and {}:", what(upper))?;
         let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
             (Some([from, to]), Some(form), _) => {
-                format!("{form} in its place does both, with e from {from} to {to}")
+                format!("{form} in its place is within both limits, with e from {from} to {to}")
             }
             (_, _, "t") => "start the ray off the surface instead".to_owned(),
             _ => "rounding decides those rays: it takes wider numbers or another kernel".to_owned(),

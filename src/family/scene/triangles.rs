@@ -1,0 +1,216 @@
+//! Where the strata's triangles come from: the numbers of a scene, or (in `mesh`) the faces of a mesh.
+
+use super::super::{integer, unit};
+use super::draw::{Frame, between_powers, circle, in_plane, rounded, symmetric};
+use crate::arith::Float;
+use crate::case::{DirectionLength, Draw, Scene};
+use glam::DVec3;
+
+/// A triangle's vertices, in order.
+pub type Corners<F> = [[F; 3]; 3];
+
+/// A triangle, and a direction parallel to its plane.
+pub struct Parallel<F> {
+    /// The triangle.
+    pub triangle: Corners<F>,
+    /// The direction.
+    pub direction: [F; 3],
+    /// About how long the triangle's edges are.
+    pub size: f64,
+}
+
+/// Triangles to aim rays at.
+pub trait Triangles<F: Float> {
+    /// A triangle, and the frame of its plane.
+    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame);
+
+    /// Two triangles on one edge: its two ends and the third vertex of each. The first triangle runs from
+    /// end to end in this order, the second in the other.
+    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4];
+
+    /// The triangles of a closed fan, in order; the first vertex of each is the one that they share.
+    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>>;
+
+    /// A triangle and a direction exactly parallel to its plane, where one can be made.
+    fn parallel(&self, draw: &mut Draw) -> Parallel<F>;
+}
+
+impl<F: Float> Triangles<F> for Scene {
+    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame) {
+        let size = between_powers(draw, self.edge);
+        let (a, frame) = (place(draw, self, size), Frame::draw(draw));
+        let (x, y) = apex(draw, size);
+        let (b, c) = (a + frame.flat(size, 0.0), a + frame.flat(x, y));
+        let corners = integer::shuffle(draw, [a, b, c]);
+        (corners.map(rounded), frame)
+    }
+
+    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4] {
+        let size = between_powers(draw, self.edge);
+        let (p, frame) = (place(draw, self, size), Frame::draw(draw));
+        let q = p + frame.flat(size, 0.0);
+        let (x, y) = apex(draw, size);
+        let first = p + frame.flat(x, y);
+        // The second triangle is bent out of the plane of the first by up to 27 degrees.
+        let (x, y) = apex(draw, size);
+        let bend = 0.5 * symmetric(draw);
+        let down = (frame.normal * bend - frame.across) / (1.0 + bend * bend).sqrt();
+        let second = p + frame.along * x + down * y;
+        [p, q, first, second].map(rounded)
+    }
+
+    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>> {
+        let size = between_powers(draw, self.edge);
+        let (center, frame) = (place(draw, self, size), Frame::draw(draw));
+        let ring = HEXAGON.map(|[x, y]| {
+            let (spoke, height) = (0.5 + 0.5 * draw.unit(), 0.2 * symmetric(draw));
+            let corner = frame.flat(x * spoke, y * spoke) + frame.normal * height;
+            rounded::<F>(center + corner * (size / 1.1))
+        });
+        let center = rounded(center);
+        (0..ring.len()).map(|i| [center, ring[i], ring[(i + 1) % ring.len()]]).collect()
+    }
+
+    /// Unit vectors exactly in a generic plane do not exist among floats. What does: rays along an axis in
+    /// a plane that holds the axis, rays in planes of constant height, and, if directions may have any
+    /// length, sums of edges on a grid.
+    fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
+        let size = between_powers(draw, self.edge);
+        let axes = draw.pick(&[[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
+        let (triangle, direction) = match (self.direction, draw.below(3)) {
+            (DirectionLength::Target, 0) => on_grid::<F>(draw, self, size),
+            (_, 0 | 1) => holding_axis(draw, self, size, axes),
+            _ => level(draw, self, size, axes),
+        };
+        Parallel { triangle, direction, size }
+    }
+}
+
+/// The corners of a hexagon: cosines and sines of multiples of 60 degrees.
+const HEXAGON: [[f64; 2]; 6] = {
+    const SINE: f64 = 0.866_025_403_784_438_6;
+    [[1.0, 0.0], [0.5, SINE], [-0.5, SINE], [-1.0, 0.0], [-0.5, -SINE], [0.5, -SINE]]
+};
+
+/// A point so far inside the extent that all within `size` of it is inside too, where there is one.
+fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
+    let reach = (scene.extent - size).max(0.0);
+    DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach
+}
+
+/// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the
+/// longest; its height is at least an eighth of that.
+fn apex(draw: &mut Draw, size: f64) -> (f64, f64) {
+    loop {
+        let (x, y) = (draw.unit(), 0.125 + 0.875 * draw.unit());
+        if x * x + y * y <= 1.0 && (1.0 - x) * (1.0 - x) + y * y <= 1.0 {
+            return (x * size, y * size);
+        }
+    }
+}
+
+/// The spacing of floats near the extent, on whose multiples small sums are exact.
+fn grid<F: Float>(scene: &Scene) -> f64 {
+    F::from_f64(scene.extent).ulp().to_f64()
+}
+
+/// The multiple of a spacing next to a number.
+fn snapped(x: f64, spacing: f64) -> f64 {
+    // Within 2^52 multiples, as all coordinates are, adding and taking away rounds to whole numbers.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    ((x / spacing + ROUND) - ROUND) * spacing
+}
+
+/// A triangle on the grid of a generic plane, and a sum of its edges.
+fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3], [F; 3]) {
+    // Coarser than a float's own grid, so that sums of three edges are floats too.
+    let spacing = 8.0 * grid::<F>(scene);
+    let size = size.max(4.0 * spacing);
+    loop {
+        let (a, frame) = (place(draw, scene, size), Frame::draw(draw));
+        let (x, y) = apex(draw, size);
+        let corners = [a, a + frame.flat(size, 0.0), a + frame.flat(x, y)];
+        let [a, b, c] = corners.map(|p| DVec3::from(p.to_array().map(|x| snapped(x, spacing))));
+        let (e, f) = (b - a, c - a);
+        let normal = e.cross(f);
+        if 0.001 * size.powi(4) < normal.dot(normal) {
+            let sums = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 2.0)];
+            let (i, j) = draw.pick(&sums);
+            return ([a, b, c].map(rounded), rounded(e * i + f * j));
+        }
+    }
+}
+
+/// A triangle whose plane holds an axis, and the direction of that axis. Along the two other axes the
+/// corners are steps on one line of the grid.
+fn holding_axis<F: Float>(
+    draw: &mut Draw,
+    scene: &Scene,
+    size: f64,
+    axes: [usize; 3],
+) -> ([[F; 3]; 3], [F; 3]) {
+    let spacing = grid::<F>(scene);
+    let base = place(draw, scene, size);
+    let steps = ((size / spacing / 4.0) as i64).clamp(1, 1 << 20);
+    let line = [draw.integer(-steps, steps), draw.integer((steps + 1) / 2, steps)];
+    let [first, second] = draw.pick(&[[1, 2], [2, -1], [-1, 1], [1, -2]]);
+    let corner = |step: i64, along: f64| {
+        let mut p = [0.0; 3];
+        p[axes[0]] = base[axes[0]] + along;
+        for k in [0, 1] {
+            let axis = axes[k + 1];
+            p[axis] = snapped(base[axis], spacing) + (step * line[k]) as f64 * spacing;
+        }
+        p.map(F::from_f64)
+    };
+    let along = loop {
+        let along = [0.0, symmetric(draw) * size, symmetric(draw) * size];
+        // Twice the area over the width of a step.
+        let area = first as f64 * along[2] - second as f64 * along[1];
+        if size < 2.0 * area.abs() {
+            break along;
+        }
+    };
+    let corners = [corner(0, along[0]), corner(first, along[1]), corner(second, along[2])];
+    (corners, along_axis(draw, scene, axes[0]))
+}
+
+/// A triangle at one height above a plane of two axes, and a direction in that plane.
+fn level<F: Float>(
+    draw: &mut Draw,
+    scene: &Scene,
+    size: f64,
+    [i, j, k]: [usize; 3],
+) -> ([[F; 3]; 3], [F; 3]) {
+    let base = place(draw, scene, size);
+    let mut frame = Frame { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
+    let (turned, length) = circle(draw);
+    let turned = turned.map(|x| x / length);
+    (frame.along[i], frame.along[j]) = (turned[0], turned[1]);
+    (frame.across[i], frame.across[j]) = (-turned[1], turned[0]);
+    frame.normal[k] = 1.0;
+    let (x, y) = apex(draw, size);
+    let corners = [base, base + frame.flat(size, 0.0), base + frame.flat(x, y)];
+    let flat = in_plane(draw, &frame);
+    let flat = flat_along(draw, scene, flat);
+    (integer::shuffle(draw, corners).map(rounded), flat)
+}
+
+/// A direction along an axis, of the length that the scene's directions have.
+pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 3] {
+    let length = match scene.direction {
+        DirectionLength::Unit => 1.0,
+        DirectionLength::Target => between_powers(draw, scene.edge),
+    };
+    let mut direction = [F::zero(); 3];
+    direction[axis] = F::from_f64(if draw.coin() { length } else { -length });
+    direction
+}
+
+/// A direction along a unit vector, of the length that the scene's directions have; what is 0 stays so.
+pub fn flat_along<F: Float>(draw: &mut Draw, scene: &Scene, flat: DVec3) -> [F; 3] {
+    match scene.direction {
+        DirectionLength::Unit => unit::<f64>(flat.to_array()).map(F::from_f64),
+        DirectionLength::Target => rounded(flat * between_powers(draw, scene.edge)),
+    }
+}

@@ -1,0 +1,228 @@
+//! A mesh as a scene: its faces, shared edges and closed fans, each as likely as the others, in place of
+//! triangles drawn from numbers.
+
+use super::surface::Surface;
+use super::topology::Topology;
+use crate::arith::{Float, three_digits};
+use crate::case::{DirectionLength, Draw, Parameters, Scene};
+use crate::corpus::is_without_area;
+use crate::family::{
+    Corners, Frame, Made, Parallel, Stratum, Triangles, along_axis, circle, flat_along, in_plane,
+    rounded, wide,
+};
+use crate::kernel::Scalar;
+use glam::DVec3;
+
+/// A mesh whose strata are those of a scene.
+pub struct SceneMesh {
+    surface: Surface,
+    /// The faces with an area, in `f32` and in `f64`.
+    faces: [Vec<u32>; 2],
+}
+
+/// How many faces are tried for one to which some direction is exactly parallel.
+const TRIES: usize = 64;
+
+impl SceneMesh {
+    /// In the scalars of the surface.
+    pub fn new(surface: Surface) -> SceneMesh {
+        let faces = [faces_with_area::<f32>(&surface), faces_with_area::<f64>(&surface)];
+        SceneMesh { surface, faces }
+    }
+
+    /// The mesh and its topology.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// How many faces have an area in a scalar.
+    pub fn face_count<F: Float>(&self) -> usize {
+        self.faces_of::<F>().len()
+    }
+
+    fn faces_of<F: Float>(&self) -> &[u32] {
+        &self.faces[usize::from(F::NAME == f64::NAME)]
+    }
+
+    /// The mesh in the numbers of a scene: rays start up to the diagonal of its box away. The numbers have
+    /// three digits, rounded outwards.
+    pub fn scene(&self) -> Scene {
+        let mesh = self.surface.mesh();
+        let faces = if self.faces[1].is_empty() { &self.faces[0] } else { &self.faces[1] };
+        let mut edge = [f64::INFINITY, 0.0f64];
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for face in faces {
+            let corners = mesh.vertices::<f64>(*face as usize);
+            let size = longest_edge(corners);
+            edge = [edge[0].min(size), edge[1].max(size)];
+            for corner in corners.map(DVec3::from) {
+                (low, high) = (low.min(corner), high.max(corner));
+            }
+        }
+        Scene {
+            extent: three_digits(low.abs().max(high.abs()).max_element(), true),
+            edge: [three_digits(edge[0], false), three_digits(edge[1], true)],
+            distance: [0.0, three_digits((high - low).length(), true)],
+            direction: DirectionLength::Unit,
+        }
+    }
+
+    /// Twice the area of the smallest face in a scalar.
+    pub fn least_shape<F: Float>(&self) -> f64 {
+        let mesh = self.surface.mesh();
+        let shape = |face: &u32| {
+            let [a, b, c] = mesh.vertices::<F>(*face as usize).map(wide);
+            (b - a).cross(c - a).length()
+        };
+        self.faces_of::<F>().iter().map(shape).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How many of so many indices of a stratum there are: none if the mesh has nothing to aim at.
+    pub fn count<F: Float>(&self, stratum: Stratum, count: u64) -> u64 {
+        let topology = self.surface.topology::<F>();
+        let is_empty = match stratum {
+            Stratum::Edges => topology.is_none_or(|topology| topology.shared.is_empty()),
+            Stratum::Vertices => topology.is_none_or(|topology| topology.fans.is_empty()),
+            _ => self.faces_of::<F>().is_empty(),
+        };
+        if is_empty { 0 } else { count }
+    }
+
+    /// Case `index` of a stratum; there is something to aim at.
+    pub fn make<F: Scalar>(
+        &self,
+        stratum: Stratum,
+        parameters: &Parameters,
+        seed: u64,
+        index: u64,
+    ) -> Made<F> {
+        let topology = self.surface.topology::<F>().expect("a scalar of the run");
+        let scene = parameters.scene.clone().unwrap_or_default();
+        let triangles = OfMesh { mesh: self, topology, scene: &scene };
+        stratum.make_at(&triangles, parameters, seed, index)
+    }
+}
+
+/// The faces whose area and normal can be computed.
+fn faces_with_area<F: Float>(surface: &Surface) -> Vec<u32> {
+    let mesh = surface.mesh();
+    let has_area = |face: &u32| {
+        let corners = mesh.vertices::<F>(*face as usize);
+        let is_finite = corners.as_flattened().iter().all(|x| x.is_finite());
+        is_finite
+            && Frame::of(corners).is_some()
+            && !is_without_area(corners.map(|corner| wide(corner).to_array()))
+    };
+    match surface.topology::<F>() {
+        Some(_) => (0..mesh.triangles.len() as u32).filter(has_area).collect(),
+        None => Vec::new(),
+    }
+}
+
+fn longest_edge<F: Float>(corners: Corners<F>) -> f64 {
+    let [a, b, c] = corners.map(wide);
+    (b - a).length().max((c - b).length()).max((a - c).length())
+}
+
+/// The triangles of a mesh in a scalar.
+struct OfMesh<'a> {
+    mesh: &'a SceneMesh,
+    topology: &'a Topology,
+    scene: &'a Scene,
+}
+
+impl OfMesh<'_> {
+    fn any_face<F: Float>(&self, draw: &mut Draw) -> Corners<F> {
+        let faces = self.mesh.faces_of::<F>();
+        self.mesh.surface.mesh().vertices(faces[draw.below(faces.len())] as usize)
+    }
+
+    /// A face's vertices in its winding, turned so that a point is the first.
+    fn turned_to<F: Float>(&self, face: u32, point: u32) -> Corners<F> {
+        let mesh = self.mesh.surface.mesh();
+        let vertices = mesh.triangles[face as usize];
+        let is_point = |vertex: &u32| self.topology.points[*vertex as usize] == point;
+        let first = vertices.iter().position(is_point).unwrap_or(0);
+        [0, 1, 2].map(|k| mesh.position(vertices[(first + k) % 3]))
+    }
+}
+
+impl<F: Float> Triangles<F> for OfMesh<'_> {
+    fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame) {
+        let triangle = self.any_face(draw);
+        (triangle, Frame::of(triangle).expect("faces without a normal are left out"))
+    }
+
+    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4] {
+        let edge = self.topology.shared[draw.below(self.topology.shared.len())];
+        let [first, second] = edge.faces;
+        let [one, other] = edge.ends;
+        // The winding of the first face decides at which end its edge starts.
+        let [p, q, r] = self.turned_to::<F>(first, one);
+        let end: [F; 3] = self.mesh.surface.mesh().position(other);
+        if q == end {
+            let [.., s] = self.turned_to::<F>(second, other);
+            [p, q, r, s]
+        } else {
+            let [.., s] = self.turned_to::<F>(second, one);
+            [end, p, q, s]
+        }
+    }
+
+    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>> {
+        let (center, faces) = self.topology.fans.get(draw.below(self.topology.fans.len()));
+        faces.iter().map(|face| self.turned_to(*face, center)).collect()
+    }
+
+    fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
+        let mut triangle = self.any_face(draw);
+        let mut direction = None;
+        for _ in 0..TRIES {
+            direction = exactly_parallel(draw, triangle, self.scene);
+            if direction.is_some() {
+                break;
+            }
+            triangle = self.any_face(draw);
+        }
+        let direction = direction.unwrap_or_else(|| {
+            // A rounded one, which the oracle keeps only if it is exact by chance.
+            let frame = Frame::of(triangle).expect("faces without a normal are left out");
+            rounded(in_plane(draw, &frame))
+        });
+        Parallel { triangle, direction, size: longest_edge(triangle) }
+    }
+}
+
+/// A direction exactly parallel to a triangle: along an axis where an edge is, in the plane of two axes
+/// where the triangle is, and, if directions may have any length, along an edge that is a difference of its
+/// ends without rounding.
+fn exactly_parallel<F: Float>(
+    draw: &mut Draw,
+    triangle: Corners<F>,
+    scene: &Scene,
+) -> Option<[F; 3]> {
+    let mut made: Vec<[F; 3]> = Vec::new();
+    for i in 0..3 {
+        let (p, q) = (triangle[i], triangle[(i + 1) % 3]);
+        let moved: Vec<usize> = (0..3).filter(|axis| p[*axis] != q[*axis]).collect();
+        if let [axis] = moved[..] {
+            made.push(along_axis(draw, scene, axis));
+        }
+        if scene.direction == DirectionLength::Target {
+            let edge: [F; 3] = std::array::from_fn(|axis| q[axis] - p[axis]);
+            let is_exact =
+                |axis: usize| p[axis] + edge[axis] == q[axis] && q[axis] - edge[axis] == p[axis];
+            made.extend((0..3).all(is_exact).then_some(edge));
+        }
+    }
+    let [a, b, c] = triangle;
+    for axis in 0..3 {
+        if a[axis] == b[axis] && b[axis] == c[axis] {
+            let ([x, y], length) = circle(draw);
+            let mut flat = DVec3::ZERO;
+            (flat[(axis + 1) % 3], flat[(axis + 2) % 3]) = (x, y);
+            made.push(flat_along(draw, scene, flat / length));
+        }
+    }
+    (!made.is_empty()).then(|| made[draw.below(made.len())])
+}
