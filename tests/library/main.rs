@@ -11,6 +11,7 @@ mod floors;
 mod map;
 mod margins;
 mod oracle;
+mod planes;
 mod proofs;
 mod prove;
 mod response;
