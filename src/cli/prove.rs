@@ -13,6 +13,7 @@ use super::flags::{chosen_scalars, unknown};
 use super::input::read_text;
 use super::output::write_result;
 use crate::audit::EpsilonChoice;
+use crate::case;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
 use clap::{Args, ValueEnum};
@@ -40,6 +41,10 @@ pub struct ProveArguments {
     /// What is proved of these epsilons, as parallel=1e-7,edge=0, instead of the published ones
     #[arg(long, value_name = "GATE=VALUE,...", allow_hyphen_values = true)]
     epsilon: Option<String>,
+
+    /// A scene as `epsilon` takes it: a preset such as room, or a few numbers
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["coordinates", "edge", "distance", "mesh"], help_heading = SCENE)]
+    scene: Option<String>,
 
     /// A scene: every coordinate of origins and vertices is at most this
     #[arg(long, value_name = "LENGTH", requires = "edge", help_heading = SCENE)]
@@ -75,7 +80,7 @@ pub struct ProveArguments {
     seed: u64,
 
     /// Keep the witnesses that are worse than those of this file (the unit domain only)
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["coordinates", "mesh", "certificate"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["coordinates", "scene", "mesh", "certificate"])]
     update: Option<String>,
 
     /// Write the proofs of one kernel in one scalar to this file
@@ -83,7 +88,7 @@ pub struct ProveArguments {
     certificate: Option<String>,
 
     /// Check certificates instead, by code that shares nothing with the prover
-    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["kernel", "certificate", "update", "coordinates", "mesh"])]
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["kernel", "certificate", "update", "coordinates", "scene", "mesh"])]
     check: Vec<String>,
 
     /// The format of the output
@@ -245,6 +250,13 @@ impl ProveArguments {
             let distance = self.distance.expect("required by --mesh");
             let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.quiet)?;
             return Ok((Some(scene), shapes));
+        }
+        if let Some(text) = &self.scene {
+            let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
+            let (scene, _) = case::Scene::parse(text).map_err(wrong)?;
+            let scene = Scene::of(&scene).map_err(wrong)?;
+            let scene = Scene { min_angle: self.min_angle, grazing: self.grazing, ..scene };
+            return Ok((Some(scene), scene.domain().map_or(Vec::new(), |_| scene.shapes())));
         }
         let Some(edge) = self.edge else {
             return match self.distance {

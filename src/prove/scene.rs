@@ -1,6 +1,7 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
 use super::{Domain, Dyadic};
+use crate::case::{self, DirectionLength};
 
 /// What the triangles and rays of a scene are like, in one unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +27,23 @@ pub type Shape = (f64, f64);
 const DIGITS: u32 = 10;
 
 impl Scene {
+    /// A scene as samples are drawn from it. An error in one sentence if its directions have any length.
+    pub fn of(scene: &case::Scene) -> Result<Scene, String> {
+        if scene.direction != DirectionLength::Unit {
+            return Err("proofs suppose |d| <= 1: write direction=unit".to_owned());
+        }
+        let [_, farthest] = scene.distance;
+        Ok(Scene {
+            // Rays start that far from a point of the triangle.
+            coordinates: scene.largest() + farthest,
+            edge: scene.edge,
+            distance: farthest + scene.edge[1],
+            min_angle: 1.0,
+            grazing: 1.0,
+            shape: None,
+        })
+    }
+
     /// The domain; an error in one sentence if there is none.
     pub fn domain(&self) -> Result<Domain, String> {
         let Scene { coordinates, edge: [shortest, longest], distance, min_angle, grazing, .. } =

@@ -90,6 +90,21 @@ fn every_witness_is_below_its_bound_and_near_it() {
 }
 
 #[test]
+fn a_scene_has_the_words_that_it_has_for_samples() {
+    let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "100"];
+    let with = |scene: &[&str]| text(&[&kernel[..], scene].concat());
+    let numbers = ["--coordinates", "15", "--edge", "0.01..3", "--distance", "13"];
+    assert_eq!(with(&["--scene", "room"]), with(&numbers));
+    let far = with(&["--scene", "extent=5,center=-1e3,edge=0.01..3,distance=0..10"]);
+    assert!(far.contains("coordinates up to 1015, edges from 0.01 to 3"), "{far}");
+    let wrong = |scene: &str, message: &str| {
+        refused(&[&kernel[..], &["--scene", scene]].concat(), 2, message);
+    };
+    wrong("rom", "--scene: 'rom' is no scene");
+    wrong("room,direction=target", "--scene: proofs suppose |d| <= 1: write direction=unit");
+}
+
+#[test]
 fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
     let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32"];
     let words = |epsilon: &str| {
