@@ -7,6 +7,7 @@ use crate::arith::Float;
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
+use crate::epsilon::scene::StudiedScene;
 use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum, find};
 use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
@@ -320,16 +321,6 @@ impl SourceArguments {
 
 fn about_scene(message: String) -> Failure {
     Failure::usage(format!("--scene: {message}"))
-}
-
-/// A scene to study.
-pub struct StudiedScene {
-    /// In numbers.
-    pub scene: Scene,
-    /// Its unit of length; empty if it has none.
-    pub unit: &'static str,
-    /// The mesh that it is, if it is one.
-    pub mesh: Option<Arc<SceneMesh>>,
 }
 
 /// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no

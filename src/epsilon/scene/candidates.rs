@@ -101,6 +101,23 @@ pub fn grid<F: Scalar>(
     }
 }
 
+/// Some values, zero, and round numbers on each side of zero where there are values, from a thousandth of
+/// the smallest to a thousand times the largest.
+pub fn round_values<F: Float>(special: &[F]) -> Vec<F> {
+    let mut values = vec![F::zero()];
+    values.extend(special);
+    for sign in [F::one(), -F::one()] {
+        let sizes = special.iter().map(|x| (*x * sign).to_f64()).filter(|size| 0.0 < *size);
+        let ends = sizes.fold(None, |ends: Option<[f64; 2]>, size| {
+            let [low, high] = ends.unwrap_or([size; 2]);
+            Some([low.min(size), high.max(size)])
+        });
+        let around = ends.map(|[low, high]| rounds::<F>([low / 1e3, high * 1e3], 0));
+        values.extend(around.into_iter().flatten().map(|x| x * sign));
+    }
+    in_order(values)
+}
+
 /// The different values, in order.
 fn in_order<F: Float>(mut values: Vec<F>) -> Vec<F> {
     values.sort_by_key(|value| value.place());

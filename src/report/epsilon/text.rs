@@ -1,6 +1,7 @@
 //! A study for people at a terminal.
 
 use super::record::*;
+use crate::arith::{Float, smallest_normal};
 use crate::report::rate::percent;
 use crate::report::record::Rate;
 use crate::report::{Style, group_digits, number_of};
@@ -97,6 +98,10 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "    every e: {}", least(hits, what))?;
     } else {
         writeln!(out, "    e >= {}: {}", hits.limit, least(hits, what))?;
+        if is_subnormal(&part.scalar, &hits.limit) {
+            let note = "a subnormal number, which machines that flush to zero take for 0";
+            writeln!(out, "      {} is {note}", hits.limit)?;
+        }
         decided(hits, out)?;
     }
     match settled {
@@ -128,6 +133,13 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
             misses.limit, hits.limit
         ),
     }
+}
+
+/// Whether an epsilon is below the normal numbers of its scalar.
+fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+    let normal =
+        if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() };
+    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < normal)
 }
 
 fn prices(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
