@@ -280,8 +280,10 @@ fn a_record_without_details_is_small_and_agrees_with_the_whole_one() {
         assert!(1 < whole.curves.len() && curve.points.len() < whole.curves[0].points.len());
         assert!(curve.points.iter().all(|point| whole.curves[0].points.contains(point)));
         assert_eq!(curve.points.last(), whole.curves[0].points.last());
+        // What was run stays, where the whole curve has it.
+        let has = |curve: &CurvePart, price: &str| curve.points.iter().any(|(e, _)| e == price);
         for price in &brief.prices {
-            assert!(curve.points.iter().any(|(epsilon, _)| *epsilon == price.epsilon));
+            assert_eq!(has(curve, &price.epsilon), has(&whole.curves[0], &price.epsilon));
         }
         assert_eq!(format!("{:?}", brief.prices), format!("{:?}", whole.prices));
     }
@@ -301,4 +303,20 @@ fn subnormal_epsilons_warn_about_flush_to_zero() {
     assert!(!run(&[&on_families[..], &["--at", "1e-30"]].concat()).contains("subnormal"));
     assert!(run(&["--scene", "room", "--gate", "t_min", "--at", "1e-40"]).contains(warning));
     assert!(run(&["--scene", "room", "--epsilon", "parallel=1e-40"]).contains(warning));
+}
+
+#[test]
+fn rows_of_scale_say_their_number_and_agree_with_the_main_line() {
+    let all = ["epsilon", "--kernel", "moller-trumbore", "--gate", "parallel", "--scalar", "f32"];
+    let screen = told(&hairline(&[&all[..], &["-n", "6000", "--scales", "1,2^4", "-q"]].concat()));
+    let main = screen.lines().find_map(|line| line.trim_start().strip_prefix("e <= ")).unwrap();
+    let (limit, rest) = main.split_once(": ").unwrap();
+    let of = rest.split_once(" of ").unwrap().1.split(' ').next().unwrap();
+    let row = |scale: &str| -> Vec<&str> {
+        let line = screen.lines().find(|line| line.starts_with(&format!("    {scale} ")));
+        line.unwrap_or_else(|| panic!("{screen}")).split_whitespace().collect()
+    };
+    // Scale, the limits from above and from below, the share that is missed anyway, of how many.
+    assert_eq!((row("2^0")[1], row("2^0")[4]), (limit, of), "{screen}");
+    assert_ne!(row("2^4")[4], of);
 }

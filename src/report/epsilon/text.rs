@@ -240,8 +240,8 @@ fn write_scaling(part: &GatePart, scaling: &ScalingPart, out: &mut dyn Write) ->
     let second = relative.map_or(String::new(), |form| format!("   with {form}:"));
     writeln!(
         out,
-        "    {:<8} {:>23} {:>23} {:>13}{second}",
-        "scale", "no avoidable miss up to", "no such hit from", "missed anyway"
+        "    {:<8} {:>23} {:>23} {:>13} {:>9}{second}",
+        "scale", "no avoidable miss up to", "no such hit from", "missed anyway", "of hits"
     )?;
     let or_dash = |limit: &Option<String>| limit.clone().unwrap_or("-".to_owned());
     for (i, row) in scaling.absolute.rows.iter().enumerate() {
@@ -250,7 +250,8 @@ fn write_scaling(part: &GatePart, scaling: &ScalingPart, out: &mut dyn Write) ->
             of => percent(row.missed_anyway as f64 / of as f64),
         };
         let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));
-        write!(out, "    {:<8} {misses:>23} {hits:>23} {anyway:>13}", row.scale)?;
+        let of = group_digits(row.must_hit);
+        write!(out, "    {:<8} {misses:>23} {hits:>23} {anyway:>13} {of:>9}", row.scale)?;
         match relative.and(scaling.relative.rows.get(i)) {
             Some(row) => {
                 let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));

@@ -78,8 +78,11 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let mut notes: Vec<String> = meanings.collect();
     let wanted =
         record.max_error.iter().map(|NamedNumber { name, number: most }| match name.as_str() {
-            "t" => format!("{most} of t"),
-            _ => format!("{most}{} of the point", spaced(&record.unit)),
+            "t" => format!("{} of t", human(&format!("{most:e}"))),
+            _ => {
+                let most = human(&format!("{most:e}"));
+                format!("{most}{} of the point", spaced(&record.unit))
+            }
         });
     let wanted = wanted.collect::<Vec<_>>().join(", ");
     notes.extend(match part.is_accurate {
@@ -220,7 +223,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         format!("cost: each share times its weight ({costs}), added up"),
         "almost parallel: sines from 1/8 to an eighth of an ulp of 1, evenly by halvings"
             .to_owned(),
-        "t, point: errors of the hits that remain: half, then 99 % are below, then the worst seen"
+        "t, point: errors of the hits that remain: half, 99 % are at most this; the worst"
             .to_owned(),
     ];
     let is_set = |limit: &LimitPart| limit.set_by.is_some();

@@ -13,7 +13,7 @@ use std::io::{self, Write};
 const OWN_STYLE: &str = "
 svg.scene-plot { width: 100%; max-width: 34rem; height: auto; }
 .use { font-size: 1.05rem; } .use code { font-size: .9rem; }
-td { white-space: nowrap; }
+.scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
 ";
 
 /// Writes the record.

@@ -7,6 +7,7 @@ use super::words::{human, label, unit_of};
 use crate::audit::Trials;
 use crate::plot::{Decades, EpsilonAxis, ShareAxis, decades_around, escaped, group_digits};
 use crate::report::Style;
+use crate::report::rate::percent;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -36,7 +37,7 @@ pub(super) const STYLE: &str = "
 .scene-plot .this { stroke: #1d2125; stroke-dasharray: none; } .scene-plot text.this { stroke: none; font-weight: 700; }
 .scene-plot .within { fill: #1a6b3a; fill-opacity: .14; }
 .scene-plot .line { stroke: currentColor; fill: none; stroke-width: 2; stroke-linejoin: round; }
-.scene-plot .band { fill: currentColor; fill-opacity: .13; }
+.scene-plot .band { fill: currentColor; fill-opacity: .07; }
 .scene-plot .limit { fill: currentColor; stroke: currentColor; } .scene-plot .proved { fill: none; stroke-width: 1.5; }
 .scene-plot .hit, .scene-plot .self-hit { stroke-dasharray: 7 3; } .scene-plot .crack { stroke-dasharray: 2 3; }
 .scene-plot .interior { color: #b34700; } .scene-plot .edges { color: #5f6670; }
@@ -80,7 +81,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{}</g>", panel.drawing);
             y += panel.height;
         }
-        for text in footer(record, part) {
+        for text in footer(record, part).iter().flat_map(|text| wrapped(text)) {
             y += LINE;
             drawing += &text_at(12.0, y, "soft", &text);
         }
@@ -90,6 +91,22 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"scene-plot\" viewBox=\"0 0 {WIDTH} {y}\" width=\"{WIDTH}\" height=\"{y}\" role=\"img\">\n<title>Wrong answers by epsilon in a scene</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>"
     )
+}
+
+/// A text in lines that fit.
+fn wrapped(text: &str) -> Vec<String> {
+    let most = ((WIDTH - 24.0) / CHARACTER) as usize;
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let line = lines.last_mut().expect("there is one");
+        if line.is_empty() || line.len() + word.len() < most {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
 }
 
 /// What the shares are of.
@@ -229,7 +246,10 @@ impl<'a> Draft<'a> {
         // What is next to zero needs no decades of its own.
         let least = if self.part.scalar == "f32" { 1e-30 } else { 1e-200 };
         let all = moving.chain(special).filter(|value| least < value * sign);
-        decades_around(all)
+        // Nothing is known beyond the values.
+        let end = self.values.iter().fold(least, |end, value| end.max(value * sign));
+        let end = end.log10().ceil() as i32;
+        decades_around(all).map(|(low, high)| (low, high.min(end).max(low + 1)))
     }
 
     /// From where to where every limit is kept; none where they do not meet.
@@ -318,7 +338,8 @@ impl<'a> Draft<'a> {
         let mut placed = Vec::new();
         for (value, names) in &self.tried {
             let x = across.x(*value);
-            let text = format!("{names} {}", human(&format!("{value:e}")));
+            let value = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
+            let text = format!("{names}: {value}");
             let half = CHARACTER * text.chars().count() as f64 / 2.0;
             let start = centre(x, &text) - half;
             let row = ends.iter().position(|end| *end + 6.0 <= start).unwrap_or(ends.len());
@@ -359,7 +380,7 @@ impl<'a> Draft<'a> {
             let n = group_digits(line.of);
             let others = match line.by_others as f64 / line.of as f64 {
                 0.0 => String::new(),
-                share => format!(", {:.1}% by others", 100.0 * share),
+                share => format!(", {} by others", percent(share)),
             };
             let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", line.class());
             (mark, format!("{what} (n = {n}{others})"))
