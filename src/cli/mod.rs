@@ -42,6 +42,7 @@ mod truth;
 
 use exit::{Failure, Status};
 
+use crate::arith::FloatEnvironment;
 use crate::kernel::{self, Entry};
 use crate::plugin;
 use clap::builder::Styles;
@@ -173,6 +174,14 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
             eprintln!("hairline: {message}");
             return Status::Usage.into();
         }
+    }
+    let floats = FloatEnvironment::now();
+    if !floats.is_default() {
+        eprintln!(
+            "hairline: this program computes with {floats} from the start, so no truth that it computes would be \
+             right: link it without -ffast-math, or bring the kernel as a library with --kernel-lib"
+        );
+        return Status::SelfCheck.into();
     }
     let parsed = command()
         .try_get_matches()

@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use crate::audit::{quoted, shell_word};
-use crate::kernel::{self, Entry, Scalar, Trouble};
+use crate::kernel::{self, Entry, Scalar};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -35,6 +35,11 @@ pub struct PluginArguments {
     /// fuzz campaign]
     #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
     kernel_failures: Option<u64>,
+
+    /// End the run if such a kernel flushes subnormal numbers to zero, or does not round to nearest
+    #[arg(long, help_heading = "Kernels of your own")]
+    #[serde(default)]
+    require_ieee: bool,
 }
 
 /// How long a kernel may be silent by default.
@@ -50,6 +55,7 @@ impl Default for PluginArguments {
             kernel_cmd: Vec::new(),
             kernel_timeout: TIMEOUT_SECONDS,
             kernel_failures: None,
+            require_ieee: false,
         }
     }
 }
@@ -99,7 +105,8 @@ impl PluginArguments {
             return Err(Failure::usage(message));
         }
         let silence = Duration::from_secs_f64(seconds);
-        Ok(Limits { silence, failures: self.kernel_failures.unwrap_or(FAILURES) })
+        let failures = self.kernel_failures.unwrap_or(FAILURES);
+        Ok(Limits { silence, failures, require_ieee: self.require_ieee })
     }
 }
 
@@ -144,30 +151,22 @@ fn register(what: &str, loaded: Result<Entry, LoadError>) -> Result<&'static Ent
 
 /// An error if the verdicts of a kernel are worth nothing.
 pub fn check() -> Result<(), Failure> {
-    match troubles().into_iter().find(|(_, trouble)| matches!(trouble, Trouble::GaveUp(_))) {
-        Some((kernel, Trouble::GaveUp(message))) => {
-            let message = format!("kernel '{kernel}': {message}");
-            Err(Failure::Message(Status::BadInput, message))
+    for entry in kernel::all() {
+        let f32 = f32::subject(entry).and_then(|subject| subject.gave_up());
+        let f64 = || f64::subject(entry).and_then(|subject| subject.gave_up());
+        if let Some(message) = f32.or_else(f64) {
+            let message = format!("kernel '{}': {message}", entry.info.name);
+            return Err(Failure::Message(Status::BadInput, message));
         }
-        _ => Ok(()),
     }
+    Ok(())
 }
 
-/// Prints what should be known of the kernels' processes.
+/// Prints what should be known of the kernels beside their verdicts.
 pub fn print_notes() {
-    for (kernel, trouble) in troubles() {
-        if let Trouble::Note(message) = trouble {
-            eprintln!("note: kernel '{kernel}': {message}");
+    for entry in kernel::all() {
+        for note in entry.notes() {
+            eprintln!("note: kernel '{}': {note}", entry.info.name);
         }
     }
-}
-
-/// What went wrong in each kernel, by name.
-fn troubles() -> Vec<(&'static str, Trouble)> {
-    let trouble = |entry: &'static Entry| {
-        let f32 = f32::subject(entry).and_then(|subject| subject.trouble());
-        let f64 = || f64::subject(entry).and_then(|subject| subject.trouble());
-        Some((entry.info.name, f32.or_else(f64)?))
-    };
-    kernel::all().into_iter().filter_map(trouble).collect()
 }

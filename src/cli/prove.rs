@@ -141,7 +141,8 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         return files::certify(&entries, scalars, domain, path);
     }
     let published = arguments.kernel.len() == 1;
-    let job = Job { scene, shapes, domain, effort, published, stored: &stored };
+    let shared = arguments.update.is_some();
+    let job = Job { scene, shapes, domain, effort, published, stored: &stored, shared };
     let tasks: Vec<(&Entry, bool)> = entries
         .iter()
         .flat_map(|entry| [(*entry, false), (*entry, true)])

@@ -37,9 +37,7 @@ pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Compared, Path};
 pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
-pub use subject::{
-    ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Trouble, Verdict,
-};
+pub use subject::{ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Verdict};
 
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};

@@ -43,6 +43,14 @@ impl Entry {
         self.with_f64(Box::leak(Box::new(Own(test))))
     }
 
+    /// What should be known of it beside its verdicts; each in one line.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let mut notes = self.f32.map_or(Vec::new(), |subject| subject.notes());
+        let more = self.f64.map_or(Vec::new(), |subject| subject.notes());
+        notes.extend(more.into_iter().filter(|note| !notes.contains(note)).collect::<Vec<_>>());
+        notes
+    }
+
     /// The same with a subject in `f32`.
     pub const fn with_f32(self, subject: &'static dyn Subject<f32>) -> Entry {
         Entry { f32: Some(subject), ..self }

@@ -259,19 +259,15 @@ pub trait Subject<F: Float>: Sync {
         None
     }
 
-    /// What went wrong beside the verdicts.
-    fn trouble(&self) -> Option<Trouble> {
+    /// What should be known beside its verdicts, which stand; each in one line.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Why its verdicts are invalid from some case on, in one line.
+    fn gave_up(&self) -> Option<String> {
         None
     }
-}
-
-/// What went wrong in a kernel beside its verdicts; each in one line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Trouble {
-    /// The verdicts stand, and this should be known.
-    Note(String),
-    /// The verdicts are invalid from some case on.
-    GaveUp(String),
 }
 
 /// A kernel that shows its gates: each one's margin, and its formula without rounding.

@@ -3,7 +3,7 @@
 
 #![forbid(unsafe_code)]
 
-use crate::arith::Float;
+use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::Verdict;
 use crate::truth::Facing;
@@ -14,6 +14,9 @@ pub(super) const BATCH: [u8; 4] = *b"HLB1";
 pub(super) const ANSWER: [u8; 4] = *b"HLA1";
 /// Instead of an answer, from the host of a library: the kernel touched memory outside its buffers.
 pub(super) const OVERRUN: [u8; 4] = *b"HLX1";
+
+/// In front of an answer: the process's arithmetic has changed, and its bits follow.
+pub(super) const ENVIRONMENT: [u8; 4] = *b"HLE1";
 
 /// Bytes of a batch's head: [`BATCH`], bits of the scalar, number of cases, number of epsilons.
 pub(super) const BATCH_HEAD: usize = 16;
@@ -46,6 +49,17 @@ pub(super) fn batch<F: Float>(cases: &[Case<F>], epsilons: &[F]) -> Vec<u8> {
         push(&mut bytes, case.ray.t_max);
     }
     bytes
+}
+
+/// The head that says how the arithmetic of a process has changed.
+pub(super) fn environment_head(floats: FloatEnvironment) -> Vec<u8> {
+    [ENVIRONMENT, floats.bits().to_le_bytes()].concat()
+}
+
+/// What such a head says.
+pub(super) fn environment(head: &[u8]) -> Option<FloatEnvironment> {
+    let bits = head.strip_prefix(&ENVIRONMENT)?.try_into().ok()?;
+    FloatEnvironment::from_bits(u32::from_le_bytes(bits))
 }
 
 /// A verdict from its bytes; an error says what was expected.

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 use super::PROTOCOL;
+use crate::arith::FloatEnvironment;
 use crate::contract::Contract;
 use crate::corpus::number;
 use crate::kernel::{Dimension, EpsilonSet, Gate, Gives, KernelInfo, Role, Tunable};
@@ -19,6 +20,8 @@ pub struct Hello {
     pub scalars: [bool; 2],
     /// Whether cases and verdicts go in binary.
     pub binary: bool,
+    /// How its arithmetic rounds.
+    pub floats: FloatEnvironment,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +44,7 @@ pub struct Start {
     gives: Option<[bool; 3]>,
     scalars: Option<[bool; 2]>,
     binary: Option<bool>,
+    floats: Option<FloatEnvironment>,
     epsilons: Vec<Epsilon>,
 }
 
@@ -74,11 +78,16 @@ impl Start {
                 "binary" => once("encoding", &mut self.binary, true)?,
                 other => return Err(format!("encoding: '{other}' is none of text, binary")),
             },
+            "floats" => {
+                let floats = rest.parse().ok().and_then(FloatEnvironment::from_bits);
+                let floats =
+                    floats.ok_or_else(|| format!("floats: '{}' is not 0 to 15", shown(rest)))?;
+                once("floats", &mut self.floats, floats)?;
+            }
             "epsilon" => self.epsilons.push(epsilon(rest)?),
             "ready" => return self.finish().map(Some),
             _ => {
-                let known =
-                    "name, source, contract, gives, scalars, encoding, epsilon, ready, error";
+                let known = "name, source, contract, gives, scalars, encoding, floats, epsilon, ready, error";
                 return Err(format!("'{}' is none of {known}", shown(line)));
             }
         }
@@ -109,6 +118,7 @@ impl Start {
             epsilons,
             scalars,
             binary: self.binary.unwrap_or(false),
+            floats: self.floats.unwrap_or_default(),
         })
     }
 }
@@ -288,6 +298,7 @@ mod tests {
             ("1e-6 2 1 non", "-1e-6 2 1 non", "epsilon parallel: '-1e-6' is no epsilon"),
             ("signed\nready", "signed role=side\nready", "epsilon edge: 'role=side' is none of"),
             ("1e-6 2 1 non", "1e-6 two 1 non", "epsilon: 'parallel 1e-6 two"),
+            ("source here", "floats 16\nsource", "floats: '16' is not 0 to 15"),
             ("source here", "sauce here", "'sauce here and there' is none of name, source,"),
             ("source here", "error three is not installed\nsource", "three is not installed"),
         ] {

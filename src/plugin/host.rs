@@ -7,7 +7,10 @@
 #![allow(unsafe_code)]
 
 use super::PROTOCOL;
-use super::binary::{ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, OVERRUN, verdict_bytes};
+use super::binary::{
+    ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, OVERRUN, environment_head, verdict_bytes,
+};
+use crate::arith::FloatEnvironment;
 use libloading::os::unix;
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::fs::File;
@@ -89,11 +92,13 @@ impl Protocol {
         limit_damage();
         let library = Library::open(path)?;
         let hello = library.hello()?;
+        let mut floats = FloatEnvironment::now();
+        let hello = format!("{hello}floats {}\nready\n", floats.bits());
         let failed = |error: io::Error| error.to_string();
         self.output.write_all(hello.as_bytes()).map_err(failed)?;
         watch_guards(self.output.as_raw_fd());
         while let Some((test, size, cases, epsilons)) = self.batch(&library).map_err(failed)? {
-            self.answer(test, size, &cases, &epsilons).map_err(failed)?;
+            self.answer(test, size, &cases, &epsilons, &mut floats).map_err(failed)?;
         }
         Ok(())
     }
@@ -130,6 +135,7 @@ impl Protocol {
         size: usize,
         cases: &Buffer,
         epsilons: &Buffer,
+        floats: &mut FloatEnvironment,
     ) -> io::Result<()> {
         let count = cases.length / (CASE_NUMBERS * size);
         let record = if size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
@@ -141,6 +147,10 @@ impl Protocol {
         unsafe {
             test(cases.start().cast(), count, epsilons.start().cast(), verdicts.start().cast())
         };
+        let before = std::mem::replace(floats, FloatEnvironment::now());
+        if *floats != before {
+            self.output.write_all(&environment_head(*floats))?;
+        }
         if !verdicts.is_untouched_before() {
             self.output.write_all(&overrun_head())?;
             return Err(io::Error::other("wrote before its output"));
@@ -222,7 +232,7 @@ impl Library {
         symbol.ok().map(|symbol| *symbol)
     }
 
-    /// What the library says of itself, as a hello.
+    /// What the library says of itself, as the lines of a hello.
     fn hello(&self) -> Result<String, String> {
         // SAFETY: by include/hairline.h the symbol has this type, and what it returns stays valid.
         let kernel = unsafe {
@@ -253,7 +263,7 @@ impl Library {
             // SAFETY: epsilon_count elements by include/hairline.h.
             hello += &epsilon_line(unsafe { &*kernel.epsilons.add(i) })?;
         }
-        Ok(hello + "ready\n")
+        Ok(hello)
     }
 }
 

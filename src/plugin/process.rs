@@ -6,9 +6,9 @@
 use super::hello::{Hello, Start, shown};
 use super::running::{Lost, Program, Running};
 use super::{binary, text};
-use crate::arith::Float;
+use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
-use crate::kernel::{Entry, Failure, Subject, Trouble, Verdict};
+use crate::kernel::{Entry, Failure, Subject, Verdict};
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -20,6 +20,8 @@ pub struct Limits {
     pub silence: Duration,
     /// On how many cases it may crash or hang before the run ends.
     pub failures: u64,
+    /// Whether the run ends if its arithmetic is not that which IEEE 754 starts with.
+    pub require_ieee: bool,
 }
 
 /// Why a kernel's process cannot be used.
@@ -44,9 +46,17 @@ pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, Loa
             Lost::Failed(failure) => format!("before its hello was over it {failure}"),
         })
     })?;
+    let mut notes = Vec::new();
+    if !hello.floats.is_default() {
+        let note = loaded_with(hello.floats);
+        if limits.require_ieee {
+            return Err(LoadError::Hello(format!("{note}, which --require-ieee refuses")));
+        }
+        notes.push(note);
+    }
     let info = hello.info();
     let scalars = hello.scalars;
-    let state = Mutex::new(State { idle: vec![running], ..State::default() });
+    let state = Mutex::new(State { idle: vec![running], notes, ..State::default() });
     let kernel = Process { program, limits, hello, state };
     let kernel: &'static Process = Box::leak(Box::new(kernel));
     let mut entry = Entry::new(info).chosen_by(flag.leak());
@@ -57,6 +67,13 @@ pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, Loa
         entry = entry.with_f64(kernel);
     }
     Ok(entry)
+}
+
+fn loaded_with(floats: FloatEnvironment) -> String {
+    format!(
+        "its process computes with {floats} from the start (a library built with -ffast-math does that when it \
+         is loaded)"
+    )
 }
 
 /// Reads a process's hello.
@@ -85,7 +102,7 @@ struct State {
     failures: u64,
     /// The first of them.
     first: Option<String>,
-    note: Option<String>,
+    notes: Vec<String>,
     gave_up: Option<String>,
 }
 
@@ -174,7 +191,11 @@ impl Process {
         verdicts: &mut [Verdict<F>],
     ) -> Result<(), Lost> {
         running.send(binary::batch(cases, epsilons));
-        let head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
+        let mut head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
+        if let Some(floats) = binary::environment(&head) {
+            self.has_changed_to(floats)?;
+            head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
+        }
         if head[..4] == binary::OVERRUN {
             return Err(Lost::Failed(Failure::Overrun));
         }
@@ -193,6 +214,23 @@ impl Process {
                 .map_err(|message| Lost::Garbled(format!("verdict {id} of {of}: {message}")))?;
         }
         Ok(())
+    }
+
+    /// Notes that the arithmetic of a process changed while it answered; an error if that is not allowed.
+    fn has_changed_to(&self, floats: FloatEnvironment) -> Result<(), Lost> {
+        let note = format!("its process computes with {floats}, set by the kernel while it ran");
+        if self.limits.require_ieee && !floats.is_default() {
+            return Err(Lost::Garbled(format!("{note}, which --require-ieee refuses")));
+        }
+        self.note(note);
+        Ok(())
+    }
+
+    fn note(&self, note: String) {
+        let notes = &mut self.state().notes;
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
     }
 
     /// Gets the verdict on one case.
@@ -231,10 +269,9 @@ impl Process {
             *verdict = self.ask_one(case, epsilons)?;
         }
         if verdicts.iter().all(|verdict| verdict.failure.is_none()) {
-            let count = cases.len();
-            self.state().note.get_or_insert_with(|| {
-                format!("asked {count} cases at once it {of_batch}; asked one by one it answered them all, and these answers count")
-            });
+            self.note(format!(
+                "asked many cases at once it {of_batch}; asked one by one it answered them all, and these answers count"
+            ));
         }
         Ok(())
     }
@@ -252,10 +289,12 @@ impl<F: Float> Subject<F> for Process {
         }
     }
 
-    fn trouble(&self) -> Option<Trouble> {
-        let state = self.state();
-        let gave_up = state.gave_up.clone().map(Trouble::GaveUp);
-        gave_up.or_else(|| state.note.clone().map(Trouble::Note))
+    fn notes(&self) -> Vec<String> {
+        self.state().notes.clone()
+    }
+
+    fn gave_up(&self) -> Option<String> {
+        self.state().gave_up.clone()
     }
 }
 

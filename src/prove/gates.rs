@@ -6,7 +6,7 @@ use super::formula::Source;
 use super::order::{is_impossible, unsigned};
 use super::{Bound, Domain, Format, Rule};
 use crate::arith::recorded::{Operation, Place};
-use crate::kernel::Path;
+use crate::kernel::{Compared, Path};
 use std::collections::{BTreeSet, HashMap};
 
 /// What is proved of a kernel in a domain.
@@ -85,31 +85,18 @@ impl Proof {
     /// Proves what can be proved of recorded paths, of all gates or of one.
     pub fn new(paths: Vec<Path>, gate: Option<usize>, domain: Domain, format: Format) -> Proof {
         let paths: Vec<Path> = paths.into_iter().filter(|path| !is_impossible(path)).collect();
-        let mut seen = BTreeSet::new();
         let mut quantities = Vec::new();
-        for (index, path) in paths.iter().enumerate() {
-            let mut prover = Prover::new(path, domain, format);
-            for compared in path.compared.iter().filter(|c| gate.is_none_or(|gate| c.gate == gate))
-            {
-                for place in &compared.quantities {
-                    let place = unsigned(path, *place);
-                    let key = (compared.gate, canonical(&prover, path, place));
-                    if key.1.len() <= 2 || !seen.insert(key) {
-                        continue;
-                    }
-                    let bound = prover.bound(place);
-                    quantities.push(Quantity {
-                        gate: compared.gate,
-                        path: index,
-                        is_margin: compared.refuse.is_some(),
-                        decisions: compared.decisions,
-                        place,
-                        bound,
-                        lemmas: prover.lemmas_of(place),
-                    });
-                }
-            }
-        }
+        each_quantity(&paths, gate, domain, format, |path, compared, place, prover| {
+            quantities.push(Quantity {
+                gate: compared.gate,
+                path,
+                is_margin: compared.refuse.is_some(),
+                decisions: compared.decisions,
+                place,
+                bound: prover.bound(place),
+                lemmas: prover.lemmas_of(place),
+            });
+        });
         quantities.sort_by_key(|quantity| quantity.gate);
         Proof { paths, quantities }
     }
@@ -121,6 +108,31 @@ impl Proof {
             return Some(Err(why.clone()));
         }
         of_gate().max_by_key(|q| q.bound.as_ref().map(|bound| bound.error).ok()).map(Ok)
+    }
+}
+
+/// Visits what the gates compare, or one of them: each program once, with the number of its path and its place
+/// there, without a sign around it.
+pub fn each_quantity(
+    paths: &[Path],
+    gate: Option<usize>,
+    domain: Domain,
+    format: Format,
+    mut visit: impl FnMut(usize, &Compared, Place, &mut Prover),
+) {
+    let mut seen = BTreeSet::new();
+    for (index, path) in paths.iter().enumerate() {
+        let mut prover = Prover::new(path, domain, format);
+        let is_wanted = |compared: &&Compared| gate.is_none_or(|gate| compared.gate == gate);
+        for compared in path.compared.iter().filter(is_wanted) {
+            for place in &compared.quantities {
+                let place = unsigned(path, *place);
+                let program = canonical(&prover, path, place);
+                if program.len() > 2 && seen.insert((compared.gate, program)) {
+                    visit(index, compared, place, &mut prover);
+                }
+            }
+        }
     }
 }
 

@@ -34,7 +34,7 @@ pub use forms::Leaf;
 pub use formula::{Formula, Maximum, Source, Step};
 pub use fpcore::fpcore;
 pub use gappa::gappa;
-pub use gates::{Proof, Quantity, Uses};
+pub use gates::{Proof, Quantity, Uses, each_quantity};
 pub use order::is_impossible;
 pub use permanent::{Relative, Roundings, relative};
 pub use run::{Number, run};

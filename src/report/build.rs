@@ -293,8 +293,15 @@ pub(super) fn provenance_of(context: &Context) -> Provenance {
     }
 }
 
+/// What should be known of the rows' kernels beside their verdicts.
+pub(super) fn kernel_notes(rows: &[Row]) -> BTreeMap<String, Vec<String>> {
+    let notes = rows.iter().map(|row| (row.entry.info.name.to_owned(), row.entry.notes()));
+    notes.filter(|(_, notes)| !notes.is_empty()).collect()
+}
+
 fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
     let mut provenance = provenance_of(context);
+    provenance.kernel_notes = kernel_notes(&plan.rows);
     let mut cases: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
     for summary in &audit.sources {
         let sum = cases.entry(summary.scalar).or_default();

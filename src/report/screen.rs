@@ -5,7 +5,7 @@ use super::columns::{Across, Cell, Column, short_percent};
 use super::disagreement::{Key, disagreements};
 use super::lines::{Line, column_legend, lines, write_wrapped};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures, write_notes};
 use super::{Style, close_up, extremes, group_digits, number_of};
 use crate::family;
 use crate::kernel;
@@ -21,6 +21,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     let columns = Column::all(record);
     let lines = lines(record, &columns);
     write_head(record, out)?;
+    write_notes(record, out)?;
     write_answer(record, &columns, &lines, out)?;
     for scalar in &record.result.plan.scalars {
         let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);

@@ -176,6 +176,11 @@ pub fn merged<E: From<String>>(
     record.illustrations = illustrate(&plan);
     record.provenance.plan_flags =
         parts.provenance.first().and_then(|part| part.plan_flags.clone());
+    for (kernel, notes) in parts.provenance.iter().flat_map(|part| &part.kernel_notes) {
+        let known = record.provenance.kernel_notes.entry(kernel.clone()).or_default();
+        known
+            .extend(notes.iter().filter(|note| !known.contains(note)).cloned().collect::<Vec<_>>());
+    }
     record.provenance.parts = parts.provenance;
     Ok(record)
 }

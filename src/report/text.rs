@@ -3,7 +3,7 @@
 
 use super::rate::{interval_of, share_column};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures, write_notes};
 use super::why::{accuracy_text, causes_text};
 use super::worst::write_worst;
 use super::{Style, group_digits, number_of};
@@ -61,6 +61,7 @@ fn write_details(record: &Record, style: Style, out: &mut dyn Write) -> io::Resu
             partial.in_words()
         )?;
     }
+    write_notes(record, out)?;
     for scalar in &result.plan.scalars {
         write_scalar(record, scalar, style, out)?;
     }

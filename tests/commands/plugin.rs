@@ -171,6 +171,40 @@ fn prints_and_bad_values_of_a_library_do_no_harm() {
     assert_eq!(count(&nan, "bad_values/count"), faulty_cases());
 }
 
+/// A library may change how the process computes that loads it, or do so while it runs.
+#[test]
+fn another_arithmetic_in_a_kernels_process_is_said_everywhere_and_can_be_refused() {
+    let at_load = "flush-to-zero and denormals-are-zero from the start";
+    let faults = [
+        (cfg!(target_arch = "x86_64"), "FLUSH_AT_LOAD", at_load),
+        (true, "ROUND_UP", "rounding up, set by the kernel while it ran"),
+    ];
+    for (_, fault, words) in faults.into_iter().filter(|(is_here, ..)| *is_here) {
+        let Some(library) = misbehaving(fault) else { return };
+        let said = format!("its process computes with {words}");
+        let plan = ["--kernel-lib", &library, "--family", "interior", "-n", "100"];
+        let (record, error) = record(&plan);
+        let note = &record["provenance"]["kernel_notes"]["misbehave"][0];
+        assert!(note.as_str().unwrap().starts_with(&said), "{note}");
+        assert_eq!(
+            error.matches(&format!("note: kernel 'misbehave': {said}")).count(),
+            1,
+            "{error}"
+        );
+        for (format, more) in [("text", &[][..]), ("text", &["--details"]), ("html", &[])] {
+            let all = [&["audit", "--format", format, "--quiet"], more, &plan].concat();
+            let out = text(&hairline(&all).stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(out.contains(&said), "{format} {more:?}: {out}");
+        }
+        let error = refused(&[&["audit", "--require-ieee"], &plan[..]].concat(), 65);
+        assert!(error.contains(&said) && error.ends_with("--require-ieee refuses"), "{error}");
+    }
+    let Some(library) = misbehaving("NOTHING") else { return };
+    let (record, error) =
+        record(&["--require-ieee", "--kernel-lib", &library, "--family", "interior", "-n", "100"]);
+    assert!(record["provenance"]["kernel_notes"].is_null() && error.is_empty(), "{error}");
+}
+
 #[test]
 fn crashes_are_expected_once_they_are_blessed() {
     let Some(library) = misbehaving("SEGFAULT") else { return };

@@ -301,3 +301,39 @@ fn programs_are_written_for_other_tools() {
     refused(&gappa, 2, "--format gappa is of one --kernel");
     refused(&[&gappa[..], &["--gate", "edgy"]].concat(), 2, "unknown gate 'edgy'");
 }
+
+/// A number in two decimals, not below it, or not above it.
+fn hundredths(x: f64, up: bool) -> String {
+    let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
+    format!("{:.2}", hundreds / 100.0)
+}
+
+#[test]
+fn the_guides_table_is_what_is_proved_and_known() {
+    let record = json(&hairline(&["prove", "--format", "json"]));
+    let gates = record["gates"].as_array().unwrap();
+    let cells = |gate: &serde_json::Value| match gate["bound_units"].as_f64() {
+        None => "none | | |".to_owned(),
+        Some(bound) => {
+            let witness = gate["witness"]["units"].as_f64().unwrap();
+            let factor = gate["factor"].as_f64().unwrap();
+            format!("{} | {} | {factor:.2} |", hundredths(bound, true), hundredths(witness, false))
+        }
+    };
+    let mut table = String::new();
+    for single in gates.iter().filter(|gate| gate["scalar"] == "f32") {
+        let is_double = |gate: &&serde_json::Value| {
+            gate["scalar"] == "f64" && ["kernel", "gate"].iter().all(|key| gate[key] == single[key])
+        };
+        let double = gates.iter().find(is_double).unwrap();
+        let supposes: Vec<&str> =
+            single["supposes"].as_array().unwrap().iter().map(|x| x.as_str().unwrap()).collect();
+        let [kernel, gate] = ["kernel", "gate"].map(|key| single[key].as_str().unwrap());
+        let (single, double) = (cells(single), cells(double));
+        let end = format!("{} |", supposes.join(", "));
+        table += &format!("| {kernel} | {gate} | {single} {double} {}\n", end.trim_start());
+    }
+    let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/proof.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    assert!(guide.contains(&table), "the table of docs/guide/proof.md should be\n{table}");
+}

@@ -8,8 +8,8 @@ use crate::corpus::InputError;
 use crate::kernel::{self, Entry, Path, Scalar};
 use crate::prove::certificate::{Claim, Heading, heading, program};
 use crate::prove::{
-    Domain, Effort, Format, Proof, Quantity, Searched, Summary, checker, format_of, fpcore, gappa,
-    paths_of,
+    Domain, Effort, Format, Quantity, Searched, Summary, checker, each_quantity, format_of, fpcore,
+    gappa, is_impossible, paths_of,
 };
 use crate::report::number_of;
 use num_traits::ToPrimitive;
@@ -133,13 +133,14 @@ fn programs_of(certificate: &str) -> Vec<(usize, String)> {
 
 /// The programs of all that a kernel's gates compare, as certificates have them, each with its gate.
 fn recorded<F: Scalar>(entry: &Entry) -> Result<HashMap<String, &'static str>, String> {
-    let proof = Proof::new(paths_of::<F>(entry)?, None, Domain::UNIT, format_of::<F>());
-    let of = |quantity: &Quantity| {
-        let gate = entry.info.gates[quantity.gate].name;
-        let path = &proof.paths[quantity.path];
-        (program(path, &[], &[Claim { gate, place: quantity.place }]), gate)
-    };
-    Ok(proof.quantities.iter().map(of).collect())
+    let mut paths = paths_of::<F>(entry)?;
+    paths.retain(|path| !is_impossible(path));
+    let mut programs = HashMap::new();
+    each_quantity(&paths, None, Domain::UNIT, format_of::<F>(), |path, compared, place, _| {
+        let gate = entry.info.gates[compared.gate].name;
+        programs.insert(program(&paths[path], &[], &[Claim { gate, place }]), gate);
+    });
+    Ok(programs)
 }
 
 /// The programs of all quantities, or of those of one gate, or (if true) of its worst one.

@@ -20,6 +20,8 @@ pub struct Job<'a> {
     /// Whether to say of every published epsilon how far it carries.
     pub published: bool,
     pub stored: &'a [StoredWitness],
+    /// Whether the stored witnesses of other kernels are tried too.
+    pub shared: bool,
 }
 
 /// What comes out for a kernel in a scalar.
@@ -37,7 +39,7 @@ impl Job<'_> {
     /// Proves and searches.
     pub fn run<F: Searched + Scalar>(&self, entry: &Entry) -> Parts {
         let name = entry.info.name;
-        let is_of = |w: &&StoredWitness| w.kernel == name && w.scalar == F::NAME;
+        let is_of = |w: &&StoredWitness| w.scalar == F::NAME && (self.shared || w.kernel == name);
         let known: Vec<[F; 17]> =
             self.stored.iter().filter(is_of).filter_map(StoredWitness::numbers).collect();
         let summary = match Summary::<F>::new(entry, self.domain, &known, self.effort) {

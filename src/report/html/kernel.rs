@@ -5,7 +5,7 @@ use super::findings::{self, Depth};
 use super::pictures;
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
-use super::words::{apart, code, counts, percent, share};
+use super::words::{apart, code, counts, percent, share, shortened};
 use crate::kernel::{self, Gate, Tunable};
 use crate::report::record::*;
 use crate::report::why::{CauseShare, cause_shares, short};
@@ -98,6 +98,9 @@ fn facts(view: &View, row: &Row) -> Markup {
         dl.facts {
             dt { "Contract" } dd { (row.part.contract) }
             @if let Some(info) = info { dt { "Source" } dd { (info.source) } }
+            @for note in view.record.provenance.kernel_notes.get(&row.part.kernel).into_iter().flatten() {
+                dt { "Note" } dd { (shortened(note, 400)) }
+            }
             dt { "Run again" } dd { (code(&plan_flags.command(&row.part.flags()))) }
         }
         @if !row.part.epsilons.is_empty() || !gates.is_empty() {

@@ -206,6 +206,11 @@ fn foot(record: &Record) -> Markup {
                 }
                 dt { "Target" } dd { (shortened(&provenance.target, 200)) }
                 dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
+                @for (kernel, notes) in &provenance.kernel_notes {
+                    @for note in notes {
+                        dt { "Note" } dd { (shortened(kernel, 200)) ": " (shortened(note, 400)) }
+                    }
+                }
                 @if !provenance.parts.is_empty() {
                     dt { "Merged from" } dd { (number_of(provenance.parts.len() as u64, "shard", "shards")) }
                 }

@@ -5,7 +5,7 @@ use crate::arith::Float;
 use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
 use crate::audit::{GroupCount, Row, Trials, quoted};
 use crate::mesh::{Noted, Part, Surface, Targets, Topology};
-use crate::report::build::{promised, provenance_of, row_part};
+use crate::report::build::{kernel_notes, promised, provenance_of, row_part};
 use crate::report::{Context, Rate};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
@@ -19,6 +19,7 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
     let (mut scalars, mut offenders) = (Vec::new(), Vec::new());
     let mesh = surface.mesh();
     let mut provenance = provenance_of(context);
+    provenance.kernel_notes = kernel_notes(&plan.rows);
     for found in found {
         if found.scalar == f32::NAME {
             add_scalar::<f32>(surface, plan, found, &mut scalars, &mut offenders);

@@ -78,6 +78,9 @@ pub struct Provenance {
     pub oracle_layers: BTreeMap<String, BTreeMap<String, u64>>,
     /// By scalar and row label: nanoseconds a ray in the kernel.
     pub kernel_nanoseconds: BTreeMap<String, BTreeMap<String, f64>>,
+    /// By kernel: what should be known of its process beside the verdicts.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub kernel_notes: BTreeMap<String, Vec<String>>,
     /// The flags of `hairline audit` that make the plan again, where a command line made it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan_flags: Option<PlanFlags>,
