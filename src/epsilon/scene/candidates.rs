@@ -1,8 +1,9 @@
 //! The values that are weighed for each knob: round numbers over the range in which they matter.
 
+use super::errors::{MaxError, errors_of};
 use super::joint::Grid;
 use super::knob::{Knob, MOST_KNOBS};
-use super::trials::{Setting, Trial};
+use super::trials::{Kind, Setting, Trial};
 use crate::arith::{Float, smallest_normal};
 use crate::case::{DirectionLength, Scene};
 use crate::engine::{Merge, Observer};
@@ -51,11 +52,12 @@ impl Merge for Ranges {
     }
 }
 
-/// The grid of a setting: for each knob zero, the values given, and round numbers. Also whether some round
-/// numbers were left out to keep it small.
+/// The grid of a setting: for each knob zero, the values given, and round numbers over the margins of what
+/// is to be refused and of what is lost. Also whether some round numbers were left out to keep it small.
 pub fn grid<F: Scalar>(
     setting: &Setting<'_, F>,
     given: &[Vec<F>],
+    max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
     observer: &dyn Observer,
@@ -63,7 +65,13 @@ pub fn grid<F: Scalar>(
     let gates = setting.row.entry.info.gates;
     let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
     let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
-        let counted = setting.counts[trial.count];
+        let kind = setting.counts[trial.count].kind;
+        let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(setting, &trial.cases[0]));
+        let is_refused = match kind {
+            // A hit that is too far off is to be refused too.
+            Kind::Miss => max_error.is_some_and(is_exceeded),
+            kind => !kind.is_wrong_if_refused(),
+        };
         for (k, knob) in setting.knobs.iter().enumerate() {
             let margins = trial.margins.iter().map(|margins| margins[k]);
             let margin = margins.fold(-F::infinity(), |most, m| if most < m { m } else { most });
@@ -71,10 +79,11 @@ pub fn grid<F: Scalar>(
                 continue;
             }
             let size = margin.to_f64().abs().min(cap(*knob, gates, setting.scene));
-            match (margin < F::zero(), counted.kind.is_wrong_if_refused()) {
-                (true, true) => widen(&mut ranges.below[k], size),
-                (false, false) => widen(&mut ranges.above[k], size),
-                _ => {}
+            if margin < F::zero() && kind.is_wrong_if_refused() {
+                widen(&mut ranges.below[k], size);
+            }
+            if F::zero() < margin && is_refused {
+                widen(&mut ranges.above[k], size);
             }
         }
     };

@@ -162,7 +162,7 @@ pub fn cheapest<F: Scalar>(
         let joint = Joint::count(setting, grid, max_error, seed, count, observer);
         joint.best(setting.counts, costs)
     };
-    let (grid, is_thin) = grid(setting, given, seed, count, observer);
+    let (grid, is_thin) = grid(setting, given, max_error, seed, count, observer);
     let found = best(grid)?;
     if is_thin { best(around(&found)) } else { Some(found) }
 }
