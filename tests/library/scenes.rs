@@ -307,10 +307,12 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     // By epsilon: the share of larger errors among the hits that remain.
     let mut known = std::collections::BTreeMap::<u32, f64>::new();
     let costs = Costs::default();
-    let mut violated = 0;
+    let (mut violated, mut claims) = (0, 0);
     for seed in 1..=runs {
         let best = cheapest(&setting, &[], &costs, Some(&max_error), seed, number, &Unobserved);
-        let epsilon = best.expect("some epsilon is accurate")[0];
+        // A sample may be too small to show it anywhere; then nothing is claimed.
+        let Some(epsilon) = best.map(|best| best[0]) else { continue };
+        claims += 1;
         let share = *known.entry(epsilon.to_bits()).or_insert_with(|| {
             gates[0] = epsilon;
             let errors: Vec<f64> =
@@ -328,7 +330,7 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let larger = free.iter().filter(|error| most < **error).count();
     assert!(free.len() < 50 * larger, "{larger} of {}", free.len());
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
-    assert!(violated < 12, "{violated}: {known:?}");
+    assert!(violated < 12 && 95 < claims, "{violated} of {claims}: {known:?}");
     let none = MaxError::parse("t=1e-12").unwrap();
     assert_eq!(cheapest(&setting, &[], &costs, Some(&none), 1, number, &Unobserved), None);
 }

@@ -12,6 +12,9 @@ use crate::kernel::{Dimension, Gate, Role, Scalar};
 /// The first indices of a set show the range.
 const PILOT: u64 = 2048;
 
+/// How far the range reaches beyond a hit that is too far off.
+const BEYOND: f64 = 100.0;
+
 /// The most values of a knob on each side of zero.
 const MOST_VALUES: usize = 60;
 
@@ -78,12 +81,17 @@ pub fn grid<F: Scalar>(
             if !margin.is_finite() || margin.is_zero() {
                 continue;
             }
-            let size = margin.to_f64().abs().min(cap(*knob, gates, setting.scene));
+            let cap = cap(*knob, gates, setting.scene);
+            let size = margin.to_f64().abs().min(cap);
             if margin < F::zero() && kind.is_wrong_if_refused() {
                 widen(&mut ranges.below[k], size);
             }
             if F::zero() < margin && is_refused {
                 widen(&mut ranges.above[k], size);
+                if kind == Kind::Miss {
+                    // Of a larger sample some are worse than those of the pilot.
+                    widen(&mut ranges.above[k], (BEYOND * size).min(cap));
+                }
             }
         }
     };
