@@ -4,6 +4,7 @@
 
 mod scene;
 
+pub(crate) use scene::Number;
 pub use scene::{DirectionLength, SCENES, Scene, ScenePreset};
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};

@@ -278,6 +278,6 @@ pub const NAMED: &[NamedContract] = &[
     NamedContract {
         name: "no-self-hit",
         contract: Contract { no_self_hit: true, ..Contract::CLOSED_RAY },
-        about: "closed-ray, and no second hit on the triangle that the ray starts on (respawn)",
+        about: "closed-ray, and no second hit on the triangle that the ray starts on (family secondary-ray)",
     },
 ];

@@ -27,6 +27,7 @@ open!(
     prove,
     report,
     selfcheck,
+    spawn,
     truth,
 );
 

@@ -86,10 +86,10 @@ impl Finding {
     }
 }
 
-/// What the contract demands for this truth. `respawned` says that the ray starts at a kernel's own
+/// What the contract demands for this truth. `secondary` says that the ray starts at a kernel's own
 /// rounded hit point on the triangle, as a secondary ray does.
-pub fn obligation(truth: &Truth, contract: &Contract, respawned: bool) -> Obligation {
-    if contract.no_self_hit && respawned && *truth != Truth::Invalid {
+pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obligation {
+    if contract.no_self_hit && secondary && *truth != Truth::Invalid {
         return Obligation::MustMiss;
     }
     match truth {
@@ -109,12 +109,12 @@ pub fn asked<F: Float>(
     case: &Case<F>,
     truth: &Truth,
     contract: &Contract,
-    respawned: bool,
+    secondary: bool,
 ) -> Obligation {
     if !promises_direction::<F>(contract.direction, case.ray.direction.into()) {
         return Obligation::Free;
     }
-    in_band(obligation(truth, contract, respawned), case, truth, contract)
+    in_band(obligation(truth, contract, secondary), case, truth, contract)
 }
 
 /// Nothing, within the contract's band.

@@ -51,6 +51,7 @@ mod map;
 mod orientation;
 mod prove;
 mod selfcheck;
+mod spawn;
 
 mod report;
 
@@ -83,6 +84,7 @@ pub use kernel::{
 pub use audit::PlanError;
 pub use conformance::{Outcome, Request, audit};
 pub use report::{Example, FindingPart, Rate, SeverityPart};
+pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
 
 #[cfg(feature = "proptest")]
 pub use explore::strategy;

@@ -60,13 +60,13 @@ pub(super) fn causes<F: Scalar>(
     tally: &Tally,
     most: usize,
 ) -> BTreeMap<(Class, Finding), Causes> {
-    let respawned = source.grouping() == Grouping::Respawn;
+    let secondary = source.grouping() == Grouping::SecondaryRay;
     let of_ray = |places: &[Place]| {
         let made = source.make::<F>(places[0].index);
         Causes::of_ray(places.iter().map(|place| {
             let case = &made.cases()[place.triangle as usize];
             let truth = oracle::truth(case);
-            let asked = asked(case, &truth, contract, respawned);
+            let asked = asked(case, &truth, contract, secondary);
             attribute(row.subject, case, &row.epsilons, &truth, asked)
         }))
     };

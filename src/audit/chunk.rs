@@ -124,8 +124,8 @@ impl<F: Scalar> Chunk<F> {
 
     /// What a contract asks of each case.
     pub fn expectations(&self, contract: &Contract) -> Expectations {
-        let respawned = self.grouping == Grouping::Respawn;
-        judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, respawned)
+        let secondary = self.grouping == Grouping::SecondaryRay;
+        judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, secondary)
     }
 
     /// The same, without what else is known of the cases.

@@ -1,51 +1,53 @@
-//! Distributions in constant memory: counts in logarithmic bins, eight to the octave.
+//! Distributions in constant memory: counts in logarithmic bins, eight or more to the octave.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Counts of numbers that are not negative. Merging is commutative, and the number of bins is bounded
-/// by the range of `f64`.
+/// Counts of numbers that are not negative, in 2^`BITS` bins to the octave. Merging is commutative, and
+/// the number of bins is bounded by the range of `f64`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(into = "Stored", from = "Stored")]
-pub struct Histogram {
+pub struct Histogram<const BITS: u32 = 3> {
     zeros: u64,
     infinite: u64,
     /// The number of the first bin of `counts`.
-    first: u16,
+    first: u32,
     /// Of all bins between the lowest and the highest that are not empty, and some beside.
     counts: Vec<u64>,
     count: u64,
     largest: f64,
 }
 
-/// Where zeros are counted, and where infinite numbers are.
-const ZERO: u16 = 0;
-const INFINITE: u16 = bin(f64::INFINITY);
+/// Where zeros are counted.
+const ZERO: u32 = 0;
 
-/// How many bins are made at a time: eight octaves.
-const ROOM: u16 = 64;
+/// How many bins are made at a time.
+const ROOM: u32 = 64;
 
-/// The leading bits of a number: the exponent, and three of the significand.
-const fn bin(value: f64) -> u16 {
-    if value == 0.0 { ZERO } else { (value.to_bits() >> 49) as u16 + 1 }
-}
+impl<const BITS: u32> Histogram<BITS> {
+    /// Where infinite numbers are counted.
+    const INFINITE: u32 = Self::bin(f64::INFINITY);
 
-/// Where a bin starts.
-fn start(bin: u16) -> f64 {
-    if bin == ZERO { 0.0 } else { f64::from_bits(u64::from(bin - 1) << 49) }
-}
+    /// The leading bits of a number: the exponent, and some of the significand.
+    const fn bin(value: f64) -> u32 {
+        if value == 0.0 { ZERO } else { (value.to_bits() >> (52 - BITS)) as u32 + 1 }
+    }
 
-impl Histogram {
+    /// Where a bin starts.
+    fn start(bin: u32) -> f64 {
+        if bin == ZERO { 0.0 } else { f64::from_bits(u64::from(bin - 1) << (52 - BITS)) }
+    }
+
     /// Counts a number; NaN as infinite, the sign left out.
     pub fn add(&mut self, value: f64) {
         let value = if value.is_nan() { f64::INFINITY } else { value.abs() };
-        *self.slot(bin(value)) += 1;
+        *self.slot(Self::bin(value)) += 1;
         self.count += 1;
         self.largest = self.largest.max(value);
     }
 
     /// Adds another histogram.
-    pub fn merge(&mut self, other: &Histogram) {
+    pub fn merge(&mut self, other: &Self) {
         for (bin, count) in other.bins() {
             *self.slot(bin) += count;
         }
@@ -54,32 +56,32 @@ impl Histogram {
     }
 
     /// The count of a bin, with room made for it.
-    fn slot(&mut self, bin: u16) -> &mut u64 {
+    fn slot(&mut self, bin: u32) -> &mut u64 {
         if bin == ZERO {
             return &mut self.zeros;
         }
-        if bin == INFINITE {
+        if bin == Self::INFINITE {
             return &mut self.infinite;
         }
         if bin < self.first || self.counts.is_empty() {
             let first = bin.saturating_sub(ROOM).max(ZERO + 1);
             let missing = if self.counts.is_empty() { ROOM } else { self.first - first };
-            self.counts.splice(0..0, std::iter::repeat_n(0, usize::from(missing)));
+            self.counts.splice(0..0, std::iter::repeat_n(0, missing as usize));
             self.first = first;
         }
-        let place = usize::from(bin - self.first);
+        let place = (bin - self.first) as usize;
         if self.counts.len() <= place {
-            self.counts.resize(place + usize::from(ROOM), 0);
+            self.counts.resize(place + ROOM as usize, 0);
         }
         &mut self.counts[place]
     }
 
     /// The bins that are not empty, in order.
-    fn bins(&self) -> impl Iterator<Item = (u16, u64)> {
+    fn bins(&self) -> impl Iterator<Item = (u32, u64)> {
         let between = (self.first..).zip(self.counts.iter().copied());
         let all = std::iter::once((ZERO, self.zeros))
             .chain(between)
-            .chain(std::iter::once((INFINITE, self.infinite)));
+            .chain(std::iter::once((Self::INFINITE, self.infinite)));
         all.filter(|(_, count)| *count > 0)
     }
 
@@ -94,14 +96,14 @@ impl Histogram {
     }
 
     /// The number below or at which a share of the numbers lies, rounded up to the end of its bin (by
-    /// at most an eighth), and never above the largest; zero of none.
+    /// at most one part in 2^`BITS`), and never above the largest; zero of none.
     pub fn quantile(&self, share: f64) -> f64 {
         let rank = ((share * self.count as f64).ceil() as u64).max(1);
         let mut below = 0;
         for (bin, count) in self.bins() {
             below += count;
             if rank <= below {
-                let end = if bin == ZERO { 0.0 } else { start(bin + 1) };
+                let end = if bin == ZERO { 0.0 } else { Self::start(bin + 1) };
                 return if end < self.largest { end } else { self.largest };
             }
         }
@@ -113,7 +115,7 @@ impl Histogram {
     pub fn octaves(&self) -> BTreeMap<Option<i32>, u64> {
         let mut octaves = BTreeMap::new();
         for (bin, count) in self.bins() {
-            let exponent = (start(bin).to_bits() >> 52) as i32;
+            let exponent = (Self::start(bin).to_bits() >> 52) as i32;
             let octave = match exponent {
                 0 => None,
                 0x7ff => Some(i32::MAX),
@@ -125,9 +127,9 @@ impl Histogram {
     }
 }
 
-impl PartialEq for Histogram {
-    fn eq(&self, other: &Histogram) -> bool {
-        let whole = |histogram: &Histogram| (histogram.count, histogram.largest);
+impl<const BITS: u32> PartialEq for Histogram<BITS> {
+    fn eq(&self, other: &Self) -> bool {
+        let whole = |histogram: &Self| (histogram.count, histogram.largest);
         whole(self) == whole(other) && self.bins().eq(other.bins())
     }
 }
@@ -135,25 +137,25 @@ impl PartialEq for Histogram {
 /// As shards hand it on.
 #[derive(Serialize, Deserialize)]
 struct Stored {
-    bins: BTreeMap<u16, u64>,
+    bins: BTreeMap<u32, u64>,
     count: u64,
     #[serde(with = "super::forms::bits")]
     largest: f64,
 }
 
-impl From<Histogram> for Stored {
-    fn from(histogram: Histogram) -> Stored {
+impl<const BITS: u32> From<Histogram<BITS>> for Stored {
+    fn from(histogram: Histogram<BITS>) -> Stored {
         let bins = histogram.bins().collect();
         Stored { bins, count: histogram.count, largest: histogram.largest }
     }
 }
 
-impl From<Stored> for Histogram {
-    fn from(Stored { bins, count, largest }: Stored) -> Histogram {
-        let mut histogram = Histogram { count, largest, ..Histogram::default() };
+impl<const BITS: u32> From<Stored> for Histogram<BITS> {
+    fn from(Stored { bins, count, largest }: Stored) -> Self {
+        let mut histogram = Self { count, largest, ..Self::default() };
         for (bin, count) in bins {
             // A number beyond the bins is none that a histogram wrote.
-            *histogram.slot(bin.min(INFINITE)) += count;
+            *histogram.slot(bin.min(Self::INFINITE)) += count;
         }
         histogram
     }
@@ -167,7 +169,7 @@ mod tests {
     fn quantiles_are_those_of_the_sorted_numbers_within_an_eighth() {
         let numbers: Vec<f64> =
             (0..1000u64).map(|i| ((i * 7919 % 1000) as f64).powi(3) * 1e-5).collect();
-        let (mut left, mut right) = (Histogram::default(), Histogram::default());
+        let (mut left, mut right) = (<Histogram>::default(), Histogram::default());
         for (i, number) in numbers.iter().enumerate() {
             if i % 3 == 0 { left.add(*number) } else { right.add(*number) }
         }
@@ -187,7 +189,7 @@ mod tests {
 
     #[test]
     fn zero_and_infinity_have_bins_of_their_own() {
-        let mut histogram = Histogram::default();
+        let mut histogram = <Histogram>::default();
         [0.0, 0.0, 0.0, f64::NAN].into_iter().for_each(|x| histogram.add(x));
         assert_eq!((histogram.quantile(0.75), histogram.quantile(0.76)), (0.0, f64::INFINITY));
         histogram.add(3.0);

@@ -86,7 +86,7 @@ impl<F: Scalar> RowIn<F> {
             add_rays(chunk, asked, verdicts, &found, tally);
         }
         tally.hits(&hits);
-        if chunk.grouping == Grouping::Respawn {
+        if chunk.grouping == Grouping::SecondaryRay {
             tally.self_hits.rays += verdicts.len() as u64;
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }

@@ -7,8 +7,10 @@ use std::fmt;
 /// What the rays and triangles of a scene measure, in the scene's own unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Every coordinate of a triangle is within ± this.
+    /// Every coordinate of a triangle is within ± this of the center.
     pub extent: f64,
+    /// All three coordinates of the scene's center.
+    pub center: f64,
     /// The shortest and the longest length of a triangle's longest edge; each doubling between them is
     /// equally likely.
     pub edge: [f64; 2],
@@ -44,7 +46,7 @@ const fn preset(
     edge: [f64; 2],
     distance: [f64; 2],
 ) -> ScenePreset {
-    let scene = Scene { extent, edge, distance, direction: DirectionLength::Unit };
+    let scene = Scene { extent, center: 0.0, edge, distance, direction: DirectionLength::Unit };
     ScenePreset { name, unit, scene }
 }
 
@@ -66,7 +68,8 @@ impl Default for Scene {
 const OF_MESH: &str = "mesh";
 
 /// The words of a scene, as errors list them.
-const WORDS: &str = "extent=1000, edge=0.01..10, distance=0..2000, direction=unit or target";
+const WORDS: &str =
+    "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target";
 
 impl Scene {
     /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
@@ -99,11 +102,11 @@ impl Scene {
     pub fn of_mesh(mut self, text: &str) -> Result<Scene, String> {
         let words = text.split(',').map(str::trim);
         let words = words.enumerate().filter(|(i, word)| !(*i == 0 && *word == OF_MESH));
-        let (extent, edge) = (self.extent, self.edge);
+        let own = (self.extent, self.center, self.edge);
         let expected = "write mesh, or mesh,distance=0..20,direction=target";
         let wrong = |word: &str| format!("'{word}' is no word for the scene of a mesh: {expected}");
         self.set_all(words.map(|(_, word)| word), |word, _| wrong(word))?;
-        if (extent, edge) != (self.extent, self.edge) {
+        if own != (self.extent, self.center, self.edge) {
             return Err(format!("a mesh has its own extent and edges: {expected}"));
         }
         self.check()?;
@@ -135,6 +138,7 @@ impl Scene {
     pub(super) fn set(&mut self, key: &str, value: &str) -> Result<bool, String> {
         match key {
             "extent" => self.extent = number(key, value)?,
+            "center" => self.center = number(key, value)?,
             "edge" => self.edge = range(key, value)?,
             "distance" => self.distance = range(key, value)?,
             "direction" => {
@@ -167,6 +171,11 @@ impl Scene {
         Ok(())
     }
 
+    /// The largest coordinate of a triangle.
+    pub fn largest(&self) -> f64 {
+        self.center.abs() + self.extent
+    }
+
     /// An error if the largest triangles are not within the extent.
     pub(super) fn check_fit(&self) -> Result<(), String> {
         if self.extent < self.edge[1] {
@@ -181,7 +190,7 @@ impl Scene {
 
     /// An error if products of the scene's lengths overflow in a scalar.
     pub fn check_range_in<F: Float>(&self) -> Result<(), String> {
-        let reach = self.extent + self.distance[1];
+        let reach = self.largest() + self.distance[1];
         if !F::from_f64(reach * reach * reach).is_finite() {
             return Err(format!(
                 "products of three lengths such as {} overflow in {}: use a larger unit of length",
@@ -203,12 +212,12 @@ impl Scene {
                 Number(shortest)
             ));
         }
-        let spacing = F::from_f64(self.extent).ulp().to_f64();
+        let spacing = F::from_f64(self.largest()).ulp().to_f64();
         if shortest < 32.0 * spacing {
             return Err(format!(
                 "triangles of edge {} collapse at coordinates of {}, where the numbers of {name} are {spacing:.1e} apart{}",
                 Number(shortest),
-                Number(self.extent),
+                Number(self.largest()),
                 if F::NAME == f32::NAME { " (see --scalar f64)" } else { "" }
             ));
         }
@@ -265,7 +274,11 @@ impl fmt::Display for Scene {
         };
         let (edge, distance) = (Range(self.edge), Range(self.distance));
         let extent = Number(self.extent);
-        write!(f, "extent={extent},edge={edge},distance={distance},direction={direction}")
+        write!(f, "extent={extent},")?;
+        if self.center != 0.0 {
+            write!(f, "center={},", Number(self.center))?;
+        }
+        write!(f, "edge={edge},distance={distance},direction={direction}")
     }
 }
 
@@ -278,6 +291,7 @@ mod tests {
         for text in [
             "extent=1000,edge=0.01..10,distance=0..2000,direction=unit",
             "extent=1e-7,edge=1e-9,distance=5e-9..1e-8,direction=target",
+            "extent=10,center=-100000,edge=1,distance=0..4,direction=unit",
         ] {
             assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
         }
@@ -299,6 +313,7 @@ mod tests {
             ("extent=inf", "not a finite number"),
             ("extent=0", "extent=0: must be above 0"),
             ("extent=-1", "must be above 0"),
+            ("center=nan", "not a finite number"),
             ("edge=0..1", "edge=0..1: must be above 0"),
             ("edge=1..", "'' is not a finite number"),
             ("edge=0.5..0.25", "the range is empty"),
@@ -324,6 +339,8 @@ mod tests {
         }
         let [f32, f64] = refused("extent=1e6,edge=0.1..1,distance=0..10");
         assert!(f32.unwrap().contains("collapse at coordinates of 1000000") && f64.is_none());
+        let [f32, f64] = refused("extent=10,center=-1e6,edge=0.1..1,distance=0..10");
+        assert!(f32.unwrap().contains("collapse at coordinates of 1000010") && f64.is_none());
         let [f32, f64] = refused("extent=1e-17,edge=1e-18..1e-17,distance=0..1e-17");
         assert!(f32.unwrap().contains("underflow in f32") && f64.is_none());
         let [f32, f64] = refused("extent=1e14,edge=1e13,distance=0..1e14");

@@ -10,7 +10,7 @@ use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;
-use crate::expect::{self, Expectations};
+use crate::expect::{self, Expectations, NetChange};
 use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
@@ -41,9 +41,13 @@ struct CheckFlags {
     #[arg(long, value_name = "FILE", default_value = DEFAULT_FILE)]
     expectations: String,
 
-    /// Write what this run finds as the known disagreements
+    /// Write what this run finds as the known disagreements, unless something got worse
     #[arg(long)]
     bless: bool,
+
+    /// Write it even if something got worse
+    #[arg(long, requires = "bless")]
+    accept_worse: bool,
 
     /// Judge a stored record (of `audit`, `check` or `merge`) instead of running
     #[arg(long, value_name = "FILE")]
@@ -152,10 +156,18 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let mut expected = expected.unwrap_or_default();
     let mut conformance = expect::compare(&record.result, &expected, known_file);
     if arguments.bless {
-        expected = blessed(&record, &expected, &conformance, file)?;
-        conformance = expect::compare(&record.result, &expected, Some(file));
-        if !arguments.run.report.quiet {
-            eprintln!("{file}: {} known disagreements", expected.entries.len());
+        let change = NetChange::of(&expected, &conformance);
+        if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
+            eprintln!(
+                "hairline: {file} stays as it is: {change}; --accept-worse writes it all the same"
+            );
+        } else {
+            expected = blessed(&record, &expected, &conformance, file)?;
+            conformance = expect::compare(&record.result, &expected, Some(file));
+            if !arguments.run.report.quiet {
+                let was = known_file.map_or(String::new(), |_| format!(" ({change})"));
+                eprintln!("{file}: {} known disagreements{was}", expected.entries.len());
+            }
         }
     }
     record.conformance = Some(conformance);
@@ -258,6 +270,10 @@ impl CheckFlags {
             None => Vec::new(),
         };
         let from_environment = settings::from_environment(|name| std::env::var(name).ok())?;
+        if !self.run.report.quiet {
+            let names = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());
+            settings::unknown_variables(names).iter().for_each(|note| eprintln!("{note}"));
+        }
         settings::layered([from_environment, from_file], |key| {
             let source = matches.and_then(|matches| matches.value_source(&key.replace('-', "_")));
             source == Some(ValueSource::CommandLine)
@@ -286,8 +302,8 @@ mod tests {
             .lines()
             .map(|l| l.strip_prefix("# ").filter(|l| l.contains(" = ")).unwrap_or(l))
             .collect();
-        // Two flags are false, which takes no word.
+        // Three flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 19, "{words:?}");
+        assert_eq!(words.len(), 23, "{words:?}");
     }
 }

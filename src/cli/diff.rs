@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::input::read_record;
 use super::output::write_result;
-use crate::report::difference;
+use crate::report::{Change, difference};
 use clap::{Args, ValueEnum};
 use std::io;
 
@@ -15,6 +15,10 @@ pub struct DiffArguments {
 
     /// The later record
     new: String,
+
+    /// Exit with 1 if something got worse
+    #[arg(long)]
+    exit_code: bool,
 
     /// The format of the output
     #[arg(long, value_enum, default_value_t)]
@@ -51,5 +55,6 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
         let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
     }
-    Ok(Status::Success)
+    let is_worse = comparison.differences.iter().any(|found| found.change == Change::Worse);
+    Ok(if arguments.exit_code && is_worse { Status::Disagreements } else { Status::Success })
 }

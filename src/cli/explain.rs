@@ -57,7 +57,7 @@ where
     AnyCase: From<Case<F>>,
 {
     let cases = &group.cases;
-    let respawned = group.grouping == Grouping::Respawn;
+    let secondary = group.grouping == Grouping::SecondaryRay;
     for (i, case) in cases.iter().enumerate() {
         if cases.len() > 1 {
             writeln!(out, "triangle {i} of {}", cases.len())?;
@@ -65,7 +65,7 @@ where
         write_case(out, name, case)?;
         let truth = oracle::define(case).truth;
         for row in rows {
-            write_row(out, case, &truth, respawned, row)?;
+            write_row(out, case, &truth, secondary, row)?;
         }
     }
     if cases.len() > 1 {
@@ -178,7 +178,7 @@ fn write_row<F: Scalar>(
     out: &mut dyn Write,
     case: &Case<F>,
     truth: &Truth,
-    respawned: bool,
+    secondary: bool,
     row: &Row,
 ) -> io::Result<()> {
     let Some(subject) = F::subject(row.entry) else {
@@ -189,7 +189,7 @@ fn write_row<F: Scalar>(
     verdicts_of(subject, std::slice::from_ref(case), &epsilons, &mut verdict);
     let [verdict] = verdict;
 
-    let asked = asked(case, truth, &row.contract, respawned);
+    let asked = asked(case, truth, &row.contract, secondary);
     let finding = judge(asked, truth, row.entry.info.gives, &verdict);
     writeln!(out, "{}: {}", row.label(), judged(asked, &verdict, finding))?;
     writeln!(out, "    contract: {}", row.contract.describe())?;

@@ -8,6 +8,7 @@ use crate::audit::EpsilonText;
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, PresetValue, Tunable};
+use crate::spawn::{PUBLISHED, describe};
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 
@@ -31,6 +32,8 @@ enum What {
     Contracts,
     /// Epsilons of published libraries
     Presets,
+    /// Offset schemes of new rays with their sources
+    Schemes,
     /// Arithmetics that kernels can be run in
     Arithmetics,
 }
@@ -58,6 +61,7 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             })
         }
         What::Presets => presets(out),
+        What::Schemes => schemes(out),
         What::Arithmetics => Arithmetic::ALL
             .iter()
             .try_for_each(|a| writeln!(out, "{:<18} {}", a.name(), a.describe())),
@@ -92,6 +96,17 @@ fn write_kernel(out: &mut dyn Write, info: &KernelInfo) -> io::Result<()> {
             gate.dimension.direction,
             sets.join(", ")
         )?;
+    }
+    Ok(())
+}
+
+fn schemes(out: &mut dyn Write) -> io::Result<()> {
+    for published in PUBLISHED {
+        let (name, source) = (published.name, published.source);
+        writeln!(out, "{name}{}\n    source: {source}", describe(name))?;
+        if let Some(parameter) = published.parameter {
+            writeln!(out, "    {name}=VALUE: {} [{}]", parameter.what, parameter.default)?;
+        }
     }
     Ok(())
 }

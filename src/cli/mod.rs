@@ -38,6 +38,7 @@ mod select;
 mod selfcheck;
 mod settings;
 mod sources;
+mod spawn;
 mod truth;
 
 use exit::{Failure, Status};
@@ -64,6 +65,8 @@ enum Command {
     Audit(Box<audit::AuditArguments>),
     /// Show what every epsilon of a kernel would do, and which to use
     Epsilon(Box<epsilon::EpsilonArguments>),
+    /// Show which offset new rays, such as shadow rays, need to leave their own surface
+    Spawn(Box<spawn::SpawnArguments>),
     /// Send rays at every edge and vertex of a mesh, and report where they slip through
     Mesh(Box<mesh::MeshArguments>),
     /// Prove what a kernel can never do wrong, whatever the floats, beside the worst known
@@ -110,7 +113,10 @@ enum Command {
 
 /// The commands by what they are for, in the order of the help.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Choose an epsilon", &["audit", "epsilon", "prove", "mesh", "explain", "map", "list"]),
+    (
+        "Choose an epsilon",
+        &["audit", "epsilon", "spawn", "prove", "mesh", "explain", "map", "list"],
+    ),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
     ("Bring your own", &["generate", "judge", "truth"]),
@@ -206,6 +212,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Epsilon(arguments) => {
             epsilon::run(&arguments, matches.subcommand_matches("epsilon"))
         }
+        Command::Spawn(arguments) => spawn::run(&arguments),
         Command::Mesh(arguments) => mesh::run(&arguments),
         Command::Prove(arguments) => prove::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

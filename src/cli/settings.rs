@@ -17,6 +17,8 @@ enum Kind {
     Files,
     /// One file; likewise.
     File,
+    /// A list of command lines, or one.
+    Commands,
     /// A string or a number.
     Text,
     /// true or false.
@@ -39,6 +41,11 @@ const fn setting(key: &'static str, kind: Kind, example: &'static str) -> Settin
 
 const SETTINGS: &[Setting] = &[
     setting("kernel", Kind::Names, "moller-trumbore"),
+    setting("kernel-lib", Kind::Files, "libmine.so"),
+    setting("kernel-cmd", Kind::Commands, "node kernel.mjs"),
+    setting("kernel-timeout", Kind::Text, ""),
+    setting("kernel-failures", Kind::Text, "1000"),
+    setting("require-ieee", Kind::Flag, ""),
     setting("arithmetic", Kind::Names, "ieee,fma"),
     setting("epsilon", Kind::Text, "parallel=1e-6,edge=0"),
     setting("epsilon-preset", Kind::Text, "bvh"),
@@ -79,7 +86,7 @@ pub fn default_file(check: &clap::Command) -> String {
         };
         let quoted = |text: &str| format!("\"{text}\"");
         let value = match kind {
-            Kind::Names | Kind::Files | Kind::Demands => {
+            Kind::Names | Kind::Files | Kind::Commands | Kind::Demands => {
                 format!("[{}]", value.split(',').map(quoted).collect::<Vec<_>>().join(", "))
             }
             Kind::Flag => value.to_owned(),
@@ -113,6 +120,20 @@ pub struct Given {
 /// The variable of a setting.
 fn variable(key: &str) -> String {
     format!("HAIRLINE_{}", key.to_uppercase().replace('-', "_"))
+}
+
+/// A note on each variable whose name begins as those of settings do, and is none.
+pub fn unknown_variables(names: impl Iterator<Item = String>) -> Vec<String> {
+    let known: Vec<String> = SETTINGS.iter().map(|setting| variable(setting.key)).collect();
+    let is_unknown = |name: &String| name.starts_with("HAIRLINE_") && !known.contains(name);
+    let note = |name: String| {
+        let near = nearest_name(&name, known.iter().map(String::as_str));
+        let advice = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        format!("note: {name} is no setting, and is not used{advice}")
+    };
+    let mut notes: Vec<String> = names.filter(is_unknown).map(note).collect();
+    notes.sort();
+    notes
 }
 
 /// The settings of the environment, read by a function; empty ones do not count.
@@ -180,7 +201,8 @@ fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String
     if let (Kind::Demands, DeValue::Table(kernels)) = (setting.kind, value) {
         return demands(kernels).map(|all| vec![format!("--{key}={}", all.join(","))]);
     }
-    let is_list = matches!(setting.kind, Kind::Names | Kind::Files | Kind::Demands);
+    let is_list =
+        matches!(setting.kind, Kind::Names | Kind::Files | Kind::Commands | Kind::Demands);
     let texts = match value {
         DeValue::Array(items) if is_list => {
             items.iter().map(|item| scalar_text(item.get_ref())).collect::<Option<Vec<_>>>()
@@ -197,6 +219,7 @@ fn words(setting: &Setting, value: &DeValue, folder: &Path) -> Result<Vec<String
         Kind::Files | Kind::File => {
             texts.iter().map(|text| format!("--{key}={}", folder.join(text).display())).collect()
         }
+        Kind::Commands => texts.iter().map(|text| format!("--{key}={text}")).collect(),
         _ => vec![format!("--{key}={}", texts[0])],
     })
 }
@@ -291,6 +314,26 @@ mod tests {
     fn paths_are_from_the_files_folder() {
         let given = from_file("mesh = [\"a.obj\", \"/b.obj\"]\n", "c/h.toml").unwrap();
         assert_eq!(given[0].words, ["--mesh=c/a.obj", "--mesh=/b.obj"]);
+    }
+
+    #[test]
+    fn a_command_is_one_word_whatever_is_in_it() {
+        let text = "kernel-cmd = [\"node k.mjs --fast\", \"sh -c 'a, b'\"]\nrequire-ieee = true\n";
+        let given = from_file(text, "c/h.toml").unwrap();
+        let words: Vec<&str> = given.iter().flat_map(|g| &g.words).map(String::as_str).collect();
+        let commands = ["--kernel-cmd=node k.mjs --fast", "--kernel-cmd=sh -c 'a, b'"];
+        assert_eq!(words, [&commands[..], &["--require-ieee"]].concat());
+    }
+
+    #[test]
+    fn variables_that_are_no_settings_are_named() {
+        let names =
+            ["HAIRLINE_CUONT", "HAIRLINE_COUNT", "PATH", "HAIRLINE_", "HAIRLINE_ZZZZZZZZZZ"];
+        let notes = unknown_variables(names.into_iter().map(str::to_owned));
+        assert_eq!(notes.len(), 3);
+        let expected =
+            "note: HAIRLINE_CUONT is no setting, and is not used; did you mean HAIRLINE_COUNT?";
+        assert_eq!(notes[1], expected);
     }
 
     #[test]

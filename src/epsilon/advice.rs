@@ -11,7 +11,7 @@ use crate::kernel::{Gate, Scalar};
 /// The two counts that an epsilon trades against each other, over all sources: hits lost, and false
 /// hits of the kinds that the gate is there to refuse.
 ///
-/// For a gate on t a second hit on the triangle from which a ray starts (family `respawn`) counts as a hit
+/// For a gate on t a second hit on the triangle from which a ray starts (family `secondary-ray`) counts as a hit
 /// to reject: by exact truth alone an epsilon there could only lose hits.
 #[derive(Clone, Debug)]
 pub struct Trade<F> {
@@ -48,15 +48,15 @@ impl<F: Scalar> Trade<F> {
     ) -> Trade<F> {
         let largest = F::infinity().offset_ulps(-1);
         let floor = floor(gate);
-        let respawned =
-            |source: &Source| duty.guards_start() && source.grouping() == Grouping::Respawn;
+        let secondary =
+            |source: &Source| duty.guards_start() && source.grouping() == Grouping::SecondaryRay;
         let side = |question: Question, counts: &dyn Fn(&Source) -> bool| {
             let counted = |(i, source): (usize, &Source)| counts(source).then_some(i);
             let counted = sources.iter().enumerate().filter_map(counted);
             let curves = counted.map(|i| (i, run[i].gates[n].curve(question)));
             Side::new(question, floor, largest, curves)
         };
-        let misses = side(Question::FalseMiss, &|source| !respawned(source));
+        let misses = side(Question::FalseMiss, &|source| !secondary(source));
         let hits = side(Question::OwnFalseHit, &|_| true);
         Trade { floor, misses, hits }
     }

@@ -184,7 +184,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
     ) {
         let axis = self.request.axis;
         let [misses, hits, _, _, self_hits, own] = &mut sums.lanes;
-        let respawned = chunk.grouping == Grouping::Respawn;
+        let secondary = chunk.grouping == Grouping::SecondaryRay;
         let guards_start = self.duties[gate].guards_start();
         sums.effective.clear();
         let rows = margins.chunks_exact(self.gates.len());
@@ -203,7 +203,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
                 Obligation::MustMiss => hits.add(axis, margin, place),
                 Obligation::Free => {}
             }
-            let own_to_refuse = if respawned && guards_start {
+            let own_to_refuse = if secondary && guards_start {
                 true
             } else {
                 *obligation == Obligation::MustMiss && self.duties[gate].guards(chunk.class(i))
@@ -214,7 +214,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
             if let (Obligation::MustHit, Some(other)) = (obligation, refusing) {
                 sums.refused_by_others[other] += 1;
             }
-            if respawned {
+            if secondary {
                 self_hits.add(axis, margin, place);
             }
         }

@@ -1,8 +1,9 @@
 //! Writing what a run found as what is expected from now on.
 
 use super::{Amount, Entry, Expectations, SCHEMA};
-use crate::report::{Conformance, Disagreement, ResultPart, disagreements};
-use std::fmt::Write;
+use crate::report::{Conformance, Disagreement, Key, Method, ResultPart, disagreements};
+use std::collections::BTreeSet;
+use std::fmt::{self, Write};
 
 /// Why expectations cannot be written: the file also has entries for kernels, scalars or families that
 /// the plan leaves out, and these would be lost.
@@ -10,6 +11,70 @@ use std::fmt::Write;
 pub struct Unblessable {
     /// How many.
     pub outside_the_plan: u64,
+}
+
+/// How many classes of disagreement change when a run becomes what is expected.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct NetChange {
+    /// Fewer cases than expected, or none.
+    pub better: u64,
+    /// More cases than expected.
+    pub worse: u64,
+    /// Cases where none is expected.
+    pub new: u64,
+    /// The same, of a kernel row or a family that the plan of the expectations may not have had.
+    pub of_new_plan: u64,
+    /// As many cases as expected, but not the same ones.
+    pub other_cases: u64,
+    /// As expected.
+    pub unchanged: u64,
+}
+
+impl NetChange {
+    /// From expectations to what a run found.
+    pub fn of(old: &Expectations, compared: &Conformance) -> NetChange {
+        let mut change = NetChange {
+            better: compared.stale.len() as u64,
+            unchanged: compared.known.len() as u64,
+            ..NetChange::default()
+        };
+        let other_plan = compared.method == Method::Intervals;
+        let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
+        let rows: BTreeSet<_> = old.entries.keys().map(row).collect();
+        let families: BTreeSet<&String> = old.entries.keys().map(|key| &key.family).collect();
+        for found in &compared.unexpected {
+            let key = found.key();
+            let is_known = rows.contains(&row(&key)) && families.contains(&key.family);
+            *match old.entries.get(&key).map(|entry| &entry.amount) {
+                None if other_plan && !is_known => &mut change.of_new_plan,
+                None => &mut change.new,
+                Some(Amount::Count { count, .. }) if *count == found.found.count => {
+                    &mut change.other_cases
+                }
+                Some(_) => &mut change.worse,
+            } += 1;
+        }
+        change
+    }
+
+    /// Whether something got worse.
+    pub fn is_worse(&self) -> bool {
+        0 < self.worse + self.new
+    }
+}
+
+impl fmt::Display for NetChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let NetChange { better, worse, new, of_new_plan, other_cases, unchanged } = self;
+        write!(
+            f,
+            "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
+        )?;
+        match of_new_plan {
+            0 => Ok(()),
+            count => write!(f, ", {count} of kernels or families that are new to the plan"),
+        }
+    }
 }
 
 /// The file of expectations that a run would meet. Reasons and links of the old one are kept, and so

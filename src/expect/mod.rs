@@ -10,7 +10,7 @@ mod bless;
 mod compare;
 mod file;
 
-pub use bless::{Unblessable, bless};
+pub use bless::{NetChange, Unblessable, bless};
 pub use compare::compare;
 pub use file::read;
 

@@ -101,7 +101,7 @@ pub(super) fn is_steep<F: Float>(direction: [F; 3], triangle: [[F; 3]; 3]) -> bo
 }
 
 /// The point with the given weights, in the scalar's arithmetic.
-pub(super) fn combination<F: Float>(triangle: [[F; 3]; 3], weights: [F; 3]) -> [F; 3] {
+pub(crate) fn combination<F: Float>(triangle: [[F; 3]; 3], weights: [F; 3]) -> [F; 3] {
     let [a, b, c] = triangle;
     std::array::from_fn(|i| a[i] * weights[0] + b[i] * weights[1] + c[i] * weights[2])
 }

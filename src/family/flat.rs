@@ -4,10 +4,10 @@ use super::integer::{
     IntegerCase, Point, dot, minus, normal, plus, shuffle, times, transversal,
     triangle_with_edge_point,
 };
+use super::scene::{Stratum, grazing_sine};
 use super::{Made, Recipe};
 use crate::arith::Float;
-use crate::arith::scale_by_power_of_two;
-use crate::case::{Case, Draw};
+use crate::case::{Case, Draw, Parameters};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 
@@ -104,18 +104,22 @@ impl Recipe for Coplanar {
 
 impl Recipe for Grazing {
     const NAME: &'static str = "grazing";
-    const PROMISE: &'static str = "transversal, at an angle to the plane of 2^-1 down to 2^-60";
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str =
+        "transversal, sines from 1/2 down to below an ulp of 1, half of them on generic planes";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        if draw.coin() {
+            return Stratum::Grazing.make(&Parameters::default(), draw);
+        }
         if draw.coin() {
             // The plane at height 0: the height of the origin and of the direction are exact.
             let axes = axes(draw);
             let triangle = level_triangle(draw, axes, F::zero());
             let [x, y] = [draw.symmetric::<F>(), draw.symmetric()];
             let steps = F::from_f64(draw.pick(&[0.5, 1.0, 2.0, 4.0]));
-            let slope = draw.integer(1, 60) as i32;
-            let fall = F::from_f64(scale_by_power_of_two(1.0 + draw.unit(), -slope));
-            let fall = if draw.coin() { fall } else { -fall };
+            // As on generic planes, so that no limit of these cases alone decides an epsilon.
+            let fall = F::from_f64(grazing_sine::<F>(draw));
             let [dx, dy] = [draw.symmetric::<F>(), draw.symmetric()];
             let origin = placed(axes, x - dx * steps, y - dy * steps, -(fall * steps));
             return Made::One(Case::new(origin, placed(axes, dx, dy, fall), triangle));

@@ -23,11 +23,13 @@ mod scene;
 mod shape;
 mod sizes;
 
+pub(crate) use control::combination;
 pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
 pub(crate) use scene::{
-    Corners, Frame, Parallel, Triangles, along_axis, circle, flat_along, in_plane, rounded, wide,
+    Corners, Frame, Parallel, Triangles, along_axis, any_direction, circle, flat_along, in_plane,
+    rounded, wide,
 };
 pub use scene::{STRATA, Stratum};
 
@@ -70,7 +72,7 @@ pub enum Grouping {
     /// One triangle.
     Single,
     /// One triangle; the ray starts at a kernel's own hit point on it.
-    Respawn,
+    SecondaryRay,
     /// Two triangles on one edge.
     SharedEdge,
     /// A closed fan around a vertex.
@@ -82,7 +84,7 @@ pub enum Grouping {
 impl Grouping {
     /// Whether the triangles of one index share a ray.
     pub fn shares_a_ray(self) -> bool {
-        !matches!(self, Grouping::Single | Grouping::Respawn)
+        !matches!(self, Grouping::Single | Grouping::SecondaryRay)
     }
 }
 
@@ -161,7 +163,7 @@ pub static FAMILIES: &[Family] = &[
     row::<flat::Grazing>(Question::Flat),
     row::<origin::OriginOn>(Question::Ends),
     row::<origin::OriginNear>(Question::Ends),
-    row::<origin::Respawn>(Question::Ends),
+    row::<origin::SecondaryRay>(Question::Ends),
     row::<interval::Behind>(Question::Ends),
     row::<interval::IntervalEnds>(Question::Ends),
     row::<shape::Sliver>(Question::Sizes),

@@ -1,10 +1,10 @@
-//! `origin-on`, `origin-near`, `respawn`: rays that start at the triangle.
+//! `origin-on`, `origin-near`, `secondary-ray`: rays that start at the triangle.
 
 use super::boundary::toward;
 use super::control::{combination, interior_weights, is_steep, well_shaped};
 use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
+use super::scene::{any_direction, hit_point, rounded};
 use super::{Grouping, Made, Recipe, apply_to_direction};
-use crate::arith::Vector;
 use crate::case::{Case, Draw, Parameters};
 use crate::kernel::{Scalar, find};
 use crate::truth::{Feature, Truth};
@@ -12,7 +12,10 @@ use std::cmp::Ordering;
 
 pub(super) struct OriginOn;
 pub(super) struct OriginNear;
-pub(super) struct Respawn;
+pub(super) struct SecondaryRay;
+
+/// The kernels at whose hit points secondary rays start: they find t and u, v in different ways.
+const FIRST_HIT: [&str; 4] = ["moller-trumbore", "plane-unit-normal", "plucker", "woop-watertight"];
 
 impl Recipe for OriginOn {
     const NAME: &'static str = "origin-on";
@@ -67,46 +70,29 @@ impl Recipe for OriginNear {
     }
 }
 
-impl Recipe for Respawn {
-    const NAME: &'static str = "respawn";
-    const PROMISE: &'static str = "transversal, from a kernel's own rounded hit point on this triangle into either half-space";
-    const GROUPING: Grouping = Grouping::Respawn;
+impl Recipe for SecondaryRay {
+    const NAME: &'static str = "secondary-ray";
+    const PROMISE: &'static str =
+        "transversal, from a kernel's own rounded hit point on this triangle, in every direction";
+    const GROUPING: Grouping = Grouping::SecondaryRay;
 
     /// The first ray: its hit point is where the case's ray starts.
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        loop {
-            let triangle = well_shaped::<F>(draw);
-            let target = combination(triangle, interior_weights(draw).map(F::from_f64));
-            let origin = draw.point::<F>();
-            let direction = toward(origin, target);
-            if is_steep(direction, triangle) {
-                return Made::One(Case::new(origin, direction, triangle));
-            }
-        }
+        let triangle = well_shaped::<F>(draw);
+        let target = combination(triangle, interior_weights(draw).map(F::from_f64));
+        let origin = draw.point::<F>();
+        Made::One(Case::new(origin, toward(origin, target), triangle))
     }
 
     fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut Made<F>) {
         let Made::One(case) = made else { return };
         let triangle = case.triangle.vertices().map(Into::into);
-        let kernel = find("moller-trumbore").and_then(F::subject);
-        let hit = kernel.and_then(|kernel| kernel.gated()?.measure(case).values);
-        let (t, (u, v)) =
-            hit.and_then(|hit| hit.t.zip(hit.uv)).expect("a kernel that gives t, u, v");
-        // The two ways in which renderers form the hit point.
-        let point: [F; 3] = if draw.coin() {
-            case.ray.origin.plus(&case.ray.direction.times(&t)).into()
-        } else {
-            combination(triangle, [F::one() - u - v, u, v])
-        };
-        // Steep for a triangle of any size; at the ends of the range none may be found.
-        let mut next = draw.point();
-        for _ in 0..64 {
-            if is_steep(next, triangle) {
-                break;
-            }
-            next = draw.point();
-        }
-        *case = Case::new(point, apply_to_direction(parameters, next), triangle);
+        let kernel = find(draw.pick(&FIRST_HIT)).and_then(F::subject).and_then(|k| k.gated());
+        let point = kernel.and_then(|kernel| hit_point(draw, case, kernel));
+        // A kernel that misses leaves the middle of the triangle.
+        let middle = || combination(triangle, [F::from_f64(1.0 / 3.0); 3]);
+        let direction = apply_to_direction(parameters, rounded(any_direction(draw)));
+        *case = Case::new(point.unwrap_or_else(middle), direction, triangle);
     }
 
     fn keeps(truths: &[Truth]) -> bool {

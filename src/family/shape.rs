@@ -1,9 +1,11 @@
 //! `sliver`, `degenerate`: needles and caps, and triangles without area.
 
+use super::control::is_steep;
 use super::flat::placed;
 use super::integer::{
     IntegerCase, Point, cross, independent, minus, normal, plus, shuffle, times, transversal,
 };
+use super::scene::{Frame, any_direction, rounded, wide};
 use super::{Made, Recipe};
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;
@@ -14,12 +16,20 @@ use crate::truth::Truth;
 pub(super) struct Sliver;
 pub(super) struct Degenerate;
 
+/// The thinnest slivers are 2^-40 thick.
+const FINEST: i64 = 40;
+
 impl Recipe for Sliver {
     const NAME: &'static str = "sliver";
-    const PROMISE: &'static str = "transversal, needles and caps of aspect 2^4 to 2^40";
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str = "transversal, needles and caps of aspect 2^4 to 2^40, on generic planes in half of the cases";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
-        if draw.coin() { Made::One(level(draw)) } else { tilted(draw).made() }
+        match draw.below(4) {
+            0 => Made::One(level(draw)),
+            1 => tilted(draw).made(),
+            _ => Made::One(generic(draw)),
+        }
     }
 
     fn keeps(truths: &[Truth]) -> bool {
@@ -27,19 +37,49 @@ impl Recipe for Sliver {
     }
 }
 
-/// In the plane of two axes, where the thin side can be as small as 2^-40.
+/// A sliver in the coordinates of its plane, and a point to aim at.
+struct Outline {
+    corners: [[f64; 2]; 3],
+    target: [f64; 2],
+}
+
+impl Outline {
+    /// About 2^-k thick, k up to `finest`.
+    fn draw(draw: &mut Draw, finest: i64) -> Outline {
+        let power = -(draw.integer(4, finest) as i32);
+        let thickness = scale_by_power_of_two(1.0 + draw.unit(), power);
+        let long = 0.5 + 0.5 * draw.unit();
+        // A needle's third vertex is near an end, a cap's near the middle.
+        let third =
+            if draw.coin() { thickness * draw.unit() } else { long * (0.25 + 0.5 * draw.unit()) };
+        let corners = shuffle(draw, [[0.0, 0.0], [long, 0.0], [third, thickness]]);
+        let across = thickness * draw.pick(&[0.0, 0.25, 0.5, 1.0, -0.25]);
+        Outline { corners, target: [draw.unit() * long, across] }
+    }
+}
+
+/// On a generic plane, so thick that rounded vertices still have an area.
+fn generic<F: Float>(draw: &mut Draw) -> Case<F> {
+    let finest = FINEST.min(i64::from(F::DIGITS) - 4);
+    loop {
+        let (frame, corner) = (Frame::draw(draw), wide(draw.point::<F>()));
+        let Outline { corners, target } = Outline::draw(draw, finest);
+        let point = |[x, y]: [f64; 2]| corner + frame.flat(x, y);
+        let triangle = corners.map(|corner| rounded(point(corner)));
+        let origin: [F; 3] = rounded(point(target) - any_direction(draw) * (0.25 + draw.unit()));
+        let direction = rounded(point(target) - wide(origin));
+        if is_steep(direction, triangle) {
+            return Case::new(origin, direction, triangle);
+        }
+    }
+}
+
+/// In the plane of two axes, where the thin side has its own exponent.
 fn level<F: Float>(draw: &mut Draw) -> Case<F> {
     let axes = draw.pick(&[[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
-    let thickness = scale_by_power_of_two(1.0 + draw.unit(), -(draw.integer(4, 40) as i32));
-    let long = 0.5 + 0.5 * draw.unit();
-    // A needle's third vertex is near an end, a cap's near the middle.
-    let third =
-        if draw.coin() { thickness * draw.unit() } else { long * (0.25 + 0.5 * draw.unit()) };
+    let Outline { corners, target: [along, across] } = Outline::draw(draw, FINEST);
     let float = |x: f64| F::from_f64(x);
-    let corner = |x: f64, y: f64| placed(axes, float(x), float(y), F::zero());
-    let triangle = shuffle(draw, [corner(0.0, 0.0), corner(long, 0.0), corner(third, thickness)]);
-    let along = draw.unit() * long;
-    let across = thickness * draw.pick(&[0.0, 0.25, 0.5, 1.0, -0.25]);
+    let triangle = corners.map(|[x, y]| placed(axes, float(x), float(y), F::zero()));
     let [dx, dy] = [draw.symmetric::<F>(), draw.symmetric()];
     let fall = float(0.25 + 0.75 * draw.unit());
     let fall = if draw.coin() { fall } else { -fall };

@@ -48,14 +48,14 @@ pub(crate) fn ask_all<F: Float>(
     truths: &[Truth],
     kinds: &Kinds,
     contract: &Contract,
-    respawned: bool,
+    secondary: bool,
 ) -> Expectations {
     let (of, counts): (Vec<Expected>, Vec<_>) =
         if contract.direction == Direction::Any && contract.band.is_none() {
             // Few kinds occur, and each is asked the same.
             let mut of_kind = [Expected::FREE; Kind::COUNT];
             let ask = |&(kind, first, count): &(Kind, usize, u64)| {
-                let asked = obligation(&truths[first], contract, respawned);
+                let asked = obligation(&truths[first], contract, secondary);
                 of_kind[kind.number()] = Expected::new(asked, kind);
                 (kind.class(), asked, count)
             };
@@ -64,7 +64,7 @@ pub(crate) fn ask_all<F: Float>(
         } else {
             let cases = cases.iter().zip(truths).zip(&kinds.of);
             let ask = |((case, truth), kind): ((&Case<F>, &Truth), &Kind)| {
-                let asked = asked(case, truth, contract, respawned);
+                let asked = asked(case, truth, contract, secondary);
                 (Expected::new(asked, *kind), (kind.class(), asked, 1))
             };
             cases.map(ask).unzip()

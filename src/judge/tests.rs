@@ -194,13 +194,13 @@ fn many_cases_are_asked_what_each_is_asked() {
             let cases: Vec<Case<f64>> = made.flat_map(|made| made.cases().to_vec()).collect();
             let truths: Vec<Truth> = cases.iter().map(truth).collect();
             let kinds = Kinds::new(&truths);
-            for respawned in [false, true] {
+            for secondary in [false, true] {
                 let each: Vec<Obligation> = cases
                     .iter()
                     .zip(&truths)
-                    .map(|(case, truth)| asked(case, truth, &contract, respawned))
+                    .map(|(case, truth)| asked(case, truth, &contract, secondary))
                     .collect();
-                let all = ask_all(&cases, &truths, &kinds, &contract, respawned);
+                let all = ask_all(&cases, &truths, &kinds, &contract, secondary);
                 let of: Vec<_> = all.of.iter().map(|expected| expected.obligation()).collect();
                 assert_eq!(of, each, "{contract:?}");
                 let is_free = |i: &usize| each[*i] == Obligation::Free;

@@ -61,6 +61,7 @@ impl SceneMesh {
         }
         Scene {
             extent: three_digits(low.abs().max(high.abs()).max_element(), true),
+            center: 0.0,
             edge: [three_digits(edge[0], false), three_digits(edge[1], true)],
             distance: [0.0, three_digits((high - low).length(), true)],
             direction: DirectionLength::Unit,

@@ -180,7 +180,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         across: grouping.shares_a_ray().then(|| across_part::<F>(source, row, &tally.groups)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
             .then(|| polygon_part::<F>(source, &tally.polygons)),
-        self_hits: (grouping == Grouping::Respawn)
+        self_hits: (grouping == Grouping::SecondaryRay)
             .then(|| rate(tally.self_hits.hits, tally.self_hits.rays, sample)),
     }
 }

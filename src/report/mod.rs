@@ -49,7 +49,7 @@ pub use illustration::{Illustrations, MapPart, ResponsePart};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
-pub(crate) use rate::interval_of;
+pub(crate) use rate::{interval_of, percent};
 pub use record::*;
 pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
 

@@ -81,7 +81,7 @@ pub(super) fn share_column(rate: &Rate, style: Style) -> String {
 }
 
 /// `12.3%`, `0.45%`, `3e-4%`.
-pub(super) fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     let value = share * 100.0;
     if share == 0.0 {
         "0%".to_owned()

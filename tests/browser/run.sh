@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 hairline=$(realpath "${HAIRLINE:-../../target/release/hairline}")
 rm -rf out && mkdir out
 "$hairline" audit --quiet --kernel moller-trumbore,plane-unit-normal,woop-watertight \
-    --family interior,outside,edge-near,edge-exact,parallel-off,tiny,fan,respawn,invalid,direction-length \
+    --family interior,outside,edge-near,edge-exact,parallel-off,tiny,fan,secondary-ray,invalid,direction-length \
     -n 600 --examples 2 --format html,json -o out/audit.html -o out/audit.json
 # Where nothing is expected, everything is a deviation.
 (cd out && "$hairline" check --quiet --kernel moller-trumbore --family edge-near -n 300 \

@@ -5,6 +5,7 @@ use crate::program;
 use program::{ends, hairline_with, result_bytes, scratch};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 const SETTINGS: &str = "kernel = [\"moller-trumbore\", \"woop-watertight\"]\nscalar = \"f32\"\n\
                         family = [\"interior\", \"tiny\", \"edge-near\"]\ncount = 1_000\n";
@@ -94,8 +95,21 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
     let (_, line) = line_with(&folder, "tiny");
     edit(&folder, |text| text.replacen(&format!("{line}\n"), "", 1));
     ends(&folder, &["check", "--quiet"], 1);
-    // Blessing removes what is stale.
-    ends(&folder, &["check", "--bless", "--quiet"], 0);
+    // Blessing removes what is stale, and takes what is new only if told so.
+    let before = fs::read(folder.join(FILE)).unwrap();
+    let (_, error) = ends(&folder, &["check", "--bless", "--quiet"], 1);
+    let stays =
+        format!("hairline: {FILE} stays as it is: 1 better, 0 worse, 1 new, 0 of other cases, ");
+    assert!(
+        error.starts_with(&stays) && error.ends_with("; --accept-worse writes it all the same\n"),
+        "{error}"
+    );
+    assert_eq!(fs::read(folder.join(FILE)).unwrap(), before);
+    let (_, said) = ends(&folder, &["check", "--bless", "--accept-worse"], 0);
+    assert!(
+        said.contains("known disagreements (1 better, 0 worse, 1 new, 0 of other cases, "),
+        "{said}"
+    );
     assert!(!fs::read_to_string(folder.join(FILE)).unwrap().contains("an old bug"));
 }
 
@@ -132,6 +146,8 @@ fn one_case_more_or_another_one_is_noticed() {
         edit(&folder, |text| text.replacen(&line, &new, 1));
         let (out, _) = ends(&folder, &["check", "--quiet"], code);
         assert!(out.contains("edge-near: false-miss of interior/front/within"), "{out}");
+        let said = "; the case shown may have failed before\n";
+        assert_eq!(out.contains(said), code == 1, "{out}");
         assert_eq!(out.contains("(other cases)"), others, "{out}");
         fs::write(folder.join(FILE), old).unwrap();
     }
@@ -139,6 +155,29 @@ fn one_case_more_or_another_one_is_noticed() {
 
 fn count_of(line: &str) -> &str {
     line.split("count = ").nth(1).unwrap().split(',').next().unwrap()
+}
+
+#[test]
+fn a_kernel_or_a_family_that_is_new_to_the_plan_is_blessed_without_a_word_more() {
+    let folder = blessed("check-grows");
+    let more = SETTINGS
+        .replace("[\"moller", "[\"cramer\", \"moller")
+        .replace("\"tiny\"", "\"tiny\", \"far\"");
+    fs::write(folder.join("hairline.toml"), &more).unwrap();
+    let (_, said) = ends(&folder, &["check", "--bless"], 0);
+    assert!(
+        said.contains("0 worse, 0 new, ") && said.contains(" that are new to the plan)"),
+        "{said}"
+    );
+    // The same plan with a worse epsilon.
+    let worse = more.replace("kernel =", "epsilon = \"parallel=1e-3\"\nkernel =");
+    assert_ne!(more, worse);
+    let known = fs::read_to_string(folder.join(FILE)).unwrap();
+    let renamed = known.replace("set = \"source\"", "set = \"parallel=1e-3\"");
+    fs::write(folder.join(FILE), &renamed).unwrap();
+    fs::write(folder.join("hairline.toml"), worse).unwrap();
+    ends(&folder, &["check", "--bless", "--quiet"], 1);
+    assert_eq!(fs::read_to_string(folder.join(FILE)).unwrap(), renamed);
 }
 
 #[test]
@@ -209,6 +248,71 @@ fn settings_come_from_the_command_line_then_the_environment_then_the_file() {
     assert_eq!(indices(&["-n", "40"], &[("HAIRLINE_COUNT", "300")]), "40");
     fs::remove_file(folder.join("hairline.toml")).unwrap();
     assert_eq!(indices(&["--scalar", "f32"], &[]), "20000");
+}
+
+/// The script of the action's step that checks.
+fn script_of_the_action() -> String {
+    let action = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/action.yml")).unwrap();
+    let step = action.split("      id: check\n").nth(1).unwrap();
+    let script = step.split("      run: |\n").nth(1).unwrap();
+    let lines = script.lines().take_while(|line| line.starts_with("        "));
+    lines.map(|line| format!("{}\n", &line[8..])).collect()
+}
+
+/// Runs it as GitHub does: the exit code, and the kernels of the record that it keeps.
+fn run_action(folder: &Path, arguments: &str) -> (Option<i32>, Vec<String>) {
+    let temporary = folder.join("runner");
+    let _ = fs::remove_dir_all(&temporary);
+    fs::create_dir_all(temporary.join("hairline/bin")).unwrap();
+    let program = temporary.join("hairline/bin/hairline");
+    fs::copy(env!("CARGO_BIN_EXE_hairline"), program).unwrap();
+    let status = Command::new("bash")
+        .args(["--noprofile", "--norc", "-eo", "pipefail", "-c", &script_of_the_action()])
+        .current_dir(folder)
+        .env("ARGUMENTS", arguments)
+        .env("RUNNER_TEMP", &temporary)
+        .env("GITHUB_OUTPUT", temporary.join("output"))
+        .output()
+        .unwrap()
+        .status;
+    let record = fs::read_to_string(temporary.join("hairline-report/check.json"));
+    let kernels = record.map_or(Vec::new(), |text| {
+        let record: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let rows = record["result"]["plan"]["rows"].as_array().unwrap().clone();
+        rows.iter().map(|row| row["kernel"].as_str().unwrap().to_owned()).collect()
+    });
+    if !kernels.is_empty() {
+        let said = fs::read_to_string(temporary.join("output")).unwrap();
+        assert_eq!(said, format!("exit-code={}\n", status.code().unwrap()));
+    }
+    (status.code(), kernels)
+}
+
+#[cfg(unix)]
+#[test]
+fn the_action_takes_a_command_with_spaces_or_all_from_the_file() {
+    if Command::new("bash").arg("--version").output().is_err() {
+        return;
+    }
+    let folder = scratch("check-action");
+    let misses = "printf 'hairline-kernel 1\\nname never\\nscalars f64\\ncontract closed-ray\\nready\\n'\n\
+                  while read -r word id rest; do\n\
+                  case $word in case) echo $id miss;; end) echo end $id;; esac\ndone\n";
+    fs::write(folder.join("never.sh"), misses).unwrap();
+    let settings = "family = \"interior\"\nscalar = \"f64\"\ncount = 50\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    let never = || vec!["never".to_owned()];
+    assert_eq!(run_action(&folder, "--kernel-cmd 'sh never.sh' --seed 7"), (Some(1), never()));
+    assert_eq!(run_action(&folder, "--kernel-cmd \"sh never.sh"), (Some(1), vec![]));
+    // All from the file, before and after what is known is written down.
+    let all = format!("{settings}kernel-cmd = \"sh never.sh\"\n");
+    fs::write(folder.join("hairline.toml"), all).unwrap();
+    assert_eq!(run_action(&folder, ""), (Some(1), never()));
+    ends(&folder, &["check", "--bless", "--quiet"], 0);
+    assert_eq!(run_action(&folder, ""), (Some(0), never()));
+    let output = hairline_with(&folder, &["check"], &[("HAIRLINE_CUONT", "9")]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.starts_with("note: HAIRLINE_CUONT is no setting, and is not used; did you mean"));
 }
 
 #[test]

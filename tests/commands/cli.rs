@@ -82,7 +82,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
             "-n",
             "3000",
             "--family",
-            "edge-near,fan,respawn,range-ends",
+            "edge-near,fan,secondary-ray,range-ends",
             "--format",
             "json",
             "--threads",

@@ -41,6 +41,8 @@ fn the_same_cases_differ_by_count_and_other_cases_by_intervals() {
         "{worse}"
     );
     assert!(worse.contains("that only the old record has"), "{worse}");
+    ends(&folder, &["diff", "--exit-code", "one.json", "scaled.json"], 1);
+    ends(&folder, &["diff", "--exit-code", "one.json", "seed.json"], 0);
     let (better, _) = ends(&folder, &["diff", "scaled.json", "one.json"], 0);
     assert!(
         better.contains("Better\ncramer") && better.contains("only the new record has"),

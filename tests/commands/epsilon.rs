@@ -70,7 +70,8 @@ fn limits_move_with_scale_by_the_power_of_the_gates_dimension() {
         // In f64 no product of these sizes leaves the range.
         let arguments = ["--kernel", kernel, "--gate", gate, "--scalar", "f64"];
         // The other gates at zero: an absolute epsilon of theirs would take part in the scaling.
-        let preset = ["--epsilon-preset", "zero"];
+        // Without grazing rays: some of their determinants round to 0, which has no power.
+        let preset = ["--epsilon-preset", "zero", "--family", "edge-near,sliver,far,origin-near"];
         let part = only(record(&[&arguments[..], &preset].concat()));
         let scaling = part.scaling.expect("scales by default");
         assert_eq!(f64::from(scaling.predicted), power, "{kernel} {gate}");
@@ -95,6 +96,8 @@ fn the_limits_of_a_settled_gate_are_where_the_counts_change() {
         "--scalar",
         "f32",
         "--exact",
+        "--family",
+        "interior,sliver,parallel-off,coplanar",
     ]));
     assert!(part.exact);
     let [from, to] = part.trade.settled.clone().expect("any tiny epsilon will do");
@@ -125,9 +128,9 @@ fn the_limits_of_a_settled_gate_are_where_the_counts_change() {
 fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
     let part = only(record(&["--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"]));
     let zero = part.prices.iter().find(|price| price.epsilon == "0").unwrap();
-    let respawn = zero.families.iter().find(|family| family.family == "respawn").unwrap();
-    assert!(respawn.let_through.rate.unwrap() > 0.3, "self-hits at 0: {respawn:?}");
-    assert_eq!(respawn.lost.of, 0);
+    let secondary = zero.families.iter().find(|family| family.family == "secondary-ray").unwrap();
+    assert!(secondary.let_through.rate.unwrap() > 0.3, "self-hits at 0: {secondary:?}");
+    assert_eq!(secondary.lost.of, 0);
     let near = |epsilon: &str| {
         let price = part.prices.iter().find(|price| price.epsilon == epsilon).unwrap();
         price.families.iter().find(|family| family.family == "origin-near").unwrap().lost.count
@@ -139,13 +142,14 @@ fn a_gate_on_t_answers_for_rays_that_start_on_their_triangle() {
 fn a_gate_is_on_t_by_its_role_whatever_its_dimension() {
     // Of dimension length / |d|, length³ / |d| and length³.
     for kernel in ["cramer", "woop-watertight", "plucker"] {
-        let family = ["--family", "respawn,interior", "--scales", "none", "--scalar", "f32"];
+        let family = ["--family", "secondary-ray,interior", "--scales", "none", "--scalar", "f32"];
         let part = only(record(&[&["--kernel", kernel, "--gate", "t"][..], &family].concat()));
         let zero = part.prices.iter().find(|price| price.epsilon == "0").expect("weighed");
-        let respawn = zero.families.iter().find(|family| family.family == "respawn").unwrap();
+        let secondary =
+            zero.families.iter().find(|family| family.family == "secondary-ray").unwrap();
         // Every ray that starts on its triangle is this gate's to keep off it.
-        assert_eq!((respawn.lost.of, respawn.let_through.of), (0, 2000), "{kernel}");
-        assert!(respawn.let_through.count > 0, "{kernel}");
+        assert_eq!((secondary.lost.of, secondary.let_through.of), (0, 2000), "{kernel}");
+        assert!(secondary.let_through.count > 0, "{kernel}");
         assert_eq!(zero.lost.of, 2000, "{kernel}: the hits of `interior`");
     }
 }
@@ -219,14 +223,13 @@ fn formats_hold_what_they_promise() {
     let arguments =
         ["epsilon", "-k", "moller-trumbore", "--gate", "parallel", "--scalar", "f32", "-q"];
     let with = |more: &[&str]| told(&hairline(&[&arguments[..], more].concat()));
-    let text = with(&[]);
-    for words in [
-        "right epsilons:",
-        "so on these cases use an e from",
-        "what an epsilon costs",
-        "bvh, bevy, fcpw",
-    ] {
-        assert!(text.contains(words), "{words}: {text}");
+    let settled = "so on these cases use an e from";
+    // Of some grazing rays that hit, the determinant rounds to 0.
+    for (family, limits) in [("grazing", "the two do not meet"), ("sliver", settled)] {
+        let text = with(&["--family", &format!("{family},parallel-off")]);
+        for words in ["right epsilons:", limits, "what an epsilon costs", "bvh, bevy, fcpw"] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
     }
     let csv = with(&["--format", "csv"]);
     let mut lines = csv.lines();

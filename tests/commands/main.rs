@@ -25,5 +25,6 @@ mod scene;
 mod screen;
 mod shards;
 mod shrink;
+mod spawn;
 mod variants;
 mod worst;

@@ -14,7 +14,7 @@ const COLUMNS: [(&str, &[&str]); 8] = [
     ("edges", &["edge-exact", "edge-near", "shared-edge", "polygon"]),
     ("vertex", &["vertex-exact", "vertex-near", "fan"]),
     ("flat", &["parallel-off", "coplanar", "grazing", "degenerate"]),
-    ("ends", &["origin-on", "origin-near", "respawn", "behind", "interval-ends"]),
+    ("ends", &["origin-on", "origin-near", "secondary-ray", "behind", "interval-ends"]),
     ("grid", &["axis-aligned", "lattice"]),
     ("sizes", &["sliver", "tiny", "huge", "far", "direction-length"]),
     ("range", &["mixed-scale", "range-ends"]),

@@ -11,7 +11,7 @@ const PLAN: &[&str] = &[
     "--kernel",
     "moller-trumbore,plane-unit-normal,convex-polygon",
     "--family",
-    "edge-near,fan,polygon,respawn,range-ends,mixed-scale,invalid",
+    "edge-near,fan,polygon,secondary-ray,range-ends,mixed-scale,invalid",
     "--mesh",
     "m.obj",
     "--corpus",

@@ -23,7 +23,7 @@ const FAMILIES: [&str; 12] = [
     "coplanar",
     "grazing",
     "origin-near",
-    "respawn",
+    "secondary-ray",
     "tiny",
     "range-ends",
     "invalid",

@@ -25,6 +25,7 @@ fn scenes() -> Vec<Scene> {
         "extent=1e-9,edge=1e-11..1e-9,distance=1e-10..1e-9",
         "extent=5,edge=5,distance=3,direction=target",
         "room,direction=target",
+        "extent=10,center=-1000,edge=0.5..1,distance=0..20",
         "city,direction=target,edge=0.01",
     ];
     presets.chain(further.map(|text| Scene::parse(text).unwrap().0)).collect()
@@ -44,7 +45,7 @@ fn check<F: Scalar>(stratum: Stratum, scene: &Scene) {
     }
     let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
     let family = stratum.family();
-    let spacing = F::from_f64(scene.extent).ulp().to_f64();
+    let spacing = F::from_f64(scene.largest()).ulp().to_f64();
     let (mut hits, mut misses) = (0, 0);
     for index in 0..500 {
         let id = family.id::<F>(&parameters, 3, index).to_string();
@@ -81,7 +82,7 @@ fn sizes<F: Float>(stratum: Stratum, scene: &Scene, case: &Case<F>, spacing: f64
     let [_, d, a, b, c] = case.widen().vectors();
     let corners = [a, b, c].into_iter().flatten();
     let most = corners.fold(0.0f64, |most, x| most.max(x.abs()));
-    assert!(most <= scene.extent + 4.0 * scene.edge[1].min(scene.extent), "{id}: {most}");
+    assert!(most <= scene.largest() + 4.0 * scene.edge[1].min(scene.extent), "{id}: {most}");
     let longest = [minus(a, b), minus(b, c), minus(c, a)].map(length);
     let longest = longest.into_iter().fold(0.0, f64::max);
     // Some parallel triangles are made on a grid, and fans and bent pairs have edges of their own.

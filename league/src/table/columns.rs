@@ -28,7 +28,10 @@ const GROUPS: &[Group] = &[
         ],
     },
     Group { name: "slanted", families: &["grazing", "sliver", "parallel-off"] },
-    Group { name: "start", families: &["origin-on", "origin-near", "respawn", "interval-ends"] },
+    Group {
+        name: "start",
+        families: &["origin-on", "origin-near", "secondary-ray", "interval-ends"],
+    },
     Group { name: "size", families: &["tiny", "huge", "far", "direction-length"] },
     Group { name: "range", families: &["mixed-scale", "range-ends"] },
 ];

@@ -32,10 +32,12 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
         let Knob::Gate(gate) = *knob else { return Vec::new() };
         let role = setting.row.entry.info.gates[gate].role;
         let is_lower = role == Role::Parallel;
-        let decided = |count: &Count| match (role, count.stratum, count.kind) {
-            (Role::Parallel, Stratum::Parallel, Kind::Hit) => true,
-            (Role::Edge, Stratum::Edges | Stratum::Vertices, Kind::Crack) => true,
-            _ => false,
+        let decided = |count: &Count| {
+            matches!(
+                (role, count.stratum, count.kind),
+                (Role::Parallel, Stratum::Parallel, Kind::Hit)
+                    | (Role::Edge, Stratum::Edges | Stratum::Vertices, Kind::Crack)
+            )
         };
         let counts = setting.counts.iter().enumerate().filter(|(_, count)| decided(count));
         let places: Vec<usize> = counts.map(|(place, _)| place).collect();

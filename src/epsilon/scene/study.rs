@@ -89,7 +89,8 @@ pub fn study_scene<F: Scalar>(
     let at_proved =
         |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
     attempts.extend(proofs.iter().map(at_proved));
-    let (mut wrong, errors) = run_at(setting, &attempts, plain, fresh, count, observer)?;
+    let run = run_at(setting, &attempts, plain, fresh, count, observer)?;
+    let Wrong { trials: mut wrong, errors, .. } = run;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
     let of_proof = |(proved, wrong): (Proved<F>, Vec<Trials>)| {
         let trials = wrong[proved.count];
@@ -279,7 +280,7 @@ fn run_at<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> Result<(Vec<Vec<Trials>>, Vec<Vec<ErrorSums>>), String> {
+) -> Result<Wrong, String> {
     let kernel = F::subject(setting.row.entry).ok_or("the kernel does not run in this scalar")?;
     let mut epsilons = setting.row.epsilons::<F>();
     let mut least_t = None;
@@ -306,6 +307,6 @@ fn run_at<F: Scalar>(
         sums.add(setting.counts, attempts, &trial);
         sums.add_errors(setting, attempts, &trial);
     };
-    let Wrong { trials, errors, fault } = setting.sum(seed, count, observer, empty, add);
-    fault.map_or(Ok((trials, errors)), Err)
+    let mut wrong = setting.sum(seed, count, observer, empty, add);
+    wrong.fault.take().map_or(Ok(wrong), Err)
 }

@@ -13,13 +13,20 @@ pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let (triangle, frame) = setup.triangles.triangle(draw);
     let weights = if draw.coin() { inside(draw) } else { beside(draw) };
     let target = point_of(triangle, weights);
-    let power = -(draw.integer(4, i64::from(F::DIGITS) + 2) as i32);
-    let sine = scale_by_power_of_two(1.0 + draw.unit(), power);
-    let sine = if draw.coin() { sine } else { -sine };
+    let sine = grazing_sine::<F>(draw);
     let flat = in_plane(draw, &frame);
     let toward = flat * (1.0 - sine * sine).sqrt() + frame.normal * sine;
     let (start, direction) = ray(draw, setup.scene, target, toward);
     Made::One(Case::new(start, direction, triangle))
+}
+
+/// The sine of the angle to a plane, of either sign: from 1/8 down to an eighth of an ulp of 1, each
+/// halving equally likely. On a generic plane the rounded direction has another: near the lower end
+/// rounding decides it.
+pub fn grazing_sine<F: Float>(draw: &mut Draw) -> f64 {
+    let power = -(draw.integer(4, i64::from(F::DIGITS) + 2) as i32);
+    let sine = scale_by_power_of_two(1.0 + draw.unit(), power);
+    if draw.coin() { sine } else { -sine }
 }
 
 pub fn parallel<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {

@@ -10,7 +10,9 @@ mod flat;
 mod shadow;
 mod triangles;
 
-pub(crate) use draw::{Frame, circle, in_plane, rounded, wide};
+pub(crate) use draw::{Frame, any_direction, circle, in_plane, rounded, wide};
+pub(super) use flat::grazing_sine;
+pub(super) use shadow::hit_point;
 pub(crate) use triangles::{Corners, Parallel, Triangles, along_axis, flat_along};
 
 use super::{Family, Grouping, Made, Question};
@@ -79,7 +81,7 @@ impl Stratum {
     }
 
     /// The same at triangles drawn from the scene's numbers.
-    fn make<F: Scalar>(self, parameters: &Parameters, draw: &mut Draw) -> Made<F> {
+    pub(super) fn make<F: Scalar>(self, parameters: &Parameters, draw: &mut Draw) -> Made<F> {
         with_scene(parameters, |scene| {
             let kernel = parameters.kernel.as_deref();
             self.maker()(&Setup { triangles: scene, scene, kernel }, draw)
@@ -176,7 +178,7 @@ pub static STRATA: &[Family] = &[
     stratum!(
         "scene-shadow",
         Ends,
-        Respawn,
+        SecondaryRay,
         Shadow,
         with_area,
         "from a kernel's own rounded hit point on the triangle, in every direction"

@@ -95,7 +95,9 @@ const HEXAGON: [[f64; 2]; 6] = {
 /// A point so far inside the extent that all within `size` of it is inside too, where there is one.
 fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
     let reach = (scene.extent - size).max(0.0);
-    DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach
+    let from_center = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach;
+    // Adding 0 would take the sign from zeros.
+    if scene.center == 0.0 { from_center } else { from_center + DVec3::splat(scene.center) }
 }
 
 /// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the
@@ -109,9 +111,9 @@ fn apex(draw: &mut Draw, size: f64) -> (f64, f64) {
     }
 }
 
-/// The spacing of floats near the extent, on whose multiples small sums are exact.
+/// The spacing of floats near the largest coordinate, on whose multiples small sums are exact.
 fn grid<F: Float>(scene: &Scene) -> f64 {
-    F::from_f64(scene.extent).ulp().to_f64()
+    F::from_f64(scene.largest()).ulp().to_f64()
 }
 
 /// The multiple of a spacing next to a number.

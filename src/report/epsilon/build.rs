@@ -239,8 +239,8 @@ impl<'a, F: Scalar> Pricing<'a, F> {
     fn counts(&self, source: usize, tally: &Tally) -> [Trials; 4] {
         let [misses, hits] =
             [Finding::FalseMiss, Finding::FalseHit].map(|kind| tally.trials(None, kind));
-        let respawned = self.sources[source].grouping() == Grouping::Respawn;
-        let lost = if self.duty.guards_start() && respawned {
+        let secondary = self.sources[source].grouping() == Grouping::SecondaryRay;
+        let lost = if self.duty.guards_start() && secondary {
             Trials::default()
         } else {
             // The study held these counts against each other.

@@ -8,16 +8,16 @@ use std::io::{self, Write};
 pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
-        "kernel,scalar,gate,family,epsilon,false_misses,must_hit,false_hits,must_miss,cracks,doubles,crossings,self_hits,respawned,own_false_hits,guarded"
+        "kernel,scalar,gate,family,epsilon,false_misses,must_hit,false_hits,must_miss,cracks,doubles,crossings,self_hits,secondary_rays,own_false_hits,guarded"
     )?;
     for part in &record.result.gates {
         for curve in &part.curves {
             let family = quoted(&curve.family);
-            let [must_hit, must_miss, crossings, _, respawned, guarded] = curve.asked;
+            let [must_hit, must_miss, crossings, _, secondary, guarded] = curve.asked;
             for (epsilon, [misses, hits, cracks, doubles, self_hits, own]) in &curve.points {
                 writeln!(
                     out,
-                    "{},{},{},{family},{epsilon},{misses},{must_hit},{hits},{must_miss},{cracks},{doubles},{crossings},{self_hits},{respawned},{own},{guarded}",
+                    "{},{},{},{family},{epsilon},{misses},{must_hit},{hits},{must_miss},{cracks},{doubles},{crossings},{self_hits},{secondary},{own},{guarded}",
                     part.kernel, part.scalar, part.gate
                 )?;
             }

@@ -46,7 +46,7 @@ fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<(
         writeln!(out, "  other gates: {}", others.join(", "))?;
     }
     writeln!(out, "  contract: {}", part.contract)?;
-    let [must_hit, must_miss, groups, _, respawned, _] = part.curves[0].asked;
+    let [must_hit, must_miss, groups, _, secondary, _] = part.curves[0].asked;
     let mut asked = format!(
         "  {}: {} hit, {} must miss",
         number_of(sources as u64, "source", "sources"),
@@ -57,8 +57,8 @@ fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<(
         let groups = number_of(groups, "group expects", "groups expect");
         asked.push_str(&format!(", {groups} one hit"));
     }
-    if respawned != 0 {
-        let rays = number_of(respawned, "ray starts on its", "rays start on their");
+    if secondary != 0 {
+        let rays = number_of(secondary, "ray starts on its", "rays start on their");
         asked.push_str(&format!(", {rays} triangle"));
     }
     writeln!(out, "{asked}")

@@ -108,7 +108,7 @@ fn drawings(row: &Row) -> Vec<Markup> {
         for kind in Kind::ALL {
             let Some((family, part)) = worst(scalar, kind) else { continue };
             // A drawing does not know that its ray starts at the kernel's own hit.
-            if run.contract.no_self_hit && family == "respawn" {
+            if run.contract.no_self_hit && family == "secondary-ray" {
                 continue;
             }
             let svg = match scalar.scalar {

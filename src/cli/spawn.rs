@@ -1,0 +1,247 @@
+//! `hairline spawn`: how new rays must start so that they do not hit the surface that they leave.
+
+mod choice;
+mod record;
+mod text;
+
+use super::exit::{Failure, Status};
+use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
+use super::output::{paired_outputs, write_results};
+use super::progress::Progress;
+use super::select::KernelArguments;
+use super::sources::{scalars_in_use, set_threads};
+use crate::audit::Row;
+use crate::case::{Case, Scene};
+use crate::corpus::lines::AnyCase;
+use crate::kernel::Scalar;
+use crate::spawn::{Plan, PointKind, Scheme, default_schemes, parse, run as run_plan};
+use choice::{least_without_failure, made_for};
+use clap::Args;
+use record::{PointsPart, SpawnRecord};
+use std::io::{self, Write};
+
+/// What to run, and how to report it.
+#[derive(Args)]
+pub struct SpawnArguments {
+    #[command(flatten)]
+    kernels: KernelArguments,
+
+    /// Where triangles are, how large they are, and how far first rays travel: unit, room, city or cad-mm,
+    /// or what is known of yours, as extent=1000,edge=0.01..10,distance=0..2000; center=1e5 moves it
+    #[arg(long, value_name = "SCENE", default_value = "unit")]
+    scene: String,
+
+    /// Offset schemes, separated by commas, some with a value: normal=1e-3,waechter-binder (see `hairline
+    /// list schemes`) [default: all published ones, and two that are made for the scene]
+    #[arg(long, value_delimiter = ',', value_name = "SCHEME", allow_hyphen_values = true)]
+    scheme: Vec<String>,
+
+    /// How hit points are formed: uv (from the vertices and u, v), ray (o + t*d), or both
+    #[arg(long, value_delimiter = ',', value_name = "POINT", default_value = "uv,ray")]
+    point: Vec<String>,
+
+    /// A wall in front of every triangle, this many of its longest edges away: starts beyond it are counted
+    #[arg(long, value_name = "EDGES", default_value = "0.01", allow_hyphen_values = true)]
+    wall: String,
+
+    /// f32, f64 or both
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32", help_heading = RUNNING)]
+    scalar: Vec<String>,
+
+    /// How many first rays
+    #[arg(
+        long,
+        short = 'n',
+        default_value = "200000",
+        value_name = "N",
+        value_parser = case_count,
+        allow_hyphen_values = true
+    )]
+    count: u64,
+
+    /// Seed of the random rays
+    #[arg(long, default_value_t = 1, help_heading = RUNNING)]
+    seed: u64,
+
+    /// text or json, or both separated by a comma
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
+    format: Vec<String>,
+
+    /// Where to write, once for each format; - is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<String>,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    /// Print no progress and no notes
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// The kernel that runs if nobody names one.
+const DEFAULT_KERNEL: &str = "moller-trumbore";
+
+/// A format of the output.
+struct SpawnFormat {
+    name: &'static str,
+    write: fn(&SpawnRecord, &mut dyn Write) -> io::Result<()>,
+}
+
+const FORMATS: &[SpawnFormat] = &[
+    SpawnFormat { name: "text", write: text::write },
+    SpawnFormat { name: "json", write: record::write_json },
+];
+
+/// Runs the command.
+pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
+    let outputs =
+        paired_outputs(FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    set_threads(arguments.threads)?;
+    let rows = arguments.rows()?;
+    let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
+    let (scene, unit) = arguments.scene(scalars)?;
+    let (kinds, wall) = (arguments.kinds()?, arguments.wall()?);
+    let schemes = arguments.schemes()?;
+    let mut studies: Vec<Study<'_>> = Vec::new();
+    for row in &rows {
+        for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
+            let in_scalar = row.entry.scalars();
+            let settings = Settings { arguments, row, scene: &scene, kind, wall };
+            if scalars[0] && in_scalar[0] && has::<f32>(&schemes) {
+                let schemes = &schemes;
+                studies.push(Box::new(move |progress| settings.study::<f32>(schemes, progress)));
+            }
+            if scalars[1] && in_scalar[1] && has::<f64>(&schemes) {
+                let schemes = &schemes;
+                studies.push(Box::new(move |progress| settings.study::<f64>(schemes, progress)));
+            }
+        }
+    }
+    if studies.is_empty() {
+        let message = "nothing to run: no kernel gives such hit points, or no scheme runs in the chosen scalars";
+        return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
+    }
+    let passes = if arguments.makes_schemes() { 3 } else { 2 };
+    let total = studies.len() as u64 * passes * arguments.count;
+    let progress = Progress::new(total, "first rays", arguments.quiet);
+    let points = studies.iter().map(|study| study(&progress)).collect();
+    progress.finish();
+    let record = SpawnRecord::new(&scene, unit, arguments.seed, arguments.count, wall, points);
+    write_results(outputs, |format, _, out| (format.write)(&record, out))?;
+    Ok(Status::Success)
+}
+
+/// A study that is still to be run.
+type Study<'a> = Box<dyn Fn(&Progress) -> PointsPart + 'a>;
+
+/// Whether any scheme runs in a scalar.
+fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
+    schemes.iter().any(|scheme| scheme.offset::<F>().is_some())
+}
+
+/// The seed of the rays on which schemes are chosen and made: the next one.
+fn pilot_seed(seed: u64) -> u64 {
+    seed.wrapping_add(1)
+}
+
+#[derive(Clone, Copy)]
+struct Settings<'a> {
+    arguments: &'a SpawnArguments,
+    row: &'a Row,
+    scene: &'a Scene,
+    kind: PointKind,
+    wall: f64,
+}
+
+impl Settings<'_> {
+    /// Runs the schemes on the rays of the next seed, makes others for what is seen there, and runs all on
+    /// the rays that are reported.
+    fn study<F: Scalar>(&self, schemes: &[Scheme], progress: &Progress) -> PointsPart
+    where
+        AnyCase: From<Case<F>>,
+    {
+        let Settings { arguments, row, scene, kind, wall } = *self;
+        let schemes: Vec<Scheme> =
+            schemes.iter().filter(|scheme| scheme.offset::<F>().is_some()).cloned().collect();
+        let (seed, count) = (pilot_seed(arguments.seed), arguments.count);
+        let (schemes_of_pilot, with_least) = (&schemes, true);
+        let plan =
+            Plan { row, scene, kind, schemes: schemes_of_pilot, wall, with_least, seed, count };
+        let pilot = run_plan::<F>(&plan, progress);
+        let mut schemes = schemes.clone();
+        if arguments.makes_schemes() {
+            let made = made_for(&pilot);
+            let plan = Plan { schemes: &made.concat(), with_least: false, ..plan };
+            let tried = run_plan::<F>(&plan, progress);
+            schemes.extend(least_without_failure(made, &tried));
+        }
+        let plan = Plan { schemes: &schemes, seed: arguments.seed, ..plan };
+        let sums = run_plan::<F>(&plan, progress);
+        PointsPart::new::<F>(&plan, &pilot, &sums, &arguments.scene)
+    }
+}
+
+impl SpawnArguments {
+    /// Whether offsets are made for the scene beside the published ones.
+    fn makes_schemes(&self) -> bool {
+        self.scheme.is_empty()
+    }
+
+    fn rows(&self) -> Result<Vec<Row>, Failure> {
+        let rows = self.kernels.rows_without_band("it means nothing for the start of a ray")?;
+        if self.kernels.names_kernels() {
+            return Ok(rows);
+        }
+        Ok(rows.into_iter().filter(|row| row.entry.info.name == DEFAULT_KERNEL).collect())
+    }
+
+    /// The scene, which the scalars of the run can hold, and its unit of length.
+    fn scene(&self, [in_f32, in_f64]: [bool; 2]) -> Result<(Scene, &'static str), Failure> {
+        let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
+        let (scene, unit) = Scene::parse(&self.scene).map_err(wrong)?;
+        if in_f32 {
+            scene.check_in::<f32>().map_err(wrong)?;
+        }
+        if in_f64 {
+            scene.check_in::<f64>().map_err(wrong)?;
+        }
+        Ok((scene, unit))
+    }
+
+    fn kinds(&self) -> Result<Vec<PointKind>, Failure> {
+        let chosen = |name: &String| {
+            let found = PointKind::ALL.into_iter().find(|kind| kind.name() == name);
+            found.ok_or_else(|| {
+                Failure::usage(format!("--point: unknown point '{name}': there are uv and ray"))
+            })
+        };
+        refuse_twice("--point", &self.point)?;
+        self.point.iter().map(chosen).collect()
+    }
+
+    fn wall(&self) -> Result<f64, Failure> {
+        let wall: Option<f64> = self.wall.trim().parse().ok();
+        wall.filter(|wall| wall.is_finite() && 0.0 < *wall).ok_or_else(|| {
+            Failure::usage(format!(
+                "--wall: '{}' is not a distance above 0 in longest edges, such as 0.01",
+                self.wall
+            ))
+        })
+    }
+
+    fn schemes(&self) -> Result<Vec<Scheme>, Failure> {
+        if self.scheme.is_empty() {
+            return Ok(default_schemes());
+        }
+        let chosen = self
+            .scheme
+            .iter()
+            .map(|text| parse(text).map_err(|error| Failure::usage(format!("--scheme: {error}"))));
+        let chosen: Vec<Scheme> = chosen.collect::<Result<_, _>>()?;
+        let names: Vec<&String> = chosen.iter().map(|scheme| &scheme.name).collect();
+        refuse_twice("--scheme", &names)?;
+        Ok(chosen)
+    }
+}

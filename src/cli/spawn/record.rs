@@ -1,0 +1,257 @@
+//! The versioned record of `spawn`; the same bytes whatever the number of threads.
+
+use super::choice::lowest;
+use super::pilot_seed;
+use crate::audit::{Trials, quoted, shell_word};
+use crate::case::{Case, Scene};
+use crate::corpus::lines::{AnyCase, StoredCase, write_case};
+use crate::kernel::Scalar;
+use crate::report::Rate;
+use crate::spawn::{Heights, Lengths, OfScheme, Plan, Scheme, Sums, first_ray_id, new_ray};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// The schema's name and version.
+const SCHEMA: &str = "hairline-spawn/1";
+
+/// Everything that was found.
+#[derive(Serialize)]
+pub struct SpawnRecord {
+    pub schema: &'static str,
+    /// The scene's words.
+    pub scene: String,
+    /// Its unit of length; empty if it has none.
+    pub unit: &'static str,
+    /// The seed of the rays that are reported.
+    pub seed: u64,
+    /// The seed of the rays on which schemes were chosen and made.
+    pub pilot_seed: u64,
+    /// How many first rays.
+    pub count: u64,
+    /// How far in front of each triangle the wall is, in its longest edges.
+    pub wall: f64,
+    /// By kernel, kind of hit point and scalar.
+    pub points: Vec<PointsPart>,
+}
+
+/// The hit points of one kind, of a kernel in a scalar.
+#[derive(Serialize)]
+pub struct PointsPart {
+    pub kernel: String,
+    /// The flags that choose the kernel and its epsilons.
+    pub flags: String,
+    pub scalar: &'static str,
+    /// `uv` or `ray`.
+    pub point: &'static str,
+    pub hits: u64,
+    /// First rays on which the kernel reported no hit.
+    pub missed: u64,
+    /// Hits of a triangle without area, or along its plane.
+    pub without_side: u64,
+    /// Hits whose point is not finite.
+    pub not_finite: u64,
+    /// The smallest safe offsets along the normal.
+    pub least: LeastPart,
+    /// The lowest scheme with neither a wrong start nor a self-hit.
+    pub best: Option<BestPart>,
+    /// The lowest scheme without a wrong start, if that is another.
+    pub lowest_right: Option<String>,
+    pub schemes: Vec<SchemePart>,
+}
+
+/// The smallest safe offsets along the normal, of the hit points that need one.
+#[derive(Serialize)]
+pub struct LeastPart {
+    /// Hit points that need an offset.
+    pub needed: Rate,
+    /// Hit points for which no offset along the normal is right.
+    pub none: u64,
+    /// In the scene's unit of length.
+    pub lengths: LengthsPart,
+    /// In ulps of the hit point's largest coordinate.
+    pub ulps: LengthsPart,
+}
+
+/// Quantiles, rounded up by at most one part in 256; the largest as it was.
+#[derive(Serialize)]
+pub struct LengthsPart {
+    pub median: f64,
+    pub p99: f64,
+    pub largest: f64,
+}
+
+/// What to use.
+#[derive(Serialize)]
+pub struct BestPart {
+    pub scheme: String,
+    /// At most one new ray in this many fails, with a confidence of 95 %.
+    pub one_in: u64,
+    /// Runs this scheme alone.
+    pub command: String,
+}
+
+/// What a scheme does.
+#[derive(Serialize)]
+pub struct SchemePart {
+    pub name: String,
+    pub source: String,
+    /// Starts on the plane, behind it, or nowhere.
+    pub wrong: Rate,
+    /// Of these, starts that are not finite.
+    pub not_finite: u64,
+    /// New rays that hit the triangle which they leave, says the kernel.
+    pub self_hits: Rate,
+    /// Starts beyond the wall.
+    pub beyond_wall: Rate,
+    /// In longest edges of the triangle.
+    pub height_in_edges: HeightsPart,
+    /// In ulps of the triangle's largest coordinate.
+    pub height_in_ulps: HeightsPart,
+    /// The way along the normal over the least that is right, where one is needed: its median.
+    pub over_least: Option<f64>,
+    pub first_wrong: Option<WrongPart>,
+}
+
+/// Quantiles of heights over the plane; none on the plane or behind it.
+#[derive(Serialize)]
+pub struct HeightsPart {
+    pub median: Option<f64>,
+    pub p99: Option<f64>,
+    pub highest: f64,
+    /// How deep the wrong starts lie at most.
+    pub deepest: f64,
+}
+
+/// A wrong start.
+#[derive(Serialize)]
+pub struct WrongPart {
+    /// The id of the first ray, which `hairline explain` takes.
+    pub first_ray: String,
+    /// Shows the new ray.
+    pub explain: String,
+}
+
+impl SpawnRecord {
+    pub fn new(
+        scene: &Scene,
+        unit: &'static str,
+        seed: u64,
+        count: u64,
+        wall: f64,
+        points: Vec<PointsPart>,
+    ) -> SpawnRecord {
+        let scene = scene.to_string();
+        let pilot_seed = pilot_seed(seed);
+        SpawnRecord { schema: SCHEMA, scene, unit, seed, pilot_seed, count, wall, points }
+    }
+}
+
+impl PointsPart {
+    /// `words` are the scene's as the user wrote them.
+    pub fn new<F: Scalar>(plan: &Plan<'_>, pilot: &Sums, sums: &Sums, words: &str) -> PointsPart
+    where
+        AnyCase: From<Case<F>>,
+    {
+        let needed = sums.least.count() + sums.without_least;
+        let schemes = plan.schemes.iter().zip(&sums.schemes);
+        let best = lowest(pilot, sums, |of| of.failed);
+        let right = lowest(pilot, sums, |of| of.wrong).filter(|place| best != Some(*place));
+        let flags = match plan.row.set.as_str() {
+            "source" => plan.row.entry.selector(),
+            _ => plan.row.flags(),
+        };
+        PointsPart {
+            kernel: plan.row.entry.info.name.to_owned(),
+            scalar: F::NAME,
+            point: plan.kind.name(),
+            hits: sums.hits,
+            missed: sums.missed,
+            without_side: sums.without_side,
+            not_finite: sums.not_finite,
+            least: LeastPart {
+                needed: Rate::new(Trials::independent(needed, sums.hits), true),
+                none: sums.without_least,
+                lengths: LengthsPart::new(&sums.least),
+                ulps: LengthsPart::new(&sums.least_in_ulps),
+            },
+            lowest_right: right.map(|place| plan.schemes[place].name.clone()),
+            best: best.map(|place| {
+                let scheme = plan.schemes[place].name.clone();
+                let (scene, point) = (shell_word(words), plan.kind.name());
+                let command = format!(
+                    "hairline spawn {flags} --scene {scene} --scheme {scheme} --point {point} --scalar {}",
+                    F::NAME
+                );
+                BestPart { one_in: one_in(&sums.schemes[place]), scheme, command }
+            }),
+            flags: flags.clone(),
+            schemes: schemes.map(|(scheme, of)| SchemePart::new::<F>(plan, scheme, of)).collect(),
+        }
+    }
+}
+
+/// At most one new ray in this many fails, with a confidence of 95 %: two digits, rounded down.
+fn one_in(scheme: &OfScheme) -> u64 {
+    // One-sided: all that may be missed is left out above.
+    let most = scheme.trials(scheme.failed).interval_at(0.05).high;
+    let one_in = (1.0 / most).floor() as u64;
+    let unit = 10u64.pow(one_in.max(1).ilog10().saturating_sub(1));
+    one_in / unit * unit
+}
+
+impl LengthsPart {
+    fn new(lengths: &Lengths) -> LengthsPart {
+        let [median, p99] = [0.5, 0.99].map(|share| lengths.quantile(share));
+        LengthsPart { median, p99, largest: lengths.largest() }
+    }
+}
+
+impl HeightsPart {
+    fn new(heights: &Heights) -> HeightsPart {
+        let [median, p99] = [0.5, 0.99].map(|share| heights.quantile(share));
+        let (highest, deepest) = (heights.above.largest(), heights.behind.largest());
+        HeightsPart { median, p99, highest, deepest }
+    }
+}
+
+impl SchemePart {
+    fn new<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, sums: &OfScheme) -> SchemePart
+    where
+        AnyCase: From<Case<F>>,
+    {
+        let over_least = &sums.over_least;
+        let rate = |count| Rate::new(sums.trials(count), true);
+        SchemePart {
+            name: scheme.name.clone(),
+            source: scheme.source.clone(),
+            wrong: rate(sums.wrong),
+            not_finite: sums.not_finite,
+            self_hits: rate(sums.self_hits),
+            beyond_wall: rate(sums.beyond_wall),
+            height_in_edges: HeightsPart::new(&sums.in_edges),
+            height_in_ulps: HeightsPart::new(&sums.in_ulps),
+            over_least: (0 < over_least.count()).then(|| over_least.quantile(0.5)),
+            first_wrong: sums.first_wrong.and_then(|i| WrongPart::new::<F>(plan, scheme, i)),
+        }
+    }
+}
+
+impl WrongPart {
+    fn new<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Option<WrongPart>
+    where
+        AnyCase: From<Case<F>>,
+    {
+        let case = new_ray::<F>(plan, scheme, index)?;
+        let line = write_case(&StoredCase::of(case));
+        Some(WrongPart {
+            first_ray: first_ray_id::<F>(plan.scene, plan.seed, index),
+            explain: plan.row.explain_command(&quoted(&line)),
+        })
+    }
+}
+
+/// Writes one object.
+pub fn write_json(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, record)?;
+    writeln!(out)
+}

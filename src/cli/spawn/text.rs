@@ -1,0 +1,171 @@
+//! The record of `spawn` for people at a terminal: what to use, then what each scheme does. The layout is not
+//! stable.
+
+use super::record::{HeightsPart, PointsPart, SchemePart, SpawnRecord};
+use crate::report::{group_digits, interval_of, percent};
+use crate::spawn::describe;
+use std::io::{self, Write};
+
+/// Writes a block for each kernel, kind of hit point and scalar, and a legend.
+pub fn write(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
+    for (i, part) in record.points.iter().enumerate() {
+        if i > 0 {
+            writeln!(out)?;
+        }
+        heading(record, part, out)?;
+        advice(part, out)?;
+        if 0 < part.hits {
+            table(record, part, out)?;
+        }
+        least(record, part, out)?;
+    }
+    legend(record, out)
+}
+
+fn of_unit(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" ({unit})") }
+}
+
+fn heading(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+    let point = match part.point {
+        "uv" => "hit points from u and v",
+        _ => "hit points o + t*d",
+    };
+    let (kernel, scalar, scene) = (&part.kernel, part.scalar, &record.scene);
+    writeln!(out, "{kernel} {scalar}, {point}, in {scene}{}", of_unit(record.unit))
+}
+
+fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+    let hits = group_digits(part.hits);
+    let find = |name: &String| part.schemes.iter().find(|scheme| scheme.name == *name);
+    match &part.best {
+        None if part.hits == 0 => writeln!(
+            out,
+            "  the kernel hits no triangle of this scene: give it other epsilons (`hairline epsilon --scene`)"
+        )?,
+        None => writeln!(
+            out,
+            "  every offset below fails for some of the {hits} new rays: use a larger one, or f64"
+        )?,
+        Some(best) => {
+            let median = find(&best.scheme).and_then(|scheme| scheme.height_in_edges.median);
+            writeln!(out, "  use  {}{}", best.scheme, describe(&best.scheme))?;
+            writeln!(
+                out,
+                "       the lowest with no wrong side and no self-hit: 0 of {hits}, so at most 1 in {} (95 % sure)",
+                group_digits(best.one_in)
+            )?;
+            writeln!(
+                out,
+                "       half of the new rays start at most {} of their triangle's longest edge above it",
+                size(median.unwrap_or(0.0))
+            )?;
+            writeln!(out, "       {}", best.command)?;
+        }
+    }
+    match part.lowest_right.as_ref().and_then(find) {
+        None => Ok(()),
+        Some(right) => writeln!(
+            out,
+            "  with no wrong side alone: {}; the kernel still reports {} of its new rays as self-hits",
+            right.name,
+            percent(right.self_hits.rate.unwrap_or(0.0))
+        ),
+    }
+}
+
+/// Three digits at most: `0.0123`, `2.05`, `1.2e-7`.
+fn size(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        x if !x.is_finite() => "inf".to_owned(),
+        1e5.. => format!("{x:.0e}"),
+        100.0.. => format!("{x:.0}"),
+        10.0.. => format!("{x:.1}"),
+        1.0.. => format!("{x:.2}"),
+        0.01.. => format!("{x:.3}"),
+        _ => format!("{x:.1e}"),
+    }
+}
+
+fn table(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+    let wall = format!("past {}", record.wall);
+    writeln!(
+        out,
+        "{:<16}{:<21}{:>7}  {:^26}{:>8}{:>11}{:>8}",
+        "", "wrong side", "self-", "height in triangles", "in ulps", "a wall", "times"
+    )?;
+    writeln!(
+        out,
+        "{:<16}{:<21}{:>7}{:>9}{:>9}{:>9}{:>9}{:>11}{:>8}",
+        "offset", "[95 % interval]", "hits", "median", "99 %", "highest", "median", wall, "least"
+    )?;
+    part.schemes.iter().try_for_each(|scheme| row(scheme, out))
+}
+
+fn row(scheme: &SchemePart, out: &mut dyn Write) -> io::Result<()> {
+    let wrong = interval_of(&scheme.wrong);
+    let share = |rate: Option<f64>| rate.map_or("-".to_owned(), percent);
+    let height = |height: Option<f64>| height.map_or("behind".to_owned(), size);
+    let HeightsPart { median, p99, highest, .. } = &scheme.height_in_edges;
+    writeln!(
+        out,
+        "{:<16}{:<21}{:>7}{:>9}{:>9}{:>9}{:>9}{:>11}{:>8}",
+        scheme.name,
+        wrong.trim_matches([' ', '(', ')']),
+        share(scheme.self_hits.rate),
+        height(*median),
+        height(*p99),
+        size(*highest),
+        height(scheme.height_in_ulps.median),
+        share(scheme.beyond_wall.rate),
+        scheme.over_least.map_or("-".to_owned(), size),
+    )
+}
+
+fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+    let least = &part.least;
+    let unit = if record.unit.is_empty() { String::new() } else { format!(" {}", record.unit) };
+    if 0 < least.needed.count {
+        let (lengths, ulps) = (&least.lengths, &least.ulps);
+        writeln!(
+            out,
+            "{} of the hit points are themselves wrong. The smallest safe offset along the normal there:\n  \
+             median {}{unit}, 99 % {}{unit}, largest {}{unit}; in ulps of the point {}, {}, {}",
+            percent(least.needed.rate.unwrap_or(0.0)),
+            size(lengths.median),
+            size(lengths.p99),
+            size(lengths.largest),
+            size(ulps.median),
+            size(ulps.p99),
+            size(ulps.largest),
+        )?;
+    }
+    let left_out = [
+        (part.missed, "first rays that the kernel missed"),
+        (part.without_side, "hits of triangles without area or along their plane"),
+        (part.not_finite, "hit points that are not finite"),
+        (least.none, "hit points that no offset along the normal helps"),
+    ];
+    let left_out = left_out.into_iter().filter(|(count, _)| 0 < *count);
+    let words: Vec<String> =
+        left_out.map(|(count, what)| format!("{} {what}", group_digits(count))).collect();
+    if words.is_empty() { Ok(()) } else { writeln!(out, "left out: {}", words.join(", ")) }
+}
+
+fn legend(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "
+p is the hit point, n the unit normal on the side that the first ray came from, u half an ulp of 1; new rays
+leave to that side, in every direction alike
+wrong side   the new ray starts on the exact plane of its triangle or behind it
+self-hits    the kernel says that the new ray hits the triangle which it leaves
+height       of the start over the plane: in longest edges of the triangle, and in ulps of its coordinates
+a wall       starts beyond a wall parallel to the triangle, {} of its longest edge in front of it
+times least  the way along the normal over the shortest that is right, where p itself is wrong (median)
+Offsets are chosen on seed {} and counted on seed {}. `hairline list schemes` has their sources;
+--format json has a wrong start of each.",
+        record.wall, record.pilot_seed, record.seed
+    )
+}

@@ -1,0 +1,33 @@
+//! Floor 4: where a new ray starts that leaves a hit point, such as a shadow ray.
+//!
+//! ```text
+//! first ray ──► kernel ──► t, u, v ──► hit point ──► Scheme ──► Start ──► oracle: on which side of the
+//!                                                                        plane? ──► sums, a scheme each
+//! ```
+//!
+//! A hit point is rounded, so it lies beside the triangle's exact plane, and a new ray that starts there may
+//! hit its own triangle. An *offset scheme* moves the start: along the normal, or by a least t. The start
+//! is right if it lies strictly on the side from which the first ray came. The oracle decides that: the new
+//! ray's line meets the plane at an exact t, and the start is right where that t is before its t_min.
+//!
+//! To add a scheme: write its formula in `published.rs` and give it a row in [`PUBLISHED`].
+
+#![forbid(unsafe_code)]
+
+mod hit;
+mod plane;
+mod published;
+mod run;
+mod safe;
+mod scheme;
+mod sums;
+mod trial;
+
+pub use hit::{HitPoint, Offset, Start};
+pub use plane::Plane;
+pub use published::{PUBLISHED, Parameter, Published};
+pub use run::{Plan, new_ray, run};
+pub use safe::{Least, least};
+pub use scheme::{Scheme, all, default_schemes, describe, parse, register};
+pub use sums::{Heights, Lengths, OfScheme, Sums};
+pub use trial::{PointKind, Trial, Trials, first_ray_id};

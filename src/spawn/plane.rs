@@ -1,0 +1,93 @@
+//! Heights over a triangle's exact plane, as numbers for people; the oracle decides sides.
+
+use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector};
+
+/// A triangle's plane, in double-doubles.
+pub struct Plane {
+    vertices: [[f64; 3]; 3],
+    near: Measures<Bounded>,
+}
+
+/// A vertex, the normal, the squares of its length and of the longest edge's.
+struct Measures<R> {
+    corner: Triple<R>,
+    normal: Triple<R>,
+    normal_squared: R,
+    edge_squared: R,
+}
+
+fn triple<R>(point: [f64; 3], number: fn(f64) -> R) -> Triple<R> {
+    point.map(number).into()
+}
+
+impl<R: Real> Measures<R> {
+    fn new(vertices: [[f64; 3]; 3], number: fn(f64) -> R) -> Measures<R> {
+        let [a, b, c] = vertices.map(|vertex| triple(vertex, number));
+        let edges = [b.minus(&a), c.minus(&a), c.minus(&b)];
+        let normal = edges[0].cross(&edges[1]);
+        let squares = edges.map(|edge| edge.dot(&edge));
+        Measures {
+            corner: a,
+            normal_squared: normal.dot(&normal),
+            normal,
+            edge_squared: squares.into_iter().reduce(R::larger).expect("three edges"),
+        }
+    }
+
+    /// The dot product of the normal with a vector, or with the way from the plane to a point.
+    fn product(&self, what: What, vector: Triple<R>) -> R {
+        match what {
+            What::Point => self.normal.dot(&vector.minus(&self.corner)),
+            What::Vector => self.normal.dot(&vector),
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum What {
+    Point,
+    Vector,
+}
+
+impl Plane {
+    /// Of a triangle with an area.
+    pub fn new<F: Float>(vertices: [[F; 3]; 3]) -> Plane {
+        let vertices = vertices.map(|vertex| vertex.map(F::to_f64));
+        Plane { vertices, near: Measures::new(vertices, Bounded::new) }
+    }
+
+    /// How high a point lies above the plane, in longest edges of the triangle, within a millionth of
+    /// itself. Above is where (b - a) × (c - a) points. NaN of a point that is not finite, and over a
+    /// triangle without area.
+    pub fn height<F: Float>(&self, point: [F; 3]) -> f64 {
+        self.over(What::Point, point)
+    }
+
+    /// By how much a vector rises over the plane, in longest edges of the triangle.
+    pub fn rise<F: Float>(&self, vector: [F; 3]) -> f64 {
+        self.over(What::Vector, vector)
+    }
+
+    /// A product with the normal over the lengths of the normal and of the longest edge: in double-doubles
+    /// if they are certain, else exactly.
+    fn over<F: Float>(&self, what: What, vector: [F; 3]) -> f64 {
+        let vector = vector.map(F::to_f64);
+        if !vector.iter().all(|x| x.is_finite()) {
+            return f64::NAN;
+        }
+        let Measures { normal_squared, edge_squared, .. } = &self.near;
+        let product = self.near.product(what, triple(vector, Bounded::new)).approximate();
+        let lengths = normal_squared.approximate().zip(edge_squared.approximate());
+        if let Some((product, (normal, edge))) = product.zip(lengths) {
+            let height = product / normal.sqrt() / edge.sqrt();
+            if height.is_finite() && (height != 0.0 || product == 0.0) {
+                return height;
+            }
+        }
+        let measures = Measures::new(self.vertices, Exact::from_f64);
+        let product = measures.product(what, triple(vector, Exact::from_f64));
+        let squares = measures.normal_squared * &measures.edge_squared;
+        let height = (product.clone() * &product / &squares).approximate_root();
+        if product.is_sign_negative() { -height } else { height }
+    }
+}

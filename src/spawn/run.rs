@@ -1,0 +1,177 @@
+//! A run: every scheme on the hit points of one kernel in one scene.
+
+use super::hit::Start;
+use super::plane::Plane;
+use super::published::largest;
+use super::safe::{Least, least};
+use super::scheme::Scheme;
+use super::sums::{OfScheme, Sums};
+use super::trial::{PointKind, Trial, Trials};
+use crate::arith::Float;
+use crate::audit::Row;
+use crate::case::{Case, Scene};
+use crate::engine::{self, Observer};
+use crate::kernel::{Scalar, Verdict};
+use crate::oracle::{self, Layers};
+use crate::truth::{Place, Truth};
+use std::ops::Range;
+
+/// What to run.
+pub struct Plan<'a> {
+    /// The kernel and its epsilons.
+    pub row: &'a Row,
+    /// Where triangles and first rays come from.
+    pub scene: &'a Scene,
+    /// How hit points are formed, from values that the kernel gives.
+    pub kind: PointKind,
+    /// The schemes, which all run in the scalar.
+    pub schemes: &'a [Scheme],
+    /// How far in front of each triangle a wall is, in its longest edges.
+    pub wall: f64,
+    /// Whether the smallest safe offset of each hit point is looked for.
+    pub with_least: bool,
+    /// Which random rays.
+    pub seed: u64,
+    /// How many first rays.
+    pub count: u64,
+}
+
+/// Indices that go through a run together.
+const CHUNK: u64 = 1024;
+
+/// Runs a plan; the sums are the same whatever the number of threads.
+pub fn run<F: Scalar>(plan: &Plan<'_>, observer: &dyn Observer) -> Sums {
+    let empty = || {
+        let schemes = vec![OfScheme::default(); plan.schemes.len()];
+        Sums { schemes, ..Sums::default() }
+    };
+    let add = |sums: &mut Sums, indices| add_chunk::<F>(plan, plan.trials(indices), sums);
+    engine::sum(0..plan.count, CHUNK, observer, empty, add)
+}
+
+/// The new ray of a scheme that leaves the first ray of an index, with its triangle.
+pub fn new_ray<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Option<Case<F>> {
+    let trials = plan.trials::<F>(index..index + 1).trials;
+    let (trial, offset) = (trials.first()?, scheme.offset::<F>()?);
+    let Start { origin, t_min } = offset.start(&trial.hit);
+    Some(trial.case(origin, t_min))
+}
+
+impl Plan<'_> {
+    fn trials<F: Scalar>(&self, indices: Range<u64>) -> Trials<F> {
+        let Plan { row, scene, kind, seed, .. } = *self;
+        Trials::in_scene(row.entry, &row.epsilons::<F>(), kind, scene, seed, indices)
+    }
+}
+
+/// Whether a new ray starts on the side to which it leaves: its line meets the plane at a t before t_min.
+fn starts_right(truth: &Truth) -> bool {
+    truth.crossing().is_some_and(|crossing| crossing.place == Place::Before)
+}
+
+/// What is known of a trial beside any scheme.
+struct Measured<F: Float> {
+    plane: Plane,
+    /// +1 if the new ray leaves to the front, else -1.
+    side: f64,
+    /// The longest edge in ulps of the triangle's largest coordinate.
+    edge_in_ulps: f64,
+    /// The height of the hit point, on the side to which the ray leaves.
+    height: f64,
+    /// The smallest safe offset along the normal, if there is one.
+    least: Option<Least<F>>,
+    /// By how much that lifts the start, if the hit point itself is not right.
+    least_way: Option<f64>,
+}
+
+impl<F: Float> Measured<F> {
+    fn of(trial: &Trial<F>, with_least: bool) -> Measured<F> {
+        let hit = &trial.hit;
+        let (plane, side) = (Plane::new(hit.vertices), if trial.is_front { 1.0 } else { -1.0 });
+        let is_right =
+            |origin: [F; 3]| starts_right(&oracle::truth(&trial.case(origin, F::zero())));
+        let [a, b, c] = hit.vertices.map(|vertex| vertex.map(F::to_f64));
+        let length = |p: [f64; 3], q: [f64; 3]| glam::DVec3::from(p).distance(glam::DVec3::from(q));
+        let edge = length(a, b).max(length(b, c)).max(length(c, a));
+        let most = hit.vertices.map(largest).into_iter().map(F::to_f64).fold(0.0, f64::max);
+        let height = side * plane.height(hit.point);
+        let least = if with_least { least(hit, is_right) } else { None };
+        let way = |least: &Least<F>| side * plane.height(least.origin) - height;
+        Measured {
+            side,
+            edge_in_ulps: edge / F::from_f64(most).ulp().to_f64(),
+            height,
+            least_way: least.as_ref().filter(|least| !least.distance.is_zero()).map(way),
+            least,
+            plane,
+        }
+    }
+
+    /// How high a start lies, on the side to which the ray leaves.
+    fn height(&self, trial: &Trial<F>, start: &Start<F>) -> f64 {
+        let origin = self.side * self.plane.height(start.origin);
+        if start.t_min.is_zero() {
+            return origin;
+        }
+        origin + start.t_min.to_f64() * self.side * self.plane.rise(trial.hit.direction)
+    }
+}
+
+fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
+    let Trials { trials, missed, without_side, not_finite } = trials;
+    sums.hits += trials.len() as u64;
+    sums.missed += missed;
+    sums.without_side += without_side;
+    sums.not_finite += not_finite;
+    let measured: Vec<Measured<F>> =
+        trials.iter().map(|trial| Measured::of(trial, plan.with_least)).collect();
+    for (trial, measured) in trials.iter().zip(&measured) {
+        match &measured.least {
+            None => sums.without_least += u64::from(plan.with_least),
+            Some(least) if least.distance.is_zero() => {}
+            Some(least) => {
+                let distance = least.distance.to_f64();
+                sums.least.add(distance);
+                sums.least_in_ulps.add(distance / largest(trial.hit.point).ulp().to_f64());
+            }
+        }
+    }
+    let Some(kernel) = F::subject(plan.row.entry) else { return };
+    let epsilons = plan.row.epsilons::<F>();
+    let mut verdicts = vec![Verdict::miss(None); trials.len()];
+    let (mut truths, mut layers) = (Vec::new(), Layers::default());
+    for (scheme, sums) in plan.schemes.iter().zip(&mut sums.schemes) {
+        let Some(offset) = scheme.offset::<F>() else { continue };
+        let starts: Vec<Start<F>> = trials.iter().map(|trial| offset.start(&trial.hit)).collect();
+        let with_starts = trials.iter().zip(&starts);
+        let cases: Vec<Case<F>> =
+            with_starts.map(|(trial, start)| trial.case(start.origin, start.t_min)).collect();
+        oracle::truths(&cases, &mut truths, &mut layers);
+        kernel.run(&cases, &epsilons, &mut verdicts);
+        for (i, (trial, start)) in trials.iter().zip(&starts).enumerate() {
+            let is_right = starts_right(&truths[i]);
+            let is_finite = start.origin.iter().all(|x| x.is_finite()) && start.t_min.is_finite();
+            sums.rays += 1;
+            // A hit without a t counts.
+            let is_before = verdicts[i].t < start.t_min;
+            let is_self_hit = verdicts[i].hit && !is_before;
+            sums.self_hits += u64::from(is_self_hit);
+            sums.failed += u64::from(is_self_hit || !is_right);
+            if !is_right {
+                sums.wrong += 1;
+                sums.not_finite += u64::from(!is_finite);
+                sums.first_wrong = sums.first_wrong.into_iter().chain([trial.index]).min();
+            }
+            if is_finite {
+                let measured = &measured[i];
+                let height = measured.height(trial, start);
+                sums.in_edges.add(height, is_right);
+                sums.in_ulps.add(height * measured.edge_in_ulps, is_right);
+                sums.beyond_wall += u64::from(is_right && plan.wall <= height);
+                if let Some(least_way) = measured.least_way {
+                    sums.over_least.add(((height - measured.height) / least_way).max(0.0));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! First rays, their hit points, and the directions of the rays that leave them.
+
+use super::hit::HitPoint;
+use crate::arith::{Float, Vector};
+use crate::case::{Case, Draw, Parameters, Scene};
+use crate::family::{Stratum, any_direction, combination};
+use crate::kernel::{Entry, Scalar, Verdict};
+use crate::oracle;
+use crate::truth::{Facing, Truth};
+use std::ops::Range;
+
+/// How a hit point is formed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointKind {
+    /// a·(1-u-v) + b·u + c·v.
+    Weights,
+    /// o + t·d.
+    Ray,
+}
+
+impl PointKind {
+    /// Both, in the order of reports.
+    pub const ALL: [PointKind; 2] = [PointKind::Weights, PointKind::Ray];
+
+    /// The word of `--point`.
+    pub fn name(self) -> &'static str {
+        match self {
+            PointKind::Weights => "uv",
+            PointKind::Ray => "ray",
+        }
+    }
+
+    /// Whether a kernel's hits have such points.
+    pub fn is_given_by(self, entry: &Entry) -> bool {
+        match self {
+            PointKind::Weights => entry.info.gives.uv,
+            PointKind::Ray => entry.info.gives.t,
+        }
+    }
+}
+
+/// A hit point that a new ray leaves.
+#[derive(Clone, Debug)]
+pub struct Trial<F: Float> {
+    /// The index of the first ray in its family.
+    pub index: u64,
+    /// What a scheme may know.
+    pub hit: HitPoint<F>,
+    /// Whether the new ray leaves to the side that (b - a) × (c - a) points to.
+    pub is_front: bool,
+}
+
+impl<F: Float> Trial<F> {
+    /// The new ray from an origin, with the triangle.
+    pub fn case(&self, origin: [F; 3], t_min: F) -> Case<F> {
+        Case::new(origin, self.hit.direction, self.hit.vertices).on(t_min, F::infinity())
+    }
+}
+
+/// The hit points of one kind on some first rays, and the first rays without one.
+#[derive(Clone, Debug)]
+pub struct Trials<F: Float> {
+    /// The hit points.
+    pub trials: Vec<Trial<F>>,
+    /// First rays on which the kernel reported no hit.
+    pub missed: u64,
+    /// Hits whose triangle has no area, or whose plane the first ray does not cross: no side is right.
+    pub without_side: u64,
+    /// Hits whose point is not finite.
+    pub not_finite: u64,
+}
+
+/// The id of a scene's first ray.
+pub fn first_ray_id<F: Float>(scene: &Scene, seed: u64, index: u64) -> String {
+    Stratum::Interior.family().id::<F>(&parameters(scene), seed, index).to_string()
+}
+
+fn parameters(scene: &Scene) -> Parameters {
+    Parameters { scene: Some(scene.clone()), ..Parameters::default() }
+}
+
+impl<F: Scalar> Trials<F> {
+    /// Of a kernel at some epsilons in a scene.
+    pub fn in_scene(
+        entry: &Entry,
+        epsilons: &[F],
+        kind: PointKind,
+        scene: &Scene,
+        seed: u64,
+        indices: Range<u64>,
+    ) -> Trials<F> {
+        let (family, parameters) = (Stratum::Interior.family(), parameters(scene));
+        let made = indices.map(|index| {
+            let made = family.make::<F>(&parameters, seed, index);
+            (index, made.cases()[0])
+        });
+        Trials::of(entry, epsilons, kind, seed, &made.collect::<Vec<_>>())
+    }
+
+    /// Of a kernel on given first rays.
+    pub fn of(
+        entry: &Entry,
+        epsilons: &[F],
+        kind: PointKind,
+        seed: u64,
+        first_rays: &[(u64, Case<F>)],
+    ) -> Trials<F> {
+        let mut all = Trials { trials: Vec::new(), missed: 0, without_side: 0, not_finite: 0 };
+        let Some(kernel) = F::subject(entry) else { return all };
+        let cases: Vec<Case<F>> = first_rays.iter().map(|(_, case)| *case).collect();
+        let mut verdicts = vec![Verdict::miss(None); cases.len()];
+        kernel.run(&cases, epsilons, &mut verdicts);
+        for ((index, case), verdict) in first_rays.iter().zip(verdicts) {
+            if !verdict.hit {
+                all.missed += 1;
+                continue;
+            }
+            let draw = &mut Draw::new("spawn", seed, *index);
+            let Some((direction, is_front)) = leaving(case, draw) else {
+                all.without_side += 1;
+                continue;
+            };
+            let hit = hit_point(entry, kind, case, &verdict, direction, is_front);
+            if hit.point.iter().all(|x| x.is_finite()) {
+                all.trials.push(Trial { index: *index, hit, is_front });
+            } else {
+                all.not_finite += 1;
+            }
+        }
+        all
+    }
+}
+
+/// A direction over the half-space from which a ray came, uniform, and whether that is the triangle's
+/// front. None if the ray does not cross the triangle's plane.
+fn leaving<F: Float>(case: &Case<F>, draw: &mut Draw) -> Option<([F; 3], bool)> {
+    let facing = |truth: Truth| truth.crossing().map(|crossing| crossing.facing);
+    let came_from = facing(oracle::truth(case))?;
+    let [origin, _, a, b, c] = case.vectors();
+    // Directions exactly in the plane are drawn again.
+    for _ in 0..64 {
+        let direction = any_direction(draw).to_array().map(F::from_f64);
+        let leaving = facing(oracle::truth(&Case::new(origin, direction, [a, b, c])));
+        let turned = match leaving {
+            // It leaves as the first ray arrived.
+            Some(facing) if facing == came_from => direction.map(|x| -x),
+            Some(_) => direction,
+            None => continue,
+        };
+        return Some((turned, came_from == Facing::Front));
+    }
+    None
+}
+
+fn hit_point<F: Float>(
+    entry: &Entry,
+    kind: PointKind,
+    case: &Case<F>,
+    verdict: &Verdict<F>,
+    direction: [F; 3],
+    is_front: bool,
+) -> HitPoint<F> {
+    let [.., a, b, c] = case.vectors();
+    let vertices = [a, b, c];
+    let gives = entry.info.gives;
+    let weights = gives.uv.then(|| [F::one() - verdict.u - verdict.v, verdict.u, verdict.v]);
+    let point = match (kind, weights) {
+        (PointKind::Weights, Some(weights)) => combination(vertices, weights),
+        _ => case.ray.origin.plus(&case.ray.direction.times(&verdict.t)).into(),
+    };
+    let triangle = case.triangle;
+    let normal = triangle.b.minus(&triangle.a).cross(&triangle.c.minus(&triangle.a)).normalize();
+    let normal: [F; 3] = normal.into();
+    HitPoint {
+        point,
+        normal: if is_front { normal } else { normal.map(|x| -x) },
+        vertices,
+        weights,
+        t: verdict.t,
+        direction,
+    }
+}

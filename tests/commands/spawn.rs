@@ -1,0 +1,120 @@
+//! `hairline spawn`: the screen, the record, and what is wrong usage.
+
+use crate::program::{ends, scratch};
+use serde_json::Value;
+
+fn json(folder: &std::path::Path, more: &[&str]) -> Value {
+    let mut all = vec!["spawn", "--format", "json", "-q"];
+    all.extend(more);
+    serde_json::from_str(&ends(folder, &all, 0).0).unwrap()
+}
+
+#[test]
+fn the_screen_says_what_to_use_and_its_command_works() {
+    let folder = scratch("spawn-screen");
+    let (screen, error) = ends(&folder, &["spawn", "--scene", "room", "-n", "20000"], 0);
+    assert_eq!(error, "");
+    let lines: Vec<&str> = screen.lines().collect();
+    assert!(lines.len() <= 60, "{} lines", lines.len());
+    let long = lines.iter().find(|line| 110 < line.chars().count());
+    assert!(long.is_none(), "{long:?}");
+    assert_eq!(screen.matches("\n  use  ").count(), 2, "{screen}");
+    for part in ["hit points from u and v", "hit points o + t*d", "waechter-binder", "wrong side"] {
+        assert!(screen.contains(part), "{part}: {screen}");
+    }
+    let commands = lines.iter().filter_map(|line| line.trim().strip_prefix("hairline "));
+    for command in commands {
+        let mut again: Vec<&str> = command.split(' ').collect();
+        again.extend(["-n", "2000", "-q"]);
+        let (screen, _) = ends(&folder, &again, 0);
+        assert!(screen.contains("room") || screen.contains("extent=5"), "{screen}");
+    }
+}
+
+#[test]
+fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_threads() {
+    let folder = scratch("spawn-record");
+    let far = ["--scene", "extent=10,center=1e5,edge=1", "-n", "5000", "--scalar", "f32,f64"];
+    let record = json(&folder, &[&far[..], &["--threads", "1"]].concat());
+    assert_eq!(record, json(&folder, &[&far[..], &["--threads", "3"]].concat()));
+    assert_eq!(record["schema"], "hairline-spawn/1");
+    assert_eq!(record["scene"], "extent=10,center=100000,edge=1,distance=0..4,direction=unit");
+    let points = record["points"].as_array().unwrap();
+    assert_eq!(points.len(), 4);
+    for part in points {
+        let schemes = part["schemes"].as_array().unwrap();
+        assert_eq!(schemes.len(), if part["scalar"] == "f32" { 12 } else { 11 }, "{part}");
+        assert!(schemes.iter().all(|scheme| scheme["source"].is_string()));
+        assert!(schemes.iter().all(|scheme| scheme["wrong"]["of"] == part["hits"]));
+    }
+    let of = |part: &Value, name: &str| {
+        let schemes = part["schemes"].as_array().unwrap();
+        schemes.iter().find(|scheme| scheme["name"] == name).unwrap().clone()
+    };
+    let lifted = of(&points[0], "waechter-binder");
+    let median = lifted["height_in_edges"]["median"].as_f64().unwrap();
+    assert!((1.9..2.1).contains(&median) && lifted["beyond_wall"]["rate"] == 1.0, "{lifted}");
+    // A wrong start shows again, and on the wrong side.
+    let none = of(&points[0], "none");
+    let explain = none["first_wrong"]["explain"].as_str().unwrap();
+    let case = explain.split('\'').nth(1).unwrap();
+    let (told, _) = ends(&folder, &["explain", case, "--kernel", "moller-trumbore"], 0);
+    assert!(told.contains("moller-trumbore"), "{told}");
+    let first_ray = none["first_wrong"]["first_ray"].as_str().unwrap();
+    ends(&folder, &["explain", first_ray, "--kernel", "cramer"], 0);
+}
+
+#[test]
+fn schemes_points_and_walls_are_those_named() {
+    let folder = scratch("spawn-named");
+    let flags = ["--scheme", "normal=1e-3,none,t-min=0.5", "--point", "ray", "--wall", "0.001"];
+    let record =
+        json(&folder, &[&flags[..], &["-n", "3000", "--kernel", "woop-watertight"]].concat());
+    let [part] = record["points"].as_array().unwrap().as_slice() else { panic!("{record}") };
+    assert_eq!((&part["kernel"], &part["point"]), (&"woop-watertight".into(), &"ray".into()));
+    let schemes = part["schemes"].as_array().unwrap();
+    let names: Vec<&str> = schemes.iter().map(|scheme| scheme["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["normal=1e-3", "none", "t-min=0.5"]);
+    // Edges are at most 1, so 1e-3 is never below a thousandth of one, but for the point's own error.
+    assert!(0.9 < schemes[0]["beyond_wall"]["rate"].as_f64().unwrap());
+    assert_eq!(schemes[1]["beyond_wall"]["count"], 0);
+    // A scheme that has no constants for f64 leaves it out.
+    let both = ["--scheme", "waechter-binder", "--scalar", "f32,f64", "--point", "uv", "-n", "500"];
+    assert_eq!(json(&folder, &both)["points"].as_array().unwrap().len(), 1);
+    let (list, _) = ends(&folder, &["list", "schemes"], 0);
+    for part in ["waechter-binder: move", "https://doi.org", "normal=VALUE: the distance [0.001]"] {
+        assert!(list.contains(part), "{part}: {list}");
+    }
+}
+
+#[test]
+fn bad_input_gets_one_clear_line() {
+    let folder = scratch("spawn-bad");
+    let flags: [(&[&str], i32, &str); 18] = [
+        (&["--scene", "extent=1,edge=2"], 2, "no triangle of that size fits within extent=1"),
+        (&["--scene", "extent=nan"], 2, "'nan' is not a finite number"),
+        (&["--scene", "center=inf"], 2, "not a finite number"),
+        (&["--scene", "castle"], 2, "begin with one of unit, room, city, cad-mm"),
+        (&["--scene", "center=1e9"], 2, "collapse at coordinates of"),
+        (&["--scheme", "nromal=1e-3"], 2, "unknown scheme 'nromal'; did you mean 'normal'?"),
+        (&["--scheme", "normal=nan"], 2, "normal=nan: write the distance as a number from 0 up"),
+        (&["--scheme", "normal=-1"], 2, "from 0 up"),
+        (&["--scheme", "pbrt-v4=x"], 2, "write the n of gamma n as a number"),
+        (&["--scheme", "none,none"], 2, "'none' is given twice"),
+        (&["--wall", "0"], 2, "--wall: '0' is not a distance above 0"),
+        (&["--wall", "nan"], 2, "--wall: 'nan'"),
+        (&["--point", "st"], 2, "unknown point 'st': there are uv and ray"),
+        (&["--scalar", "f16"], 2, "unknown scalar 'f16'"),
+        (&["--kernel", "mine"], 2, "unknown kernel 'mine'"),
+        (&["--band", "4ulps"], 2, "--band: it means nothing for the start of a ray"),
+        (&["--scheme", "waechter-binder", "--scalar", "f64"], 4, "no scheme runs in the chosen"),
+        (&["--format", "svg"], 2, "there are text, json"),
+    ];
+    for (flags, code, part) in flags {
+        let (out, error) = ends(&folder, &[&["spawn", "-n", "10"], flags].concat(), code);
+        assert!(out.is_empty() && error.lines().count() == 1, "{flags:?}: {error}");
+        assert!(error.contains(part), "{flags:?}: {error}");
+    }
+    ends(&folder, &["spawn", "-n", "0"], 2);
+    ends(&folder, &["spawn", "-n", "10", "-q", "-o", "/nowhere/at/all"], 74);
+}
