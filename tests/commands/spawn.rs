@@ -46,6 +46,14 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
         assert_eq!(schemes.len(), if part["scalar"] == "f32" { 12 } else { 11 }, "{part}");
         assert!(schemes.iter().all(|scheme| scheme["source"].is_string()));
         assert!(schemes.iter().all(|scheme| scheme["wrong"]["of"] == part["hits"]));
+        // What is recommended never fails, and nothing of which that is true is lower.
+        let median = |scheme: &Value| scheme["height_in_edges"]["median"].as_f64().unwrap();
+        let never =
+            |scheme: &&Value| scheme["wrong"]["count"] == 0 && scheme["self_hits"]["count"] == 0;
+        let lowest = schemes.iter().filter(never).map(median).reduce(f64::min).unwrap();
+        let best = schemes.iter().find(|scheme| scheme["name"] == part["best"]["scheme"]).unwrap();
+        assert!(never(&best), "{best}");
+        assert!(median(best) <= 1.5 * lowest, "{best}: {lowest}");
     }
     let of = |part: &Value, name: &str| {
         let schemes = part["schemes"].as_array().unwrap();
