@@ -119,7 +119,8 @@ impl EpsilonChoice {
         Ok(rows)
     }
 
-    fn given(&self) -> &[(String, String)] {
+    /// The epsilons that were given, by gate.
+    pub fn given(&self) -> &[(String, String)] {
         match self {
             EpsilonChoice::Given(pairs) => pairs,
             _ => &[],

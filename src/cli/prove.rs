@@ -12,10 +12,11 @@ use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, unknown};
 use super::input::read_text;
 use super::output::write_result;
+use crate::audit::EpsilonChoice;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
 use clap::{Args, ValueEnum};
-use job::{Job, Parts};
+use job::{Epsilons, Job, Parts};
 use rayon::prelude::*;
 use record::{DomainPart, GatePart, Record};
 use scenes::{degrees, mesh_scene, range};
@@ -35,6 +36,10 @@ pub struct ProveArguments {
     /// Only this gate
     #[arg(long, value_name = "NAME", conflicts_with_all = ["certificate", "update"])]
     gate: Option<String>,
+
+    /// What is proved of these epsilons, as parallel=1e-7,edge=0, instead of the published ones
+    #[arg(long, value_name = "GATE=VALUE,...", allow_hyphen_values = true)]
+    epsilon: Option<String>,
 
     /// A scene: every coordinate of origins and vertices is at most this
     #[arg(long, value_name = "LENGTH", requires = "edge", help_heading = SCENE)]
@@ -140,9 +145,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     if let Some(path) = &arguments.certificate {
         return files::certify(&entries, scalars, domain, path);
     }
-    let published = arguments.kernel.len() == 1;
+    let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
-    let job = Job { scene, shapes, domain, effort, published, stored: &stored, shared };
+    let job = Job { scene, shapes, domain, effort, epsilons, stored: &stored, shared };
     let tasks: Vec<(&Entry, bool)> = entries
         .iter()
         .flat_map(|entry| [(*entry, false), (*entry, true)])
@@ -210,6 +215,19 @@ impl ProveArguments {
                 .ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))
         };
         self.kernel.iter().map(find).collect()
+    }
+
+    /// Of which epsilons something is said.
+    fn epsilons(&self, entries: &[&'static Entry]) -> Result<Epsilons, Failure> {
+        let Some(text) = &self.epsilon else {
+            let one = self.kernel.len() == 1;
+            return Ok(if one { Epsilons::Published } else { Epsilons::None });
+        };
+        let choice = EpsilonChoice::parse(text)
+            .map_err(|error| Failure::usage(format!("--epsilon: {}", error.0)))?;
+        // As an audit would refuse them.
+        choice.rows(entries, None)?;
+        Ok(Epsilons::Given(choice.given().to_vec()))
     }
 
     /// The place of the chosen gate.

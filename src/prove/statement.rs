@@ -75,12 +75,24 @@ pub fn statements<F: Searched + Scalar>(
                 }
             }
         }
-        Role::Edge => edge(gate, scene.map(|triangles| triangles.scene), beta, tunable, &mut lines),
-        _ if tunable => lines.push(format!(
-            "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing that \
-             it refuses.",
-            above(beta)
-        )),
+        Role::Edge => {
+            let scene = scene.map(|triangles| triangles.scene);
+            edge(gate, scene, beta, tunable.then_some(published), &mut lines);
+        }
+        _ if tunable => {
+            lines.push(format!(
+                "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
+                 that it refuses.",
+                above(beta)
+            ));
+            lines.extend(published.iter().map(|(name, value)| {
+                format!(
+                    "e = {name} refuses no exact value of {} and more, and accepts none of {} and less.",
+                    signed(value + beta, true),
+                    signed(value - beta, false)
+                )
+            }));
+        }
         _ => {}
     }
     lines
@@ -184,46 +196,65 @@ fn edge<F>(
     gate: &GateSummary<F>,
     scene: Option<&Scene>,
     beta: f64,
-    tunable: bool,
+    epsilons: Option<&[Published]>,
     lines: &mut Vec<String>,
 ) {
     let length = gate.gate.dimension.length;
-    let depth = match scene {
-        _ if length == 0 => Some(beta),
+    // From a number to a share of the way across the triangle; none if that depends on the triangle.
+    let share = match scene {
+        _ if length == 0 => Some(1.0),
         Some(scene) if length == 2 => {
-            let sine = libm::sin(scene.grazing.to_radians());
-            Some(beta / (scene.least_shape() * sine))
+            Some(1.0 / (scene.least_shape() * libm::sin(scene.grazing.to_radians())))
         }
         _ => None,
     };
     let flat = scene.map_or(String::new(), |scene| {
         format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
     });
-    if depth.is_some_and(|depth| depth >= 0.5) {
+    if share.is_some_and(|share| beta * share >= 0.5) {
         lines.push(format!("This bound is of no use for the smallest triangles{flat}."));
         return;
     }
-    if tunable {
+    if epsilons.is_some() {
         let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
         let known = lost.map_or(String::new(), |witness| {
             format!(
                 " A number that is not below 0 is known to be computed as {}.",
-                signed(-witness.score)
+                signed(-witness.score, true)
             )
         });
-        lines.push(format!("An epsilon below {} loses no hit at an edge.{known}", signed(-beta)));
+        let least = signed(-beta, false);
+        lines.push(format!("An epsilon below {least} loses no hit at an edge.{known}"));
     }
-    let most = match depth {
-        Some(depth) => format!("{} of the way across the triangle{flat}", above(depth)),
-        None => format!(
-            "{} / S of the way across the triangle, S being the sum of its three edge values",
-            above(beta)
-        ),
+    let (per, unit) = match share {
+        Some(share) => (share, String::new()),
+        None => (1.0, " / S".to_owned()),
+    };
+    let across = match share {
+        Some(_) => format!(" of the way across the triangle{flat}"),
+        None => {
+            " of the way across the triangle, S being the sum of its three edge values".to_owned()
+        }
     };
     lines.push(format!(
         "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss of this domain through farther \
-         outside, than {most}."
+         outside, than {}{unit}{across}.",
+        above(beta * per)
     ));
+    for (name, value) in epsilons.into_iter().flatten().filter(|(_, value)| *value != 0.0) {
+        let [inside, outside] = [value + beta, beta - value].map(|depth| depth * per);
+        let lost = if inside < 0.0 {
+            "loses no hit".to_owned()
+        } else {
+            format!("loses no hit deeper inside than {}{unit}", above(inside))
+        };
+        let let_in = if outside <= 0.0 {
+            "lets no miss of this domain through".to_owned()
+        } else {
+            format!("lets no miss through farther outside than {}{unit}", above(outside))
+        };
+        lines.push(format!("e = {name} {lost}, and {let_in}{across}."));
+    }
 }
 
 /// What follows from the symmetry of the edge values.
@@ -262,7 +293,7 @@ pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
     let of = if uses.edge { "edges" } else { "vectors from the origin to the vertices" };
     let what = match entry.info.gates[gate].role {
         Role::Parallel => format!("an e above {} refuses every exactly parallel ray", above(beta)),
-        Role::Edge => format!("an e below {} loses no hit at an edge", signed(-beta)),
+        Role::Edge => format!("an e below {} loses no hit at an edge", signed(-beta, false)),
         _ => return None,
     };
     Some(format!("for every float with coordinates of {of} up to 0.999 and |d| <= 1: {what}"))
@@ -278,9 +309,9 @@ fn below(x: f64) -> String {
     short(x, false)
 }
 
-/// A number in three digits, away from zero.
-fn signed(x: f64) -> String {
-    if x < 0.0 { format!("-{}", above(-x)) } else { above(x) }
+/// A number of either sign in three digits, not below it, or not above it.
+fn signed(x: f64, up: bool) -> String {
+    if x < 0.0 { format!("-{}", short(-x, !up)) } else { short(x, up) }
 }
 
 fn short(x: f64, up: bool) -> String {

@@ -146,6 +146,8 @@ fn one_case_more_or_another_one_is_noticed() {
         edit(&folder, |text| text.replacen(&line, &new, 1));
         let (out, _) = ends(&folder, &["check", "--quiet"], code);
         assert!(out.contains("edge-near: false-miss of interior/front/within"), "{out}");
+        let said = "; the case shown may have failed before\n";
+        assert_eq!(out.contains(said), code == 1, "{out}");
         assert_eq!(out.contains("(other cases)"), others, "{out}");
         fs::write(folder.join(FILE), old).unwrap();
     }

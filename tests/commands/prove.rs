@@ -90,6 +90,36 @@ fn every_witness_is_below_its_bound_and_near_it() {
 }
 
 #[test]
+fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
+    let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32"];
+    let words = |epsilon: &str| {
+        let out = text(&[&kernel[..], &["--epsilon", epsilon]].concat());
+        out.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // The bounds are 1.014e-6 of the determinant and 8.58e-6 of u and v.
+    let out = words("parallel=1e-7,edge=-1e-5");
+    assert!(
+        out.contains("e = 1e-7 is proved to refuse every parallel ray where coordinates of edges")
+    );
+    assert!(!out.contains("(jolt)"), "{out}");
+    let all =
+        "e = -1e-5 loses no hit, and lets no miss through farther outside than 1.86e-5 of the way";
+    assert!(out.contains(all), "{out}");
+    let out = words("edge=1e-5");
+    let none = "e = 1e-5 loses no hit deeper inside than 1.86e-5, and lets no miss of this domain through of";
+    assert!(out.contains(none), "{out}");
+    let out = words("edge=2e-6");
+    let both = "loses no hit deeper inside than 1.06e-5, and lets no miss through farther outside than 6.58e-6";
+    assert!(out.contains(both), "{out}");
+    let wrong = |epsilon: &str, message: &str| {
+        refused(&[&kernel[..], &["--epsilon", epsilon]].concat(), 2, message);
+    };
+    wrong("paralel=1", "no selected kernel has a gate 'paralel'");
+    wrong("parallel", "--epsilon: 'parallel' is not GATE=VALUE");
+    wrong("parallel=x", "");
+}
+
+#[test]
 fn certificates_are_checked_and_a_changed_number_is_refused() {
     let folder = scratch("prove");
     let file = folder.join("a.proof");

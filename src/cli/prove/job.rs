@@ -17,11 +17,36 @@ pub struct Job<'a> {
     pub shapes: Vec<Shape>,
     pub domain: Domain,
     pub effort: Effort,
-    /// Whether to say of every published epsilon how far it carries.
-    pub published: bool,
+    /// Of which epsilons to say how far they carry.
+    pub epsilons: Epsilons,
     pub stored: &'a [StoredWitness],
     /// Whether the stored witnesses of other kernels are tried too.
     pub shared: bool,
+}
+
+/// Of which epsilons to say how far they carry.
+pub enum Epsilons {
+    /// Of none.
+    None,
+    /// Those of the kernel's sets and of the presets.
+    Published,
+    /// These, by gate.
+    Given(Vec<(String, String)>),
+}
+
+impl Epsilons {
+    /// Those of a gate, with their names.
+    fn of<F: Float>(&self, entry: &Entry, gate: &GateSummary<F>) -> Vec<Published> {
+        match self {
+            Epsilons::None => Vec::new(),
+            Epsilons::Published => published::<F>(entry, gate),
+            Epsilons::Given(all) => {
+                let of_gate = all.iter().filter(|(name, _)| name == gate.gate.name);
+                let value = |text: &str| EpsilonText::of(text)?.value::<F>().map(F::to_f64);
+                of_gate.filter_map(|(_, text)| Some((text.clone(), value(text)?))).collect()
+            }
+        }
+    }
 }
 
 /// What comes out for a kernel in a scalar.
@@ -64,7 +89,7 @@ impl Job<'_> {
                     inputs: w.inputs.iter().map(|x| x.hex()).collect(),
                 })
             };
-            let published = if self.published { published::<F>(entry, gate) } else { Vec::new() };
+            let published = self.epsilons.of::<F>(entry, gate);
             GatePart {
                 kernel: name.to_owned(),
                 scalar: F::NAME,
