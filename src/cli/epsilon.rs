@@ -8,6 +8,7 @@ use super::output::{ColorChoice, paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
+use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
 use crate::case::parse_power_of_two;
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
@@ -42,6 +43,10 @@ pub struct EpsilonArguments {
     #[arg(long)]
     relative: bool,
 
+    /// Write every point of each source's curve into the JSON; all kernels together take hundreds of megabytes
+    #[arg(long)]
+    curves: bool,
+
     /// Compare two gates with each other: one table of both epsilons (text and JSON)
     #[arg(long)]
     map: bool,
@@ -61,10 +66,15 @@ pub struct EpsilonArguments {
     #[arg(long, value_name = "KIND=COST,...", allow_hyphen_values = true)]
     cost: Option<String>,
 
+    /// With --scene or --mesh: how large errors of the hits that remain may be, for 99 % of each kind of ray:
+    /// of t relative to itself, of the point in the scene's unit, as t=1e-3,point=0.01
+    #[arg(long, value_name = "VALUE=ERROR,...", allow_hyphen_values = true)]
+    max_error: Option<String>,
+
     #[command(flatten)]
     sources: SourceArguments,
 
-    /// text, json, csv or svg, or several separated by commas
+    /// text, json, csv, svg or (with --scene or --mesh) html, or several separated by commas
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
     format: Vec<String>,
 
@@ -90,8 +100,12 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         let source = matches.and_then(|matches| matches.value_source("count"));
         return scene::run(arguments, source == Some(ValueSource::CommandLine));
     }
-    if arguments.cost.is_some() {
-        return Err(Failure::usage("--cost: needs --scene or --mesh"));
+    for (flag, is_given) in
+        [("--cost", arguments.cost.is_some()), ("--max-error", arguments.max_error.is_some())]
+    {
+        if is_given {
+            return Err(Failure::usage(format!("{flag}: needs --scene or --mesh")));
+        }
     }
     let outputs = paired_outputs(
         EPSILON_FORMATS,
@@ -102,6 +116,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
+    arguments.warn_of_subnormals(&rows, scalars);
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;
     let families = sources.iter().filter(|source| matches!(source, Source::Family { .. })).count();
@@ -129,7 +144,8 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     progress.finish();
     let record = record(sources, all, threads, progress.seconds());
     write_results(outputs, |format, _, out| {
-        let style = Style { color: ColorChoice::Never.enabled(false), details: false };
+        let details = arguments.curves;
+        let style = Style { color: ColorChoice::Never.enabled(false), details };
         (format.write)(&record, style, out)
     })?;
     Ok(Status::Success)
@@ -211,6 +227,28 @@ impl EpsilonArguments {
             "{kernel} has no gate '{wanted}'{advice} (those that take an epsilon: {})",
             names.join(", ")
         )
+    }
+
+    /// Notes given epsilons that a machine may flush to zero.
+    fn warn_of_subnormals(&self, rows: &[Row], scalars: [bool; 2]) {
+        fn subnormal<F: Scalar>(rows: &[Row], at: &[String]) -> Vec<String> {
+            let of_rows = rows.iter().flat_map(|row| row.epsilons::<F>());
+            let given = at.iter().filter_map(|text| F::parse(text)).chain(of_rows);
+            let is_small = |x: &F| !x.is_zero() && x.to_f64().abs() < smallest_normal::<F>();
+            let mut found: Vec<String> = given.filter(is_small).map(|x| format!("{x:e}")).collect();
+            found.dedup();
+            found
+        }
+        let in_f32 = if scalars[0] { subnormal::<f32>(rows, &self.at) } else { Vec::new() };
+        let in_f64 = if scalars[1] { subnormal::<f64>(rows, &self.at) } else { Vec::new() };
+        for (found, name) in [(in_f32, f32::NAME), (in_f64, f64::NAME)] {
+            if !found.is_empty() && !self.quiet {
+                eprintln!(
+                    "warning: {} is subnormal in {name}: machines that flush to zero take it for 0",
+                    found.join(", ")
+                );
+            }
+        }
     }
 
     fn plan<'a, F: Scalar>(&self, row: &'a Row) -> Result<StudyPlan<'a, F>, Failure> {

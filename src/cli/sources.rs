@@ -7,6 +7,7 @@ use crate::arith::Float;
 use crate::audit::{Row, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
+use crate::epsilon::scene::StudiedScene;
 use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum, find};
 use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
@@ -31,7 +32,7 @@ pub struct SourceArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// How many cases of each family (40000 with `epsilon --scene`, unless given)
+    /// How many cases of each family (40000 with `epsilon --scene` or `--mesh`, unless given)
     #[arg(
         long,
         short = 'n',
@@ -138,7 +139,7 @@ impl SourceArguments {
 
     /// The scene that the mesh is, and the mesh.
     fn mesh_scene(&self, quiet: bool) -> Result<(Scene, Arc<SceneMesh>), Failure> {
-        self.refuse_sizes()?;
+        self.refuse_other_cases()?;
         let [path] = &self.mesh[..] else {
             return Err(Failure::usage("--mesh: a scene is of one mesh"));
         };
@@ -235,9 +236,6 @@ impl SourceArguments {
 
     /// The strata of the scene that the mesh is.
     fn strata_of_mesh(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
-        if !self.corpus.is_empty() {
-            return Err(about_scene("leave out --corpus".to_owned()));
-        }
         self.refuse_other_families()?;
         let (scene, mesh) = self.mesh_scene(quiet)?;
         let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
@@ -287,10 +285,7 @@ impl SourceArguments {
     /// The scene, which both scalars of the run can hold, and its unit of length.
     fn scene(&self) -> Result<Option<(Scene, &'static str)>, Failure> {
         let Some(text) = &self.scene else { return Ok(None) };
-        self.refuse_sizes()?;
-        if !self.corpus.is_empty() {
-            return Err(about_scene("leave out --corpus".to_owned()));
-        }
+        self.refuse_other_cases()?;
         let (scene, unit) = Scene::parse(text).map_err(about_scene)?;
         self.refuse_other_families()?;
         let [in_f32, in_f64] = self.scalars()?;
@@ -301,7 +296,10 @@ impl SourceArguments {
         Ok(Some((scene, unit)))
     }
 
-    fn refuse_sizes(&self) -> Result<(), Failure> {
+    fn refuse_other_cases(&self) -> Result<(), Failure> {
+        if !self.corpus.is_empty() {
+            return Err(about_scene("leave out --corpus".to_owned()));
+        }
         let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
         if sized || self.direction.is_some() {
             let sizes = "a scene has sizes of its own: leave out --scale, --offset and --direction";
@@ -320,16 +318,6 @@ impl SourceArguments {
 
 fn about_scene(message: String) -> Failure {
     Failure::usage(format!("--scene: {message}"))
-}
-
-/// A scene to study.
-pub struct StudiedScene {
-    /// In numbers.
-    pub scene: Scene,
-    /// Its unit of length; empty if it has none.
-    pub unit: &'static str,
-    /// The mesh that it is, if it is one.
-    pub mesh: Option<Arc<SceneMesh>>,
 }
 
 /// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no

@@ -20,6 +20,19 @@ pub struct AtScale<F> {
     pub missed_anyway: (u64, u64),
 }
 
+impl<F: Scalar> AtScale<F> {
+    /// The limits of a trade.
+    pub fn new(exponent: i32, trade: &Trade<F>) -> AtScale<F> {
+        let limit = |side: &Side<F>| side.decided_by.map(|_| side.limit);
+        AtScale {
+            exponent,
+            misses_up_to: limit(&trade.misses),
+            hits_from: limit(&trade.hits),
+            missed_anyway: (trade.misses.unavoidable, trade.misses.curve.total),
+        }
+    }
+}
+
 /// The sources with their positions multiplied by a further power of two; stored cases stay out.
 pub fn scaled(sources: &[Source], exponent: i32, most: u64) -> Vec<Source> {
     let further = |parameters: &Parameters| Parameters {
@@ -64,13 +77,7 @@ pub fn at_scales<F: Scalar>(
             let gates = request.row.entry.info.gates;
             let duty = Duty::of(gates, *gate, &request.row.contract);
             let trade = Trade::new(&gates[*gate], &duty, n, &sources, &responses);
-            let limit = |side: &Side<F>| side.decided_by.map(|_| side.limit);
-            rows.push(AtScale {
-                exponent,
-                misses_up_to: limit(&trade.misses),
-                hits_from: limit(&trade.hits),
-                missed_anyway: (trade.misses.unavoidable, trade.misses.curve.total),
-            });
+            rows.push(AtScale::new(exponent, &trade));
         }
     }
     gates

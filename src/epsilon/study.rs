@@ -128,7 +128,10 @@ pub fn study<F: Scalar>(
             prices(plan.row, gate, &weighed, sources, observer)
         };
         check(&prices, &duty, n, &responses)?;
-        let scales = scales.each_ref().map(|scales| scales[n].clone());
+        let mut scales = scales.each_ref().map(|scales| scales[n].clone());
+        // At scale 1 all cases are known already.
+        let own = scales[usize::from(plan.relative)].iter_mut().filter(|row| row.exponent == 0);
+        own.for_each(|row| *row = AtScale::new(0, &trade));
         studies.push(GateStudy { gate, total, trade, marks, prices, scales });
     }
     let map = plan.map.then(|| {

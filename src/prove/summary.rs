@@ -188,7 +188,7 @@ fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
 
 impl Uses {
     /// What either supposes.
-    pub(super) fn or(self, other: Uses) -> Uses {
+    pub(crate) fn or(self, other: Uses) -> Uses {
         Uses {
             edge: self.edge | other.edge,
             reach: self.reach | other.reach,

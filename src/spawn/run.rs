@@ -10,6 +10,7 @@ use super::trial::{PointKind, Trial, Trials};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::{Case, Scene};
+use crate::contract::Extent;
 use crate::engine::{self, Observer};
 use crate::kernel::{Scalar, Verdict};
 use crate::oracle::{self, Layers};
@@ -58,6 +59,11 @@ pub fn new_ray<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Optio
 }
 
 impl Plan<'_> {
+    /// Whether the kernel can tell a self-hit: one that takes whole lines and reports no t cannot.
+    pub fn tells_self_hits(&self) -> bool {
+        self.row.entry.info.gives.t || self.row.contract.extent != Extent::Line
+    }
+
     fn trials<F: Scalar>(&self, indices: Range<u64>) -> Trials<F> {
         let Plan { row, scene, kind, seed, .. } = *self;
         Trials::in_scene(row.entry, &row.epsilons::<F>(), kind, scene, seed, indices)
@@ -137,7 +143,7 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
         }
     }
     let Some(kernel) = F::subject(plan.row.entry) else { return };
-    let epsilons = plan.row.epsilons::<F>();
+    let (epsilons, tells_self_hits) = (plan.row.epsilons::<F>(), plan.tells_self_hits());
     let mut verdicts = vec![Verdict::miss(None); trials.len()];
     let (mut truths, mut layers) = (Vec::new(), Layers::default());
     for (scheme, sums) in plan.schemes.iter().zip(&mut sums.schemes) {
@@ -154,7 +160,7 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
             sums.rays += 1;
             // A hit without a t counts.
             let is_before = verdicts[i].t < start.t_min;
-            let is_self_hit = verdicts[i].hit && !is_before;
+            let is_self_hit = tells_self_hits && verdicts[i].hit && !is_before;
             sums.self_hits += u64::from(is_self_hit);
             sums.failed += u64::from(is_self_hit || !is_right);
             if !is_right {

@@ -17,7 +17,7 @@ fn told(output: &Output) -> String {
 }
 
 fn record(arguments: &[&str]) -> EpsilonRecord {
-    let mut all = vec!["epsilon", "--format", "json", "-q", "-n", "2000"];
+    let mut all = vec!["epsilon", "--format", "json", "--curves", "-q", "-n", "2000"];
     all.extend(arguments);
     serde_json::from_str(&told(&hairline(&all))).expect("a record")
 }
@@ -158,7 +158,9 @@ fn a_gate_is_on_t_by_its_role_whatever_its_dimension() {
 fn all_kernels_are_studied_but_those_that_cannot_be() {
     let cheap = ["--family", "interior", "--scales", "none", "--scalar", "f32", "-n", "20"];
     let run = |arguments: &[&str]| {
-        let output = hairline(&[&["epsilon", "--format", "json"], &cheap[..], arguments].concat());
+        let output = hairline(
+            &[&["epsilon", "--format", "json", "--curves"], &cheap[..], arguments].concat(),
+        );
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         let record: EpsilonRecord = serde_json::from_str(&told(&output)).expect("a record");
         let mut kernels: Vec<String> =
@@ -262,4 +264,62 @@ fn bad_arguments_are_refused_with_a_reason() {
     refused(&with(&["--scales", "3"]), "not a scale");
     refused(&with(&["--format", "pdf"]), "unknown format 'pdf'");
     refused(&with(&["-n", "0"]), "number of cases");
+}
+
+#[test]
+fn a_record_without_details_is_small_and_agrees_with_the_whole_one() {
+    let run = |more: &[&str]| {
+        let all =
+            ["epsilon", "--format", "json", "-q", "-n", "1000", "--kernel", "moller-trumbore"];
+        told(&hairline(&[&all[..], &["--scales", "none", "--scalar", "f32"], more].concat()))
+    };
+    let (brief, whole) = (run(&[]), run(&["--curves"]));
+    // Two gates of one kernel in one scalar; the built-in kernels have some 70.
+    assert!(brief.len() < 2 * 5_000_000 / 70, "{}", brief.len());
+    let [brief, whole] =
+        [brief, whole].map(|text| serde_json::from_str::<EpsilonRecord>(&text).unwrap());
+    for (brief, whole) in brief.result.gates.iter().zip(&whole.result.gates) {
+        let [curve] = &brief.curves[..] else { panic!("{}", brief.curves.len()) };
+        assert!(1 < whole.curves.len() && curve.points.len() < whole.curves[0].points.len());
+        assert!(curve.points.iter().all(|point| whole.curves[0].points.contains(point)));
+        assert_eq!(curve.points.last(), whole.curves[0].points.last());
+        // What was run stays, where the whole curve has it.
+        let has = |curve: &CurvePart, price: &str| curve.points.iter().any(|(e, _)| e == price);
+        for price in &brief.prices {
+            assert_eq!(has(curve, &price.epsilon), has(&whole.curves[0], &price.epsilon));
+        }
+        assert_eq!(format!("{:?}", brief.prices), format!("{:?}", whole.prices));
+    }
+}
+
+#[test]
+fn subnormal_epsilons_warn_about_flush_to_zero() {
+    let run = |flags: &[&str]| {
+        let all = ["epsilon", "--kernel", "moller-trumbore", "-n", "100", "--scalar", "f32"];
+        let output = hairline(&[&all[..], flags].concat());
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let warning = "1e-40 is subnormal in f32: machines that flush to zero take it for 0";
+    let on_families = ["--family", "interior", "--scales", "none", "--gate", "parallel"];
+    assert!(run(&[&on_families[..], &["--at", "1e-40"]].concat()).contains(warning));
+    assert!(!run(&[&on_families[..], &["--at", "1e-30"]].concat()).contains("subnormal"));
+    assert!(run(&["--scene", "room", "--gate", "t_min", "--at", "1e-40"]).contains(warning));
+    assert!(run(&["--scene", "room", "--epsilon", "parallel=1e-40"]).contains(warning));
+}
+
+#[test]
+fn rows_of_scale_say_their_number_and_agree_with_the_main_line() {
+    let all = ["epsilon", "--kernel", "moller-trumbore", "--gate", "parallel", "--scalar", "f32"];
+    let screen = told(&hairline(&[&all[..], &["-n", "6000", "--scales", "1,2^4", "-q"]].concat()));
+    let main = screen.lines().find_map(|line| line.trim_start().strip_prefix("e <= ")).unwrap();
+    let (limit, rest) = main.split_once(": ").unwrap();
+    let of = rest.split_once(" of ").unwrap().1.split(' ').next().unwrap();
+    let row = |scale: &str| -> Vec<&str> {
+        let line = screen.lines().find(|line| line.starts_with(&format!("    {scale} ")));
+        line.unwrap_or_else(|| panic!("{screen}")).split_whitespace().collect()
+    };
+    // Scale, the limits from above and from below, the share that is missed anyway, of how many.
+    assert_eq!((row("2^0")[1], row("2^0")[4]), (limit, of), "{screen}");
+    assert_ne!(row("2^4")[4], of);
 }

@@ -1,5 +1,6 @@
 //! `--scene`: scenes as sources of cases, and `hairline epsilon --scene`.
 
+use crate::json_schema;
 use crate::program::{ends, scratch};
 use hairline::internals::report::scene::SceneRecord;
 
@@ -10,7 +11,7 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     let (screen, error) = ends(&folder, &study, 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
-    assert!(lines.len() <= 60, "{} lines", lines.len());
+    assert!(lines.len() <= 66, "{} lines", lines.len());
     let long = lines.iter().find(|line| line.chars().count() > 84);
     assert!(long.is_none(), "{long:?}");
     let used: Vec<&str> = lines.iter().filter_map(|line| line.strip_prefix("  use  ")).collect();
@@ -109,7 +110,7 @@ fn bad_scenes_get_one_clear_line() {
         (&["--family", "interior"], "--family is not for --scene"),
         (&["--cost", "crack=-1"], "--cost: crack=-1"),
         (&["--gate", "paralel"], "there are parallel, edge, t_min"),
-        (&["--format", "svg"], "there are text, json"),
+        (&["--format", "sarif"], "there are text, json, csv, svg, html"),
     ];
     for (flags, part) in flags {
         let mut arguments = vec!["epsilon", "--kernel", "moller-trumbore", "--scene", "room"];
@@ -141,6 +142,147 @@ fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
     assert_eq!(head(&at), ["this", "as", "published", "1e-7", "3e-3"]);
     let given = screen("moller-trumbore", &["--epsilon", "parallel=1e-9,edge=-1e-5"]);
     assert!(head(&given).join(" ").starts_with("this as given zero"), "{given}");
+}
+
+#[test]
+fn errors_of_the_hits_that_remain_are_shown_and_limited() {
+    let folder = scratch("scene-errors");
+    let run = |more: &[&str]| -> SceneRecord {
+        let mut all = vec!["epsilon", "--kernel", "moller-trumbore", "--format", "json", "-q"];
+        all.extend(["--scene", "room", "-n", "6000", "--scalar", "f32", "--gate", "parallel"]);
+        all.extend(more);
+        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+    };
+    let error = |record: &SceneRecord, value: &str| {
+        let part = &record.kernels[0];
+        let is_grazing = |count: usize| part.counts[count].stratum == "scene-grazing";
+        let errors = part.tried[0].errors.iter().find(|e| is_grazing(e.count) && e.value == value);
+        errors.unwrap().clone()
+    };
+    let free = run(&[]);
+    let [of_t, of_point] = ["t", "point"].map(|value| error(&free, value));
+    for error in [&of_t, &of_point] {
+        let [median, most, worst] = [error.median, error.most, error.worst].map(Option::unwrap);
+        assert!(0.0 < median && median < most && most <= worst, "{error:?}");
+    }
+    assert!(free.kernels[0].is_accurate.is_none() && 0.01 < of_t.most.unwrap(), "{of_t:?}");
+    let limited = run(&["--max-error", "t=1e-3"]);
+    assert_eq!(limited.kernels[0].is_accurate, Some(true));
+    // On fresh rays, and rounded up by an eighth.
+    assert!(error(&limited, "t").most.unwrap() < 1.3e-3, "{:?}", error(&limited, "t"));
+    let epsilon =
+        |record: &SceneRecord| -> f64 { record.kernels[0].tried[0].epsilons[0].parse().unwrap() };
+    assert!(epsilon(&free) < epsilon(&limited));
+    let of_point = run(&["--max-error", "point=0.02"]);
+    assert!(error(&of_point, "point").most.unwrap() < 0.026, "{:?}", error(&of_point, "point"));
+    let screen = |most: &str| {
+        let all = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room", "-n", "4000", "-q"];
+        ends(&folder, &[&all[..], &["--scalar", "f32", "--max-error", most]].concat(), 0).0
+    };
+    let shown = screen("t=1e-3,point=0.01");
+    assert!(shown.contains("remain are off by at most 0.001 of t, 0.01 m of the point"), "{shown}");
+    assert!(
+        shown.contains("\n  t, almost parallel ") && shown.contains("\n  point (m), at a"),
+        "{shown}"
+    );
+    assert!(
+        screen("t=1e-12").contains("at no values are 99 % of the hits off by at most 1e-12 of t")
+    );
+    let (_, error) = ends(&folder, &["epsilon", "--scene", "room", "--max-error", "t=0"], 2);
+    assert!(error.contains("--max-error: t=0: not a number above 0"), "{error}");
+    let (_, error) = ends(&folder, &["epsilon", "--max-error", "t=1"], 2);
+    assert!(error.contains("--max-error: needs --scene or --mesh"), "{error}");
+}
+
+#[test]
+fn what_is_proved_stands_beside_the_limits() {
+    let folder = scratch("scene-proved");
+    let study = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room", "-n", "1000", "-q"];
+    let (screen, _) = ends(&folder, &study, 0);
+    let proved: Vec<&str> = screen.lines().filter(|line| line.contains("0: proved")).collect();
+    assert_eq!(proved.len(), 2, "{screen}");
+    for line in proved {
+        assert!(line.starts_with("  parallel >= ") && line.ends_with(" 0"), "{line}");
+        assert!(line.contains("exactly parallel: false hits"), "{line}");
+    }
+}
+
+#[test]
+fn every_format_holds_the_same_answer() {
+    let folder = scratch("scene-formats");
+    let mut all =
+        vec!["epsilon", "--kernel", "moller-trumbore", "--scene", "room", "-n", "3000", "-q"];
+    all.extend([
+        "--format",
+        "text,json,csv,svg,html",
+        "--scalar",
+        "f32",
+        "--at",
+        "1e-5,2e-5,5e-5",
+        "--gate",
+        "t_min",
+    ]);
+    let files = ["a.txt", "a.json", "a.csv", "a.svg", "a.html"];
+    all.extend(files.iter().flat_map(|file| ["-o", *file]));
+    ends(&folder, &all, 0);
+    let [text, json, csv, svg, html] =
+        files.map(|file| std::fs::read_to_string(folder.join(file)).unwrap());
+    // The published schema, and a record that breaks it.
+    let schema = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/schema/scene.json");
+    let schema = serde_json::from_str(&std::fs::read_to_string(schema).unwrap()).unwrap();
+    let mut document: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json_schema::errors(&schema, &document), [""; 0]);
+    document["kernels"][0]["limits"][0]["one_in"] = "many".into();
+    assert_ne!(json_schema::errors(&schema, &document), [""; 0]);
+    // Every curve holds what was tried.
+    let record: SceneRecord = serde_json::from_str(&json).unwrap();
+    let part = &record.kernels[0];
+    for (knob, curve) in part.curves.iter().enumerate() {
+        for tried in part.tried.iter().take(if part.knobs.len() == 1 { 9 } else { 1 }) {
+            let place =
+                curve.values.iter().position(|value| *value == tried.epsilons[knob]).unwrap();
+            for (count, points) in curve.counts.iter().enumerate() {
+                let is_lost = ["crack", "miss"].contains(&part.counts[count].kind.as_str());
+                let hits = points.hits[place];
+                let wrong = if is_lost { points.of - hits } else { hits };
+                assert_eq!((wrong, points.of), (tried.wrong[count].count, tried.wrong[count].of));
+                assert!(points.hits.is_sorted_by(|a, b| a >= b), "{points:?}");
+            }
+        }
+    }
+    let used = text.lines().find_map(|line| line.strip_prefix("  use  ")).unwrap();
+    let value = &part.tried[0].epsilons[0];
+    assert!(
+        csv.contains(&format!("moller-trumbore,f32,epsilon,recommended,t_min,{value},,,")),
+        "{csv}"
+    );
+    assert!(csv.lines().all(|line| line.split(',').count() == 13), "{csv}");
+    assert!(csv.contains(",limit,at-least,t_min,") && csv.contains(",share,recommended,"), "{csv}");
+    uppsala::parse(&svg).unwrap();
+    assert!(svg.contains(&used.replace(">=", "&gt;=")) && svg.contains("contract: "), "{svg}");
+    assert!(html.contains(&used.replace(">=", "&gt;=")) && !html.contains("<script"), "{html}");
+    for part in ["Content-Security-Policy", "name=\"viewport\"", "color-scheme"] {
+        assert!(html.contains(part), "{part}");
+    }
+    // Names above a plot stand apart: those of one height, by about the width of their characters.
+    let mut labels: Vec<(f64, f64, f64)> = Vec::new();
+    for element in svg.split("<path class=\"tried").skip(1) {
+        let attribute = |name: &str| -> f64 {
+            let text = element.split_once("<text").unwrap().1;
+            let rest = text.split_once(&format!(" {name}=\"")).unwrap().1;
+            rest.split_once('"').unwrap().0.parse().unwrap()
+        };
+        let name = element.split_once("text-anchor=\"middle\">").unwrap().1;
+        let half = 3.2 * name.split_once('<').unwrap().0.len() as f64;
+        labels.push((attribute("y"), attribute("x") - half, attribute("x") + half));
+    }
+    labels.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    assert!(4 <= labels.len(), "{labels:?}");
+    assert!(svg.contains(": 0</text>") && !svg.contains("0e0"), "{svg}");
+    for pair in labels.windows(2) {
+        assert!(pair[0].0 < pair[1].0 || pair[0].2 <= pair[1].1, "{pair:?}");
+        assert!(0.0 <= pair[0].1 && pair[0].2 <= 460.0, "{pair:?}");
+    }
 }
 
 /// A box of 12 triangles.
@@ -237,6 +379,7 @@ fn meshes_that_are_no_scene_get_one_clear_line() {
     run(&["--mesh", "box.obj", "--exact"], 2, "--exact is not for --scene, nor for --mesh");
     run(&["--mesh", "box.obj", "--family", "interior"], 2, "--family");
     run(&["--mesh", "box.obj", "--scale", "2^3"], 2, "leave out --scale");
+    run(&["--mesh", "box.obj", "--corpus", "x"], 2, "leave out --corpus");
     run(&["--scene", "mesh"], 2, "'mesh' needs --mesh FILE");
     // One triangle has no edge with another: those rows are empty, and the rest is answered.
     std::fs::write(folder.join("one.obj"), "v 0 0 0\nv 1 0.5 0.25\nv 0.3 1 0.1\nf 1 2 3\n")

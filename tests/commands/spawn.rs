@@ -46,6 +46,14 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
         assert_eq!(schemes.len(), if part["scalar"] == "f32" { 12 } else { 11 }, "{part}");
         assert!(schemes.iter().all(|scheme| scheme["source"].is_string()));
         assert!(schemes.iter().all(|scheme| scheme["wrong"]["of"] == part["hits"]));
+        // What is recommended never fails, and nothing of which that is true is lower.
+        let median = |scheme: &Value| scheme["height_in_edges"]["median"].as_f64().unwrap();
+        let never =
+            |scheme: &&Value| scheme["wrong"]["count"] == 0 && scheme["self_hits"]["count"] == 0;
+        let lowest = schemes.iter().filter(never).map(median).reduce(f64::min).unwrap();
+        let best = schemes.iter().find(|scheme| scheme["name"] == part["best"]["scheme"]).unwrap();
+        assert!(never(&best), "{best}");
+        assert!(median(best) <= 1.5 * lowest, "{best}: {lowest}");
     }
     let of = |part: &Value, name: &str| {
         let schemes = part["schemes"].as_array().unwrap();
@@ -78,6 +86,12 @@ fn schemes_points_and_walls_are_those_named() {
     // Edges are at most 1, so 1e-3 is never below a thousandth of one, but for the point's own error.
     assert!(0.9 < schemes[0]["beyond_wall"]["rate"].as_f64().unwrap());
     assert_eq!(schemes[1]["beyond_wall"]["count"], 0);
+    // A kernel of whole lines that reports no t cannot tell a self-hit.
+    let lines = ["--kernel", "scalar-triple-two-sided", "--point", "uv", "-n", "500"];
+    let record = json(&folder, &[&lines[..], &["--scheme", "normal=1e-3"]].concat());
+    let part = &record["points"][0];
+    assert_eq!(part["schemes"][0]["self_hits"]["of"], 0);
+    assert_eq!(part["best"]["scheme"], "normal=1e-3");
     // A scheme that has no constants for f64 leaves it out.
     let both = ["--scheme", "waechter-binder", "--scalar", "f32,f64", "--point", "uv", "-n", "500"];
     assert_eq!(json(&folder, &both)["points"].as_array().unwrap().len(), 1);

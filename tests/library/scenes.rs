@@ -6,11 +6,12 @@ use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
 use hairline::internals::corpus::mesh::read_obj;
 use hairline::internals::epsilon::scene::{
-    Attempt, Costs, Count, Kind, Knob, Setting, cheapest, contract_with, count_at, counts, limits,
+    Attempt, Costs, Count, Kind, Knob, Limit, MaxError, Proved, Setting, cheapest, contract_with,
+    count_at, counts, limits, proved,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::judge::{GroupTruth, Obligation, asked, group_obligation};
-use hairline::internals::kernel::{Scalar, Verdict, find};
+use hairline::internals::kernel::{KERNELS, Scalar, Verdict, find};
 use hairline::internals::mesh::{SceneMesh, Surface};
 use hairline::internals::oracle;
 use std::collections::BTreeSet;
@@ -212,7 +213,7 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
         let all = all_counted(&setting, seed, number);
         for costs in ["crack=10", "crack=1,self-hit=30", "miss=0.01,hit=5"] {
             let costs = Costs::parse(costs).unwrap();
-            let best = cheapest(&setting, &[], &costs, seed, number, &Unobserved);
+            let best = cheapest(&setting, &[], &costs, None, seed, number, &Unobserved).unwrap();
             let cost = |epsilons: &[f32]| costs.total(&counts, shares(&setting, &all, epsilons));
             let least = cost(&best);
             let gates = row.entry.info.gates;
@@ -268,6 +269,107 @@ fn limits_are_violated_no_more_often_than_stated() {
     }
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
     assert!(violated.len() >= 6 && violated.values().all(|n| *n < 12), "{violated:?}");
+}
+
+/// t of a hit of a kernel on a case, and how far it is off: in `f64`, of which `f32` needs half the digits.
+fn error_of_t(kernel: &str, epsilons: &[f32], case: &Case<f32>) -> Option<f64> {
+    let mut verdicts = [Verdict::miss(None)];
+    f32::subject(find(kernel).unwrap()).unwrap().run(&[*case], epsilons, &mut verdicts);
+    let [o, d, a, b, c] = case.widen().vectors();
+    let (e, f) = (minus(b, a), minus(c, a));
+    let n = [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        e[j] * f[k] - e[k] * f[j]
+    });
+    let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+    let exact = dot(n, minus(a, o)) / dot(n, d);
+    verdicts[0].hit.then(|| (f64::from(verdicts[0].t) - exact).abs() / exact.abs())
+}
+
+#[test]
+fn errors_above_the_limit_are_no_more_frequent_than_stated() {
+    let (scene, _) = Scene::parse("room").unwrap();
+    let kernel = "moller-trumbore";
+    let (row, _, _) = tuned(kernel);
+    let knobs = [Knob::Gate(0)];
+    let counts = [Kind::Miss, Kind::Hit].map(|kind| Count { stratum: Stratum::Grazing, kind });
+    let setting = setting(&row, &knobs, &counts, &scene);
+    let most = 0.02;
+    let max_error = MaxError::parse(&format!("t={most}")).unwrap();
+    let (number, many, runs) = (8_000, 20_000, 100);
+    let source = setting.source(Stratum::Grazing, 1 << 40, many);
+    let cases: Vec<Case<f32>> = (0..many)
+        .map(|index| source.make::<f32>(index).cases()[0])
+        .filter(|case| {
+            asked(case, &oracle::truth(case), &row.contract, false) == Obligation::MustHit
+        })
+        .collect();
+    let mut gates = row.epsilons::<f32>();
+    // By epsilon: the share of larger errors among the hits that remain.
+    let mut known = std::collections::BTreeMap::<u32, f64>::new();
+    let costs = Costs::default();
+    let (mut violated, mut claims) = (0, 0);
+    for seed in 1..=runs {
+        let best = cheapest(&setting, &[], &costs, Some(&max_error), seed, number, &Unobserved);
+        // A sample may be too small to show it anywhere; then nothing is claimed.
+        let Some(epsilon) = best.map(|best| best[0]) else { continue };
+        claims += 1;
+        let share = *known.entry(epsilon.to_bits()).or_insert_with(|| {
+            gates[0] = epsilon;
+            let errors: Vec<f64> =
+                cases.iter().filter_map(|case| error_of_t(kernel, &gates, case)).collect();
+            let larger = errors.iter().filter(|error| most < **error).count();
+            // The share itself is a sample.
+            let share = larger as f64 / errors.len() as f64;
+            share - 2.0 * (share / errors.len() as f64).sqrt()
+        });
+        violated += u32::from(0.01 < share);
+    }
+    // The cheapest epsilon without a limit is another one, with larger errors.
+    gates[0] = cheapest(&setting, &[], &costs, None, 1, number, &Unobserved).unwrap()[0];
+    let free: Vec<f64> = cases.iter().filter_map(|case| error_of_t(kernel, &gates, case)).collect();
+    let larger = free.iter().filter(|error| most < **error).count();
+    assert!(free.len() < 50 * larger, "{larger} of {}", free.len());
+    // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
+    assert!(violated < 12 && 95 < claims, "{violated} of {claims}: {known:?}");
+    let none = MaxError::parse("t=1e-12").unwrap();
+    assert_eq!(cheapest(&setting, &[], &costs, Some(&none), 1, number, &Unobserved), None);
+}
+
+#[test]
+fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_them() {
+    let mut proofs = 0;
+    for preset in SCENES {
+        for entry in KERNELS.iter().filter(|entry| entry.scalars()[0]) {
+            let (row, knobs, counts) = tuned(entry.info.name);
+            let setting = setting(&row, &knobs, &counts, &preset.scene);
+            let proved = proved(&setting);
+            let zero = vec![0.0; knobs.len()];
+            let seen = if proved.is_empty() {
+                vec![]
+            } else {
+                limits(&setting, &zero, 7, 2000, &Unobserved)
+            };
+            for Proved { knob, count, is_lower, value } in proved {
+                let name =
+                    format!("{} {} {:?} {value:e}", preset.name, entry.info.name, counts[count]);
+                let limit = Limit { knob, count, is_lower, value: Some(value), one_in: 1 };
+                let attempt = [Attempt::at_limit(&limit, &zero).unwrap()];
+                let wrong = count_at(&setting, &attempt, 11, 4000, &Unobserved).remove(0)[count];
+                assert_eq!(wrong.count, 0, "{name}");
+                assert!(0 < wrong.of, "{name}");
+                let same = |other: &&Limit<f32>| other.knob == knob && other.count == count;
+                if let Some(seen) = seen.iter().find(same).and_then(|limit| limit.value) {
+                    assert!(
+                        if is_lower { seen <= value } else { value <= seen },
+                        "{name}: {seen:e}"
+                    );
+                }
+                proofs += 1;
+            }
+        }
+    }
+    assert!(20 < proofs, "{proofs}");
 }
 
 /// FNV-1a over the bits of a stratum's first cases in the scene `city`.
@@ -357,7 +459,7 @@ fn check_mesh<F: Scalar>(direction: &str) {
         let all = if is_parallel && direction == "mesh" { 12 } else { 16 };
         assert_eq!(seen.len(), all, "{stratum:?}");
         let aimed = [Stratum::Interior, Stratum::Edges, Stratum::Vertices];
-        assert!(!aimed.contains(&stratum) || 400 < hits, "{stratum:?}: {hits}");
+        assert!(!aimed.contains(&stratum) || 200 < hits, "{stratum:?}: {hits}");
     }
 }
 

@@ -5,9 +5,10 @@ use crate::audit::Row;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
-use crate::cli::sources::{StudiedScene, scalars_in_use, set_threads};
+use crate::cli::sources::{scalars_in_use, set_threads};
 use crate::epsilon::scene::{
-    Costs, Knob, MOST_KNOBS, Setting, contract_with, counts, own_epsilons, study_scene,
+    Costs, Knob, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts, own_epsilons,
+    study_scene,
 };
 use crate::family::Stratum;
 use crate::kernel::Scalar;
@@ -20,8 +21,9 @@ const COUNT: u64 = 40_000;
 /// The most values of --at.
 const MOST_AT: usize = 5;
 
-/// Passes over every stratum: the grid, the limits and the fresh rays, and again for scale-free forms.
-const PASSES: u64 = 6;
+/// Passes over every stratum: the grid, the limits, the fresh rays and the curves, and again for scale-free
+/// forms.
+const PASSES: u64 = 7;
 
 /// Runs the command; the flags may leave the count to it.
 pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
@@ -31,6 +33,9 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     set_threads(arguments.threads)?;
     let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
     let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
+    let max_error = arguments.max_error.as_deref().map(MaxError::parse).transpose();
+    let max_error = max_error.map_err(|error| Failure::usage(format!("--max-error: {error}")))?;
+    let max_error = max_error.as_ref();
     let rows = arguments.kernels.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
@@ -51,13 +56,15 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         _ if arguments.quiet => {}
         _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
     }
+    arguments.warn_of_subnormals(&rows, scalars);
     let (seed, count) = arguments.sources.seed_and_count();
     let count = if is_count_given { count } else { COUNT };
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
     let total = PASSES * Stratum::ALL.len() as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.quiet);
     let at = &arguments.at;
-    let run = Run { studied: &studied, costs: &costs, at, seed, count, progress: &progress };
+    let run =
+        Run { studied: &studied, costs: &costs, max_error, at, seed, count, progress: &progress };
     let mut parts = Vec::new();
     for tuned in &tuned {
         let in_scalar = tuned.row.entry.scalars();
@@ -69,8 +76,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         }
     }
     progress.finish();
-    let mesh = studied.mesh.as_ref().map(|mesh| mesh.surface());
-    let record = scene_record(&studied.scene, studied.unit, mesh, &costs, seed, count, parts);
+    let record = scene_record(&studied, &costs, max_error, seed, count, parts);
     write_results(outputs, |format, _, out| {
         let style = Style { color: ColorChoice::Never.enabled(false), details: false };
         (format.write)(&record, style, out)
@@ -88,6 +94,7 @@ struct Tuned<'a> {
 struct Run<'a> {
     studied: &'a StudiedScene,
     costs: &'a Costs,
+    max_error: Option<&'a MaxError>,
     at: &'a [String],
     seed: u64,
     count: u64,
@@ -118,9 +125,10 @@ impl Run<'_> {
             let wrong = || format!("--at: '{text}' is not a finite number of {}", F::NAME);
             named.push((text.clone(), vec![value.ok_or_else(|| Failure::usage(wrong()))?]));
         }
-        let study = study_scene(&setting, self.costs, &named, self.seed, self.count, self.progress)
+        let Run { costs, max_error, seed, count, progress, .. } = *self;
+        let study = study_scene(&setting, costs, max_error, &named, seed, count, progress)
             .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
-        Ok(kernel_part(&setting, &study))
+        Ok(kernel_part(&setting, &study, max_error))
     }
 }
 
@@ -136,6 +144,7 @@ impl EpsilonArguments {
             ("--exact", self.exact),
             ("--relative", self.relative),
             ("--map", self.map),
+            ("--curves", self.curves),
             ("--family", self.sources.names_families()),
         ];
         match given.iter().find(|(_, given)| *given) {

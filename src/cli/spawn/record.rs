@@ -38,6 +38,8 @@ pub struct SpawnRecord {
 #[derive(Serialize)]
 pub struct PointsPart {
     pub kernel: String,
+    /// What its epsilons are called.
+    pub set: String,
     /// The flags that choose the kernel and its epsilons.
     pub flags: String,
     pub scalar: &'static str,
@@ -99,7 +101,7 @@ pub struct SchemePart {
     pub wrong: Rate,
     /// Of these, starts that are not finite.
     pub not_finite: u64,
-    /// New rays that hit the triangle which they leave, says the kernel.
+    /// New rays that hit the triangle which they leave, says the kernel; of none if it cannot tell.
     pub self_hits: Rate,
     /// Starts beyond the wall.
     pub beyond_wall: Rate,
@@ -162,6 +164,7 @@ impl PointsPart {
         };
         PointsPart {
             kernel: plan.row.entry.info.name.to_owned(),
+            set: plan.row.set.clone(),
             scalar: F::NAME,
             point: plan.kind.name(),
             hits: sums.hits,
@@ -226,7 +229,7 @@ impl SchemePart {
             source: scheme.source.clone(),
             wrong: rate(sums.wrong),
             not_finite: sums.not_finite,
-            self_hits: rate(sums.self_hits),
+            self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
             beyond_wall: rate(sums.beyond_wall),
             height_in_edges: HeightsPart::new(&sums.in_edges),
             height_in_ulps: HeightsPart::new(&sums.in_ulps),

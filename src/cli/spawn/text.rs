@@ -32,7 +32,8 @@ fn heading(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::
         _ => "hit points o + t*d",
     };
     let (kernel, scalar, scene) = (&part.kernel, part.scalar, &record.scene);
-    writeln!(out, "{kernel} {scalar}, {point}, in {scene}{}", of_unit(record.unit))
+    let set = if part.set == "source" { String::new() } else { format!(" ({})", part.set) };
+    writeln!(out, "{kernel}{set} {scalar}, {point}, in {scene}{}", of_unit(record.unit))
 }
 
 fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {

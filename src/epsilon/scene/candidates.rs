@@ -1,8 +1,9 @@
 //! The values that are weighed for each knob: round numbers over the range in which they matter.
 
+use super::errors::{MaxError, errors_of};
 use super::joint::Grid;
 use super::knob::{Knob, MOST_KNOBS};
-use super::trials::{Setting, Trial};
+use super::trials::{Kind, Setting, Trial};
 use crate::arith::{Float, smallest_normal};
 use crate::case::{DirectionLength, Scene};
 use crate::engine::{Merge, Observer};
@@ -10,6 +11,9 @@ use crate::kernel::{Dimension, Gate, Role, Scalar};
 
 /// The first indices of a set show the range.
 const PILOT: u64 = 2048;
+
+/// How far the range reaches beyond a hit that is too far off.
+const BEYOND: f64 = 100.0;
 
 /// The most values of a knob on each side of zero.
 const MOST_VALUES: usize = 60;
@@ -51,11 +55,12 @@ impl Merge for Ranges {
     }
 }
 
-/// The grid of a setting: for each knob zero, the values given, and round numbers. Also whether some round
-/// numbers were left out to keep it small.
+/// The grid of a setting: for each knob zero, the values given, and round numbers over the margins of what
+/// is to be refused and of what is lost. Also whether some round numbers were left out to keep it small.
 pub fn grid<F: Scalar>(
     setting: &Setting<'_, F>,
     given: &[Vec<F>],
+    max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
     observer: &dyn Observer,
@@ -63,18 +68,30 @@ pub fn grid<F: Scalar>(
     let gates = setting.row.entry.info.gates;
     let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
     let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
-        let counted = setting.counts[trial.count];
+        let kind = setting.counts[trial.count].kind;
+        let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(setting, &trial.cases[0]));
+        let is_refused = match kind {
+            // A hit that is too far off is to be refused too.
+            Kind::Miss => max_error.is_some_and(is_exceeded),
+            kind => !kind.is_wrong_if_refused(),
+        };
         for (k, knob) in setting.knobs.iter().enumerate() {
             let margins = trial.margins.iter().map(|margins| margins[k]);
             let margin = margins.fold(-F::infinity(), |most, m| if most < m { m } else { most });
             if !margin.is_finite() || margin.is_zero() {
                 continue;
             }
-            let size = margin.to_f64().abs().min(cap(*knob, gates, setting.scene));
-            match (margin < F::zero(), counted.kind.is_wrong_if_refused()) {
-                (true, true) => widen(&mut ranges.below[k], size),
-                (false, false) => widen(&mut ranges.above[k], size),
-                _ => {}
+            let cap = cap(*knob, gates, setting.scene);
+            let size = margin.to_f64().abs().min(cap);
+            if margin < F::zero() && kind.is_wrong_if_refused() {
+                widen(&mut ranges.below[k], size);
+            }
+            if F::zero() < margin && is_refused {
+                widen(&mut ranges.above[k], size);
+                if kind == Kind::Miss {
+                    // Of a larger sample some are worse than those of the pilot.
+                    widen(&mut ranges.above[k], (BEYOND * size).min(cap));
+                }
             }
         }
     };
@@ -99,6 +116,23 @@ pub fn grid<F: Scalar>(
         }
         step += 1;
     }
+}
+
+/// Some values, zero, and round numbers on each side of zero where there are values, from a thousandth of
+/// the smallest to a thousand times the largest.
+pub fn round_values<F: Float>(special: &[F]) -> Vec<F> {
+    let mut values = vec![F::zero()];
+    values.extend(special);
+    for sign in [F::one(), -F::one()] {
+        let sizes = special.iter().map(|x| (*x * sign).to_f64()).filter(|size| 0.0 < *size);
+        let ends = sizes.fold(None, |ends: Option<[f64; 2]>, size| {
+            let [low, high] = ends.unwrap_or([size; 2]);
+            Some([low.min(size), high.max(size)])
+        });
+        let around = ends.map(|[low, high]| rounds::<F>([low / 1e3, high * 1e3], 0));
+        values.extend(around.into_iter().flatten().map(|x| x * sign));
+    }
+    in_order(values)
 }
 
 /// The different values, in order.

@@ -1,5 +1,6 @@
 //! All knobs together: the counts at every combination of some values, and the cheapest of them.
 
+use super::errors::{MaxError, errors_of};
 use super::trials::{Count, Kind, Margins, Setting, Trial};
 use crate::arith::Float;
 use crate::engine::{Merge, Observer};
@@ -66,6 +67,8 @@ pub struct Joint<F> {
     of: Vec<u64>,
     /// By count, then by point: how many trials report a hit.
     hits: Vec<Vec<i64>>,
+    /// If errors are limited, of the counts of lost hits: how many of those hits have a larger error.
+    exceeded: Option<Vec<Vec<i64>>>,
 }
 
 impl<F: Float> Grid<F> {
@@ -98,12 +101,14 @@ impl<F: Float> Grid<F> {
 struct Sums {
     of: Vec<u64>,
     cells: Vec<Vec<i64>>,
+    exceeded: Vec<Vec<i64>>,
 }
 
 impl Merge for Sums {
     fn merge(&mut self, other: Sums) {
         self.of.iter_mut().zip(other.of).for_each(|(sum, more)| *sum += more);
-        for (cells, more) in self.cells.iter_mut().zip(other.cells) {
+        let cells = self.cells.iter_mut().zip(other.cells);
+        for (cells, more) in cells.chain(self.exceeded.iter_mut().zip(other.exceeded)) {
             if cells.is_empty() {
                 *cells = more;
             } else {
@@ -118,30 +123,56 @@ impl<F: Scalar> Joint<F> {
     pub fn count(
         setting: &Setting<'_, F>,
         grid: Grid<F>,
+        max_error: Option<&MaxError>,
         seed: u64,
         count: u64,
         observer: &dyn Observer,
     ) -> Joint<F> {
         let number = setting.counts.len();
-        let empty = || Sums { of: vec![0; number], cells: vec![Vec::new(); number] };
+        let none = vec![Vec::new(); number];
+        let empty = || Sums { of: vec![0; number], cells: none.clone(), exceeded: none.clone() };
         let add = |sums: &mut Sums, trial: Trial<'_, F>| {
             sums.of[trial.count] += 1;
-            let cells = &mut sums.cells[trial.count];
-            cells.resize(grid.cells(), 0);
-            for (sign, places) in union(trial.margins.iter().map(|m| grid.accepted(m)).collect()) {
-                cells[grid.cell(&places)] += sign;
+            let terms = union(trial.margins.iter().map(|m| grid.accepted(m)).collect());
+            let add_to = |cells: &mut Vec<i64>| {
+                cells.resize(grid.cells(), 0);
+                terms.iter().for_each(|(sign, places)| cells[grid.cell(places)] += sign);
+            };
+            add_to(&mut sums.cells[trial.count]);
+            let is_exceeded =
+                |max: &MaxError| max.is_exceeded(&errors_of(setting, &trial.cases[0]));
+            let is_hit = setting.counts[trial.count].kind == Kind::Miss;
+            if is_hit && max_error.is_some_and(is_exceeded) {
+                add_to(&mut sums.exceeded[trial.count]);
             }
         };
-        let Sums { of, cells } = setting.sum(seed, count, observer, empty, add);
-        let hits = cells.into_iter().map(|cells| accumulated(&grid, cells)).collect();
-        Joint { grid, of, hits }
+        let Sums { of, cells, exceeded } = setting.sum(seed, count, observer, empty, add);
+        let all = |cells: Vec<Vec<i64>>| {
+            cells.into_iter().map(|cells| accumulated(&grid, cells)).collect()
+        };
+        let (hits, exceeded) = (all(cells), max_error.map(|_| all(exceeded)));
+        Joint { grid, of, hits, exceeded }
+    }
+
+    /// The cell with the hits of a point: those that accept one value more than its place.
+    fn cell_of(&self, places: &[usize]) -> usize {
+        let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
+        self.grid.cell(&above)
+    }
+
+    /// Whether the hits that remain at a point have errors as small as is wanted, in each stratum.
+    fn is_accurate(&self, counts: &[Count], places: &[usize]) -> bool {
+        let Some(exceeded) = &self.exceeded else { return true };
+        let cell = self.cell_of(places);
+        let at = |of: &[i64]| of.get(cell).copied().unwrap_or(0) as u64;
+        let pairs = counts.iter().zip(self.hits.iter().zip(exceeded));
+        let mut of_hits = pairs.filter(|(count, _)| count.kind == Kind::Miss);
+        of_hits.all(|(_, (hits, exceeded))| MaxError::is_kept(at(exceeded), at(hits)))
     }
 
     /// The share of wrong answers of each count at a point; 0 of nothing.
     fn shares(&self, counts: &[Count], places: &[usize]) -> Vec<f64> {
-        // A point's hits are those that accept one value more than its place.
-        let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
-        let cell = self.grid.cell(&above);
+        let cell = self.cell_of(places);
         let wrong = counts.iter().zip(&self.of).zip(&self.hits).map(|((count, of), hits)| {
             let hits = hits.get(cell).copied().unwrap_or(0) as u64;
             let wrong = if count.kind.is_wrong_if_refused() { of - hits } else { hits };
@@ -150,15 +181,16 @@ impl<F: Scalar> Joint<F> {
         wrong.collect()
     }
 
-    /// The point with the least cost. Of points with equal cost along a knob the one with the value 0, or
-    /// else the middle one.
-    pub fn best(&self, counts: &[Count], costs: &Costs) -> Vec<F> {
+    /// The point with the least cost; none if errors are larger everywhere. Of points with equal cost along
+    /// a knob the one with the value 0, or else the middle one.
+    pub fn best(&self, counts: &[Count], costs: &Costs) -> Option<Vec<F>> {
         let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
         let mut best: Option<(f64, Vec<usize>)> = None;
         let mut places = vec![0; self.grid.values.len()];
         loop {
             let found = cost(&places);
-            if best.as_ref().is_none_or(|(least, _)| found < *least) {
+            let is_cheaper = best.as_ref().is_none_or(|(least, _)| found < *least);
+            if is_cheaper && self.is_accurate(counts, &places) {
                 best = Some((found, places.clone()));
             }
             let Some(next) =
@@ -169,13 +201,13 @@ impl<F: Scalar> Joint<F> {
             places[next] += 1;
             places[next + 1..].fill(0);
         }
-        let (least, mut places) = best.expect("a grid has a point");
+        let (least, mut places) = best?;
         for k in 0..places.len() {
             let values = &self.grid.values[k];
             let as_good = |place: usize| {
                 let mut moved = places.clone();
                 moved[k] = place;
-                cost(&moved) <= least
+                cost(&moved) <= least && self.is_accurate(counts, &moved)
             };
             let first = (0..places[k]).rev().take_while(|p| as_good(*p)).last();
             let last = (places[k] + 1..values.len()).take_while(|p| as_good(*p)).last();
@@ -183,7 +215,7 @@ impl<F: Scalar> Joint<F> {
             let zero = (first..=last).find(|place| values[*place].is_zero());
             places[k] = zero.unwrap_or((first + last) / 2);
         }
-        self.grid.point(&places)
+        Some(self.grid.point(&places))
     }
 }
 

@@ -6,16 +6,24 @@
 //! each knob may move, and try everything on rays of another seed.
 
 mod candidates;
+mod confidence;
+mod curves;
+mod errors;
 mod joint;
 mod knob;
 mod limits;
+mod proved;
 mod study;
 mod trials;
 
+pub use confidence::{CONFIDENCE, rank};
+pub use curves::Curve;
+pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
-pub use limits::{CONFIDENCE, Limit, limits, rank};
+pub use limits::{Limit, limits};
+pub use proved::{Proved, proved};
 pub use study::{
     Attempt, SceneStudy, Tried, cheapest, count_at, fresh_seed, own_epsilons, study_scene,
 };
-pub use trials::{Count, Kind, Setting, Trial, counts};
+pub use trials::{Count, Kind, Setting, StudiedScene, Trial, counts};

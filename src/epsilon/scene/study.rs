@@ -2,10 +2,13 @@
 //! rays.
 
 use super::candidates::{around, grid};
-use super::joint::{Costs, Joint};
+use super::curves::{Curve, axes, curves};
+use super::errors::{ErrorSums, MaxError, errors_of};
+use super::joint::{Costs, Grid, Joint};
 use super::knob::Knob;
 use super::limits::{Limit, limits};
-use super::trials::{Count, Setting, Trial};
+use super::proved::{Proved, proved};
+use super::trials::{Count, Kind, Setting, Trial};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
 use crate::engine::{Merge, Observer};
@@ -15,12 +18,18 @@ use crate::kernel::{Scalar, Verdict};
 pub struct SceneStudy<F> {
     /// By knob: the cheapest epsilons together.
     pub best: Vec<F>,
+    /// Whether the errors of the hits that remain are as small as was wanted.
+    pub is_accurate: bool,
     /// What epsilons do on fresh rays: the cheapest, and the named ones, without those that are equal to
     /// one before.
     pub tried: Vec<Tried<F>>,
     /// How far each knob may move, and how often that was wrong on fresh rays.
     pub limits: Vec<(Limit<F>, Trials)>,
-    /// The same with epsilons that follow each case's size, if that is cheaper by a fifth.
+    /// Values that are proved, and how often they were wrong on fresh rays: never, or a proof is.
+    pub proved: Vec<(Proved<F>, Trials)>,
+    /// By knob: what each value does on fresh rays while the others stay.
+    pub curves: Vec<Curve<F>>,
+    /// The cheapest epsilons that follow each case's size, if they are cheaper by a fifth.
     pub relative: Option<Tried<F>>,
     /// How far such epsilons may move.
     pub relative_limits: Vec<Limit<F>>,
@@ -36,6 +45,8 @@ pub struct Tried<F> {
     pub wrong: Vec<Trials>,
     /// The sum of their shares, each times its cost.
     pub cost: f64,
+    /// By count: the errors of the hits that remain, where hits can be lost.
+    pub errors: Vec<ErrorSums>,
 }
 
 /// The seed of the fresh rays: the next one.
@@ -51,6 +62,7 @@ const WORTH_SAYING: f64 = 0.8;
 pub fn study_scene<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
+    max_error: Option<&MaxError>,
     named: &[(String, Vec<F>)],
     seed: u64,
     count: u64,
@@ -58,7 +70,10 @@ pub fn study_scene<F: Scalar>(
 ) -> Result<SceneStudy<F>, String> {
     let (counts, fresh) = (setting.counts, fresh_seed(seed));
     let given: Vec<Vec<F>> = named.iter().map(|(_, epsilons)| epsilons.clone()).collect();
-    let best = cheapest(setting, &given, costs, seed, count, observer);
+    let accurate = cheapest(setting, &given, costs, max_error, seed, count, observer);
+    let is_accurate = accurate.is_some();
+    let best = accurate.or_else(|| cheapest(setting, &given, costs, None, seed, count, observer));
+    let best = best.expect("without a limit of errors some point is the cheapest");
     let found = limits(setting, &best, seed, count, observer);
     let mut vectors = vec![("recommended".to_owned(), best.clone())];
     for (name, epsilons) in named {
@@ -70,28 +85,57 @@ pub fn study_scene<F: Scalar>(
     let mut attempts: Vec<Attempt<F>> =
         vectors.iter().map(|(_, epsilons)| Attempt::new(epsilons.clone())).collect();
     attempts.extend(found.iter().filter_map(|limit| Attempt::at_limit(limit, &best)));
-    let mut wrong = run_at(setting, &attempts, fresh, count, observer)?;
+    let proofs = proved(setting);
+    let at_proved =
+        |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
+    attempts.extend(proofs.iter().map(at_proved));
+    let run = run_at(setting, &attempts, plain, fresh, count, observer)?;
+    let Wrong { trials: mut wrong, errors, .. } = run;
+    let of_proofs = wrong.split_off(attempts.len() - proofs.len());
+    let of_proof = |(proved, wrong): (Proved<F>, Vec<Trials>)| {
+        let trials = wrong[proved.count];
+        (proved, trials)
+    };
+    let proofs: Vec<_> = proofs.into_iter().zip(of_proofs).map(of_proof).collect();
     let mut of_limits = wrong.split_off(plain).into_iter();
     let with_trials = |limit: Limit<F>| {
         let wrong = limit.value.and_then(|_| of_limits.next());
         let trials = wrong.map_or(Trials::default(), |wrong| wrong[limit.count]);
         (limit, trials)
     };
+    let axes = axes(&vectors, &found, &proofs);
+    let curves = curves(setting, &best, &axes, fresh, count, observer);
     let found = found.into_iter().map(with_trials).collect();
-    let tried = |((name, epsilons), wrong): ((String, Vec<F>), Vec<Trials>)| {
+    let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, errors| {
         let cost = costs.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)));
-        Tried { name, epsilons, wrong, cost }
+        Tried { name, epsilons, wrong, cost, errors }
     };
-    let all: Vec<Tried<F>> = vectors.into_iter().zip(wrong).map(tried).collect();
+    let of_vectors = vectors.into_iter().zip(wrong).zip(errors);
+    let all: Vec<Tried<F>> =
+        of_vectors.map(|((vector, wrong), errors)| tried(vector, wrong, errors)).collect();
     let relative = Setting { relative: true, ..*setting };
-    let followed = cheapest(&relative, &[], costs, seed, count, observer);
-    let relative_limits = limits(&relative, &followed, seed, count, observer);
-    let attempt = [Attempt::new(followed.clone())];
-    let wrong = count_at(&relative, &attempt, fresh, count, observer);
-    let relative =
-        wrong.into_iter().next().map(|wrong| tried((("scale-free".to_owned(), followed), wrong)));
-    let relative = relative.filter(|relative| relative.cost < WORTH_SAYING * all[0].cost);
-    Ok(SceneStudy { best, tried: all, limits: found, relative, relative_limits })
+    let followed = cheapest(&relative, &[], costs, max_error, seed, count, observer);
+    let (relative, relative_limits) = match followed {
+        Some(followed) => {
+            let found = limits(&relative, &followed, seed, count, observer);
+            let attempt = [Attempt::new(followed.clone())];
+            let wrong = count_at(&relative, &attempt, fresh, count, observer).remove(0);
+            let vector = ("scale-free".to_owned(), followed);
+            let relative = tried(vector, wrong, Vec::new());
+            (Some(relative).filter(|relative| relative.cost < WORTH_SAYING * all[0].cost), found)
+        }
+        None => (None, Vec::new()),
+    };
+    Ok(SceneStudy {
+        best,
+        is_accurate,
+        tried: all,
+        limits: found,
+        proved: proofs,
+        curves,
+        relative,
+        relative_limits,
+    })
 }
 
 /// The epsilons of a row by knob; the least t is 0.
@@ -104,21 +148,24 @@ pub fn own_epsilons<F: Scalar>(row: &Row, knobs: &[Knob]) -> Vec<F> {
     knobs.iter().map(own).collect()
 }
 
-/// The cheapest epsilons together, of the given ones and of round ones.
+/// The cheapest epsilons together, of the given ones and of round ones; none if at all of them too many of
+/// the hits that remain have too large errors.
 pub fn cheapest<F: Scalar>(
     setting: &Setting<'_, F>,
     given: &[Vec<F>],
     costs: &Costs,
+    max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> Vec<F> {
-    let (grid, is_thin) = grid(setting, given, seed, count, observer);
-    let best = Joint::count(setting, grid, seed, count, observer).best(setting.counts, costs);
-    if !is_thin {
-        return best;
-    }
-    Joint::count(setting, around(&best), seed, count, observer).best(setting.counts, costs)
+) -> Option<Vec<F>> {
+    let best = |grid: Grid<F>| {
+        let joint = Joint::count(setting, grid, max_error, seed, count, observer);
+        joint.best(setting.counts, costs)
+    };
+    let (grid, is_thin) = grid(setting, given, max_error, seed, count, observer);
+    let found = best(grid)?;
+    if is_thin { best(around(&found)) } else { Some(found) }
 }
 
 /// Epsilons to try, and on which trials: all, or those that are hits at other epsilons.
@@ -138,34 +185,70 @@ impl<F: Float> Attempt<F> {
     /// A limit, where the other knobs stay; none if it has no value. What the others refuse is no loss
     /// of this one's.
     pub fn at_limit(limit: &Limit<F>, others: &[F]) -> Option<Attempt<F>> {
+        Some(Attempt::alone(limit.knob, limit.value?, limit.is_lower, others))
+    }
+
+    fn alone(knob: usize, value: F, is_lower: bool, others: &[F]) -> Attempt<F> {
         let with = |value: F| {
             let mut epsilons = others.to_vec();
-            epsilons[limit.knob] = value;
+            epsilons[knob] = value;
             epsilons
         };
-        let among = (!limit.is_lower).then(|| with(F::infinity().offset_ulps(-1) * -F::one()));
-        Some(Attempt { epsilons: with(limit.value?), among })
+        let among = (!is_lower).then(|| with(F::infinity().offset_ulps(-1) * -F::one()));
+        Attempt { epsilons: with(value), among }
     }
 }
 
-struct Wrong(Vec<Vec<Trials>>, Option<String>);
+struct Wrong {
+    /// By attempt, by count.
+    trials: Vec<Vec<Trials>>,
+    /// The same, of the first attempts.
+    errors: Vec<Vec<ErrorSums>>,
+    /// A disagreement between margins and the kernel's run.
+    fault: Option<String>,
+}
 
 impl Merge for Wrong {
     fn merge(&mut self, other: Wrong) {
-        let counts = self.0.iter_mut().flatten().zip(other.0.iter().flatten());
+        let counts = self.trials.iter_mut().flatten().zip(other.trials.iter().flatten());
         counts.for_each(|(sum, more)| sum.merge(more));
-        self.1 = self.1.take().or(other.1);
+        let errors = self.errors.iter_mut().flatten().flatten();
+        let more = other.errors.iter().flatten().flatten();
+        errors.zip(more).for_each(|(sum, more)| sum.merge(more));
+        self.fault = self.fault.take().or(other.fault);
     }
 }
 
 impl Wrong {
-    fn new(vectors: usize, counts: &[Count]) -> Wrong {
-        Wrong(vec![vec![Trials::default(); counts.len()]; vectors], None)
+    /// Errors are kept of so many attempts.
+    fn new(attempts: usize, with_errors: usize, counts: &[Count]) -> Wrong {
+        Wrong {
+            trials: vec![vec![Trials::default(); counts.len()]; attempts],
+            errors: vec![vec![ErrorSums::default(); counts.len()]; with_errors],
+            fault: None,
+        }
+    }
+
+    fn add_errors<F: Scalar>(
+        &mut self,
+        setting: &Setting<'_, F>,
+        attempts: &[Attempt<F>],
+        trial: &Trial<'_, F>,
+    ) {
+        if setting.counts[trial.count].kind != Kind::Miss {
+            return;
+        }
+        let errors = errors_of(setting, &trial.cases[0]);
+        let attempts = attempts.iter().zip(&mut self.errors);
+        for (_, sums) in attempts.filter(|(attempt, _)| trial.is_hit(&attempt.epsilons)) {
+            let pairs = sums[trial.count].iter_mut().zip(errors);
+            pairs.for_each(|(sum, error)| error.into_iter().for_each(|error| sum.add(error)));
+        }
     }
 
     fn add<F: Scalar>(&mut self, counts: &[Count], attempts: &[Attempt<F>], trial: &Trial<'_, F>) {
         let if_refused = counts[trial.count].kind.is_wrong_if_refused();
-        for (trials, Attempt { epsilons, among }) in self.0.iter_mut().zip(attempts) {
+        for (trials, Attempt { epsilons, among }) in self.trials.iter_mut().zip(attempts) {
             if among.as_ref().is_some_and(|among| !trial.is_hit(among)) {
                 continue;
             }
@@ -183,19 +266,21 @@ pub fn count_at<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Vec<Vec<Trials>> {
-    let empty = || Wrong::new(attempts.len(), setting.counts);
+    let empty = || Wrong::new(attempts.len(), 0, setting.counts);
     let add = |sums: &mut Wrong, trial: Trial<'_, F>| sums.add(setting.counts, attempts, &trial);
-    setting.sum(seed, count, observer, empty, add).0
+    setting.sum(seed, count, observer, empty, add).trials
 }
 
-/// The same; the kernel also runs at the first epsilons, and must do as its margins say.
+/// The same, and the errors of the hits of the first attempts; the kernel also runs at the first epsilons,
+/// and must do as its margins say.
 fn run_at<F: Scalar>(
     setting: &Setting<'_, F>,
     attempts: &[Attempt<F>],
+    with_errors: usize,
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> Result<Vec<Vec<Trials>>, String> {
+) -> Result<Wrong, String> {
     let kernel = F::subject(setting.row.entry).ok_or("the kernel does not run in this scalar")?;
     let mut epsilons = setting.row.epsilons::<F>();
     let mut least_t = None;
@@ -210,17 +295,18 @@ fn run_at<F: Scalar>(
         kernel.run(trial.cases, &epsilons, &mut verdicts);
         verdicts.iter().any(|verdict| verdict.hit && least_t.is_none_or(|t| t <= verdict.t))
     };
-    let empty = || Wrong::new(attempts.len(), setting.counts);
+    let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
     let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
         if is_hit(&trial) != trial.is_hit(&attempts[0].epsilons) {
-            sums.1 = Some(format!(
+            sums.fault = Some(format!(
                 "the margins and the run differ at {:?} on {}",
                 attempts[0].epsilons,
                 trial.cases[0].hex()
             ));
         }
         sums.add(setting.counts, attempts, &trial);
+        sums.add_errors(setting, attempts, &trial);
     };
-    let Wrong(wrong, fault) = setting.sum(seed, count, observer, empty, add);
-    fault.map_or(Ok(wrong), Err)
+    let mut wrong = setting.sum(seed, count, observer, empty, add);
+    wrong.fault.take().map_or(Ok(wrong), Err)
 }

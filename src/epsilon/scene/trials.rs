@@ -80,6 +80,16 @@ pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
 /// The largest epsilon of each knob at which one triangle is accepted; +inf beyond the last knob.
 pub type Margins<F> = [F; MOST_KNOBS];
 
+/// A scene to study.
+pub struct StudiedScene {
+    /// In numbers.
+    pub scene: Scene,
+    /// Its unit of length; empty if it has none.
+    pub unit: &'static str,
+    /// The mesh that it is, if it is one.
+    pub mesh: Option<Arc<SceneMesh>>,
+}
+
 /// What a pass runs: a kernel, its knobs and a scene.
 pub struct Setting<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.

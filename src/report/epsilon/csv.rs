@@ -27,7 +27,7 @@ pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Resul
 }
 
 /// A field as RFC 4180 has it: quoted where it holds a comma, a quote or a line break.
-fn quoted(field: &str) -> String {
+pub fn quoted(field: &str) -> String {
     if field.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {

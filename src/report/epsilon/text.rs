@@ -1,6 +1,7 @@
 //! A study for people at a terminal.
 
 use super::record::*;
+use crate::arith::{Float, smallest_normal};
 use crate::report::rate::percent;
 use crate::report::record::Rate;
 use crate::report::{Style, group_digits, number_of};
@@ -97,6 +98,10 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "    every e: {}", least(hits, what))?;
     } else {
         writeln!(out, "    e >= {}: {}", hits.limit, least(hits, what))?;
+        if is_subnormal(&part.scalar, &hits.limit) {
+            let note = "a subnormal number, which machines that flush to zero take for 0";
+            writeln!(out, "      {} is {note}", hits.limit)?;
+        }
         decided(hits, out)?;
     }
     match settled {
@@ -128,6 +133,13 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
             misses.limit, hits.limit
         ),
     }
+}
+
+/// Whether an epsilon is below the normal numbers of its scalar.
+fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+    let normal =
+        if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() };
+    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < normal)
 }
 
 fn prices(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
@@ -228,8 +240,8 @@ fn write_scaling(part: &GatePart, scaling: &ScalingPart, out: &mut dyn Write) ->
     let second = relative.map_or(String::new(), |form| format!("   with {form}:"));
     writeln!(
         out,
-        "    {:<8} {:>23} {:>23} {:>13}{second}",
-        "scale", "no avoidable miss up to", "no such hit from", "missed anyway"
+        "    {:<8} {:>23} {:>23} {:>13} {:>9}{second}",
+        "scale", "no avoidable miss up to", "no such hit from", "missed anyway", "of hits"
     )?;
     let or_dash = |limit: &Option<String>| limit.clone().unwrap_or("-".to_owned());
     for (i, row) in scaling.absolute.rows.iter().enumerate() {
@@ -238,7 +250,8 @@ fn write_scaling(part: &GatePart, scaling: &ScalingPart, out: &mut dyn Write) ->
             of => percent(row.missed_anyway as f64 / of as f64),
         };
         let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));
-        write!(out, "    {:<8} {misses:>23} {hits:>23} {anyway:>13}", row.scale)?;
+        let of = group_digits(row.must_hit);
+        write!(out, "    {:<8} {misses:>23} {hits:>23} {anyway:>13} {of:>9}", row.scale)?;
         match relative.and(scaling.relative.rows.get(i)) {
             Some(row) => {
                 let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));

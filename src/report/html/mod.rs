@@ -27,7 +27,7 @@ use words::{code, shortened};
 /// A report has fewer bytes.
 const LIMIT: usize = 9_800_000;
 
-const STYLE: &str = include_str!("style.css");
+pub(super) const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
 /// Writes the record.
@@ -81,6 +81,12 @@ fn policy() -> String {
         digest(STYLE),
         digest(SCRIPT)
     )
+}
+
+/// Nothing but a style.
+pub(super) fn style_policy(style: &str) -> String {
+    let digest = BASE64_STANDARD.encode(Sha256::digest(style.as_bytes()));
+    format!("default-src 'none'; style-src 'sha256-{digest}'; base-uri 'none'; form-action 'none'")
 }
 
 /// In one line.

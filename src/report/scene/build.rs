@@ -3,30 +3,33 @@
 use super::record::*;
 use super::words::set_by;
 use crate::arith::Float;
-use crate::case::{DirectionLength, Scene};
+use crate::audit::{Histogram, Trials};
+use crate::case::DirectionLength;
 use crate::contract::Extent;
 use crate::epsilon::scale_free_form;
-use crate::epsilon::scene::{Costs, Kind, Knob, Limit, SceneStudy, Setting, Tried, fresh_seed};
+use crate::epsilon::scene::{
+    Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, Proved, SceneStudy,
+    Setting, StudiedScene, Tried, Value, fresh_seed,
+};
 use crate::kernel::Scalar;
-use crate::mesh::Surface;
 use crate::report::epsilon::shortest;
 use crate::report::record::Rate;
 
 /// The record of some studies of one scene.
 pub fn scene_record(
-    scene: &Scene,
-    unit: &str,
-    mesh: Option<&Surface>,
+    studied: &StudiedScene,
     costs: &Costs,
+    max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
     kernels: Vec<SceneKernelPart>,
 ) -> SceneRecord {
+    let StudiedScene { scene, unit, mesh } = studied;
     SceneRecord {
         schema: SCENE_SCHEMA.to_owned(),
         scene: scene.to_string(),
-        unit: unit.to_owned(),
-        mesh: mesh.map(|surface| MeshPart {
+        unit: (*unit).to_owned(),
+        mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshPart {
             file: surface.file_name().to_owned(),
             digest: surface.mesh().digest.clone(),
             triangles: surface.mesh().triangles.len() as u64,
@@ -36,13 +39,25 @@ pub fn scene_record(
         seed,
         fresh_seed: fresh_seed(seed),
         count,
-        costs: Kind::ALL.map(|kind| (kind.name().to_owned(), costs.of(kind))).into(),
+        costs: Kind::ALL.map(|kind| named(kind.name(), costs.of(kind))).into(),
+        max_error: Value::ALL
+            .into_iter()
+            .filter_map(|value| Some(named(value.name(), max_error?.of(value)?)))
+            .collect(),
         kernels,
     }
 }
 
+fn named(name: &str, number: f64) -> NamedNumber {
+    NamedNumber { name: name.to_owned(), number }
+}
+
 /// The record of a study of one kernel in one scalar.
-pub fn kernel_part<F: Scalar>(setting: &Setting<'_, F>, study: &SceneStudy<F>) -> SceneKernelPart {
+pub fn kernel_part<F: Scalar>(
+    setting: &Setting<'_, F>,
+    study: &SceneStudy<F>,
+    max_error: Option<&MaxError>,
+) -> SceneKernelPart {
     let info = setting.row.entry.info;
     let knob_part = |knob: &Knob| {
         let dimension = knob.dimension(info.gates);
@@ -83,8 +98,11 @@ pub fn kernel_part<F: Scalar>(setting: &Setting<'_, F>, study: &SceneStudy<F>) -
                 kind: count.kind.name().to_owned(),
             })
             .collect(),
+        is_accurate: max_error.map(|_| study.is_accurate),
         tried,
         limits: limits.collect(),
+        proved: study.proved.iter().map(|(proved, trials)| proved_part(proved, trials)).collect(),
+        curves: study.curves.iter().map(curve_part).collect(),
         conflicts: conflicts(study),
         relative: study.relative.as_ref().map(tried_part),
     }
@@ -124,11 +142,53 @@ fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
     (0..study.best.len()).filter_map(conflict).collect()
 }
 
+fn proved_part<F: Float>(proved: &Proved<F>, trials: &Trials) -> ProvedPart {
+    ProvedPart {
+        knob: proved.knob,
+        count: proved.count,
+        is_lower: proved.is_lower,
+        value: shortest(proved.value),
+        fresh: Rate::new(*trials, true),
+    }
+}
+
+fn curve_part<F: Float>(curve: &Curve<F>) -> CurvePart {
+    let counts = curve.of.iter().zip(&curve.left).zip(&curve.hits);
+    let count = |((of, left), hits): ((&u64, &u64), &Vec<u64>)| CurveCount {
+        of: *of,
+        refused_by_others: of - left,
+        hits: hits.clone(),
+    };
+    CurvePart {
+        values: curve.values.iter().map(|value| shortest(*value)).collect(),
+        counts: counts.map(count).collect(),
+    }
+}
+
+/// The errors of each count whose hits were measured.
+fn error_parts(errors: &[ErrorSums]) -> Vec<ErrorPart> {
+    let finite = |error: f64| error.is_finite().then_some(error);
+    let part = |(count, value, sum): (usize, Value, &Histogram)| ErrorPart {
+        count,
+        value: value.name().to_owned(),
+        hits: sum.count(),
+        median: finite(sum.quantile(0.5)),
+        most: finite(sum.quantile(1.0 - 1.0 / ERRORS_ONE_IN as f64)),
+        worst: finite(sum.largest()),
+    };
+    let all = Value::ALL.into_iter().flat_map(|value| {
+        let of_value = errors.iter().enumerate();
+        of_value.map(move |(count, sums)| (count, value, &sums[value as usize]))
+    });
+    all.filter(|(.., sum)| 0 < sum.count()).map(part).collect()
+}
+
 fn tried_part<F: Float>(tried: &Tried<F>) -> TriedPart {
     TriedPart {
         name: tried.name.clone(),
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
         cost: tried.cost,
+        errors: error_parts(&tried.errors),
     }
 }

@@ -1,6 +1,11 @@
-//! Studies of scenes as text and JSON.
+//! Studies of scenes as text, JSON, CSV, SVG and HTML.
 
+mod answer;
 mod build;
+mod csv;
+#[cfg(feature = "cli")]
+mod page;
+mod plot;
 mod record;
 mod text;
 mod words;
@@ -20,10 +25,33 @@ pub struct SceneFormat {
 }
 
 /// One row per format.
-pub const SCENE_FORMATS: &[SceneFormat] =
-    &[SceneFormat { name: "text", write: text::write }, SceneFormat { name: "json", write: json }];
+pub const SCENE_FORMATS: &[SceneFormat] = &[
+    SceneFormat { name: "text", write: text::write },
+    SceneFormat { name: "json", write: json },
+    SceneFormat { name: "csv", write: csv::write },
+    SceneFormat { name: "svg", write: plot::write },
+    #[cfg(feature = "cli")]
+    SceneFormat { name: "html", write: page::write },
+];
 
 fn json(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, record)?;
     writeln!(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_schema_is_that_of_the_types() {
+        let committed = include_str!("../../../docs/schema/scene.json");
+        let derived =
+            serde_json::to_string_pretty(&schemars::schema_for!(SceneRecord)).unwrap() + "\n";
+        if committed != derived {
+            let path = std::env::temp_dir().join("hairline-scene.json");
+            std::fs::write(&path, derived).unwrap();
+            panic!("the record has changed: cp {} docs/schema/scene.json", path.display());
+        }
+    }
 }

@@ -8,6 +8,7 @@ pub const SCENE_SCHEMA: &str = "hairline-scene/1";
 
 /// Everything that a study found; the same bytes whatever the number of threads.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SceneRecord {
     /// [`SCENE_SCHEMA`].
@@ -29,13 +30,27 @@ pub struct SceneRecord {
     /// How many indices of each stratum.
     pub count: u64,
     /// What a wrong answer costs, by kind.
-    pub costs: Vec<(String, f64)>,
+    pub costs: Vec<NamedNumber>,
+    /// The largest errors that were wanted: `t`, relative, and `point`, in the scene's unit of length.
+    pub max_error: Vec<NamedNumber>,
     /// One entry for each kernel and scalar.
     pub kernels: Vec<SceneKernelPart>,
 }
 
+/// A number with a name.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct NamedNumber {
+    /// What it is of.
+    pub name: String,
+    /// The number.
+    pub number: f64,
+}
+
 /// A mesh that is a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeshPart {
     /// The file's name.
@@ -48,6 +63,7 @@ pub struct MeshPart {
 
 /// One kernel in one scalar. Epsilons are shortest decimals of the scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SceneKernelPart {
     /// The kernel's name.
@@ -66,10 +82,17 @@ pub struct SceneKernelPart {
     pub knobs: Vec<KnobPart>,
     /// What is counted.
     pub counts: Vec<CountPart>,
+    /// If errors are limited: whether 99 % of the hits that remain keep the limit with the recommended
+    /// epsilons, in each kind of ray and with a confidence of 95 %. If they do not, none do.
+    pub is_accurate: Option<bool>,
     /// What epsilons do on fresh rays; the cheapest first.
     pub tried: Vec<TriedPart>,
     /// How far each knob may move while the others stay.
     pub limits: Vec<LimitPart>,
+    /// Values that are proved.
+    pub proved: Vec<ProvedPart>,
+    /// By knob: what each value does.
+    pub curves: Vec<CurvePart>,
     /// The knobs for which no value keeps every limit, and what does.
     pub conflicts: Vec<ConflictPart>,
     /// Epsilons that follow each case's size, if they are cheaper by a fifth; counted, no kernel runs
@@ -79,6 +102,7 @@ pub struct SceneKernelPart {
 
 /// A number that can be chosen.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct KnobPart {
     /// The gate's name, or `t_min`.
@@ -95,6 +119,7 @@ pub struct KnobPart {
 
 /// What is counted: a kind of wrong answer in a stratum.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CountPart {
     /// The stratum's family.
@@ -105,6 +130,7 @@ pub struct CountPart {
 
 /// What epsilons do on fresh rays.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TriedPart {
     /// `recommended`, the name of one of the kernel's sets, `zero`, a value of `--at`, or `scale-free`.
@@ -115,10 +141,32 @@ pub struct TriedPart {
     pub wrong: Vec<Rate>,
     /// The sum of their shares, each times its cost.
     pub cost: f64,
+    /// The errors of the hits that remain.
+    pub errors: Vec<ErrorPart>,
+}
+
+/// The errors of some hits.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ErrorPart {
+    /// The place of the count whose hits they are.
+    pub count: usize,
+    /// `t`, relative to itself, or `point`, in the scene's unit of length.
+    pub value: String,
+    /// How many hits.
+    pub hits: u64,
+    /// Half of the errors are at most this, rounded up by at most an eighth; none if that is not finite.
+    pub median: Option<f64>,
+    /// 99 % of the errors are at most this, rounded up by at most an eighth.
+    pub most: Option<f64>,
+    /// The largest error seen.
+    pub worst: Option<f64>,
 }
 
 /// How far a knob may move while the others stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LimitPart {
     /// The knob's place.
@@ -137,8 +185,50 @@ pub struct LimitPart {
     pub set_by: Option<String>,
 }
 
+/// A value that is proved for every ray of the scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ProvedPart {
+    /// The knob's place.
+    pub knob: usize,
+    /// The place of the count of which nothing is wrong.
+    pub count: usize,
+    /// Whether it holds for all values at and above, or for all at and below.
+    pub is_lower: bool,
+    /// The value.
+    pub value: String,
+    /// The wrong answers on fresh rays at the value: none, or the proof is wrong.
+    pub fresh: Rate,
+}
+
+/// What the values of one knob do on fresh rays while the others stay.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CurvePart {
+    /// The values, in order.
+    pub values: Vec<String>,
+    /// One entry a count.
+    pub counts: Vec<CurveCount>,
+}
+
+/// One count of a curve.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CurveCount {
+    /// How many rays.
+    pub of: u64,
+    /// How many of them the other knobs refuse, whatever this one is.
+    pub refused_by_others: u64,
+    /// By value: how many are hits.
+    pub hits: Vec<u64>,
+}
+
 /// Two limits of one knob that do not meet.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ConflictPart {
     /// The place of the limit from below in the list of limits.

@@ -1,8 +1,11 @@
-//! What people call the strata and kinds of a scene.
+//! What people call the strata and kinds of a scene, its numbers and its units.
 
+use super::record::*;
 use crate::epsilon::scene::{Count, Kind};
 use crate::family::Stratum;
 use crate::kernel::Role;
+use crate::report::group_digits;
+use crate::report::record::Rate;
 
 /// What is counted, by its stratum's family and its kind.
 pub(super) fn label(stratum: &str, kind: &str) -> &'static str {
@@ -19,6 +22,14 @@ pub(super) fn label(stratum: &str, kind: &str) -> &'static str {
     }
 }
 
+/// Where the rays of a stratum's family go.
+pub(super) fn where_of(stratum: &str) -> &'static str {
+    match stratum {
+        "scene-grazing" => "almost parallel",
+        _ => "at a triangle",
+    }
+}
+
 /// What in the scene, not in the kernel, sets a limit.
 pub(super) fn set_by(role: Role, count: Count) -> Option<&'static str> {
     match (role, count.stratum, count.kind) {
@@ -26,5 +37,136 @@ pub(super) fn set_by(role: Role, count: Count) -> Option<&'static str> {
         (Role::Parallel, Stratum::Interior, Kind::Miss) => Some("the scene's smallest triangles"),
         (Role::Parallel, Stratum::Grazing, _) => Some("how flat the almost parallel rays are"),
         _ => None,
+    }
+}
+
+/// ` m`; nothing without a unit.
+pub(super) fn spaced(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
+
+/// The unit of t.
+pub(super) fn unit_of_t(record: &SceneRecord) -> String {
+    match record.unit_directions {
+        true => spaced(&record.unit),
+        false => " of the way to the target".to_owned(),
+    }
+}
+
+/// The `--epsilon` flag of some epsilons; none if no gate takes one.
+pub(super) fn flag(part: &SceneKernelPart, epsilons: &[String]) -> Option<String> {
+    let gates = part.knobs.iter().zip(epsilons).filter(|(knob, _)| knob.is_gate);
+    let words: Vec<String> = gates.map(|(knob, e)| format!("{}={e}", knob.name)).collect();
+    (!words.is_empty()).then(|| format!("--epsilon {}", words.join(",")))
+}
+
+/// The least t among some epsilons, if the kernel has no gate for it.
+pub(super) fn least_t<'a>(part: &SceneKernelPart, epsilons: &'a [String]) -> Option<&'a String> {
+    let knobs = part.knobs.iter().zip(epsilons);
+    knobs.filter(|(knob, _)| !knob.is_gate).map(|(_, epsilon)| epsilon).next()
+}
+
+/// ` (m)`; nothing without a unit.
+pub(super) fn of_unit(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" ({unit})") }
+}
+
+/// What an epsilon means for the scene's triangles.
+pub(super) fn meaning(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    knob: &KnobPart,
+    epsilon: &str,
+) -> Option<String> {
+    let value: f64 = epsilon.parse().ok().filter(|value| *value != 0.0)?;
+    let unit = spaced(&record.unit);
+    match (knob.role.as_str(), knob.dimension) {
+        ("t", [1, -1]) => {
+            Some(format!("nothing nearer than {}{} is hit", human(epsilon), unit_of_t(record)))
+        }
+        ("parallel", [2, 1]) if record.unit_directions && 0.0 < value => {
+            if let Some(shape) = part.least_shape {
+                return Some(match value / shape {
+                    small if small < 1.0 => {
+                        format!(
+                            "the smallest triangle is missed at angles below {}",
+                            degrees(small)
+                        )
+                    }
+                    _ => "the smallest triangle is never hit".to_owned(),
+                });
+            }
+            // Twice the area of an equilateral triangle, times the sine, is the determinant.
+            let small = value / (0.75f64.sqrt() * record.edge[0] * record.edge[0]);
+            let least = (value / 0.75f64.sqrt()).sqrt();
+            Some(match 1.0 <= small {
+                true => format!("no triangle below an edge of {least:.1e}{unit} is ever hit"),
+                false => format!(
+                    "the smallest triangles (edge {}{unit}) are missed at angles below {}",
+                    record.edge[0],
+                    degrees(small)
+                ),
+            })
+        }
+        ("parallel", [0, 1]) if record.unit_directions && 0.0 < value && value < 1.0 => {
+            Some(format!("every triangle is missed at angles below {}", degrees(value)))
+        }
+        ("edge", [0, 0]) => {
+            let what = if value < 0.0 { "larger" } else { "smaller" };
+            Some(format!("triangles are {what} by {:e} of their size at each side", value.abs()))
+        }
+        _ => None,
+    }
+}
+
+fn degrees(sine: f64) -> String {
+    let angle = libm::asin(sine.min(1.0)).to_degrees();
+    if angle < 0.01 { format!("{angle:.0e}\u{b0}") } else { format!("{angle:.2}\u{b0}") }
+}
+
+/// A shortest decimal as people write it.
+pub(super) fn human(epsilon: &str) -> String {
+    match epsilon.parse::<f64>() {
+        Ok(value) if (1e-4..1e7).contains(&value.abs()) => format!("{value}"),
+        _ => epsilon.to_owned(),
+    }
+}
+
+/// `3e-6`.
+pub(super) fn short_error(error: Option<f64>) -> String {
+    match error {
+        None => "inf".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(error) => format!("{error:.0e}"),
+    }
+}
+
+/// `0 of 40,000`, `1 in 1,200`, `2.9%`.
+pub(super) fn share(rate: &Rate) -> String {
+    match rate.rate {
+        None => "-".to_owned(),
+        Some(0.0) => format!("0 of {}", group_digits(rate.of)),
+        Some(share) if share < 0.01 => {
+            let one_in = 1.0 / share;
+            let unit = 10f64.powi((one_in.log10().floor() as i32 - 1).max(0));
+            format!("1 in {}", group_digits(((one_in / unit).round() * unit) as u64))
+        }
+        Some(share) => format!("{:.1}%", share * 100.0),
+    }
+}
+
+/// `>= 1.2e-6`, or that no value keeps the limit.
+pub(super) fn bound(value: Option<&str>, is_lower: bool, unit: &str) -> String {
+    match value {
+        Some(value) => format!("{} {}{unit}", if is_lower { ">=" } else { "<=" }, human(value)),
+        None => "no value".to_owned(),
+    }
+}
+
+/// The unit of a knob.
+pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
+    match (knob.role.as_str(), record.unit_directions) {
+        ("t", true) => spaced(&record.unit),
+        _ => String::new(),
     }
 }

@@ -1,0 +1,209 @@
+//! Errors of the hits that remain: of t relative to itself, of the point in the scene's unit of length.
+
+use super::confidence::is_shown;
+use super::trials::Setting;
+use crate::arith::{Bounded, Exact, Float, Real, Vector};
+use crate::audit::{Histogram, values};
+use crate::case::Case;
+use crate::kernel::{Hit, Scalar};
+
+/// What of a hit can be off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// |t - t'| / |t'|, t' being exact.
+    T,
+    /// The distance of the point from the exact one; o + t·d as the scalar computes it, or a point of the
+    /// weights where a kernel reports no t.
+    Point,
+}
+
+impl Value {
+    /// Both.
+    pub const ALL: [Value; 2] = [Value::T, Value::Point];
+
+    /// The word in `--max-error`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Value::T => "t",
+            Value::Point => "point",
+        }
+    }
+}
+
+/// Errors by value; none of what a kernel does not report, infinite where it is not finite.
+pub type HitErrors = [Option<f64>; Value::ALL.len()];
+
+/// Errors of some hits by value.
+pub type ErrorSums = [Histogram; Value::ALL.len()];
+
+/// One hit in this many may have a larger error.
+pub const ERRORS_ONE_IN: u64 = 100;
+
+/// How large errors may be, by value.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MaxError {
+    of: [Option<f64>; Value::ALL.len()],
+}
+
+impl MaxError {
+    /// From words such as `t=1e-3,point=0.01`.
+    pub fn parse(text: &str) -> Result<MaxError, String> {
+        let mut most = MaxError::default();
+        for word in text.split(',').map(str::trim) {
+            let expected = "write t=1e-3 (relative) or point=0.01 (in the scene's unit), or both";
+            let (key, number) =
+                word.split_once('=').ok_or_else(|| format!("'{word}' is no error: {expected}"))?;
+            let value = Value::ALL.into_iter().find(|value| value.name() == key.trim());
+            let value = value.ok_or_else(|| format!("unknown value '{key}': {expected}"))?;
+            if most.of[value as usize].is_some() {
+                return Err(format!("'{key}' is given twice"));
+            }
+            let number = number.trim();
+            let error = number.parse().ok().filter(|x: &f64| 0.0 < *x && x.is_finite());
+            let error = error.ok_or_else(|| format!("{key}={number}: not a number above 0"))?;
+            most.of[value as usize] = Some(error);
+        }
+        Ok(most)
+    }
+
+    /// The largest error of a value, if it is limited.
+    pub fn of(&self, value: Value) -> Option<f64> {
+        self.of[value as usize]
+    }
+
+    /// Whether an error is larger; never of what the kernel does not report.
+    pub fn is_exceeded(&self, errors: &HitErrors) -> bool {
+        let mut pairs = self.of.iter().zip(errors);
+        pairs.any(|(most, error)| most.zip(*error).is_some_and(|(most, error)| most < error))
+    }
+
+    /// Whether so many larger errors among so many hits show that at most one in a hundred is larger.
+    pub fn is_kept(exceeded: u64, hits: u64) -> bool {
+        is_shown(exceeded, hits, ERRORS_ONE_IN)
+    }
+}
+
+/// The errors of what a kernel reports of a case, if that is a hit.
+pub fn errors_of<F: Scalar>(setting: &Setting<'_, F>, case: &Case<F>) -> HitErrors {
+    let values = setting.gated.measure(case).values;
+    values.map_or([None; Value::ALL.len()], |hit| hit_errors(case, &hit))
+}
+
+/// The errors of a hit on a triangle whose plane the line crosses.
+pub fn hit_errors<F: Float>(case: &Case<F>, hit: &Hit<F>) -> HitErrors {
+    errors(case, hit, Bounded::new, Bounded::within).unwrap_or_else(|| {
+        let float = |x: &Exact, _| Some(x.approximate());
+        errors(case, hit, Exact::from_f64, float).expect("always a number")
+    })
+}
+
+/// In an arithmetic that does not round; `float` is a number as a float, if it is known to within a
+/// tolerance or to a millionth of itself.
+fn errors<F: Float, R: Real>(
+    case: &Case<F>,
+    hit: &Hit<F>,
+    number: impl Fn(f64) -> R,
+    float: impl Fn(&R, f64) -> Option<f64>,
+) -> Option<HitErrors> {
+    let lift = |x: F| number(x.to_f64());
+    let (ray, triangle) = case.lift(lift);
+    let [exact_t, ..] = values(&ray, &triangle);
+    let of_t = |t: F| -> Option<f64> {
+        if !t.is_finite() {
+            return Some(f64::INFINITY);
+        }
+        let size = float(&exact_t, 0.0)?.abs();
+        let off = float(&(lift(t) - &exact_t), size * 1e-9)?.abs();
+        Some(if off == 0.0 { 0.0 } else { off / size })
+    };
+    let [o, d, a, b, c] = case.vectors();
+    let point = match (hit.t, &hit.uv) {
+        (Some(t), _) => Some([0, 1, 2].map(|i| o[i] + t * d[i])),
+        (None, Some((u, v))) => {
+            let w = F::one() - *u - *v;
+            Some([0, 1, 2].map(|i| w * a[i] + *u * b[i] + *v * c[i]))
+        }
+        (None, None) => None,
+    };
+    let exact_point = ray.origin.plus(&ray.direction.times(&exact_t));
+    let of_point = |point: [F; 3]| -> Option<f64> {
+        if !point.iter().all(F::is_finite) {
+            return Some(f64::INFINITY);
+        }
+        let mut square = 0.0;
+        for (axis, x) in point.into_iter().enumerate() {
+            let off = lift(x) - &exact_point.at(axis);
+            square += float(&off, x.ulp().to_f64() * 1e-6)?.powi(2);
+        }
+        Some(square.sqrt())
+    };
+    let transpose = |error: Option<Option<f64>>| match error {
+        None => Some(None),
+        Some(error) => error.map(Some),
+    };
+    Some([transpose(hit.t.map(of_t))?, transpose(point.map(of_point))?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+    use num_rational::BigRational;
+
+    fn rational(x: f32) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    #[test]
+    fn errors_are_those_of_rational_numbers() {
+        let mut draw = Draw::new("hit-errors", 1, 0);
+        for _ in 0..200 {
+            // A plane of constant z: t' = (z - o_z) / d_z.
+            let z: f32 = draw.symmetric();
+            let [mut o, mut d]: [[f32; 3]; 2] = [draw.point(), draw.point()];
+            (o[2], d[2]) = (o[2] + 2.0, d[2] / 64.0);
+            let corners = [[-9.0, -9.0, z], [9.0, -9.0, z], [0.0, 9.0, z]];
+            let t = (z - o[2]) / d[2] * (1.0 + draw.symmetric::<f32>() / 1024.0);
+            let exact = (rational(z) - rational(o[2])) / rational(d[2]);
+            let off = (rational(t) - &exact) / &exact;
+            let hit = Hit { t: Some(t), uv: None, facing: None };
+            let [of_t, of_point] = hit_errors(&Case::new(o, d, corners), &hit);
+            let close = |found: f64, expected: f64| (found - expected).abs() <= 1e-5 * expected;
+            assert!(close(of_t.unwrap(), to_f64(&off).abs()), "{of_t:?} {off}");
+            let square: f64 = (0..3)
+                .map(|i| {
+                    let exact = rational(o[i]) + &exact * rational(d[i]);
+                    to_f64(&(rational(o[i] + t * d[i]) - exact)).powi(2)
+                })
+                .sum();
+            assert!(close(of_point.unwrap(), square.sqrt()), "{of_point:?}");
+        }
+        let hit = Hit { t: Some(f32::NAN), uv: None, facing: None };
+        let case = Case::new([0.0; 3], [0.0, 0.0, 1.0], [[0.0, 0.0, 1.0]; 3]);
+        assert_eq!(hit_errors(&case, &hit)[1], Some(f64::INFINITY));
+    }
+
+    fn to_f64(x: &BigRational) -> f64 {
+        use num_traits::ToPrimitive;
+        x.to_f64().unwrap()
+    }
+
+    #[test]
+    fn words_say_how_large_errors_may_be() {
+        let most = MaxError::parse("t=1e-3, point=0.5").unwrap();
+        assert_eq!(Value::ALL.map(|value| most.of(value)), [Some(1e-3), Some(0.5)]);
+        assert!(most.is_exceeded(&[Some(0.01), None]) && most.is_exceeded(&[None, Some(1.0)]));
+        assert!(!most.is_exceeded(&[Some(1e-3), Some(0.5)]) && !most.is_exceeded(&[None, None]));
+        for (text, part) in [
+            ("", "is no error"),
+            ("t", "is no error"),
+            ("u=1", "unknown value 'u'"),
+            ("t=0", "not a number above 0"),
+            ("t=nan", "not a number above 0"),
+            ("point=-1", "not a number above 0"),
+            ("t=1,t=2", "given twice"),
+        ] {
+            assert!(MaxError::parse(text).unwrap_err().contains(part), "{text}");
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! What `prove` says of the knobs in a scene: epsilons at which, for every ray of it, none of some wrong
+//! answers is given.
+
+use super::knob::Knob;
+use super::trials::{Count, Kind, Setting};
+use crate::arith::{smallest_normal, three_digits};
+use crate::case::{DirectionLength, Scene};
+use crate::family::Stratum;
+use crate::kernel::{Role, Scalar};
+use crate::prove::{self, Proof, Quantity, Uses, format_of, paths_of};
+
+/// A value of a knob that is proved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proved<F> {
+    /// The knob's place in the setting.
+    pub knob: usize,
+    /// The count's place in the setting.
+    pub count: usize,
+    /// Whether it holds for the values at and above, or for those at and below.
+    pub is_lower: bool,
+    /// The value.
+    pub value: F,
+}
+
+/// What is proved of each knob; nothing in scenes whose directions have any length, nor where a proof
+/// supposes more than the sizes of triangles and distances.
+pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
+    if setting.scene.direction != DirectionLength::Unit || setting.relative {
+        return Vec::new();
+    }
+    let of_knob = |(k, knob): (usize, &Knob)| {
+        let Knob::Gate(gate) = *knob else { return Vec::new() };
+        let role = setting.row.entry.info.gates[gate].role;
+        let is_lower = role == Role::Parallel;
+        let decided = |count: &Count| {
+            matches!(
+                (role, count.stratum, count.kind),
+                (Role::Parallel, Stratum::Parallel, Kind::Hit)
+                    | (Role::Edge, Stratum::Edges | Stratum::Vertices, Kind::Crack)
+            )
+        };
+        let counts = setting.counts.iter().enumerate().filter(|(_, count)| decided(count));
+        let places: Vec<usize> = counts.map(|(place, _)| place).collect();
+        let bound = if places.is_empty() { None } else { bound(setting, gate) };
+        let Some(bound) = bound else { return Vec::new() };
+        // Strictly beyond the bound, in few digits.
+        let size = (bound * (1.0 + 1e-9)).max(smallest_normal::<F>());
+        let beyond = F::from_f64(size).offset_ulps(1);
+        let value = three_digits(if is_lower { beyond } else { -beyond }, is_lower);
+        places.into_iter().map(|count| Proved { knob: k, count, is_lower, value }).collect()
+    };
+    setting.knobs.iter().enumerate().flat_map(of_knob).collect()
+}
+
+/// The largest error of what a gate compares with its epsilon in a scene.
+fn bound<F: Scalar>(setting: &Setting<'_, F>, gate: usize) -> Option<f64> {
+    let domain = proved_scene(setting.scene).domain().ok()?;
+    let proof =
+        Proof::new(paths_of::<F>(setting.row.entry).ok()?, Some(gate), domain, format_of::<F>());
+    let bound = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
+    let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::or);
+    let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
+    (is_margin && !uses.floor && !uses.extent).then_some(bound)
+}
+
+/// The scene, and slightly more: triangles to which rays are parallel have edges of up to twice the length,
+/// and a ray aimed beside a triangle starts farther from its vertices than from its target.
+fn proved_scene(scene: &Scene) -> prove::Scene {
+    let longest = 2.0 * scene.edge[1];
+    let distance = scene.distance[1] + 4.0 * longest;
+    prove::Scene {
+        coordinates: scene.extent + longest + distance,
+        edge: [scene.edge[0] / 2.0, longest],
+        distance,
+        // No bound that is used depends on them.
+        min_angle: 1.0,
+        grazing: 1.0,
+        shape: None,
+    }
+}

@@ -1,0 +1,237 @@
+//! The answer of one kernel in words: the same on the screen and in a page.
+
+use super::record::*;
+use super::words::{
+    bound, flag, human, label, least_t, meaning, of_unit, share, short_error, spaced, unit_of,
+    unit_of_t, where_of,
+};
+use crate::report::{group_digits, number_of};
+
+/// Everything that is said of one kernel in one scalar.
+pub(super) struct Answer {
+    /// The kernel, the scalar, and in short the scene.
+    pub title: String,
+    /// The scene's words.
+    pub scene: String,
+    /// What to use, to be pasted.
+    pub used: String,
+    /// What that means, a sentence each.
+    pub notes: Vec<String>,
+    /// The names of what was tried.
+    pub columns: Vec<String>,
+    /// What it did: a label, and a cell for each column.
+    pub rows: Vec<(String, Vec<String>)>,
+    /// A cheaper form that follows each triangle's size, in two lines.
+    pub relative: Option<[String; 2]>,
+    /// How far each number may move.
+    pub limits: Vec<LimitRow>,
+    /// Limits that do not meet, and what helps.
+    pub conflicts: Vec<[String; 2]>,
+}
+
+/// A limit of a number.
+pub(super) struct LimitRow {
+    pub knob: String,
+    pub bound: String,
+    pub what: &'static str,
+    pub most: String,
+    pub fresh: String,
+    /// Whether the scene's sizes set it as much as rounding does.
+    pub is_of_scene: bool,
+}
+
+/// What is said of a part of a record.
+pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
+    let kernel = format!("{} {}", part.kernel, part.scalar);
+    let title = match &record.mesh {
+        Some(MeshPart { file, triangles, .. }) => {
+            format!("{kernel} in {file} ({})", number_of(*triangles, "triangle", "triangles"))
+        }
+        None => kernel,
+    };
+    Answer {
+        title,
+        scene: format!("{}{}", record.scene, of_unit(&record.unit)),
+        used: used(record, part),
+        notes: notes(record, part),
+        columns: part.tried.iter().map(|tried| column(&tried.name)).collect(),
+        rows: rows(record, part),
+        relative: part.relative.as_ref().map(|relative| relative_lines(part, relative)),
+        limits: limit_rows(record, part),
+        conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
+    }
+}
+
+fn used(record: &SceneRecord, part: &SceneKernelPart) -> String {
+    let epsilons = &part.tried[0].epsilons;
+    let t = least_t(part, epsilons).map(|e| match part.takes_interval {
+        true => format!("t_min = {}{} on every ray", human(e), unit_of_t(record)),
+        false => format!("count a hit only if t >= {}{}", human(e), unit_of_t(record)),
+    });
+    let parts: Vec<String> = flag(part, epsilons).into_iter().chain(t).collect();
+    parts.join("  and  ")
+}
+
+fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
+    let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
+    let mut notes: Vec<String> = meanings.collect();
+    let wanted =
+        record.max_error.iter().map(|NamedNumber { name, number: most }| match name.as_str() {
+            "t" => format!("{} of t", human(&format!("{most:e}"))),
+            _ => {
+                let most = human(&format!("{most:e}"));
+                format!("{most}{} of the point", spaced(&record.unit))
+            }
+        });
+    let wanted = wanted.collect::<Vec<_>>().join(", ");
+    notes.extend(match part.is_accurate {
+        None => Vec::new(),
+        Some(true) => {
+            vec![format!("99 % of the hits that remain are off by at most {wanted} (95 % sure)")]
+        }
+        Some(false) => vec![
+            format!("at no values are 99 % of the hits off by at most {wanted} (95 % sure):"),
+            "it takes wider numbers, another kernel or other rays".to_owned(),
+        ],
+    });
+    notes
+}
+
+/// What a column is called.
+pub(super) fn column(name: &str) -> String {
+    match name {
+        "recommended" => "this",
+        "source" => "as published",
+        name if 13 <= name.len() => "as given",
+        name => name,
+    }
+    .to_owned()
+}
+
+fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
+    let of_counts = part.counts.iter().enumerate().map(|(i, count)| {
+        let cells = part.tried.iter().map(|tried| share(&tried.wrong[i])).collect();
+        (label(&count.stratum, &count.kind).to_owned(), cells)
+    });
+    let mut rows: Vec<(String, Vec<String>)> = of_counts.collect();
+    for value in ["t", "point"] {
+        let unit = if value == "t" { String::new() } else { of_unit(&record.unit) };
+        for (place, count) in part.counts.iter().enumerate() {
+            let is_of = |error: &&ErrorPart| error.count == place && error.value == value;
+            let of = |tried: &TriedPart| tried.errors.iter().find(is_of).map(errors);
+            let found: Vec<Option<String>> = part.tried.iter().map(of).collect();
+            if found.iter().any(Option::is_some) {
+                let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
+                let name = format!("{value}{unit}, {}", where_of(&count.stratum));
+                rows.push((name, cells.collect()));
+            }
+        }
+    }
+    let costs = part.tried.iter().map(|tried| format!("{:.3}", tried.cost));
+    rows.push(("cost".to_owned(), costs.collect()));
+    rows
+}
+
+/// Half of the errors, 99 % of them, and the worst.
+fn errors(error: &ErrorPart) -> String {
+    [error.median, error.most, error.worst].map(short_error).join(" ")
+}
+
+fn relative_lines(part: &SceneKernelPart, relative: &TriedPart) -> [String; 2] {
+    let forms = part.knobs.iter().zip(&relative.epsilons).map(|(knob, e)| match &knob.form {
+        Some(form) => format!("{}: {}", knob.name, form.replacen('e', e, 1)),
+        None => format!("{}: {e}", knob.name),
+    });
+    let forms: Vec<String> = forms.collect();
+    let cost = relative.cost;
+    [format!("epsilons that follow each triangle's size would cost {cost:.3}:"), forms.join(", ")]
+}
+
+fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
+    let what = |count: usize| {
+        let count = &part.counts[count];
+        label(&count.stratum, &count.kind)
+    };
+    let limits = part.limits.iter().map(|limit| {
+        let knob = &part.knobs[limit.knob];
+        let fresh = limit.fresh.as_ref().map_or("-".to_owned(), |fresh| match fresh.count {
+            0 => "0".to_owned(),
+            _ => share(fresh),
+        });
+        LimitRow {
+            knob: knob.name.clone(),
+            bound: bound(limit.value.as_deref(), limit.is_lower, &unit_of(record, knob)),
+            what: what(limit.count),
+            most: format!("1 in {}", group_digits(limit.one_in)),
+            fresh,
+            is_of_scene: limit.set_by.is_some(),
+        }
+    });
+    let proved = part.proved.iter().map(|proved| {
+        let knob = &part.knobs[proved.knob];
+        LimitRow {
+            knob: knob.name.clone(),
+            bound: bound(Some(&proved.value), proved.is_lower, &unit_of(record, knob)),
+            what: what(proved.count),
+            most: "0: proved".to_owned(),
+            fresh: group_digits(proved.fresh.count),
+            is_of_scene: false,
+        }
+    });
+    limits.chain(proved).collect()
+}
+
+fn conflict_lines(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    conflict: &ConflictPart,
+) -> [String; 2] {
+    let (lower, upper) = (&part.limits[conflict.lower], &part.limits[conflict.upper]);
+    let knob = &part.knobs[lower.knob];
+    let name = &knob.name;
+    let bound =
+        |limit: &LimitPart| bound(limit.value.as_deref(), limit.is_lower, &unit_of(record, knob));
+    let what = |limit: &LimitPart| {
+        let count = &part.counts[limit.count];
+        let most = group_digits(limit.one_in);
+        format!(
+            "no value of {name} keeps this below 1 in {most}: {}",
+            label(&count.stratum, &count.kind)
+        )
+    };
+    let conflict_line = match (&lower.value, &upper.value) {
+        (None, _) => what(lower),
+        (_, None) => what(upper),
+        _ => format!("no value of {name} is both {} and {}:", bound(lower), bound(upper)),
+    };
+    let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
+        (Some([from, to]), Some(form), _) => {
+            format!("{form} in its place is within both limits, with e from {from} to {to}")
+        }
+        (_, _, "t") => "start the ray off the surface instead".to_owned(),
+        _ => "rounding decides those rays: it takes wider numbers or another kernel".to_owned(),
+    };
+    [conflict_line, instead]
+}
+
+/// What the words of the tables mean, a line each.
+pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
+    let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
+    let costs = costs.collect::<Vec<_>>().join(", ");
+    let mut lines = vec![
+        format!("cost: each share times its weight ({costs}), added up"),
+        "almost parallel: sines from 1/8 to an eighth of an ulp of 1, evenly by halvings"
+            .to_owned(),
+        "t, point: errors of the hits that remain: half, 99 % are at most this; the worst"
+            .to_owned(),
+    ];
+    let is_set = |limit: &LimitPart| limit.set_by.is_some();
+    if record.kernels.iter().any(|part| part.limits.iter().any(is_set)) {
+        let star = "* set by the scene's sizes, distances and angles as well as by rounding";
+        lines.push(star.to_owned());
+    }
+    lines
+        .push("beside: within about one triangle's size; every share is of its own row".to_owned());
+    lines
+}

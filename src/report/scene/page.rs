@@ -1,0 +1,112 @@
+//! A study of a scene as one HTML file that needs nothing else: light and dark, wide and narrow, without
+//! scripts and without a network.
+
+use super::answer::{Answer, answer, legend};
+use super::plot::{self, WIDTH, footer, panels};
+use super::record::{SceneKernelPart, SceneRecord};
+use crate::report::Style;
+use crate::report::html::{STYLE, style_policy};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::io::{self, Write};
+
+/// What only this page has.
+const OWN_STYLE: &str = "
+svg.scene-plot { width: 100%; max-width: 34rem; height: auto; }
+.use { font-size: 1.05rem; } .use code { font-size: .9rem; }
+.scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
+";
+
+/// Writes the record.
+pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
+    let style = format!("{STYLE}{}{OWN_STYLE}", plot::STYLE);
+    let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
+    let title = answers.first().map_or("no kernel", |answer| answer.title.as_str());
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta http-equiv="Content-Security-Policy" content=(style_policy(&style));
+                title { "hairline: epsilons of " (title) }
+                style { (PreEscaped(&style)) }
+            }
+            body {
+                header.top {
+                    p.mark { "hairline" span { " epsilon" } }
+                    h1 { "Which epsilons for this scene" }
+                    p.lede { @for answer in answers.iter().take(1) { (answer.scene) } }
+                }
+                main {
+                    @for (part, answer) in record.kernels.iter().zip(&answers) {
+                        (section(record, part, answer))
+                    }
+                    section {
+                        h2 { "How to read" }
+                        ul { @for line in legend(record) { li { (line) } } }
+                    }
+                }
+            }
+        }
+    };
+    out.write_all(page.into_string().as_bytes())
+}
+
+fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Markup {
+    html! {
+        section {
+            h2 { (answer.title) }
+            p.use {
+                b { "Use " }
+                @for (i, used) in answer.used.split("  and  ").enumerate() {
+                    @if 0 < i { " and " }
+                    code { (used) }
+                }
+            }
+            ul { @for note in &answer.notes { li { (note) } } }
+            div.plots {
+                @for panel in panels(record, part, answer) {
+                    figure {
+                        svg.scene-plot viewBox=(format!("0 0 {WIDTH} {}", panel.height)) role="img" aria-label=(panel.about) {
+                            (PreEscaped(panel.drawing))
+                        }
+                    }
+                }
+            }
+            div.scroll {
+                table {
+                    caption { "Wrong on fresh rays (seed " (record.fresh_seed) ")" }
+                    thead { tr { th scope="col" { "rays" } @for name in &answer.columns { th scope="col" { (name) } } } }
+                    tbody {
+                        @for (label, cells) in &answer.rows {
+                            tr { th scope="row" { (label) } @for cell in cells { td { (cell) } } }
+                        }
+                    }
+                }
+            }
+            @if let Some([first, forms]) = &answer.relative { p { (first) " " code { (forms) } } }
+            @if !answer.limits.is_empty() {
+                div.scroll {
+                    table {
+                        caption { "Each alone may move to (95 % sure, so 1 in 20 fails)" }
+                        thead {
+                            tr { th scope="col" { "number" } th { "limit" } th.text { "rays" } th { "at most" } th { "fresh rays" } }
+                        }
+                        tbody {
+                            @for row in &answer.limits {
+                                tr {
+                                    th scope="row" { (row.knob) }
+                                    td { (row.bound) @if row.is_of_scene { " *" } }
+                                    td.text { (row.what) } td { (row.most) } td { (row.fresh) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            @for conflict in &answer.conflicts { p { (conflict.join(" ")) } }
+            @for line in footer(record, part) { p.note { (line) } }
+        }
+    }
+}

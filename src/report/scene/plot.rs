@@ -1,0 +1,442 @@
+//! What each value of a number does while the others stay: wrong answers over the value, what was tried as
+//! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
+
+use super::answer::{Answer, LimitRow, answer, column};
+use super::record::*;
+use super::words::{human, label, unit_of};
+use crate::audit::Trials;
+use crate::plot::{Decades, EpsilonAxis, ShareAxis, decades_around, escaped, group_digits};
+use crate::report::Style;
+use crate::report::rate::percent;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// The width of a panel, and of a file.
+pub(super) const WIDTH: f64 = 460.0;
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = 14.0;
+/// The height of the plot itself, and of a line of text.
+const PLOT: f64 = 210.0;
+const LINE: f64 = 17.0;
+/// The width of the stretch around zero.
+const ZERO: f64 = 24.0;
+/// About the width of a character.
+const CHARACTER: f64 = 6.4;
+
+/// Changes of a share below this are not drawn.
+const NEGLIGIBLE: f64 = 2e-4;
+/// The most decades of shares that fit.
+const MOST_DECADES: i32 = 5;
+
+/// Colours by kind of ray, dashes by kind of error; light and dark.
+pub(super) const STYLE: &str = "
+.scene-plot { font: 12px system-ui, -apple-system, sans-serif; fill: #1d2125; }
+.scene-plot .paper { fill: #fff; } .scene-plot .soft { fill: #575e66; }
+.scene-plot .grid { stroke: #dcdfe3; fill: none; } .scene-plot .axis { stroke: #575e66; fill: none; }
+.scene-plot .tried { stroke: #575e66; stroke-dasharray: 1 3; fill: none; }
+.scene-plot .this { stroke: #1d2125; stroke-dasharray: none; } .scene-plot text.this { stroke: none; font-weight: 700; }
+.scene-plot .within { fill: #1a6b3a; fill-opacity: .14; }
+.scene-plot .line { stroke: currentColor; fill: none; stroke-width: 2; stroke-linejoin: round; }
+.scene-plot .band { fill: currentColor; fill-opacity: .07; }
+.scene-plot .limit { fill: currentColor; stroke: currentColor; } .scene-plot .proved { fill: none; stroke-width: 1.5; }
+.scene-plot .hit, .scene-plot .self-hit { stroke-dasharray: 7 3; } .scene-plot .crack { stroke-dasharray: 2 3; }
+.scene-plot .interior { color: #b34700; } .scene-plot .edges { color: #5f6670; }
+.scene-plot .vertices { color: #7b3fa0; } .scene-plot .grazing { color: #1d5fae; }
+.scene-plot .parallel { color: #00707a; } .scene-plot .shadow { color: #1a6b3a; } .scene-plot .outside { color: #8a6d00; }
+@media (prefers-color-scheme: dark) {
+.scene-plot { fill: #e6e8ea; }
+.scene-plot .paper { fill: #14171a; } .scene-plot .soft { fill: #a3abb3; }
+.scene-plot .grid { stroke: #343a41; } .scene-plot .axis, .scene-plot .tried { stroke: #a3abb3; }
+.scene-plot .this { stroke: #e6e8ea; } .scene-plot text.this { stroke: none; } .scene-plot .within { fill: #7ed09a; }
+.scene-plot .interior { color: #f5a45d; } .scene-plot .edges { color: #a3abb3; }
+.scene-plot .vertices { color: #c79be6; } .scene-plot .grazing { color: #86b9f7; }
+.scene-plot .parallel { color: #5fc7d1; } .scene-plot .shadow { color: #7ed09a; } .scene-plot .outside { color: #e0c04f; }
+}
+";
+
+/// A panel.
+pub(super) struct Panel {
+    /// What it shows, for those who do not see it.
+    pub about: String,
+    /// The drawing, as elements of SVG.
+    pub drawing: String,
+    /// How high it is.
+    pub height: f64,
+}
+
+/// Writes the recommendation and the panels of each kernel, one below the other.
+pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
+    let (mut drawing, mut y) = (String::new(), 0.0);
+    for part in &record.kernels {
+        let answer = answer(record, part);
+        let mut heading = vec![(answer.title.clone(), "this"), (answer.scene.clone(), "soft")];
+        let used = answer.used.split("  and  ").enumerate();
+        heading.extend(used.map(|(i, part)| (format!("{} {part}", ["use", "and"][i.min(1)]), "")));
+        y += 8.0;
+        for (text, class) in heading {
+            y += LINE;
+            drawing += &text_at(12.0, y, class, &text);
+        }
+        for panel in panels(record, part, &answer) {
+            let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{}</g>", panel.drawing);
+            y += panel.height;
+        }
+        for text in footer(record, part).iter().flat_map(|text| wrapped(text)) {
+            y += LINE;
+            drawing += &text_at(12.0, y, "soft", &text);
+        }
+        y += LINE;
+    }
+    writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"scene-plot\" viewBox=\"0 0 {WIDTH} {y}\" width=\"{WIDTH}\" height=\"{y}\" role=\"img\">\n<title>Wrong answers by epsilon in a scene</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>"
+    )
+}
+
+/// A text in lines that fit.
+fn wrapped(text: &str) -> Vec<String> {
+    let most = ((WIDTH - 24.0) / CHARACTER) as usize;
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let line = lines.last_mut().expect("there is one");
+        if line.is_empty() || line.len() + word.len() < most {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
+/// What the shares are of.
+pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2] {
+    [
+        format!(
+            "{} indices of each kind of ray, seed {}",
+            group_digits(record.count),
+            record.fresh_seed
+        ),
+        format!("contract: {}", part.contract),
+    ]
+}
+
+/// One panel a number.
+pub(super) fn panels(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Vec<Panel> {
+    (0..part.curves.len()).map(|knob| Draft::new(record, part, answer, knob).panel()).collect()
+}
+
+fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n", escaped(text))
+}
+
+/// A count as a line: the wrong answers at each value that this number is to blame for.
+struct Line<'a> {
+    count: &'a CountPart,
+    of: u64,
+    /// Hits that other numbers refuse, whatever this one is.
+    by_others: u64,
+    wrong: Vec<u64>,
+}
+
+impl Line<'_> {
+    fn class(&self) -> String {
+        class_of(self.count)
+    }
+}
+
+/// `grazing hit`.
+fn class_of(count: &CountPart) -> String {
+    format!("{} {}", count.stratum.trim_start_matches("scene-"), count.kind)
+}
+
+/// What a panel is drawn from.
+struct Draft<'a> {
+    record: &'a SceneRecord,
+    part: &'a SceneKernelPart,
+    answer: &'a Answer,
+    place: usize,
+    knob: &'a KnobPart,
+    values: Vec<f64>,
+    lines: Vec<Line<'a>>,
+    /// What was tried: values with their names, in order.
+    tried: Vec<(f64, String)>,
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap_or(0.0)
+}
+
+impl<'a> Draft<'a> {
+    fn new(
+        record: &'a SceneRecord,
+        part: &'a SceneKernelPart,
+        answer: &'a Answer,
+        place: usize,
+    ) -> Draft<'a> {
+        let curve = &part.curves[place];
+        let lines = part.counts.iter().zip(&curve.counts).map(|(count, points)| {
+            let is_lost = matches!(count.kind.as_str(), "crack" | "miss");
+            let left = points.of - points.refused_by_others;
+            let wrong = points.hits.iter().map(|hits| if is_lost { left - hits } else { *hits });
+            let by_others = if is_lost { points.refused_by_others } else { 0 };
+            Line { count, of: points.of, by_others, wrong: wrong.collect() }
+        });
+        let moves = |line: &Line<'_>| {
+            let (least, most) = (line.wrong.iter().min(), line.wrong.iter().max());
+            let span = most.unwrap_or(&0) - least.unwrap_or(&0);
+            0 < line.of && NEGLIGIBLE * (line.of as f64) < span as f64
+        };
+        let mut tried: Vec<(f64, String)> = Vec::new();
+        for one in &part.tried {
+            let (value, name) = (number(&one.epsilons[place]), column(&one.name));
+            match tried.iter_mut().find(|(known, _)| *known == value) {
+                Some((_, names)) => {
+                    let _ = write!(names, ", {name}");
+                }
+                None => tried.push((value, name)),
+            }
+        }
+        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Draft {
+            record,
+            part,
+            answer,
+            place,
+            knob: &part.knobs[place],
+            values: curve.values.iter().map(|value| number(value)).collect(),
+            lines: lines.filter(moves).collect(),
+            tried,
+        }
+    }
+
+    /// The limits of this number with their rows; the proved ones come last.
+    fn limits(
+        &self,
+    ) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a CountPart, bool)> {
+        let part = self.part;
+        let place = self.place;
+        let seen = part
+            .limits
+            .iter()
+            .map(|limit| (limit.knob, limit.value.as_deref(), limit.is_lower, limit.count, false));
+        let proved = part.proved.iter().map(|proved| {
+            (proved.knob, Some(proved.value.as_str()), proved.is_lower, proved.count, true)
+        });
+        let all = seen.chain(proved).zip(&self.answer.limits);
+        all.filter(move |((knob, ..), _)| *knob == place).map(
+            move |((_, value, is_lower, count, is_proved), row)| {
+                (row, value.map(number), is_lower, &part.counts[count], is_proved)
+            },
+        )
+    }
+
+    /// The decades of one sign: of what was tried, of the limits, and where lines move.
+    fn decades(&self, sign: f64) -> Option<Decades> {
+        let moved = |pair: &[f64], i: usize| {
+            let moves = |line: &Line<'_>| {
+                let change = line.wrong[i].abs_diff(line.wrong[i + 1]) as f64;
+                5.0 * NEGLIGIBLE * (line.of as f64) < change
+            };
+            (pair[0] * sign > 0.0 && self.lines.iter().any(moves)).then_some(pair[0])
+        };
+        let moving = self.values.windows(2).enumerate().filter_map(|(i, pair)| moved(pair, i));
+        let limits = self.limits().filter_map(|(_, value, ..)| value);
+        let special = self.tried.iter().map(|(value, _)| *value).chain(limits);
+        // What is next to zero needs no decades of its own.
+        let least = if self.part.scalar == "f32" { 1e-30 } else { 1e-200 };
+        let all = moving.chain(special).filter(|value| least < value * sign);
+        // Nothing is known beyond the values.
+        let end = self.values.iter().fold(least, |end, value| end.max(value * sign));
+        let end = end.log10().ceil() as i32;
+        decades_around(all).map(|(low, high)| (low, high.min(end).max(low + 1)))
+    }
+
+    /// From where to where every limit is kept; none where they do not meet.
+    fn within(&self) -> Option<[f64; 2]> {
+        let (mut low, mut high, mut any) = (f64::NEG_INFINITY, f64::INFINITY, false);
+        for (_, value, is_lower, _, is_proved) in self.limits() {
+            match (is_proved, value) {
+                (true, _) => {}
+                (false, None) => return None,
+                (false, Some(value)) if is_lower => (low, any) = (low.max(value), true),
+                (false, Some(value)) => (high, any) = (high.min(value), true),
+            }
+        }
+        (any && low <= high).then_some([low, high])
+    }
+
+    fn panel(&self) -> Panel {
+        let across =
+            EpsilonAxis::new(LEFT, WIDTH - RIGHT, ZERO, [self.decades(-1.0), self.decades(1.0)]);
+        let unit = unit_of(self.record, self.knob);
+        let name = match self.knob.is_gate {
+            true => format!("{}: epsilon of this gate", self.knob.name),
+            false => format!("{}: least t that counts", self.knob.name),
+        };
+        let title = if unit.is_empty() { name } else { format!("{name} ({})", unit.trim()) };
+        let others = self.part.knobs.iter().zip(&self.part.tried[0].epsilons).enumerate();
+        let others = others.filter(|(place, _)| *place != self.place);
+        let others: Vec<String> = others
+            .map(|(_, (knob, epsilon))| format!("{}={}", knob.name, human(epsilon)))
+            .collect();
+        let mut drawing = text_at(12.0, 26.0, "this", &title);
+        if !others.is_empty() {
+            drawing += &text_at(12.0, 42.0, "soft", &format!("with {}", others.join(", ")));
+        }
+        let (labels, rows) = self.labels(&across);
+        let top = 56.0 + LINE * rows as f64;
+        let bottom = top + PLOT;
+        let most = self.lines.iter().map(|line| line.of).max().unwrap_or(1);
+        let down = ShareAxis::new(top, bottom, most, MOST_DECADES);
+        if let Some([low, high]) = self.within() {
+            let [from, to] = [low, high].map(|value| match value.is_finite() {
+                true => across.x(value),
+                false if value < 0.0 => LEFT,
+                false => WIDTH - RIGHT,
+            });
+            let width = (to - from).max(2.0);
+            let _ = writeln!(
+                drawing,
+                "<rect class=\"within\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{PLOT}\"/>"
+            );
+        }
+        drawing += &axes(&across, &down, top, bottom);
+        for (x, y, text, is_this) in labels {
+            let class = if is_this { "this" } else { "" };
+            let _ = writeln!(
+                drawing,
+                "<path class=\"tried {class}\" d=\"M{x:.1} {:.1}V{bottom}\"/><text class=\"{class}\" x=\"{:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{}</text>",
+                y + 3.0,
+                centre(x, &text),
+                escaped(&text)
+            );
+        }
+        for line in &self.lines {
+            drawing += &self.drawn(line, &across, &down);
+        }
+        for (_, value, is_lower, count, is_proved) in self.limits() {
+            if let Some(value) = value {
+                drawing += &marker(across.x(value), bottom, is_lower, count, is_proved);
+            }
+        }
+        let mut y = bottom + 44.0;
+        let mut about = title.clone();
+        for (mark, text) in self.legend() {
+            let _ = writeln!(drawing, "<g transform=\"translate(12 {:.1})\">{mark}</g>", y - 4.0);
+            drawing += &text_at(50.0, y, "", &text);
+            let _ = write!(about, "; {text}");
+            y += LINE;
+        }
+        Panel { about, drawing, height: y + 6.0 }
+    }
+
+    /// The names above the plot in rows, so that none lies on another: place, height, text, and whether it is
+    /// what is recommended. Also how many rows there are.
+    fn labels(&self, across: &EpsilonAxis) -> (Vec<(f64, f64, String, bool)>, usize) {
+        let mut ends: Vec<f64> = Vec::new();
+        let mut placed = Vec::new();
+        for (value, names) in &self.tried {
+            let x = across.x(*value);
+            let value = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
+            let text = format!("{names}: {value}");
+            let half = CHARACTER * text.chars().count() as f64 / 2.0;
+            let start = centre(x, &text) - half;
+            let row = ends.iter().position(|end| *end + 6.0 <= start).unwrap_or(ends.len());
+            if row == ends.len() {
+                ends.push(0.0);
+            }
+            ends[row] = start + 2.0 * half;
+            placed.push((x, row, text, names.split(", ").any(|name| name == "this")));
+        }
+        let rows = ends.len();
+        // The first row is the lowest, next to the plot.
+        let height = |row: usize| 50.0 + LINE * (rows - row) as f64 - 4.0;
+        let placed = placed.into_iter().map(|(x, row, text, this)| (x, height(row), text, this));
+        (placed.collect(), rows)
+    }
+
+    /// A count's share by value, with the 95 % interval behind it.
+    fn drawn(&self, line: &Line<'_>, across: &EpsilonAxis, down: &ShareAxis) -> String {
+        let point = |(value, wrong): (&f64, &u64)| {
+            let interval = Trials::independent(*wrong, line.of).interval();
+            let share = *wrong as f64 / line.of as f64;
+            (across.x(*value), share, Some([interval.low, interval.high]))
+        };
+        // What lies beyond the axis is at its end: the last of those on the left, the first on the right.
+        let points: Vec<_> = self.values.iter().zip(&line.wrong).map(point).collect();
+        let first = points.iter().rposition(|(x, ..)| *x <= LEFT).unwrap_or(0);
+        let (path, band) = down.steps(points[first..].iter().copied(), WIDTH - RIGHT);
+        let class = line.class();
+        format!(
+            "<path class=\"band {class}\" d=\"{band}\"/><path class=\"line {class}\" d=\"{path}\"/>\n"
+        )
+    }
+
+    /// Marks with their texts: the lines, then the limits.
+    fn legend(&self) -> Vec<(String, String)> {
+        let lines = self.lines.iter().map(|line| {
+            let what = label(&line.count.stratum, &line.count.kind);
+            let n = group_digits(line.of);
+            let others = match line.by_others as f64 / line.of as f64 {
+                0.0 => String::new(),
+                share => format!(", {} by others", percent(share)),
+            };
+            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", line.class());
+            (mark, format!("{what} (n = {n}{others})"))
+        });
+        let limits = self.limits().map(|(row, _, is_lower, count, is_proved)| {
+            let mark = marker(15.0, 0.0, is_lower, count, is_proved);
+            let most = if is_proved { "proved".to_owned() } else { row.most.clone() };
+            (mark, format!("{} {}: {most}", row.bound, row.what))
+        });
+        let mut all: Vec<(String, String)> = lines.chain(limits).collect();
+        if self.within().is_some() {
+            let mark = "<rect class=\"within\" y=\"-6\" width=\"30\" height=\"12\"/>".to_owned();
+            all.push((mark, "within every limit (95 % sure of each)".to_owned()));
+        } else if self.limits().any(|(.., is_proved)| !is_proved) {
+            all.push((String::new(), "no value is within every limit".to_owned()));
+        }
+        all
+    }
+}
+
+/// The middle of a text near a place, so that it stays in the panel.
+fn centre(x: f64, text: &str) -> f64 {
+    let half = CHARACTER * text.chars().count() as f64 / 2.0;
+    x.clamp((4.0 + half).min(WIDTH / 2.0), (WIDTH - 4.0 - half).max(WIDTH / 2.0))
+}
+
+/// A triangle on the axis that points to the side that a limit allows.
+fn marker(x: f64, y: f64, is_lower: bool, count: &CountPart, is_proved: bool) -> String {
+    let ahead = if is_lower { 9.0 } else { -9.0 };
+    let class = if is_proved { "limit proved" } else { "limit" };
+    let stratum = count.stratum.trim_start_matches("scene-");
+    format!(
+        "<path class=\"{class} {stratum}\" d=\"M{x:.1} {:.1}l{ahead} 5l{} 5z\"/>\n",
+        y - 5.0,
+        -ahead
+    )
+}
+
+fn axes(across: &EpsilonAxis, down: &ShareAxis, top: f64, bottom: f64) -> String {
+    let right = WIDTH - RIGHT;
+    let mut drawing = String::new();
+    for (y, label) in down.ticks().into_iter().chain([(bottom, "none".to_owned())]) {
+        let _ = writeln!(
+            drawing,
+            "<path class=\"grid\" d=\"M{LEFT} {y:.1}H{right}\"/><text class=\"soft\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
+            LEFT - 6.0,
+            y + 4.0
+        );
+    }
+    let _ = writeln!(drawing, "<path class=\"axis\" d=\"M{LEFT} {top}V{bottom}H{right}\"/>");
+    for (x, label) in across.ticks(48.0, WIDTH) {
+        let _ = writeln!(
+            drawing,
+            "<path class=\"axis\" d=\"M{x:.1} {bottom}v5\"/><text class=\"soft\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
+            bottom + 19.0
+        );
+    }
+    drawing
+}
