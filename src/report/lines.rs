@@ -52,6 +52,16 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     parts.join("; ")
 }
 
+/// What should be known of the kernels beside their verdicts.
+pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()> {
+    for (kernel, notes) in &record.provenance.kernel_notes {
+        for note in notes {
+            write_wrapped(&format!("{kernel}: {note}."), out)?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes words in lines of [`WIDTH`] at most.
 pub(super) fn write_wrapped(text: &str, out: &mut dyn Write) -> io::Result<()> {
     if text.is_empty() {

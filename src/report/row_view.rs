@@ -1,7 +1,6 @@
 //! A record by kernel row, as the text walks through it.
 
 use super::group_digits;
-use super::lines::write_wrapped;
 use super::pool::Pool;
 use super::record::*;
 use std::io::{self, Write};
@@ -76,16 +75,6 @@ pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
         let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));
         invalid.map(|counts| counts.cases).sum::<u64>() == cases
     })
-}
-
-/// What should be known of the kernels beside their verdicts.
-pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()> {
-    for (kernel, notes) in &record.provenance.kernel_notes {
-        for note in notes {
-            write_wrapped(&format!("{kernel}: {note}."), out)?;
-        }
-    }
-    Ok(())
 }
 
 /// The kernels that gave no verdict on some cases.

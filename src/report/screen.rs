@@ -3,9 +3,9 @@
 
 use super::columns::{Across, Cell, Column, short_percent};
 use super::disagreement::{Key, disagreements};
-use super::lines::{Line, column_legend, lines, write_wrapped};
+use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures, write_notes};
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::{Style, close_up, extremes, group_digits, number_of};
 use crate::family;
 use crate::kernel;

@@ -1,9 +1,10 @@
 //! The record as text for people: the screen, or with `--details` everything: one table a scalar, then
 //! the worst findings with the commands that show them again.
 
+use super::lines::write_notes;
 use super::rate::{interval_of, share_column};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures, write_notes};
+use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::why::{accuracy_text, causes_text};
 use super::worst::write_worst;
 use super::{Style, group_digits, number_of};

@@ -54,7 +54,7 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
 
 /// The largest error of what a gate compares with its epsilon in a scene.
 fn bound<F: Scalar>(setting: &Setting<'_, F>, gate: usize) -> Option<f64> {
-    let domain = proved_scene(setting.scene).domain().ok()?;
+    let domain = proved_scene(setting.scene)?.domain().ok()?;
     let proof =
         Proof::new(paths_of::<F>(setting.row.entry).ok()?, Some(gate), domain, format_of::<F>());
     let bound = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
@@ -65,16 +65,16 @@ fn bound<F: Scalar>(setting: &Setting<'_, F>, gate: usize) -> Option<f64> {
 
 /// The scene, and slightly more: triangles to which rays are parallel have edges of up to twice the length,
 /// and a ray aimed beside a triangle starts farther from its vertices than from its target.
-fn proved_scene(scene: &Scene) -> prove::Scene {
-    let longest = 2.0 * scene.edge[1];
-    let distance = scene.distance[1] + 4.0 * longest;
-    prove::Scene {
-        coordinates: scene.extent + longest + distance,
-        edge: [scene.edge[0] / 2.0, longest],
+fn proved_scene(scene: &Scene) -> Option<prove::Scene> {
+    let [shortest, longest] = scene.edge;
+    let [nearest, farthest] = scene.distance;
+    let edge = [shortest / 2.0, 2.0 * longest];
+    let distance = [nearest, farthest + 6.0 * longest];
+    prove::Scene::of(&Scene {
+        edge,
         distance,
-        // No bound that is used depends on them.
-        min_angle: 1.0,
-        grazing: 1.0,
-        shape: None,
-    }
+        extent: scene.extent + 2.0 * longest,
+        ..scene.clone()
+    })
+    .ok()
 }
