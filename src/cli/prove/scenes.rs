@@ -77,6 +77,6 @@ pub fn scene_text(scene: &Scene) -> String {
         [coordinates, low, high, distance, min_angle, grazing].map(digits);
     format!(
         "coordinates up to {coordinates}, edges from {low} to {high}, origins up to {distance} from the \
-         vertices, angles of {min_angle} degrees and more, rays at {grazing} degrees to the plane and more, coordinates of d up to 1"
+         vertices, angles from {min_angle}°, rays at {grazing}° to the plane and more, coordinates of d up to 1"
     )
 }

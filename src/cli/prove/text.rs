@@ -80,23 +80,31 @@ pub fn kernel(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io
     )
 }
 
-/// A sentence in lines of at most 100 columns.
+/// A sentence of a gate.
 fn paragraph(text: &str, out: &mut dyn Write) -> io::Result<()> {
-    let mut line = "   ".to_owned();
+    writeln!(out, "{}", wrapped(text, 4))
+}
+
+/// Words in lines of at most 100 columns; the lines after the first are indented by two more.
+fn wrapped(text: &str, indent: usize) -> String {
+    let mut lines = vec![" ".repeat(indent)];
     for word in text.split(' ') {
-        if line.len() + 1 + word.len() > 100 {
-            writeln!(out, "{line}")?;
-            line = "     ".to_owned();
+        let line = lines.last_mut().expect("one at least");
+        if line.trim().is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() > 100 {
+            lines.push(" ".repeat(indent + 2) + word);
+        } else {
+            line.push(' ');
+            line.push_str(word);
         }
-        line.push(' ');
-        line.push_str(word);
     }
-    writeln!(out, "{line}")
+    lines.join("\n")
 }
 
 fn domain(record: &Record, scene: Option<&Scene>) -> String {
     match scene {
-        Some(scene) => format!("Scene: {}", scene_text(scene)),
+        Some(scene) => wrapped(&format!("Scene: {}", scene_text(scene)), 0),
         None => {
             let part = &record.domain;
             format!(

@@ -6,7 +6,7 @@ use super::record::SceneRecord;
 use crate::report::Style;
 use std::io::{self, Write};
 
-/// The width of a column of the tables.
+/// The least width of a column of the tables.
 const WIDTH: usize = 15;
 
 /// Writes the recommendation first, then the evidence.
@@ -32,8 +32,10 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
 fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     let title = format!("wrong on fresh rays (seed {}):", record.fresh_seed);
     write!(out, "{title:<32}")?;
+    let all = answer.columns.iter().chain(answer.rows.iter().flat_map(|(_, row)| row));
+    let width = all.map(|cell| cell.chars().count() + 1).max().unwrap_or(0).max(WIDTH);
     let cells = |cells: &[String], out: &mut dyn Write| {
-        cells.iter().try_for_each(|cell| write!(out, "{cell:>WIDTH$}"))?;
+        cells.iter().try_for_each(|cell| write!(out, "{cell:>width$}"))?;
         writeln!(out)
     };
     cells(&answer.columns, out)?;
