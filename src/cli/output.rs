@@ -53,9 +53,12 @@ pub fn paired_outputs<'a, T>(
         })
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    // `a` and `./a` are one file.
-    let places: Vec<PathBuf> =
-        outputs.iter().map(|path| std::path::absolute(path).unwrap_or(path.into())).collect();
+    // `a`, `./a` and a link to it are one file.
+    let place = |path: &String| match linked(Path::new(path)) {
+        path if is_standard_output(&path) => "-".into(),
+        path => std::path::absolute(&path).unwrap_or(path),
+    };
+    let places: Vec<PathBuf> = outputs.iter().map(place).collect();
     if let Some(i) = (1..places.len()).find(|&i| places[..i].contains(&places[i])) {
         return Err(Failure::usage(format!("-o: '{}' is given twice", outputs[i])));
     }
@@ -138,8 +141,8 @@ enum Place {
 
 impl Place {
     fn of(name: &Path) -> io::Result<Place> {
-        let path = if name == Path::new("-") { "/dev/fd/1".into() } else { linked(name) };
-        if path == Path::new("/dev/fd/1") || path == Path::new("/proc/self/fd/1") {
+        let path = linked(name);
+        if is_standard_output(&path) {
             return Ok(Place::StandardOutput);
         }
         match fs::metadata(&path) {
@@ -167,6 +170,11 @@ fn linked(path: &Path) -> PathBuf {
         }
     }
     path
+}
+
+/// Whether a path, links followed, names standard output.
+fn is_standard_output(path: &Path) -> bool {
+    ["-", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
 /// Whether a path names an open file, as that of `/dev/stdout` does.

@@ -36,7 +36,8 @@ pub struct PluginArguments {
     #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
     kernel_failures: Option<u64>,
 
-    /// End the run if such a kernel flushes subnormal numbers to zero, or does not round to nearest
+    /// End the run if such a kernel flushes subnormal numbers to zero, or does not round to nearest; of a
+    /// --kernel-cmd its own word is taken (`floats` in docs/protocol.md)
     #[arg(long, help_heading = "Kernels of your own")]
     #[serde(default)]
     require_ieee: bool,

@@ -150,6 +150,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     if let Some(path) = &arguments.certificate {
         return files::certify(&entries, scalars, domain, path);
     }
+    if arguments.epsilon.is_some() && entries.len() != 1 {
+        return Err(Failure::usage("--epsilon is of one --kernel"));
+    }
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
     let job = Job { scene, shapes, domain, effort, epsilons, stored: &stored, shared };

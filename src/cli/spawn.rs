@@ -14,7 +14,7 @@ use crate::audit::Row;
 use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
-use crate::spawn::{Plan, PointKind, Scheme, default_schemes, parse, run as run_plan};
+use crate::spawn::{Plan, PointKind, Scheme, default_schemes, needs_t, parse, run as run_plan};
 use choice::{least_without_failure, made_for};
 use clap::Args;
 use record::{PointsPart, SpawnRecord};
@@ -163,8 +163,9 @@ impl Settings<'_> {
         AnyCase: From<Case<F>>,
     {
         let Settings { arguments, row, scene, kind, wall } = *self;
-        let schemes: Vec<Scheme> =
-            schemes.iter().filter(|scheme| scheme.offset::<F>().is_some()).cloned().collect();
+        let gives_t = row.entry.info.gives.t;
+        let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
+        let schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
         let (seed, count) = (pilot_seed(arguments.seed), arguments.count);
         let (schemes_of_pilot, with_least) = (&schemes, true);
         let plan =

@@ -1,8 +1,7 @@
 //! Writing what a run found as what is expected from now on.
 
 use super::{Amount, Entry, Expectations, SCHEMA};
-use crate::report::{Conformance, Disagreement, Key, Method, ResultPart, disagreements};
-use std::collections::BTreeSet;
+use crate::report::{Conformance, Disagreement, Method, ResultPart, disagreements};
 use std::fmt::{self, Write};
 
 /// Why expectations cannot be written: the file also has entries for kernels, scalars or families that
@@ -22,8 +21,6 @@ pub struct NetChange {
     pub worse: u64,
     /// Cases where none is expected.
     pub new: u64,
-    /// The same, of a kernel row or a family that the plan of the expectations may not have had.
-    pub of_new_plan: u64,
     /// As many cases as expected, but not the same ones.
     pub other_cases: u64,
     /// As expected.
@@ -38,17 +35,15 @@ impl NetChange {
             unchanged: compared.known.len() as u64,
             ..NetChange::default()
         };
-        let other_plan = compared.method == Method::Intervals;
-        let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
-        let rows: BTreeSet<_> = old.entries.keys().map(row).collect();
-        let families: BTreeSet<&String> = old.entries.keys().map(|key| &key.family).collect();
         for found in &compared.unexpected {
-            let key = found.key();
-            let is_known = rows.contains(&row(&key)) && families.contains(&key.family);
-            *match old.entries.get(&key).map(|entry| &entry.amount) {
-                None if other_plan && !is_known => &mut change.of_new_plan,
+            let is_same_rate = |count: u64, of: Option<u64>| {
+                compared.method == Method::CaseByCase
+                    && count == found.found.count
+                    && of.is_none_or(|of| of == found.found.of)
+            };
+            *match old.entries.get(&found.key()).map(|entry| &entry.amount) {
                 None => &mut change.new,
-                Some(Amount::Count { count, .. }) if *count == found.found.count => {
+                Some(Amount::Count { count, of, .. }) if is_same_rate(*count, *of) => {
                     &mut change.other_cases
                 }
                 Some(_) => &mut change.worse,
@@ -65,15 +60,11 @@ impl NetChange {
 
 impl fmt::Display for NetChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NetChange { better, worse, new, of_new_plan, other_cases, unchanged } = self;
+        let NetChange { better, worse, new, other_cases, unchanged } = self;
         write!(
             f,
             "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
-        )?;
-        match of_new_plan {
-            0 => Ok(()),
-            count => write!(f, ", {count} of kernels or families that are new to the plan"),
-        }
+        )
     }
 }
 

@@ -208,13 +208,6 @@ fn edge<F>(
         }
         _ => None,
     };
-    let flat = scene.map_or(String::new(), |scene| {
-        format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
-    });
-    if share.is_some_and(|share| beta * share >= 0.5) {
-        lines.push(format!("This bound is of no use for the smallest triangles{flat}."));
-        return;
-    }
     if epsilons.is_some() {
         let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
         let known = lost.map_or(String::new(), |witness| {
@@ -226,34 +219,45 @@ fn edge<F>(
         let least = signed(-beta, false);
         lines.push(format!("An epsilon below {least} loses no hit at an edge.{known}"));
     }
-    let (per, unit) = match share {
-        Some(share) => (share, String::new()),
-        None => (1.0, " / S".to_owned()),
+    let flat = scene.map_or(String::new(), |scene| {
+        format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
+    });
+    let is_useless = share.is_some_and(|share| beta * share >= 0.5);
+    if is_useless {
+        lines.push(format!(
+            "How deep lost hits may lie is of no use for the smallest triangles{flat}."
+        ));
+    }
+    // How deep inside or far outside, none where that says nothing.
+    let across = |x: f64| match share {
+        Some(share) if x * share >= 0.5 => None,
+        Some(share) => Some(format!("{} of the way across the triangle{flat}", above(x * share))),
+        None => Some(format!(
+            "{} / S of the way across the triangle, S being the sum of its three edge values",
+            above(x)
+        )),
     };
-    let across = match share {
-        Some(_) => format!(" of the way across the triangle{flat}"),
-        None => {
-            " of the way across the triangle, S being the sum of its three edge values".to_owned()
-        }
-    };
-    lines.push(format!(
-        "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss of this domain through farther \
-         outside, than {}{unit}{across}.",
-        above(beta * per)
-    ));
+    if let Some(most) = across(beta) {
+        lines.push(format!(
+            "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss of this domain through \
+             farther outside, than {most}."
+        ));
+    }
     for (name, value) in epsilons.into_iter().flatten().filter(|(_, value)| *value != 0.0) {
-        let [inside, outside] = [value + beta, beta - value].map(|depth| depth * per);
-        let lost = if inside < 0.0 {
-            "loses no hit".to_owned()
-        } else {
-            format!("loses no hit deeper inside than {}{unit}", above(inside))
+        let inside = match value + beta {
+            depth if depth < 0.0 => Some("loses no hit".to_owned()),
+            depth => across(depth).map(|most| format!("loses no hit deeper inside than {most}")),
         };
-        let let_in = if outside <= 0.0 {
-            "lets no miss of this domain through".to_owned()
-        } else {
-            format!("lets no miss through farther outside than {}{unit}", above(outside))
+        let outside = match beta - value {
+            depth if depth <= 0.0 => Some("lets no miss of this domain through".to_owned()),
+            depth => across(depth).map(|most| {
+                format!("lets no miss of this domain through farther outside than {most}")
+            }),
         };
-        lines.push(format!("e = {name} {lost}, and {let_in}{across}."));
+        let said: Vec<String> = [inside, outside].into_iter().flatten().collect();
+        if !said.is_empty() {
+            lines.push(format!("e = {name} {}.", said.join("; it ")));
+        }
     }
 }
 

@@ -28,6 +28,6 @@ pub use plane::Plane;
 pub use published::{PUBLISHED, Parameter, Published};
 pub use run::{Plan, new_ray, run};
 pub use safe::{Least, least};
-pub use scheme::{Scheme, all, default_schemes, describe, parse, register};
+pub use scheme::{Scheme, all, default_schemes, describe, needs_t, parse, register};
 pub use sums::{Heights, Lengths, OfScheme, Sums};
 pub use trial::{PointKind, Trial, Trials, first_ray_id};

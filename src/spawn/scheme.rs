@@ -113,6 +113,11 @@ pub fn default_schemes() -> Vec<Scheme> {
     PUBLISHED.iter().flat_map(of).chain(added()).collect()
 }
 
+/// Whether a scheme of this name needs the hit's t.
+pub fn needs_t(name: &str) -> bool {
+    name.split('=').next() == Some("t-relative")
+}
+
 /// `: p + n * 0.01`, how a scheme of this name starts a ray; empty of a program's own.
 pub fn describe(name: &str) -> String {
     let (word, value) = name.split_once('=').unwrap_or((name, ""));

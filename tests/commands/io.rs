@@ -488,6 +488,15 @@ fn one_place_is_not_written_twice_and_one_name_is_not_two_meshes() {
     let twice = ["audit", "-n", "1", "--format", "json,jsonl", "-o", "a", "-o", "./a"];
     let (_, error) = ends(&folder, &twice, 2);
     assert!(error.contains("'./a' is given twice"), "{error}");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("a", folder.join("link")).unwrap();
+        for [one, other] in [["a", "link"], ["-", "/dev/stdout"]] {
+            let twice = ["audit", "-n", "1", "--format", "json,jsonl", "-o", one, "-o", other];
+            let (_, error) = ends(&folder, &twice, 2);
+            assert!(error.contains(&format!("'{other}' is given twice")), "{error}");
+        }
+    }
     assert!(!folder.join("a").exists());
     for part in ["d1", "d2"] {
         fs::create_dir(folder.join(part)).unwrap();

@@ -117,14 +117,13 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
         out.contains("e = 1e-7 is proved to refuse every parallel ray where coordinates of edges")
     );
     assert!(!out.contains("(jolt)"), "{out}");
-    let all =
-        "e = -1e-5 loses no hit, and lets no miss through farther outside than 1.86e-5 of the way";
+    let all = "e = -1e-5 loses no hit; it lets no miss of this domain through farther outside than 1.86e-5 of the way";
     assert!(out.contains(all), "{out}");
     let out = words("edge=1e-5");
-    let none = "e = 1e-5 loses no hit deeper inside than 1.86e-5, and lets no miss of this domain through of";
+    let none = "e = 1e-5 loses no hit deeper inside than 1.86e-5 of the way across the triangle; it lets no miss of this domain through.";
     assert!(out.contains(none), "{out}");
     let out = words("edge=2e-6");
-    let both = "loses no hit deeper inside than 1.06e-5, and lets no miss through farther outside than 6.58e-6";
+    let both = "deeper inside than 1.06e-5 of the way across the triangle; it lets no miss of this domain through farther outside than 6.58e-6 of";
     assert!(out.contains(both), "{out}");
     let wrong = |epsilon: &str, message: &str| {
         refused(&[&kernel[..], &["--epsilon", epsilon]].concat(), 2, message);
@@ -132,6 +131,13 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
     wrong("paralel=1", "no selected kernel has a gate 'paralel'");
     wrong("parallel", "--epsilon: 'parallel' is not GATE=VALUE");
     wrong("parallel=x", "");
+    let two = ["prove", "--kernel", "cramer,plucker", "--epsilon", "edge=0"];
+    refused(&two, 2, "--epsilon is of one --kernel");
+    // What is proved whatever the size of triangles is said in any scene.
+    let room =
+        ["prove", "--kernel", "scalar-triple", "--scalar", "f32", "--scene", "room", "-n", "0"];
+    let out = text(&[&room[..], &["--epsilon", "edge=-1e-3"]].concat());
+    assert!(out.contains("e = -1e-3 loses no hit"), "{out}");
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn error_boxes_are_those_worked_out_by_hand() {
     assert_eq!(start("pbrt-v3", &down).origin, [8.0 - 8.0 * small(21), 1.0, 1.0]);
     // With 6u: from 8 - 6/2^21, and one further, to 8 + 3/2^20, and one further. The middle rounds to 8,
     // half the width is 7.5/2^21, which rounds to 4/2^20 above 8, and the next float is the fifth.
-    assert_eq!(start("pbrt-v4", &up).origin, [8.0 + 5.0 * small(20), 1.0, 1.0]);
+    assert_eq!(start("pbrt-v4=6", &up).origin, [8.0 + 5.0 * small(20), 1.0, 1.0]);
     assert_eq!(start("pbrt-v4=0", &up).origin, [8.0, 1.0, 1.0]);
     // 24u alone: 12 ulps of 8, one more for the box and one more for the next float.
     assert_eq!(start("pbrt-v3=24", &up).origin[0], 8.0 + 13.0 * small(20));

@@ -165,7 +165,7 @@ self-hits    the kernel says that the new ray hits the triangle which it leaves
 height       of the start over the plane: in longest edges of the triangle, and in ulps of its coordinates
 a wall       starts beyond a wall parallel to the triangle, {} of its longest edge in front of it
 times least  the way along the normal over the shortest that is right, where p itself is wrong (median)
-Offsets are chosen on seed {} and counted on seed {}. `hairline list schemes` has their sources;
+Made for the scene: on seed {}; counted: on seed {}. `hairline list schemes` has the sources;
 --format json has a wrong start of each.",
         record.wall, record.pilot_seed, record.seed
     )

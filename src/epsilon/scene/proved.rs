@@ -25,7 +25,9 @@ pub struct Proved<F> {
 /// What is proved of each knob; nothing in scenes whose directions have any length, nor where a proof
 /// supposes more than the sizes of triangles and distances.
 pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
-    if setting.scene.direction != DirectionLength::Unit || setting.relative {
+    let is_unit = setting.scene.direction == DirectionLength::Unit;
+    // Else rounding moves vertices and starts by more than the room that the domain has for it.
+    if !is_unit || setting.relative || setting.scene.check_in::<F>().is_err() {
         return Vec::new();
     }
     let of_knob = |(k, knob): (usize, &Knob)| {

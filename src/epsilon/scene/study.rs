@@ -97,6 +97,13 @@ pub fn study_scene<F: Scalar>(
         (proved, trials)
     };
     let proofs: Vec<_> = proofs.into_iter().zip(of_proofs).map(of_proof).collect();
+    if let Some((proved, trials)) = proofs.iter().find(|(_, trials)| 0 < trials.count) {
+        let value = proved.value.to_f64();
+        return Err(format!(
+            "{value:e} is proved to be never wrong, and was {} times",
+            trials.count
+        ));
+    }
     let mut of_limits = wrong.split_off(plain).into_iter();
     let with_trials = |limit: Limit<F>| {
         let wrong = limit.value.and_then(|_| of_limits.next());

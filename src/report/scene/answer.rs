@@ -91,8 +91,10 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
             vec![format!("99 % of the hits that remain are off by at most {wanted} (95 % sure)")]
         }
         Some(false) => vec![
-            format!("at no values are 99 % of the hits off by at most {wanted} (95 % sure):"),
-            "it takes wider numbers, another kernel or other rays".to_owned(),
+            format!(
+                "these rays show no values at which 99 % of the hits are off by at most {wanted}:"
+            ),
+            "it takes more rays (-n), wider numbers, another kernel or other rays".to_owned(),
         ],
     });
     notes
@@ -175,7 +177,10 @@ fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
             bound: bound(Some(&proved.value), proved.is_lower, &unit_of(record, knob)),
             what: what(proved.count),
             most: "0: proved".to_owned(),
-            fresh: group_digits(proved.fresh.count),
+            fresh: match proved.fresh.of {
+                0 => "-".to_owned(),
+                _ => group_digits(proved.fresh.count),
+            },
             is_of_scene: false,
         }
     });
