@@ -180,7 +180,7 @@ impl Scene {
     pub(super) fn check_fit(&self) -> Result<(), String> {
         if self.extent < self.edge[1] {
             return Err(format!(
-                "edge={}: no triangle of that size fits within extent={}",
+                "edge={}: the longest edge is at most the extent, {}",
                 Range(self.edge),
                 Number(self.extent)
             ));
@@ -317,7 +317,7 @@ mod tests {
             ("edge=0..1", "edge=0..1: must be above 0"),
             ("edge=1..", "'' is not a finite number"),
             ("edge=0.5..0.25", "the range is empty"),
-            ("edge=0.5..2", "fits within extent=1"),
+            ("edge=0.5..2", "the longest edge is at most the extent, 1"),
             ("distance=0", "not 0 alone"),
             ("distance=-1..2", "from 0 up"),
             ("direction=long", "direction=unit or target"),

@@ -12,7 +12,7 @@ use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, unknown};
 use super::input::read_text;
 use super::output::write_result;
-use crate::audit::EpsilonChoice;
+use crate::audit::{EpsilonChoice, shell_word};
 use crate::case;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
@@ -206,7 +206,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
             writeln!(out)
         }
         OutputFormat::Fpcore | OutputFormat::Gappa => unreachable!("handled above"),
-        OutputFormat::Text if entries.len() == 1 => text::kernel(&record, scene.as_ref(), out),
+        OutputFormat::Text if entries.len() == 1 => {
+            text::kernel(&record, scene.as_ref(), &arguments.rays(), out)
+        }
         OutputFormat::Text => text::table(&record, scene.as_ref(), out),
     })?;
     Ok(Status::Success)
@@ -223,6 +225,15 @@ impl ProveArguments {
                 .ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))
         };
         self.kernel.iter().map(find).collect()
+    }
+
+    /// The flags of `epsilon` that choose rays in such a scene.
+    fn rays(&self) -> String {
+        match (&self.scene, &self.mesh) {
+            (Some(scene), _) => format!("--scene {}", shell_word(scene)),
+            (None, Some(mesh)) => format!("--mesh {}", shell_word(mesh)),
+            _ => "--scene room".to_owned(),
+        }
     }
 
     /// Of which epsilons something is said.

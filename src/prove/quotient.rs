@@ -39,7 +39,7 @@ impl Prover<'_> {
         let floor = self.floor(divisor);
         if floor <= below.error {
             return Err(
-                "a divisor may be rounded to zero: the floor of divisors is too low".to_owned()
+                "divisors may be so small in this domain that rounding makes one zero".to_owned()
             );
         }
         let above = match numerator {
@@ -72,7 +72,9 @@ impl Prover<'_> {
         }
         let largest = Big::from(Dyadic::power(self.format.largest));
         if twice && largest * least <= Big::from(Dyadic::ONE) {
-            return Err("a reciprocal may overflow: the floor of divisors is too low".to_owned());
+            return Err(
+                "divisors may be so small in this domain that a reciprocal overflows".to_owned()
+            );
         }
         if at_most_one && !twice {
             // The quotient of two floats that is at most one is rounded to at most one.
@@ -97,7 +99,7 @@ impl Prover<'_> {
         let tiny = Big::from(self.format.tiny()) * &three;
         if !least.is_positive() || tiny > &unit * &least * &least {
             return Err(
-                "a length may be rounded to zero: the floor of divisors is too low".to_owned()
+                "lengths may be so small in this domain that rounding makes one zero".to_owned()
             );
         }
         let largest = Big::from(size) + &shift;

@@ -114,7 +114,7 @@ fn parallel<F: Searched + Scalar>(
         "An epsilon above {} refuses every ray that is exactly parallel.{known}",
         above(beta)
     ));
-    let Some(Triangles { shapes, .. }) = scene else {
+    let Some(Triangles { shapes, scene }) = scene else {
         lines.push(format!(
             "With an epsilon e this gate refuses a hit only where the exact value is below e + {}.",
             above(beta)
@@ -129,6 +129,7 @@ fn parallel<F: Searched + Scalar>(
         }
     }
     let is_angle = gate.gate.dimension.length == 0;
+    let is_mesh = scene.shape.is_some();
     let mut say = |name: &str, value: f64| {
         // |det| = 2 * area * |d| * sine of the angle to the plane.
         let sine = shapes
@@ -138,9 +139,9 @@ fn parallel<F: Searched + Scalar>(
         let sine = sine.fold(0.0, f64::max);
         let cost = if sine < 1.0 {
             let angle = libm::asin(sine).to_degrees();
-            format!("keeps every hit at {} to the plane and more", degrees(angle))
+            format!("it keeps every hit at {} to the plane and more", degrees(angle))
         } else {
-            "is proved to keep every hit at no angle".to_owned()
+            "for no angle is it proved that every hit is kept".to_owned()
         };
         let refuses = if beta < value {
             "refuses every parallel ray".to_owned()
@@ -149,13 +150,18 @@ fn parallel<F: Searched + Scalar>(
             match proved {
                 0 => "is not proved to refuse parallel rays".to_owned(),
                 _ if shapes.len() == proved => "refuses every parallel ray".to_owned(),
+                // The shapes of a mesh are its triangles, those of other scenes sizes, the smallest first.
+                _ if is_mesh => format!(
+                    "is proved to refuse the parallel rays of {proved} of {} triangles only",
+                    shapes.len()
+                ),
                 _ => format!(
-                    "is proved to refuse every parallel ray at {} % of the sizes of triangles only",
-                    100 * proved / shapes.len()
+                    "is proved to refuse the parallel rays of triangles with edges up to {} only",
+                    below(shapes[proved - 1].0)
                 ),
             }
         };
-        lines.push(format!("In this scene, for |d| = 1, {name} {refuses}, and {cost}."));
+        lines.push(format!("In this scene, for |d| = 1, {name} {refuses}; {cost}."));
     };
     say("that epsilon", beta * (1.0 + 1e-9));
     for (name, value) in published.iter().filter(|(_, e)| *e > 0.0) {

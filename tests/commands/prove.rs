@@ -229,14 +229,14 @@ fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
     let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "1000"];
     let out = text(&[&kernel[..], &scene[..]].concat());
     assert!(out.contains("Scene: coordinates up to 1000"), "{out}");
-    assert!(words(&out).contains("is proved to keep every hit at no angle"), "{out}");
+    assert!(words(&out).contains("for no angle is it proved that every hit is kept"), "{out}");
     // In f64 the same gate costs little.
     let out = text(
         &[&["prove", "--kernel", "moller-trumbore", "--scalar", "f64", "-n", "1000"], &scene[..]]
             .concat(),
     );
     assert!(
-        words(&out).contains("that epsilon refuses every parallel ray, and keeps every hit at"),
+        words(&out).contains("that epsilon refuses every parallel ray; it keeps every hit at"),
         "{out}"
     );
     let bad = |coordinates: &str, edge: &str, message: &str| {
@@ -279,7 +279,7 @@ fn a_meshs_triangles_have_bounds_of_their_own() {
     ]);
     let all = words(&out);
     assert!(
-        all.contains("e = 1e-6 (source, truck) refuses every parallel ray, and keeps every hit at"),
+        all.contains("e = 1e-6 (source, truck) refuses every parallel ray; it keeps every hit at"),
         "{out}"
     );
     assert!(all.contains("e = 1e-12 (jolt) is not proved to refuse parallel rays"), "{out}");

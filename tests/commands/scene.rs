@@ -86,7 +86,7 @@ fn scenes_are_sources_whose_cases_explain_themselves() {
 fn bad_scenes_get_one_clear_line() {
     let folder = scratch("scene-bad");
     let scenes = [
-        ("extent=1,edge=2", "no triangle of that size fits within extent=1"),
+        ("extent=1,edge=2", "the longest edge is at most the extent, 1"),
         ("edge=1..0.5", "the range is empty"),
         ("extent=nan", "'nan' is not a finite number"),
         ("extent=1e-17,edge=1e-18,distance=0..1e-17", "underflow in f32"),

@@ -105,7 +105,7 @@ fn schemes_points_and_walls_are_those_named() {
 fn bad_input_gets_one_clear_line() {
     let folder = scratch("spawn-bad");
     let flags: [(&[&str], i32, &str); 18] = [
-        (&["--scene", "extent=1,edge=2"], 2, "no triangle of that size fits within extent=1"),
+        (&["--scene", "extent=1,edge=2"], 2, "the longest edge is at most the extent, 1"),
         (&["--scene", "extent=nan"], 2, "'nan' is not a finite number"),
         (&["--scene", "center=inf"], 2, "not a finite number"),
         (&["--scene", "castle"], 2, "begin with one of unit, room, city, cad-mm"),

@@ -55,8 +55,13 @@ fn row(gate: &GatePart, width: usize, out: &mut dyn Write) -> io::Result<()> {
     )
 }
 
-/// One kernel: the sentences.
-pub fn kernel(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io::Result<()> {
+/// One kernel: the sentences; `rays` are the flags of `epsilon` that choose such rays.
+pub fn kernel(
+    record: &Record,
+    scene: Option<&Scene>,
+    rays: &str,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     for (i, kernel) in record.kernels.iter().enumerate() {
         let unit = if kernel.scalar == "f32" { "2^-24" } else { "2^-53" };
         let gap = if i > 0 { "\n" } else { "" };
@@ -76,7 +81,7 @@ pub fn kernel(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io
     let name = record.kernels.first().map_or("K", |kernel| &kernel.kernel);
     writeln!(
         out,
-        "\nWhat epsilons do to your rays, and which to use: hairline epsilon --kernel {name} --scene room"
+        "\nWhat epsilons do to your rays, and which to use: hairline epsilon --kernel {name} {rays}"
     )
 }
 

@@ -147,7 +147,9 @@ fn relative_lines(part: &SceneKernelPart, relative: &TriedPart) -> [String; 2] {
     });
     let forms: Vec<String> = forms.collect();
     let cost = relative.cost;
-    [format!("epsilons that follow each triangle's size would cost {cost:.3}:"), forms.join(", ")]
+    let what =
+        "epsilons that follow each triangle's size (L its longest edge, M the largest coordinate)";
+    [format!("{what} would cost {cost:.3}:"), forms.join(", ")]
 }
 
 fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
@@ -231,6 +233,11 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         "t, point: errors of the hits that remain: half, 99 % are at most this; the worst"
             .to_owned(),
     ];
+    if record.kernels.iter().any(|part| !part.limits.is_empty()) {
+        let most =
+            "at most: what this number itself makes wrong; what the others make comes on top";
+        lines.push(most.to_owned());
+    }
     let is_set = |limit: &LimitPart| limit.set_by.is_some();
     if record.kernels.iter().any(|part| part.limits.iter().any(is_set)) {
         let star = "* set by the scene's sizes, distances and angles as well as by rounding";

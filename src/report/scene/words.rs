@@ -115,6 +115,16 @@ pub(super) fn meaning(
             let what = if value < 0.0 { "larger" } else { "smaller" };
             Some(format!("triangles are {what} by {:e} of their size at each side", value.abs()))
         }
+        // An absolute number beside what the smallest triangles have.
+        ("edge", [length, _]) if 0 < length => {
+            let share = value.abs() / record.edge[0].powi(i32::from(length));
+            let what = if value < 0.0 { "hit far beside them" } else { "never hit" };
+            (share > 0.1).then(|| {
+                format!(
+                    "the smallest triangles are {what}: edge is {share:.0e} times their L^{length}"
+                )
+            })
+        }
         _ => None,
     }
 }
