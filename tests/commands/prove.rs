@@ -294,7 +294,7 @@ fn a_meshs_triangles_have_bounds_of_their_own() {
     let out = text(&[&kernel[..], &arguments[..]].concat());
     assert!(
         words(&out).contains(
-            "e = 1e-5 (godot, three-mesh-bvh) is proved to refuse every parallel ray at 50 %"
+            "e = 1e-5 (godot, three-mesh-bvh) is proved to refuse the parallel rays of 1 of 2 triangles only"
         ),
         "{out}"
     );

@@ -43,7 +43,7 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
     assert_eq!(points.len(), 4);
     for part in points {
         let schemes = part["schemes"].as_array().unwrap();
-        assert_eq!(schemes.len(), if part["scalar"] == "f32" { 12 } else { 11 }, "{part}");
+        assert_eq!(schemes.len(), if part["scalar"] == "f32" { 12 } else { 10 }, "{part}");
         assert!(schemes.iter().all(|scheme| scheme["source"].is_string()));
         assert!(schemes.iter().all(|scheme| scheme["wrong"]["of"] == part["hits"]));
         // What is recommended never fails, and nothing of which that is true is lower.

@@ -53,7 +53,7 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "  use  {}{}", best.scheme, describe(&best.scheme))?;
             writeln!(
                 out,
-                "       the lowest with no wrong side and no self-hit on either seed: 0 of {hits}, at most 1 in {} (95 % sure)",
+                "       the lowest without wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
                 group_digits(best.one_in)
             )?;
             writeln!(
