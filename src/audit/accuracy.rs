@@ -115,7 +115,7 @@ impl<'a, F: Float> Measure<'a, F> {
             if self.zeros[which] {
                 return Some(found.to_f64().abs() / self.units[which]);
             }
-            let ulp = nearest::<F>(float(&exact[which], 0.0)?).ulp().to_f64();
+            let ulp = self.ulp_at(&exact[which], &number, &float)?;
             let off = lift(found) - &exact[which];
             Some(float(&off, ulp * 1e-6)?.abs() / ulp)
         };
@@ -129,6 +129,28 @@ impl<'a, F: Float> Measure<'a, F> {
                 None
             },
         })
+    }
+
+    /// The ulp of the float nearest to a number. Near a power of two, where it doubles, a number that is known to
+    /// a millionth of itself is not known well enough.
+    fn ulp_at<R: Real>(
+        &self,
+        exact: &R,
+        number: &impl Fn(f64) -> R,
+        float: &impl Fn(&R, f64) -> Option<f64>,
+    ) -> Option<f64> {
+        let about = float(exact, 0.0)?;
+        let [one, other] = [1.0 - 2e-6, 1.0 + 2e-6].map(|x| nearest::<F>(about * x));
+        let ulps = [one, other].map(|x| x.ulp().to_f64());
+        if ulps[0] == ulps[1] {
+            return Some(ulps[0]);
+        }
+        let (low, high) = (ulps[0].min(ulps[1]), ulps[0].max(ulps[1]));
+        // The power of two from which on, and half an ulp before which, the ulp is the larger one.
+        let power = high / F::EPSILON.to_f64();
+        let sign = if about < 0.0 { -1.0 } else { 1.0 };
+        let beyond = sign * float(&(number(sign * power) * -R::one() + exact), 0.0)?;
+        Some(if beyond < -low / 2.0 { low } else { high })
     }
 
     fn point<R: Real>(

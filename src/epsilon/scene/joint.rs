@@ -4,7 +4,6 @@ use super::errors::{MaxError, errors_of};
 use super::trials::{Count, Kind, Margins, Setting, Trial};
 use crate::arith::Float;
 use crate::engine::{Merge, Observer};
-use crate::family::Stratum;
 use crate::kernel::Scalar;
 
 /// What a wrong answer of each kind costs.
@@ -168,11 +167,7 @@ impl<F: Scalar> Joint<F> {
         let at = |of: &[i64]| of.get(cell).copied().unwrap_or(0) as u64;
         let pairs = counts.iter().zip(self.hits.iter().zip(exceeded));
         let mut of_hits = pairs.filter(|(count, _)| count.kind == Kind::Miss);
-        // A stratum may have no hits at all, but not that of ordinary hits.
-        of_hits.all(|(count, (hits, exceeded))| {
-            at(hits) == 0 && count.stratum != Stratum::Interior
-                || MaxError::is_kept(at(exceeded), at(hits))
-        })
+        of_hits.all(|(_, (hits, exceeded))| MaxError::is_kept(at(exceeded), at(hits)))
     }
 
     /// The share of wrong answers of each count at a point; 0 of nothing.
