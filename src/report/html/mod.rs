@@ -48,14 +48,7 @@ fn within(record: &Record, limit: usize) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta http-equiv="Content-Security-Policy" content=(policy());
-                title { "hairline: " (title) }
-                style { (PreEscaped(STYLE)) }
-            }
+            (head_of(&title, &policy(), STYLE))
             body {
                 a.skip href="#main" { "Skip to the report" }
                 (head(&view, &title))
@@ -71,6 +64,20 @@ fn within(record: &Record, limit: usize) -> String {
         }
     };
     page.into_string()
+}
+
+/// The head of a page that needs nothing else, by a policy that holds it to that.
+pub(super) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            meta http-equiv="Content-Security-Policy" content=(policy);
+            title { "hairline: " (title) }
+            style { (PreEscaped(style)) }
+        }
+    }
 }
 
 /// Nothing from elsewhere, no script and no style but the page's own, pictures from the page itself.

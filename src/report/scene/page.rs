@@ -5,7 +5,7 @@ use super::answer::{Answer, answer, legend};
 use super::plot::{self, WIDTH, footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
 use crate::report::Style;
-use crate::report::html::{STYLE, style_policy};
+use crate::report::html::{STYLE, head_of, style_policy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 
@@ -24,14 +24,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta http-equiv="Content-Security-Policy" content=(style_policy(&style));
-                title { "hairline: epsilons of " (title) }
-                style { (PreEscaped(&style)) }
-            }
+            (head_of(&format!("epsilons of {title}"), &style_policy(&style), &style))
             body {
                 header.top {
                     p.mark { "hairline" span { " epsilon" } }
