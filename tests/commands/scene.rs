@@ -179,7 +179,7 @@ fn the_recommended_line_with_its_least_t_can_be_pasted_and_tried() {
     assert_eq!(again.tried[0].epsilons, best.epsilons);
     assert_eq!(format!("{:?}", again.tried[0].wrong), format!("{:?}", best.wrong));
     let other = &run(&["--epsilon", "t_min=0.25"]).kernels[0].tried[1];
-    assert_eq!(other.epsilons[2], "0.25");
+    assert_eq!(other.epsilons[2], "2.5e-1");
     assert_eq!(other.name, "source,t_min=0.25");
 }
 

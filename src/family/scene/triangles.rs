@@ -118,9 +118,7 @@ fn grid<F: Float>(scene: &Scene) -> f64 {
 
 /// The multiple of a spacing next to a number.
 fn snapped(x: f64, spacing: f64) -> f64 {
-    // Within 2^52 multiples, as all coordinates are, adding and taking away rounds to whole numbers.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    ((x / spacing + ROUND) - ROUND) * spacing
+    (x / spacing).round_ties_even() * spacing
 }
 
 /// A triangle on the grid of a generic plane, and a sum of its edges.

@@ -10,7 +10,7 @@ use crate::epsilon::{
 };
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
-use crate::kernel::{Gate, Scalar};
+use crate::kernel::Scalar;
 use crate::prove::in_short;
 use crate::report::Rate;
 use crate::report::build::{explain_command, planned_source};

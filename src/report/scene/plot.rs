@@ -396,7 +396,7 @@ impl<'a> Draft<'a> {
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
         if self.within().is_some() {
             let mark = "<rect class=\"within\" y=\"-6\" width=\"30\" height=\"12\"/>".to_owned();
-            all.push((mark, "within every limit (95 % sure of each)".to_owned()));
+            all.push((mark, "within every limit, 95 % sure of each (beside has none)".to_owned()));
         } else if self.limits().any(|(.., is_proved)| !is_proved) {
             all.push((String::new(), "no value is within every limit".to_owned()));
         }
