@@ -41,7 +41,7 @@ impl Digest {
     /// Adds a place, whose hash is known.
     pub(super) fn add(&mut self, place: Place, hash: u128) {
         self.sum = self.sum.wrapping_add(hash);
-        self.sketch.add(place);
+        self.sketch.add((place.index, place.triangle));
     }
 
     /// Adds what another part of the set gave.
@@ -53,7 +53,9 @@ impl Digest {
     /// The first place that this set has and another does not, of a source of so many indices; none if the
     /// sketches do not show one.
     pub fn beyond(&self, other: &Digest, indices: u64) -> Option<Place> {
-        self.sketch.beyond(&other.sketch).filter(|place| place.index < indices).min()
+        let places = self.sketch.beyond(&other.sketch);
+        let places = places.map(|(index, triangle)| Place { index, triangle });
+        places.filter(|place| place.index < indices).min()
     }
 }
 

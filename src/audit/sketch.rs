@@ -1,7 +1,5 @@
 //! A sketch of a set of places: from those of two sets, places that only one of them has.
 
-use super::digest::Place;
-
 /// The first level has half of all places, the second a quarter, and so on.
 const LEVELS: u32 = 16;
 
@@ -41,10 +39,10 @@ impl Default for Sketch {
 }
 
 impl Sketch {
-    /// Adds a place.
-    pub fn add(&mut self, place: Place) {
-        if place.index >> INDEX_BITS == 0 && place.triangle >> (BITS - INDEX_BITS) == 0 {
-            let key = scrambled(u64::from(place.triangle) << INDEX_BITS | place.index);
+    /// Adds a place: an index, and a triangle.
+    pub fn add(&mut self, (index, triangle): (u64, u32)) {
+        if index >> INDEX_BITS == 0 && triangle >> (BITS - INDEX_BITS) == 0 {
+            let key = scrambled(u64::from(triangle) << INDEX_BITS | index);
             let cell = &mut self.0[cell_of(key)];
             *cell = (*cell + key) & MASK;
         }
@@ -58,14 +56,11 @@ impl Sketch {
     }
 
     /// Places of this set that another does not have: some of them, and perhaps none although there are.
-    pub fn beyond<'a>(&'a self, other: &'a Sketch) -> impl Iterator<Item = Place> + 'a {
+    pub fn beyond(&self, other: &Sketch) -> impl Iterator<Item = (u64, u32)> {
         let keys = self.0.iter().zip(other.0).map(|(cell, old)| cell.wrapping_sub(old) & MASK);
         keys.enumerate().filter(|&(i, key)| key != 0 && cell_of(key) == i).map(|(_, key)| {
-            let packed = restored(key);
-            Place {
-                index: packed & ((1 << INDEX_BITS) - 1),
-                triangle: (packed >> INDEX_BITS) as u32,
-            }
+            let place = restored(key);
+            (place & ((1 << INDEX_BITS) - 1), (place >> INDEX_BITS) as u32)
         })
     }
 
@@ -125,7 +120,7 @@ mod tests {
 
     fn sketch(places: impl IntoIterator<Item = (u64, u32)>) -> Sketch {
         let mut sketch = Sketch::default();
-        places.into_iter().for_each(|(index, triangle)| sketch.add(Place { index, triangle }));
+        places.into_iter().for_each(|place| sketch.add(place));
         sketch
     }
 
@@ -142,8 +137,8 @@ mod tests {
         let old: Vec<(u64, u32)> = (0..3000).map(|i| (i * 7, (i % 5) as u32)).collect();
         for more in [(1, 0), (6, 4), (20_000, 1), (1 << 39, 255)] {
             let new = sketch(old.iter().copied().chain([more]));
-            let found: Vec<Place> = new.beyond(&sketch(old.clone())).collect();
-            assert_eq!(found, [Place { index: more.0, triangle: more.1 }]);
+            let found: Vec<(u64, u32)> = new.beyond(&sketch(old.clone())).collect();
+            assert_eq!(found, [more]);
             assert_eq!(sketch(old.clone()).beyond(&new).count(), 0);
         }
         assert_eq!(
@@ -163,9 +158,9 @@ mod tests {
                 (start + 2000..start + 2000 + new, start + 5_000_000..start + 5_000_000 + gone);
             let now = sketch(known.clone().chain(new.clone().map(|i| (i, 0))));
             let before = sketch(known.chain(gone.map(|i| (i, 0))));
-            let in_reach = |place: &Place| place.index < 1 << 32 && place.triangle == 0;
-            let found: Vec<Place> = now.beyond(&before).filter(in_reach).collect();
-            assert!(found.iter().all(|place| new.contains(&place.index)));
+            let in_reach = |place: &(u64, u32)| place.0 < 1 << 32 && place.1 == 0;
+            let found: Vec<(u64, u32)> = now.beyond(&before).filter(in_reach).collect();
+            assert!(found.iter().all(|place| new.contains(&place.0)));
             !found.is_empty()
         };
         (0..200).filter(|seed| found(*seed)).count()

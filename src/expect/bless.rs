@@ -24,9 +24,8 @@ pub struct Blessed {
     pub dropped: Vec<String>,
 }
 
-/// The expectations that a run on a target meets; `file` is their name. Reasons and links of the old ones are
-/// kept, and so are bounds by rate that hold, and the cases of other targets; nothing that the plan leaves out
-/// is dropped silently.
+/// The expectations that a run on a target meets. Reasons and links of the old ones are kept, and so are bounds
+/// by rate that hold, and the cases of other targets; nothing that the plan leaves out is dropped silently.
 pub fn bless(
     result: &ResultPart,
     target: &str,
@@ -37,11 +36,15 @@ pub fn bless(
         return Err(Unblessable { outside_the_plan: compared.outside_the_plan });
     }
     let cases_of_plan = result.plan.hash_of_cases();
-    let (kept, dropped) = match old.lock.clone() {
+    let (mut kept, dropped) = match old.lock.clone() {
         Some(lock) if lock.cases == cases_of_plan => (lock.targets, BTreeMap::new()),
         Some(lock) => (BTreeMap::new(), lock.targets),
         None => Default::default(),
     };
+    // What people took out is expected nowhere.
+    for target in kept.values_mut() {
+        target.retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
+    }
     let mut lock = Lock { cases: cases_of_plan, targets: kept };
     let cases = disagreements(result).into_iter().map(|found| {
         let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
@@ -72,12 +75,12 @@ fn reviewed(lock: &Lock, old: &Expectations, compared: &Conformance) -> String {
     for row in rows {
         let (kernel, set) = (quoted(row.0), quoted(row.1));
         let _ = write!(text, "\n[[known]]\nkernel = {kernel}\nset = {set}\nfindings = [\n");
-        // Lines without a reason become one.
-        let mut lines: BTreeMap<(&str, &str, Option<usize>), [Amounts; 2]> = BTreeMap::new();
+        let mut lines: BTreeMap<[Option<&str>; 4], [Amounts; 2]> = BTreeMap::new();
         for (key, count) in most.iter().filter(|(key, _)| (&*key.kernel, &*key.set) == row) {
             let old = old.entries.get(key);
-            let reason = old.filter(|old| old.why.is_some() || old.url.is_some());
-            let line = (&*key.scalar, &*key.finding, reason.and_then(|old| old.line));
+            let why = old.and_then(|old| old.why.as_deref());
+            let url = old.and_then(|old| old.url.as_deref());
+            let line = [Some(&*key.scalar), Some(&*key.finding), why, url];
             let (kind, amount) = match old.map(|old| &old.amount) {
                 Some(Amount::Rate(rate)) if !exceeded.contains(key) => (1, format!("{rate:?}")),
                 _ => (0, count.to_string()),
@@ -85,28 +88,19 @@ fn reviewed(lock: &Lock, old: &Expectations, compared: &Conformance) -> String {
             let place = (Reverse(*count), key.family.as_str());
             lines.entry(line).or_default()[kind].insert(place, amount);
         }
-        for ((scalar, finding, line), amounts) in lines {
-            let (scalar, finding) = (quoted(scalar), quoted(finding));
-            let _ = write!(text, "  {{ scalar = {scalar}, finding = {finding}");
-            for (name, amounts) in ["counts", "rates"].into_iter().zip(amounts) {
-                let each = amounts
-                    .iter()
-                    .map(|((_, family), amount)| format!("{} = {amount}", named(family)));
-                if !amounts.is_empty() {
-                    let _ =
-                        write!(text, ", {name} = {{ {} }}", each.collect::<Vec<_>>().join(", "));
-                }
-            }
-            let of_line = |entry: &&super::Entry| line.is_some() && entry.line == line;
-            let reason = old.entries.values().find(of_line);
-            let why = reason.and_then(|entry| entry.why.as_ref());
-            let url = reason.and_then(|entry| entry.url.as_ref());
-            for (name, words) in [("why", why), ("url", url)] {
-                if let Some(words) = words {
-                    let _ = write!(text, ", {name} = {}", quoted(words));
-                }
-            }
-            text.push_str(" },\n");
+        for (words, amounts) in lines {
+            let [scalar, finding, why, url] = words.map(|words| words.map(quoted));
+            let [counts, rates] = amounts.map(|amounts| {
+                let each = amounts.iter();
+                let each =
+                    each.map(|((_, family), amount)| format!("{} = {amount}", named(family)));
+                let each: Vec<String> = each.collect();
+                (!each.is_empty()).then(|| format!("{{ {} }}", each.join(", ")))
+            });
+            let names = ["scalar", "finding", "counts", "rates", "why", "url"];
+            let parts = names.into_iter().zip([scalar, finding, counts, rates, why, url]);
+            let parts = parts.filter_map(|(name, value)| Some(format!("{name} = {}", value?)));
+            let _ = writeln!(text, "  {{ {} }},", parts.collect::<Vec<_>>().join(", "));
         }
         text.push_str("]\n");
     }

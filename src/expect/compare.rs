@@ -261,7 +261,7 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
             describe(&entry.amount, rate, found.and_then(|found| found.digest))
         }),
         found: rate.clone(),
-        line: entry.and_then(|entry| entry.line),
+        line: entry.map(|entry| entry.line),
         case: example.as_ref().map(|example| example.case.clone()),
         bits: bits.filter(|bits| !bits.is_empty()),
         command: example.map(|example| example.command),
@@ -306,7 +306,7 @@ mod tests {
     use crate::audit::Trials;
 
     fn entry(amount: Amount) -> Entry {
-        Entry { amount, ..Entry::default() }
+        Entry { line: 1, amount, why: None, url: None }
     }
 
     fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {

@@ -74,8 +74,8 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
         for finding in &row.findings {
             for (key, entry) in reader.entries(row, finding)? {
                 if let Some(first) = entries.get(&key) {
-                    let line = first.line.unwrap_or(0);
-                    let message = format!("{} a second time, first in line {line}", key.family);
+                    let message =
+                        format!("{} a second time, first in line {}", key.family, first.line);
                     return Err(reader.error(&finding.span(), message));
                 }
                 entries.insert(key, entry);
@@ -176,7 +176,7 @@ impl Reader<'_> {
                 class: String::new(),
                 finding: finding.get_ref().clone(),
             };
-            let line = Some(self.line(&spanned.span()));
+            let line = self.line(&spanned.span());
             Ok((key.of_all_classes(), Entry { line, amount, why: why.clone(), url: url.clone() }))
         };
         let entries: Vec<(Key, Entry)> = amounts.map(entry).collect::<Result<_, _>>()?;
@@ -208,7 +208,7 @@ mod tests {
             .entries
             .iter()
             .map(|(key, entry)| {
-                assert_eq!(entry.line, Some(8));
+                assert_eq!(entry.line, 8);
                 (key.to_string(), &entry.amount)
             })
             .collect();

@@ -39,11 +39,12 @@ impl Known {
             .map(|(key, entry)| (key.clone(), entry.clone()))
             .collect();
         for (key, cases) in cases.into_iter().flatten() {
+            // What people took out is not expected.
             let entry = expectations.entries.get(&key.of_all_classes());
-            if !entry.is_some_and(is_rate) {
-                let cases_of_class = Some((cases.of, cases.digest.clone()));
-                let amount = Amount::Count { count: cases.count, cases: cases_of_class };
-                entries.insert(key.clone(), Entry { amount, ..entry.cloned().unwrap_or_default() });
+            if let Some(entry) = entry.filter(|entry| !is_rate(entry)) {
+                let of_class = Some((cases.of, cases.digest.clone()));
+                let amount = Amount::Count { count: cases.count, cases: of_class };
+                entries.insert(key.clone(), Entry { amount, ..entry.clone() });
             }
         }
         let lacking = match lock {

@@ -158,7 +158,7 @@ impl Expectations {
                     key.row()
                 );
                 return Err(InputError {
-                    line: entry.and_then(|entry| entry.line),
+                    line: entry.map(|entry| entry.line),
                     ..InputError::of(file, message)
                 });
             }

@@ -37,10 +37,10 @@ pub struct Expectations {
 }
 
 /// What is expected of a disagreement.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// The line of the file, counted from 1.
-    pub line: Option<usize>,
+    pub line: usize,
     /// How much of it.
     pub amount: Amount,
     /// Why.
@@ -61,10 +61,4 @@ pub enum Amount {
     },
     /// At most this share, but more than zero.
     Rate(f64),
-}
-
-impl Default for Amount {
-    fn default() -> Amount {
-        Amount::Count { count: 0, cases: None }
-    }
 }

@@ -127,7 +127,9 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
     assert!(
         error.contains(&format!("{FILE}: moller-trumbore (source) f32 tiny false-miss: 0 here, "))
     );
-    ends(&folder, &["check", "--quiet", "--bless"], 0);
+    // What a person took out is new.
+    ends(&folder, &["check", "--quiet", "--bless"], 1);
+    ends(&folder, &["check", "--quiet", "--bless", "--accept-worse"], 0);
     ends(&folder, &["check", "--quiet"], 0);
     edit(&folder, |text| text.replacen("cases = \"", "cases = \"0", 1));
     let (_, error) = ends(&folder, &["check", "--quiet"], 65);
@@ -388,6 +390,20 @@ fn reasons_are_kept_and_nothing_outside_the_plan_is_lost_by_blessing() {
     let (_, error) = ends(&folder, &["check", "--bless", "--quiet", "--family", "tiny"], 2);
     assert!(error.contains("outside this plan, which would be lost"), "{error}");
     assert_eq!(fs::read(folder.join(FILE)).unwrap(), before);
+    // A kernel that is no longer there: its entries are taken out of the file for people, and the lock follows.
+    let fewer = SETTINGS.replace(", \"woop-watertight\"", "");
+    fs::write(folder.join("hairline.toml"), fewer).unwrap();
+    let (_, error) = ends(&folder, &["check", "--bless", "--quiet"], 2);
+    assert!(error.contains("or remove them first"), "{error}");
+    edit_file(&folder, LOCK, |text| {
+        let section = text.split_once("\n[").unwrap().1;
+        format!("{text}[pdp11-unix]\n{}", section.split_once('\n').unwrap().1)
+    });
+    edit(&folder, |text| text.rsplit_once("[[known]]").unwrap().0.to_owned());
+    ends(&folder, &["check", "--bless", "--quiet"], 0);
+    let lock = fs::read_to_string(folder.join(LOCK)).unwrap();
+    assert!(lock.contains("[pdp11-unix]\nmoller") && !lock.contains("woop"), "{lock}");
+    ends(&folder, &["check", "--quiet"], 0);
 }
 
 #[test]
