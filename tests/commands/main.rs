@@ -27,4 +27,5 @@ mod shards;
 mod shrink;
 mod spawn;
 mod variants;
+mod vectors;
 mod worst;
