@@ -92,9 +92,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     let topics = core();
     let files: Vec<_> = topics.iter().map(|(topic, tests)| topic_file(topic, tests)).collect();
     let read = Results::parse(&text, &digest(&files));
-    let results = read.map_err(|(place, message)| match place {
-        Some(place) => InputError::at(&arguments.file, line_of(&text, place), message),
-        None => InputError::of(&arguments.file, message),
+    let results = read.map_err(|(line, message)| InputError {
+        line,
+        ..InputError::of(&arguments.file, message)
     })?;
     let mut answers: HashMap<&str, (Answered, &RawValue)> = HashMap::new();
     for (id, value) in &results.answers {
@@ -196,36 +196,31 @@ struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// An error comes with the part of the text that it is about.
-    fn parse(text: &'a str, digest: &str) -> Result<Results<'a>, (Option<&'a str>, String)> {
-        // Errors of syntax come with their line.
-        if let Err(error) = serde_json::from_str::<IgnoredAny>(text) {
-            let line = text.split_inclusive('\n').nth(error.line().saturating_sub(1));
-            return Err((line, error.to_string()));
-        }
-        let whole = |message: String| (None, message);
+    /// An error comes with its line, if it is about one.
+    fn parse(text: &'a str, digest: &str) -> Result<Results<'a>, (Option<usize>, String)> {
+        // What is no JSON at all.
+        serde_json::from_str::<IgnoredAny>(text)
+            .map_err(|error| (Some(error.line()), error.to_string()))?;
         let names = ["vectors", "product", "results"];
-        let values = json::fields(text, names).map_err(whole)?;
-        let required = |i: usize| json::required(names[i], values[i]).map_err(whole);
-        let string = |i: usize| {
-            let value = required(i)?;
-            json::string(value)
-                .map_err(|message| (Some(value.get()), format!("{}: {message}", names[i])))
+        let values = json::fields(text, names).map_err(|message| (None, message))?;
+        let at = |i: usize, message: String| {
+            let line = values[i].map(|value| line_of(text, value.get()));
+            (line, format!("{}: {message}", names[i]))
         };
+        let required =
+            |i: usize| json::required(names[i], values[i]).map_err(|message| (None, message));
+        let string = |i: usize| json::string(required(i)?).map_err(|message| at(i, message));
         let (vectors, product) = (string(0)?, string(1)?);
         if vectors != digest {
-            let message = format!(
-                "vectors: the results are of {}, but this hairline has the vectors {digest}",
-                json::quoted(&vectors)
-            );
-            return Err((Some(required(0)?.get()), message));
+            let found = json::quoted(&vectors);
+            let message =
+                format!("the results are of {found}, but this hairline has the vectors {digest}");
+            return Err(at(0, message));
         }
-        let results = required(2)?;
-        let answers = serde_json::Deserializer::from_str(results.get()).deserialize_map(Pairs);
-        let answers = answers.map_err(|_| {
-            let found = json::excerpt(results.get());
-            (Some(results.get()), format!("results: expected an object, found {found}"))
-        })?;
+        let results = required(2)?.get();
+        let answers = serde_json::Deserializer::from_str(results).deserialize_map(Pairs);
+        let answers = answers
+            .map_err(|_| at(2, format!("expected an object, found {}", json::excerpt(results))))?;
         Ok(Results { vectors, product, answers })
     }
 }
