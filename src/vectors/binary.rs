@@ -41,12 +41,13 @@ pub fn records(number: u64, test: &Test) -> Vec<u8> {
         bytes.push(if test.scalar == "f32" { 32 } else { 64 });
         bytes.extend([triangle.result(), triangle.closed(), triangle.open()].map(code));
         bytes.extend(places(triangle));
-        bytes.push(match test.group.map(|group| group.result()) {
+        let group = match test.group.map(|group| group.result()) {
             None => 0,
             Some("exactly-one") => 1,
             Some("at-least-one") => 2,
             Some(_) => 3,
-        });
+        };
+        bytes.extend([group, 0]);
     }
     bytes
 }

@@ -100,13 +100,7 @@ impl Test {
     fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<Test> {
         let triangles: Vec<Triangle> = cases.iter().map(Triangle::new).collect();
         let truths: Vec<Truth> = triangles.iter().map(|triangle| triangle.truth).collect();
-        let group = grouping.shares_a_ray().then(|| Group {
-            truth: group_obligation(cases, &truths, &CLOSED, grouping),
-            counts: [CLOSED, OPEN].map(|reading| {
-                let asked = truths.iter().map(|truth| obligation(truth, &reading, false));
-                asked.filter(|asked| *asked == Obligation::MustHit).count()
-            }),
-        });
+        let group = grouping.shares_a_ray().then(|| Group::new(cases, &truths, grouping));
         if group.is_some_and(|group| group.truth == GroupTruth::Free) {
             return None;
         }
@@ -166,7 +160,7 @@ impl Triangle {
 
     /// What is demanded whatever the reading.
     pub fn result(&self) -> Obligation {
-        if self.closed() == self.open() { self.closed() } else { Obligation::Free }
+        result(&self.truth)
     }
 
     /// Why the test is free, in the words of a profile.
@@ -186,11 +180,31 @@ impl Triangle {
 
     /// Where the line meets the plane, or the class of a line that does not cross it.
     fn place(&self) -> &'static str {
-        self.truth.crossing().map_or(self.truth.class_name(), |crossing| crossing.feature.name())
+        place(&self.truth)
     }
 }
 
+/// What is demanded whatever the reading.
+fn result(truth: &Truth) -> Obligation {
+    let [closed, open] = [CLOSED, OPEN].map(|reading| obligation(truth, &reading, false));
+    if closed == open { closed } else { Obligation::Free }
+}
+
+/// Where a line meets the plane, or the class of a line that does not cross it.
+fn place(truth: &Truth) -> &'static str {
+    truth.crossing().map_or(truth.class_name(), |crossing| crossing.feature.name())
+}
+
 impl Group {
+    fn new<F: Float>(cases: &[Case<F>], truths: &[Truth], grouping: Grouping) -> Group {
+        let hits = |reading| {
+            let asked = truths.iter().map(|truth| obligation(truth, &reading, false));
+            asked.filter(|asked| *asked == Obligation::MustHit).count()
+        };
+        let truth = group_obligation(cases, truths, &CLOSED, grouping);
+        Group { truth, counts: [CLOSED, OPEN].map(hits) }
+    }
+
     /// The number of hits that is right.
     pub fn result(&self) -> &'static str {
         match self.truth {

@@ -1,10 +1,12 @@
 //! Which tests there are: the core set by topic, and as many more as somebody wants, by number.
 
-use super::{Label, Test, flags, word};
-use crate::case::Parameters;
+use super::{Group, Label, Test, flags, place, result, word};
+use crate::case::{Case, Parameters};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::family::{FAMILIES, Family, Grouping, find};
+use crate::judge::Obligation;
 use crate::kernel::Scalar;
+use crate::oracle::truth;
 use crate::truth::{Place, Truth};
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
@@ -172,28 +174,32 @@ fn topic_of(truth: &Truth) -> &'static str {
     }
 }
 
-/// Tests of a family's first indices: those of the rarest truths first, so that all kinds are there.
+/// Tests of a family's first indices, each kind in turn, so that the rare ones are there.
 fn picked<F: Scalar>(topic: &Topic, family: &'static Family, count: usize) -> Vec<Test> {
     let mut of_kind: HashMap<String, usize> = HashMap::new();
-    let tests = (0..PICKED_FROM).filter_map(|i| generated::<F>(topic.name, family, i));
-    let mut ranked: Vec<(usize, Test)> = tests
-        .map(|test| {
-            let rank = of_kind.entry(kind(&test)).or_default();
+    let mut ranked: Vec<(usize, u64)> = (0..PICKED_FROM)
+        .map(|index| {
+            let made = family.make::<F>(&Parameters::default(), SEED, index);
+            let rank = of_kind.entry(kind(made.cases(), family.grouping)).or_default();
             *rank += 1;
-            (*rank, test)
+            (*rank, index)
         })
         .collect();
-    // The sort is stable: of one rank, those of lower indices come first.
-    ranked.sort_by_key(|(rank, _)| *rank);
-    ranked.into_iter().map(|(_, test)| test).take(count).collect()
+    ranked.sort();
+    let tests = ranked.iter().filter_map(|(_, index)| generated::<F>(topic.name, family, *index));
+    tests.take(count).collect()
 }
 
 /// What two tests have in common if one of them could do.
-fn kind(test: &Test) -> String {
-    let triangle = &test.triangles[0];
-    match test.group {
-        Some(group) => format!("{} {} {:?}", group.result(), group.parity(), group.counts),
-        None => format!("{} {}", word(triangle.result()), triangle.place()),
+fn kind<F: Scalar>(cases: &[Case<F>], grouping: Grouping) -> String {
+    let truths: Vec<Truth> = cases.iter().map(truth).collect();
+    if grouping.shares_a_ray() {
+        let group = Group::new(cases, &truths, grouping);
+        return format!("{} {} {:?}", group.result(), group.parity(), group.counts);
+    }
+    match result(&truths[0]) {
+        Obligation::Free => "free".to_owned(),
+        demanded => format!("{} {}", word(demanded), place(&truths[0])),
     }
 }
 
