@@ -88,8 +88,7 @@ fn lines<F: Scalar>() {
             }
         });
         let gated = F::subject(row.entry).and_then(|subject| subject.gated()).expect("built in");
-        let request =
-            Request { row, gated, gates: &gates, axis: &axis, exact: false, relative: false };
+        let request = Request { row, gated, gates: &gates, axis: &axis, exact: false };
         let response = median(|| drop(black_box(run(&request, &sources, &Silent))));
         println!(
             "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",

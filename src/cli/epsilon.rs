@@ -10,7 +10,6 @@ use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
 use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
-use crate::case::parse_power_of_two;
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::{FAMILIES, Family};
 use crate::kernel::{Gate, Gated, Scalar};
@@ -26,7 +25,7 @@ pub struct EpsilonArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// A gate, or several separated by commas; each is varied alone [default: all that take an epsilon]
+    /// Vary each of these gates alone, over families of cases; with --scene or --mesh choose these only
     #[arg(long, value_delimiter = ',', value_name = "GATE")]
     gate: Vec<String>,
 
@@ -38,11 +37,6 @@ pub struct EpsilonArguments {
     #[arg(long)]
     exact: bool,
 
-    /// Let the epsilon follow each case: multiply it by the case's size, to the power of the gate's
-    /// dimension
-    #[arg(long)]
-    relative: bool,
-
     /// Write every point of each source's curve into the JSON; all kernels together take hundreds of megabytes
     #[arg(long)]
     curves: bool,
@@ -51,22 +45,11 @@ pub struct EpsilonArguments {
     #[arg(long)]
     map: bool,
 
-    /// Scales of the cases at which to look for the limits again, or `none`
-    #[arg(
-        long,
-        value_delimiter = ',',
-        value_name = "2^K",
-        default_value = "2^-20,2^-10,1,2^10,2^20",
-        conflicts_with_all = ["scene", "mesh"],
-        allow_hyphen_values = true
-    )]
-    scales: Vec<String>,
-
-    /// With --scene or --mesh: what a wrong answer costs; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
+    /// What a wrong answer costs in a scene; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
     #[arg(long, value_name = "KIND=COST,...", allow_hyphen_values = true)]
     cost: Option<String>,
 
-    /// With --scene or --mesh: how large errors of the hits that remain may be, for 99 % of each kind of ray:
+    /// In a scene: how large errors of the hits that remain may be, for 99 % of each kind of ray:
     /// of t relative to itself, of the point in the scene's unit, as t=1e-3,point=0.01
     #[arg(long, value_name = "VALUE=ERROR,...", allow_hyphen_values = true)]
     max_error: Option<String>,
@@ -91,12 +74,9 @@ pub struct EpsilonArguments {
     quiet: bool,
 }
 
-/// At each scale, at most this many indices of a source.
-const SCALE_COUNT: u64 = 4000;
-
 /// Runs the command.
 pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
-    if arguments.sources.names_scene_or_mesh() {
+    if !arguments.is_of_gates() {
         let source = matches.and_then(|matches| matches.value_source("count"));
         return scene::run(arguments, source == Some(ValueSource::CommandLine));
     }
@@ -104,7 +84,8 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         [("--cost", arguments.cost.is_some()), ("--max-error", arguments.max_error.is_some())]
     {
         if is_given {
-            return Err(Failure::usage(format!("{flag}: needs --scene or --mesh")));
+            let why = "is for scenes: leave out --gate, or name a --scene";
+            return Err(Failure::usage(format!("{flag}: {why}")));
         }
     }
     let outputs = paired_outputs(
@@ -168,15 +149,19 @@ fn run_study<F: Scalar>(
 }
 
 impl EpsilonArguments {
+    /// Whether single gates are studied, over families or stored cases, instead of a scene.
+    fn is_of_gates(&self) -> bool {
+        let names_gates = !self.gate.is_empty() || !self.at.is_empty();
+        let of_gates = self.exact || self.map || self.curves || names_gates;
+        let is_of_scene = self.sources.names_scene_or_mesh();
+        !is_of_scene && (of_gates || self.sources.names_other_cases())
+    }
+
     /// One row a kernel: its first epsilon set, with the given epsilons. Of several kernels those that
     /// cannot be studied are left out, with a note.
     fn rows(&self) -> Result<Vec<Row>, Failure> {
         let mut rows = self.kernels.rows()?;
         rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
-        if self.relative && (self.map || !self.at.is_empty()) {
-            let message = "--relative: no kernel is run with such an epsilon, so --map and --at have nothing to show";
-            return Err(Failure::usage(message));
-        }
         if self.map && self.gate.len() != 2 {
             return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
         }
@@ -272,27 +257,7 @@ impl EpsilonArguments {
         let gated = gated(row).ok_or_else(|| {
             Failure::usage(format!("{name} does not show its gates in {}", F::NAME))
         })?;
-        Ok(StudyPlan {
-            row,
-            gated,
-            at,
-            gates: chosen,
-            exact: self.exact,
-            relative: self.relative,
-            scales: self.exponents()?,
-            scale_count: SCALE_COUNT,
-            map: self.map,
-        })
-    }
-
-    fn exponents(&self) -> Result<Vec<i32>, Failure> {
-        if self.scales.iter().any(|scale| scale == "none") {
-            return Ok(Vec::new());
-        }
-        let parse = |text: &String| {
-            parse_power_of_two(text).map_err(|error| Failure::usage(format!("--scales: {error}")))
-        };
-        self.scales.iter().map(parse).collect()
+        Ok(StudyPlan { row, gated, at, gates: chosen, exact: self.exact, map: self.map })
     }
 }
 

@@ -6,6 +6,7 @@ use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::contract::Band;
+use crate::epsilon::scene::LEAST_T;
 use crate::kernel::{self, Entry};
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -75,6 +76,24 @@ impl KernelArguments {
             rows.iter_mut().for_each(|row| row.contract.band = band);
         }
         Ok(rows)
+    }
+
+    /// The rows for a scene, where `--epsilon` also takes the least t that counts, as t_min=1e-3: its text, if
+    /// it is given.
+    pub fn rows_and_least_t(&self) -> Result<(Vec<Row>, Option<String>), Failure> {
+        let words = self.epsilon.iter().flat_map(|text| text.split(','));
+        let least = |word: &&str| word.trim().split('=').next() == Some(LEAST_T);
+        let (given, gates): (Vec<&str>, Vec<&str>) = words.partition(least);
+        let value = match given[..] {
+            [] => return Ok((self.rows()?, None)),
+            [word] => word.split_once('=').map(|(_, value)| value.trim().to_owned()),
+            _ => None,
+        };
+        let wrong =
+            || Failure::usage(format!("--epsilon: write {LEAST_T} once, as {LEAST_T}=1e-3"));
+        let value = value.ok_or_else(wrong)?;
+        let epsilon = (!gates.is_empty()).then(|| gates.join(","));
+        Ok((KernelArguments { epsilon, ..self.clone() }.rows()?, Some(value)))
     }
 
     /// The rows for a command to which a band means nothing; an error with the reason if there is one.

@@ -32,7 +32,7 @@ pub struct SourceArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// How many cases of each family (40000 with `epsilon --scene` or `--mesh`, unless given)
+    /// How many cases of each family (40000 of each kind of ray in a scene with `epsilon`, unless given)
     #[arg(
         long,
         short = 'n',
@@ -67,7 +67,7 @@ pub struct SourceArguments {
     #[arg(long, value_name = "unit", value_parser = ["unit"], hide_possible_values = true, help_heading = RUNNING)]
     direction: Option<String>,
 
-    /// Run rays in a scene instead of the families: unit, room, city or cad-mm, or what is known of yours,
+    /// Run rays in a scene instead of families: unit, room, city or cad-mm, or what is known of yours,
     /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit; mesh is the scene that --mesh names
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
@@ -169,6 +169,13 @@ impl SourceArguments {
     /// The seed, and how many cases of each family.
     pub fn seed_and_count(&self) -> (u64, u64) {
         (self.seed, self.count)
+    }
+
+    /// Whether cases are named that are no scene's, or changes to cases.
+    pub fn names_other_cases(&self) -> bool {
+        let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
+        let other = !self.corpus.is_empty() || self.exhaustive || self.direction.is_some();
+        sized || other || self.names_families()
     }
 
     /// Whether families are named.

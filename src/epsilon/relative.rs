@@ -60,21 +60,50 @@ pub fn scale_free_form(dimension: Dimension) -> Option<String> {
     Some(text)
 }
 
-/// What L or M stands for in [`scale_free_form`]; empty if neither is in it.
-pub fn unit_of_length(dimension: Dimension) -> &'static str {
-    if dimension == Dimension::new(1, -1) {
-        "M = the largest coordinate of the ray's origin and the triangle"
-    } else if dimension.length != 0 {
-        "L = the triangle's longest edge"
-    } else {
-        ""
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Draw;
+    use crate::arith::scale_by_power_of_two;
+    use crate::case::{Case, Draw};
+    use crate::kernel::{KERNELS, Scalar};
+
+    /// A generic case near 1 whose coordinates are all multiplied by 2^`power`, and the direction too.
+    fn scaled(index: u64, power: i32) -> Case<f64> {
+        let mut draw = Draw::new("dimension", 1, index);
+        let mut vector = || [(); 3].map(|()| scale_by_power_of_two(draw.symmetric::<f64>(), power));
+        Case::new(vector(), vector(), [vector(), vector(), vector()])
+    }
+
+    #[test]
+    fn margins_follow_the_size_by_the_power_of_the_gates_dimension() {
+        for entry in KERNELS {
+            let Some(gated) = f64::subject(entry).and_then(|subject| subject.gated()) else {
+                continue;
+            };
+            let mut compared = 0;
+            for index in 0..200 {
+                // Scales that quotients, square roots and fourth powers of powers of two keep exact.
+                let [plain, large] =
+                    [0, 8].map(|power| gated.measure(&scaled(index, power)).margins);
+                for ((gate, plain), large) in entry.info.gates.iter().zip(plain).zip(large) {
+                    let Dimension { length, direction } = gate.dimension;
+                    let unit = 2f64.powi(8 * i32::from(length + direction));
+                    if plain.is_finite() && plain.abs() < f64::MAX {
+                        assert_eq!(
+                            large,
+                            plain * unit,
+                            "{} {} {index}",
+                            entry.info.name,
+                            gate.name
+                        );
+                        compared += 1;
+                    }
+                }
+            }
+            let has_epsilons = !super::super::tunable_gates(entry.info.gates).is_empty();
+            assert!(!has_epsilons || 100 < compared, "{}", entry.info.name);
+        }
+    }
 
     #[test]
     fn the_relative_margin_is_the_last_epsilon_whose_product_is_accepted() {

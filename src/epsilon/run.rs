@@ -3,7 +3,6 @@
 use super::axis::Axis;
 use super::curve::{Curve, Lane, Question};
 use super::duty::Duty;
-use super::relative::Scales;
 use crate::arith::Float;
 use crate::audit::{Chunk, Place, Row, Source, SourceSummary};
 use crate::engine::{self, Merge, Observer};
@@ -25,8 +24,6 @@ pub struct Request<'a, F: 'static> {
     pub axis: &'a Axis<F>,
     /// Keep every margin, so that it is exact everywhere; memory grows with the cases.
     pub exact: bool,
-    /// The epsilon is multiplied by each case's own size, to the power of the gate's dimension.
-    pub relative: bool,
 }
 
 /// What a kernel does on one source as one of its epsilons varies.
@@ -164,11 +161,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
         sums.margins.resize(chunk.cases.len() * self.gates.len(), F::zero());
         self.request.gated.margins(&chunk.cases, &mut sums.margins);
         for (gate_sums, &gate) in sums.gates.iter_mut().zip(self.request.gates) {
-            let scales = self
-                .request
-                .relative
-                .then(|| Scales::new(&chunk.cases, self.gates[gate].dimension));
-            self.add_cases(&chunk, &obligations, &sums.margins, gate, scales, gate_sums);
+            self.add_cases(&chunk, &obligations, &sums.margins, gate, gate_sums);
             add_groups(&chunk, &groups, self.request.axis, gate_sums);
         }
     }
@@ -179,7 +172,6 @@ impl<'a, F: Scalar> Pass<'a, F> {
         obligations: &[Obligation],
         margins: &[F],
         gate: usize,
-        scales: Option<Scales<F>>,
         sums: &mut GateSums<F>,
     ) {
         let axis = self.request.axis;
@@ -191,11 +183,7 @@ impl<'a, F: Scalar> Pass<'a, F> {
         for (i, (margins, obligation)) in rows.zip(obligations).enumerate() {
             let refusing = (0..margins.len())
                 .find(|&other| other != gate && margins[other] < self.epsilons[other]);
-            let margin = match (refusing, &scales) {
-                (Some(_), _) => -F::infinity(),
-                (None, None) => margins[gate],
-                (None, Some(scales)) => scales.relative(i, margins[gate]),
-            };
+            let margin = if refusing.is_some() { -F::infinity() } else { margins[gate] };
             sums.effective.push(margin);
             let place = chunk.places[i];
             match obligation {

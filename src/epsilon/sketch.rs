@@ -8,7 +8,7 @@ use crate::audit::{CorpusSet, Observer, Row, Source};
 use crate::kernel::{Gated, Scalar};
 
 /// Families whose sizes span the scalar's range. An epsilon that is right for one size is wrong for
-/// another there, and the study by scales shows that better.
+/// another there.
 pub const SPANNING: [&str; 6] =
     ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
 
@@ -36,7 +36,7 @@ pub fn sketch<F: Scalar>(
         return Vec::new();
     }
     // Margins are kept one by one: there are few, and cells for each source would cost more.
-    let request = Request { row, gated, gates: &tunable, axis, exact: true, relative: false };
+    let request = Request { row, gated, gates: &tunable, axis, exact: true };
     let responses = run(&request, sources, observer);
     let sketch = |(n, &gate): (usize, &usize)| {
         let duty = Duty::of(gates, gate, &row.contract);

@@ -7,7 +7,6 @@ use super::curve::Question;
 use super::duty::Duty;
 use super::map::{Map, map};
 use super::run::{Request, Response, SourceResponse, run};
-use super::scaling::{AtScale, at_scales};
 use crate::arith::Float;
 use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_scalar};
 use crate::judge::{Class, Finding};
@@ -25,12 +24,6 @@ pub struct StudyPlan<'a, F: 'static> {
     pub at: Vec<F>,
     /// Keep every margin.
     pub exact: bool,
-    /// Epsilons are multiplied by each case's size.
-    pub relative: bool,
-    /// Exponents of two by which positions are multiplied in turn.
-    pub scales: Vec<i32>,
-    /// The most indices of a source at each scale.
-    pub scale_count: u64,
     /// Weigh the first two gates against each other.
     pub map: bool,
 }
@@ -55,10 +48,8 @@ pub struct GateStudy<F> {
     pub trade: Trade<F>,
     /// Epsilons with names: the row's own, presets.
     pub marks: Vec<(String, F)>,
-    /// What epsilons cost, in order; none for relative epsilons, which no kernel takes.
+    /// What epsilons cost, in order.
     pub prices: Vec<Price<F>>,
-    /// By scale, with absolute epsilons and with relative ones.
-    pub scales: [Vec<AtScale<F>>; 2],
 }
 
 /// What the audit found with one epsilon.
@@ -85,10 +76,7 @@ pub fn study<F: Scalar>(
 ) -> Result<Study<F>, String> {
     let gates = plan.row.entry.info.gates;
     let own: Vec<F> = plan.row.epsilons();
-    let marks_of = |gate: usize| {
-        // A published epsilon is no multiple of a case's size.
-        if plan.relative { Vec::new() } else { marks(&gates[gate], plan.row, own[gate]) }
-    };
+    let marks_of = |gate: usize| marks(&gates[gate], plan.row, own[gate]);
     let mut edges: Vec<F> = decades().chain(plan.at.iter().copied()).collect();
     edges.extend(plan.gates.iter().flat_map(|gate| marks_of(*gate)).map(|(_, epsilon)| epsilon));
     let axis = Axis::new(&edges);
@@ -98,14 +86,8 @@ pub fn study<F: Scalar>(
         gates: &plan.gates,
         axis: &axis,
         exact: plan.exact,
-        relative: plan.relative,
     };
     let responses = run(&request, sources, observer);
-    let scales = |relative: bool| {
-        let request = Request { exact: false, relative, ..request };
-        at_scales(&request, sources, &plan.scales, plan.scale_count, observer)
-    };
-    let scales = [scales(false), scales(true)];
     let mut studies = Vec::new();
     for (n, &gate) in plan.gates.iter().enumerate() {
         let duty = Duty::of(gates, gate, &plan.row.contract);
@@ -122,17 +104,9 @@ pub fn study<F: Scalar>(
         weighed.sort_by_key(|epsilon| epsilon.place());
         weighed.dedup_by(|a, b| a == b);
         let total = total(n, &responses).ok_or("no source")?;
-        let prices = if plan.relative {
-            Vec::new()
-        } else {
-            prices(plan.row, gate, &weighed, sources, observer)
-        };
+        let prices = prices(plan.row, gate, &weighed, sources, observer);
         check(&prices, &duty, n, &responses)?;
-        let mut scales = scales.each_ref().map(|scales| scales[n].clone());
-        // At scale 1 all cases are known already.
-        let own = scales[usize::from(plan.relative)].iter_mut().filter(|row| row.exponent == 0);
-        own.for_each(|row| *row = AtScale::new(0, &trade));
-        studies.push(GateStudy { gate, total, trade, marks, prices, scales });
+        studies.push(GateStudy { gate, total, trade, marks, prices });
     }
     let map = plan.map.then(|| {
         let epsilons = [0, 1].map(|k| {

@@ -118,8 +118,22 @@ fn bad_scenes_get_one_clear_line() {
         let (_, error) = ends(&folder, &arguments, 2);
         assert!(error.contains(part) && error.lines().count() == 1, "{flags:?}: {error}");
     }
-    let (_, error) = ends(&folder, &["epsilon", "--cost", "crack=1"], 2);
-    assert!(error.contains("--scene"), "{error}");
+    let gate = ["epsilon", "--gate", "edge", "--cost", "crack=1"];
+    let (_, error) = ends(&folder, &gate, 2);
+    assert!(error.contains("--cost: is for scenes"), "{error}");
+    for (epsilon, part) in [
+        ("t_min=-1", "t_min is at least 0"),
+        ("t_min=x", "'x' is not a finite number"),
+        ("t_min", "write t_min once"),
+        ("t_min=1,t_min=2", "write t_min once"),
+    ] {
+        let all = ["epsilon", "--kernel", "moller-trumbore", "--epsilon", epsilon];
+        let (_, error) = ends(&folder, &all, 2);
+        assert!(error.contains(part), "{epsilon}: {error}");
+    }
+    let all = ["epsilon", "--kernel", "plane-inside-out", "--epsilon", "t_min=1"];
+    let (_, error) = ends(&folder, &all, 2);
+    assert!(error.contains("no kernel here has a t_min to choose"), "{error}");
 }
 
 #[test]
@@ -142,6 +156,47 @@ fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
     assert_eq!(head(&at), ["this", "as", "published", "1e-7", "3e-3"]);
     let given = screen("moller-trumbore", &["--epsilon", "parallel=1e-9,edge=-1e-5"]);
     assert!(head(&given).join(" ").starts_with("this as given zero"), "{given}");
+}
+
+#[test]
+fn the_recommended_line_with_its_least_t_can_be_pasted_and_tried() {
+    let folder = scratch("scene-paste");
+    let run = |epsilon: &[&str]| -> SceneRecord {
+        let mut all = vec!["epsilon", "--kernel", "moller-trumbore", "--format", "json", "-q"];
+        all.extend(["--scalar", "f32", "-n", "2000"]);
+        all.extend(epsilon);
+        serde_json::from_str(&ends(&folder, &all, 0).0).unwrap()
+    };
+    // Without a scene it is the preset `unit`.
+    let found = run(&[]);
+    assert_eq!(found.scene, "extent=1,edge=0.1..1,distance=0..4,direction=unit");
+    let best = &found.kernels[0].tried[0];
+    let [parallel, edge, t_min] = &best.epsilons[..] else { panic!("{best:?}") };
+    assert!(0.0 < t_min.parse::<f64>().unwrap());
+    // Of what costs as much nothing is better than what is given; so it is recommended again.
+    let pasted = format!("parallel={parallel},edge={edge},t_min={t_min}");
+    let again = &run(&["--epsilon", &pasted]).kernels[0];
+    assert_eq!(again.tried[0].epsilons, best.epsilons);
+    assert_eq!(format!("{:?}", again.tried[0].wrong), format!("{:?}", best.wrong));
+    let other = &run(&["--epsilon", "t_min=0.25"]).kernels[0].tried[1];
+    assert_eq!(other.epsilons[2], "2.5e-1");
+    assert_eq!(other.name, "source,t_min=0.25");
+}
+
+#[test]
+fn a_form_without_a_unit_is_the_answer_where_fixed_numbers_cost_twice_as_much() {
+    let folder = scratch("scene-form");
+    let screen = |scene: &str| {
+        let all = ["epsilon", "--kernel", "plane-inside-out", "--scene", scene, "-n", "4000"];
+        ends(&folder, &[&all[..], &["--scalar", "f32", "-q"]].concat(), 0).0
+    };
+    let wide = screen("cad-mm");
+    let used = wide.lines().find(|line| line.starts_with("  use  ")).unwrap();
+    assert!(used.contains("edge = -") && used.ends_with(" * L^4"), "{wide}");
+    assert!(wide.contains("\n  or   --epsilon parallel="), "{wide}");
+    assert!(wide.contains("fixed     scale-free"), "{wide}");
+    // Triangles of one size need none.
+    assert!(!screen("extent=1,edge=0.5..0.5,distance=0..4").contains("scale-free"));
 }
 
 #[test]
@@ -191,8 +246,13 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     );
     let (_, error) = ends(&folder, &["epsilon", "--scene", "room", "--max-error", "t=0"], 2);
     assert!(error.contains("--max-error: t=0: not a number above 0"), "{error}");
-    let (_, error) = ends(&folder, &["epsilon", "--max-error", "t=1"], 2);
-    assert!(error.contains("--max-error: needs --scene or --mesh"), "{error}");
+    // How many are off by more on fresh rays is shown for all epsilons.
+    let [exceeded, free] = [&limited, &free].map(|record| &record.kernels[0].tried[0].exceeded);
+    assert!(free.is_empty() && exceeded.iter().any(|rate| 0 < rate.count), "{exceeded:?}");
+    assert!(exceeded.iter().all(|rate| rate.rate.is_none_or(|share| share < 0.015)));
+    assert!(shown.contains("\n  too far off, almost parallel "), "{shown}");
+    let (_, error) = ends(&folder, &["epsilon", "--gate", "edge", "--max-error", "t=1"], 2);
+    assert!(error.contains("--max-error: is for scenes"), "{error}");
 }
 
 #[test]

@@ -83,17 +83,23 @@ fn sizes<F: Float>(stratum: Stratum, scene: &Scene, case: &Case<F>, spacing: f64
     let corners = [a, b, c].into_iter().flatten();
     let most = corners.fold(0.0f64, |most, x| most.max(x.abs()));
     assert!(most <= scene.largest() + 4.0 * scene.edge[1].min(scene.extent), "{id}: {most}");
-    let longest = [minus(a, b), minus(b, c), minus(c, a)].map(length);
-    let longest = longest.into_iter().fold(0.0, f64::max);
-    // Some parallel triangles are made on a grid, and fans and bent pairs have edges of their own.
+    let edges = [minus(a, b), minus(b, c), minus(c, a)];
+    let longest = edges.map(length).into_iter().fold(0.0, f64::max);
+    // Where the direction is a sum of edges, both are made on a grid of 8 spacings; fans have edges of
+    // their own.
+    let target = scene.to_string().ends_with("target");
     let (low, high) = match stratum {
-        Stratum::Parallel => (scene.edge[0] / 16.0, 4.0 * scene.edge[1] + 64.0 * spacing),
+        Stratum::Parallel if target => (scene.edge[0] / 4.0, scene.edge[1] + 64.0 * spacing),
+        Stratum::Parallel => (scene.edge[0] / 2.0, scene.edge[1]),
         Stratum::Vertices => (scene.edge[0] / 3.0, 1.2 * scene.edge[1]),
         _ => (scene.edge[0], scene.edge[1]),
     };
     let slack = 4.0 * spacing;
     assert!((low - slack..=high + slack).contains(&longest), "{id}: an edge of {longest}");
-    if !scene.to_string().ends_with("target") {
+    if !target {
+        let [[x, y, z], [p, q, r], _] = edges;
+        let area = length([y * r - z * q, z * p - x * r, x * q - y * p]);
+        assert!(0.1 * longest * longest - slack * longest <= area, "{id}: twice an area of {area}");
         assert!((length(d) - 1.0).abs() < 2.0 * F::EPSILON.to_f64(), "{id}: |d| = {}", length(d));
     }
 }
@@ -234,7 +240,11 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
                     })
                     .collect();
                 let found = cost(&point);
-                assert!(least <= found + 1e-9, "{kernel}: {best:?} {least}, {point:?} {found}");
+                // A knob is left at 0 if that costs at most a hundredth more.
+                assert!(
+                    least <= 1.01 * found + 1e-9,
+                    "{kernel}: {best:?} {least}, {point:?} {found}"
+                );
             }
             // And the counts by margins are those of the run.
             let wrong =
@@ -390,7 +400,7 @@ fn cases_are_the_same_on_every_machine() {
         [7269218733531288079, 3279214107968276301],
         [10471247740291704979, 16850606959933151031],
         [13235952792804750712, 13589882521003279161],
-        [7965178308256148748, 14204187261569976665],
+        [14414596817735737041, 16197503549234036627],
         [8360894271225813315, 2046316959174811182],
         [5319908324054485928, 8304969196650282837],
     ];

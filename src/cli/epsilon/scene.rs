@@ -1,4 +1,4 @@
-//! `hairline epsilon --scene`: which epsilons, all together, for a scene.
+//! `hairline epsilon` for a scene: which epsilons, all together, for a scene.
 
 use super::{EpsilonArguments, gated};
 use crate::audit::Row;
@@ -7,8 +7,8 @@ use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
 use crate::cli::sources::{scalars_in_use, set_threads};
 use crate::epsilon::scene::{
-    Costs, Knob, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts, own_epsilons,
-    study_scene,
+    Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
+    own_epsilons, study_scene,
 };
 use crate::family::Stratum;
 use crate::kernel::Scalar;
@@ -36,7 +36,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     let max_error = arguments.max_error.as_deref().map(MaxError::parse).transpose();
     let max_error = max_error.map_err(|error| Failure::usage(format!("--max-error: {error}")))?;
     let max_error = max_error.as_ref();
-    let rows = arguments.kernels.rows()?;
+    let (rows, least_t) = arguments.kernels.rows_and_least_t()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
     for row in &rows {
@@ -50,11 +50,18 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
             Err(reason) => reasons.push(reason),
         }
     }
+    if least_t.is_some() && !tuned.iter().any(|tuned| tuned.knobs.contains(&Knob::LeastT)) {
+        return Err(Failure::usage("--epsilon: no kernel here has a t_min to choose"));
+    }
     let studied = arguments.sources.studied_scene(arguments.quiet)?;
     match reasons.first() {
         Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
         _ if arguments.quiet => {}
         _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
+    }
+    if !arguments.quiet && !arguments.sources.names_scene_or_mesh() {
+        let words = "no --scene: in the preset `unit` (others: room, city, cad-mm, your own numbers, --mesh)";
+        eprintln!("{words}; --gate varies one gate over families of cases");
     }
     arguments.warn_of_subnormals(&rows, scalars);
     let (seed, count) = arguments.sources.seed_and_count();
@@ -62,9 +69,16 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
     let total = PASSES * Stratum::ALL.len() as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.quiet);
-    let at = &arguments.at;
-    let run =
-        Run { studied: &studied, costs: &costs, max_error, at, seed, count, progress: &progress };
+    let run = Run {
+        studied: &studied,
+        costs: &costs,
+        max_error,
+        least_t: least_t.as_deref(),
+        at: &arguments.at,
+        seed,
+        count,
+        progress: &progress,
+    };
     let mut parts = Vec::new();
     for tuned in &tuned {
         let in_scalar = tuned.row.entry.scalars();
@@ -95,6 +109,8 @@ struct Run<'a> {
     studied: &'a StudiedScene,
     costs: &'a Costs,
     max_error: Option<&'a MaxError>,
+    /// The least t that `--epsilon` names.
+    least_t: Option<&'a str>,
     at: &'a [String],
     seed: u64,
     count: u64,
@@ -117,13 +133,24 @@ impl Run<'_> {
             mesh: self.studied.mesh.as_ref(),
             relative: false,
         };
-        let own = |set: &&Row| (set.set.clone(), own_epsilons::<F>(set, knobs));
+        let number = |flag: &str, text: &str| {
+            let value = F::parse(text).filter(|value| value.is_finite());
+            let wrong = || format!("{flag}: '{text}' is not a finite number of {}", F::NAME);
+            value.ok_or_else(|| Failure::usage(wrong()))
+        };
+        let least_t = self.least_t.map(|text| number("--epsilon", text)).transpose()?;
+        if least_t.is_some_and(|t| t < F::zero()) {
+            return Err(Failure::usage(format!("--epsilon: {LEAST_T} is at least 0")));
+        }
+        let own = |set: &&Row| {
+            let name = self.least_t.map(|text| format!("{},{LEAST_T}={text}", set.set));
+            let epsilons = own_epsilons::<F>(set, knobs, least_t.unwrap_or(F::zero()));
+            (name.unwrap_or_else(|| set.set.clone()), epsilons)
+        };
         let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
         named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
         for text in self.at {
-            let value = F::parse(text).filter(|value| value.is_finite());
-            let wrong = || format!("--at: '{text}' is not a finite number of {}", F::NAME);
-            named.push((text.clone(), vec![value.ok_or_else(|| Failure::usage(wrong()))?]));
+            named.push((text.clone(), vec![number("--at", text)?]));
         }
         let Run { costs, max_error, seed, count, progress, .. } = *self;
         let study = study_scene(&setting, costs, max_error, &named, seed, count, progress)
@@ -142,7 +169,6 @@ impl EpsilonArguments {
         }
         let given = [
             ("--exact", self.exact),
-            ("--relative", self.relative),
             ("--map", self.map),
             ("--curves", self.curves),
             ("--family", self.sources.names_families()),

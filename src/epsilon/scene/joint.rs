@@ -55,6 +55,9 @@ impl Costs {
     }
 }
 
+/// A knob is left at 0, which needs no explanation, if that costs at most this share more.
+const NEGLIGIBLE: f64 = 0.01;
+
 /// The values that are weighed for each knob, in order.
 pub struct Grid<F> {
     values: Vec<Vec<F>>,
@@ -181,8 +184,8 @@ impl<F: Scalar> Joint<F> {
         wrong.collect()
     }
 
-    /// The point with the least cost; none if errors are larger everywhere. Of points with equal cost along
-    /// a knob the one with the value 0, or else the middle one.
+    /// The point with the least cost; none if errors are larger everywhere. A knob is 0 where that costs at most
+    /// [`NEGLIGIBLE`] more, or else in the middle of the points with equal cost along it.
     pub fn best(&self, counts: &[Count], costs: &Costs) -> Option<Vec<F>> {
         let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
         let mut best: Option<(f64, Vec<usize>)> = None;
@@ -202,18 +205,28 @@ impl<F: Scalar> Joint<F> {
             places[next + 1..].fill(0);
         }
         let (least, mut places) = best?;
-        for k in 0..places.len() {
-            let values = &self.grid.values[k];
-            let as_good = |place: usize| {
-                let mut moved = places.clone();
-                moved[k] = place;
-                cost(&moved) <= least && self.is_accurate(counts, &moved)
-            };
-            let first = (0..places[k]).rev().take_while(|p| as_good(*p)).last();
-            let last = (places[k] + 1..values.len()).take_while(|p| as_good(*p)).last();
-            let (first, last) = (first.unwrap_or(places[k]), last.unwrap_or(places[k]));
-            let zero = (first..=last).find(|place| values[*place].is_zero());
-            places[k] = zero.unwrap_or((first + last) / 2);
+        let is_kept =
+            |places: &[usize], most: f64| cost(places) <= most && self.is_accurate(counts, places);
+        let moved = |places: &[usize], k: usize, place: usize| {
+            let mut moved = places.to_vec();
+            moved[k] = place;
+            moved
+        };
+        let most = least * (1.0 + NEGLIGIBLE);
+        let mut at_zero = vec![false; places.len()];
+        for (k, values) in self.grid.values.iter().enumerate() {
+            let zero = values.iter().position(|value| value.is_zero());
+            let zeroed = zero.map(|zero| moved(&places, k, zero));
+            if let Some(zeroed) = zeroed.filter(|zeroed| is_kept(zeroed, most)) {
+                (places, at_zero[k]) = (zeroed, true);
+            }
+        }
+        let least = cost(&places);
+        for k in (0..places.len()).filter(|k| !at_zero[*k]) {
+            let as_good = |place: &usize| is_kept(&moved(&places, k, *place), least);
+            let first = (0..places[k]).rev().take_while(as_good).last();
+            let last = (places[k] + 1..self.grid.values[k].len()).take_while(as_good).last();
+            places[k] = (first.unwrap_or(places[k]) + last.unwrap_or(places[k])) / 2;
         }
         Some(self.grid.point(&places))
     }

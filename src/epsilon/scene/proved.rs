@@ -65,13 +65,14 @@ fn bound<F: Scalar>(setting: &Setting<'_, F>, gate: usize) -> Option<f64> {
     (is_margin && !uses.floor && !uses.extent).then_some(bound)
 }
 
-/// The scene, and slightly more: triangles to which rays are parallel have edges of up to twice the length,
-/// and a ray aimed beside a triangle starts farther from its vertices than from its target.
+/// The scene, and slightly more: rounding moves vertices, triangles to which rays are parallel may be half as
+/// large, and a ray starts farther from a triangle's vertices than from its target.
 fn proved_scene(scene: &Scene) -> Option<prove::Scene> {
     let [shortest, longest] = scene.edge;
     let [nearest, farthest] = scene.distance;
-    let edge = [shortest / 2.0, 2.0 * longest];
-    let distance = [nearest, farthest + 6.0 * longest];
+    // Rounding moves a vertex by less than a 32nd of the shortest edge.
+    let edge = [shortest / 2.5, longest + shortest / 16.0];
+    let distance = [nearest, farthest + 2.5 * longest];
     prove::Scene::of(&Scene {
         edge,
         distance,

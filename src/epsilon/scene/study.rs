@@ -47,6 +47,8 @@ pub struct Tried<F> {
     pub cost: f64,
     /// By count: the errors of the hits that remain, where hits can be lost.
     pub errors: Vec<ErrorSums>,
+    /// By count: of those hits the ones whose errors are larger than is wanted.
+    pub exceeded: Vec<Trials>,
 }
 
 /// The seed of the fresh rays: the next one.
@@ -89,8 +91,8 @@ pub fn study_scene<F: Scalar>(
     let at_proved =
         |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
     attempts.extend(proofs.iter().map(at_proved));
-    let run = run_at(setting, &attempts, plain, fresh, count, observer)?;
-    let Wrong { trials: mut wrong, errors, .. } = run;
+    let run = run_at(setting, &attempts, plain, max_error, fresh, count, observer)?;
+    let Wrong { trials: mut wrong, of_hits, .. } = run;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
     let of_proof = |(proved, wrong): (Proved<F>, Vec<Trials>)| {
         let trials = wrong[proved.count];
@@ -113,22 +115,24 @@ pub fn study_scene<F: Scalar>(
     let axes = axes(&vectors, &found, &proofs);
     let curves = curves(setting, &best, &axes, fresh, count, observer);
     let found = found.into_iter().map(with_trials).collect();
-    let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, errors| {
+    let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits| {
         let cost = costs.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)));
-        Tried { name, epsilons, wrong, cost, errors }
+        Tried { name, epsilons, wrong, cost, errors: of_hits.errors, exceeded: of_hits.exceeded }
     };
-    let of_vectors = vectors.into_iter().zip(wrong).zip(errors);
+    let of_vectors = vectors.into_iter().zip(wrong).zip(of_hits);
     let all: Vec<Tried<F>> =
-        of_vectors.map(|((vector, wrong), errors)| tried(vector, wrong, errors)).collect();
+        of_vectors.map(|((vector, wrong), of_hits)| tried(vector, wrong, of_hits)).collect();
     let relative = Setting { relative: true, ..*setting };
     let followed = cheapest(&relative, &[], costs, max_error, seed, count, observer);
     let (relative, relative_limits) = match followed {
         Some(followed) => {
             let found = limits(&relative, &followed, seed, count, observer);
             let attempt = [Attempt::new(followed.clone())];
-            let wrong = count_at(&relative, &attempt, fresh, count, observer).remove(0);
+            let no_run = |_: &Trial<'_, F>| None;
+            let mut sums =
+                measure(&relative, &attempt, 1, max_error, fresh, count, observer, no_run);
             let vector = ("scale-free".to_owned(), followed);
-            let relative = tried(vector, wrong, Vec::new());
+            let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
             (Some(relative).filter(|relative| relative.cost < WORTH_SAYING * all[0].cost), found)
         }
         None => (None, Vec::new()),
@@ -145,12 +149,12 @@ pub fn study_scene<F: Scalar>(
     })
 }
 
-/// The epsilons of a row by knob; the least t is 0.
-pub fn own_epsilons<F: Scalar>(row: &Row, knobs: &[Knob]) -> Vec<F> {
+/// The epsilons of a row by knob, and the least t.
+pub fn own_epsilons<F: Scalar>(row: &Row, knobs: &[Knob], least_t: F) -> Vec<F> {
     let epsilons = row.epsilons::<F>();
     let own = |knob: &Knob| match knob {
         Knob::Gate(gate) => epsilons[*gate],
-        Knob::LeastT => F::zero(),
+        Knob::LeastT => least_t,
     };
     knobs.iter().map(own).collect()
 }
@@ -209,19 +213,34 @@ impl<F: Float> Attempt<F> {
 struct Wrong {
     /// By attempt, by count.
     trials: Vec<Vec<Trials>>,
-    /// The same, of the first attempts.
-    errors: Vec<Vec<ErrorSums>>,
+    /// Of the first attempts.
+    of_hits: Vec<OfHits>,
     /// A disagreement between margins and the kernel's run.
     fault: Option<String>,
+}
+
+/// The errors of the hits that remain, by count.
+#[derive(Clone)]
+struct OfHits {
+    errors: Vec<ErrorSums>,
+    /// Those with larger errors than is wanted.
+    exceeded: Vec<Trials>,
+}
+
+impl Merge for OfHits {
+    fn merge(&mut self, other: OfHits) {
+        let errors = self.errors.iter_mut().flatten().zip(other.errors.iter().flatten());
+        errors.for_each(|(sum, more)| sum.merge(more));
+        let exceeded = self.exceeded.iter_mut().zip(&other.exceeded);
+        exceeded.for_each(|(sum, more)| sum.merge(more));
+    }
 }
 
 impl Merge for Wrong {
     fn merge(&mut self, other: Wrong) {
         let counts = self.trials.iter_mut().flatten().zip(other.trials.iter().flatten());
         counts.for_each(|(sum, more)| sum.merge(more));
-        let errors = self.errors.iter_mut().flatten().flatten();
-        let more = other.errors.iter().flatten().flatten();
-        errors.zip(more).for_each(|(sum, more)| sum.merge(more));
+        self.of_hits.iter_mut().zip(other.of_hits).for_each(|(sum, more)| sum.merge(more));
         self.fault = self.fault.take().or(other.fault);
     }
 }
@@ -229,27 +248,30 @@ impl Merge for Wrong {
 impl Wrong {
     /// Errors are kept of so many attempts.
     fn new(attempts: usize, with_errors: usize, counts: &[Count]) -> Wrong {
-        Wrong {
-            trials: vec![vec![Trials::default(); counts.len()]; attempts],
-            errors: vec![vec![ErrorSums::default(); counts.len()]; with_errors],
-            fault: None,
-        }
+        let none = vec![Trials::default(); counts.len()];
+        let errors = vec![ErrorSums::default(); counts.len()];
+        let of_hits = vec![OfHits { errors, exceeded: none.clone() }; with_errors];
+        Wrong { trials: vec![none; attempts], of_hits, fault: None }
     }
 
     fn add_errors<F: Scalar>(
         &mut self,
         setting: &Setting<'_, F>,
         attempts: &[Attempt<F>],
+        max_error: Option<&MaxError>,
         trial: &Trial<'_, F>,
     ) {
         if setting.counts[trial.count].kind != Kind::Miss {
             return;
         }
         let errors = errors_of(setting, &trial.cases[0]);
-        let attempts = attempts.iter().zip(&mut self.errors);
+        let attempts = attempts.iter().zip(&mut self.of_hits);
         for (_, sums) in attempts.filter(|(attempt, _)| trial.is_hit(&attempt.epsilons)) {
-            let pairs = sums[trial.count].iter_mut().zip(errors);
+            let pairs = sums.errors[trial.count].iter_mut().zip(errors);
             pairs.for_each(|(sum, error)| error.into_iter().for_each(|error| sum.add(error)));
+            if let Some(max) = max_error {
+                sums.exceeded[trial.count].add_ray(u64::from(max.is_exceeded(&errors)), 1);
+            }
         }
     }
 
@@ -273,17 +295,38 @@ pub fn count_at<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Vec<Vec<Trials>> {
-    let empty = || Wrong::new(attempts.len(), 0, setting.counts);
-    let add = |sums: &mut Wrong, trial: Trial<'_, F>| sums.add(setting.counts, attempts, &trial);
-    setting.sum(seed, count, observer, empty, add).trials
+    measure(setting, attempts, 0, None, seed, count, observer, |_| None).trials
 }
 
-/// The same, and the errors of the hits of the first attempts; the kernel also runs at the first epsilons,
-/// and must do as its margins say.
+/// The same, and the errors of the hits of the first attempts; a check may find a fault in a trial.
+#[expect(clippy::too_many_arguments)]
+fn measure<F: Scalar>(
+    setting: &Setting<'_, F>,
+    attempts: &[Attempt<F>],
+    with_errors: usize,
+    max_error: Option<&MaxError>,
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+    check: impl Fn(&Trial<'_, F>) -> Option<String> + Sync,
+) -> Wrong {
+    let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
+    let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
+        sums.fault = sums.fault.take().or_else(|| check(&trial));
+        sums.add(setting.counts, attempts, &trial);
+        if 0 < with_errors {
+            sums.add_errors(setting, attempts, max_error, &trial);
+        }
+    };
+    setting.sum(seed, count, observer, empty, add)
+}
+
+/// The same, where the kernel also runs at the first epsilons, and must do as its margins say.
 fn run_at<F: Scalar>(
     setting: &Setting<'_, F>,
     attempts: &[Attempt<F>],
     with_errors: usize,
+    max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
     observer: &dyn Observer,
@@ -302,18 +345,13 @@ fn run_at<F: Scalar>(
         kernel.run(trial.cases, &epsilons, &mut verdicts);
         verdicts.iter().any(|verdict| verdict.hit && least_t.is_none_or(|t| t <= verdict.t))
     };
-    let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
-    let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
-        if is_hit(&trial) != trial.is_hit(&attempts[0].epsilons) {
-            sums.fault = Some(format!(
-                "the margins and the run differ at {:?} on {}",
-                attempts[0].epsilons,
-                trial.cases[0].hex()
-            ));
-        }
-        sums.add(setting.counts, attempts, &trial);
-        sums.add_errors(setting, attempts, &trial);
+    let check = |trial: &Trial<'_, F>| {
+        let first = &attempts[0].epsilons;
+        let differs = is_hit(trial) != trial.is_hit(first);
+        let case = &trial.cases[0];
+        differs.then(|| format!("the margins and the run differ at {first:?} on {}", case.hex()))
     };
-    let mut wrong = setting.sum(seed, count, observer, empty, add);
+    let mut wrong =
+        measure(setting, attempts, with_errors, max_error, seed, count, observer, check);
     wrong.fault.take().map_or(Ok(wrong), Err)
 }

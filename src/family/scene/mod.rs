@@ -118,10 +118,10 @@ fn with_scene<T>(parameters: &Parameters, make: impl FnOnce(&Scene) -> T) -> T {
 }
 
 macro_rules! stratum {
-    ($name:literal, $question:ident, $grouping:ident, $stratum:ident, $keeps:expr, $promise:literal) => {
+    ($name:literal, $version:literal, $question:ident, $grouping:ident, $stratum:ident, $keeps:expr, $promise:literal) => {
         Family {
             name: $name,
-            version: 1,
+            version: $version,
             promise: $promise,
             question: Question::$question,
             grouping: Grouping::$grouping,
@@ -137,6 +137,7 @@ macro_rules! stratum {
 pub static STRATA: &[Family] = &[
     stratum!(
         "scene-interior",
+        1,
         Inside,
         Single,
         Interior,
@@ -145,6 +146,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-edges",
+        1,
         Edges,
         SharedEdge,
         Edges,
@@ -153,6 +155,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-vertices",
+        1,
         Vertices,
         Fan,
         Vertices,
@@ -161,6 +164,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-grazing",
+        1,
         Flat,
         Single,
         Grazing,
@@ -169,6 +173,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-parallel",
+        2,
         Flat,
         Single,
         Parallel,
@@ -177,6 +182,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-shadow",
+        1,
         Ends,
         SecondaryRay,
         Shadow,
@@ -185,6 +191,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-outside",
+        1,
         Inside,
         Single,
         Outside,

@@ -118,9 +118,7 @@ fn grid<F: Float>(scene: &Scene) -> f64 {
 
 /// The multiple of a spacing next to a number.
 fn snapped(x: f64, spacing: f64) -> f64 {
-    // Within 2^52 multiples, as all coordinates are, adding and taking away rounds to whole numbers.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    ((x / spacing + ROUND) - ROUND) * spacing
+    (x / spacing).round_ties_even() * spacing
 }
 
 /// A triangle on the grid of a generic plane, and a sum of its edges.
@@ -144,7 +142,8 @@ fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3],
 }
 
 /// A triangle whose plane holds an axis, and the direction of that axis. Along the two other axes the
-/// corners are steps on one line of the grid.
+/// corners are steps on one line of the grid. Its longest edge is from half of the size to the size; its
+/// height is at least an eighth of that.
 fn holding_axis<F: Float>(
     draw: &mut Draw,
     scene: &Scene,
@@ -153,28 +152,31 @@ fn holding_axis<F: Float>(
 ) -> ([[F; 3]; 3], [F; 3]) {
     let spacing = grid::<F>(scene);
     let base = place(draw, scene, size);
-    let steps = ((size / spacing / 4.0) as i64).clamp(1, 1 << 20);
-    let line = [draw.integer(-steps, steps), draw.integer((steps + 1) / 2, steps)];
-    let [first, second] = draw.pick(&[[1, 2], [2, -1], [-1, 1], [1, -2]]);
-    let corner = |step: i64, along: f64| {
-        let mut p = [0.0; 3];
-        p[axes[0]] = base[axes[0]] + along;
-        for k in [0, 1] {
-            let axis = axes[k + 1];
-            p[axis] = snapped(base[axis], spacing) + (step * line[k]) as f64 * spacing;
-        }
-        p.map(F::from_f64)
-    };
-    let along = loop {
+    let steps = (size / spacing / 4.0) as i64;
+    loop {
+        let line = [draw.integer(-steps, steps), draw.integer((steps + 1) / 2, steps)];
+        let [first, second] = draw.pick(&[[1, 2], [2, -1], [-1, 1], [1, -2]]);
         let along = [0.0, symmetric(draw) * size, symmetric(draw) * size];
-        // Twice the area over the width of a step.
-        let area = first as f64 * along[2] - second as f64 * along[1];
-        if size < 2.0 * area.abs() {
-            break along;
+        let from_base = |step: i64, along: f64| {
+            let [i, j] = line.map(|part| (step * part) as f64 * spacing);
+            DVec3::new(along, i, j)
+        };
+        let corners = [from_base(0, 0.0), from_base(first, along[1]), from_base(second, along[2])];
+        let [e, f] = [corners[1] - corners[0], corners[2] - corners[0]];
+        let longest = [e, f, f - e].iter().fold(0.0f64, |most, edge| most.max(edge.length()));
+        let is_wide = 0.125 * longest * longest <= e.cross(f).length();
+        if longest <= size && size <= 2.0 * longest && is_wide {
+            let at_base = |corner: DVec3| {
+                let mut p = [0.0; 3];
+                p[axes[0]] = base[axes[0]] + corner.x;
+                for (axis, steps) in [(axes[1], corner.y), (axes[2], corner.z)] {
+                    p[axis] = snapped(base[axis], spacing) + steps;
+                }
+                p.map(F::from_f64)
+            };
+            return (corners.map(at_base), along_axis(draw, scene, axes[0]));
         }
-    };
-    let corners = [corner(0, along[0]), corner(first, along[1]), corner(second, along[2])];
-    (corners, along_axis(draw, scene, axes[0]))
+    }
 }
 
 /// A triangle at one height above a plane of two axes, and a direction in that plane.

@@ -5,12 +5,12 @@ use crate::arith::Float;
 use crate::audit::{Place, Row, Source, Tally, Trials, exact_severity};
 use crate::case::Case;
 use crate::epsilon::{
-    AtScale, Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study,
-    StudyPlan, common, own_false_hits, scale_free_form, slope, unit_of_length,
+    Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study, StudyPlan,
+    own_false_hits,
 };
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
-use crate::kernel::{Gate, Scalar};
+use crate::kernel::Scalar;
 use crate::prove::in_short;
 use crate::report::Rate;
 use crate::report::build::{explain_command, planned_source};
@@ -64,7 +64,6 @@ fn gate_part<F: Scalar>(
 ) -> GatePart {
     let info = plan.row.entry.info;
     let gate = &info.gates[gate_study.gate];
-    let form = scale_free_form(gate.dimension).filter(|_| plan.relative);
     let others = plan.row.tuned().filter(|(other, _)| other.name != gate.name);
     let each = sources.iter().zip(&study.responses).map(|(source, response)| {
         curve_part(source.name(), source.is_sample(), &response.gates[n], &[])
@@ -78,8 +77,6 @@ fn gate_part<F: Scalar>(
         gate: gate.name.to_owned(),
         refuses: gate.refuses.to_owned(),
         dimension: [gate.dimension.length, gate.dimension.direction],
-        unit: form.as_ref().map_or("", |_| unit_of_length(gate.dimension)).to_owned(),
-        form: form.unwrap_or_else(|| "e".to_owned()),
         others: others.map(|(gate, text)| (gate.name.to_owned(), text.to_string())).collect(),
         contract: plan.row.contract.describe(),
         exact: plan.exact,
@@ -91,8 +88,7 @@ fn gate_part<F: Scalar>(
         curves: std::iter::once(all).chain(each).collect(),
         trade: trade_part(plan.row, sources, gate_study),
         prices: price_parts(plan.row, sources, study, n),
-        scaling: scaling_part(gate, gate_study),
-        proved: in_short::<F>(plan.row.entry, gate_study.gate).filter(|_| !plan.relative),
+        proved: in_short::<F>(plan.row.entry, gate_study.gate),
     }
 }
 
@@ -281,34 +277,6 @@ fn distance(class: Class, in_space: f64, along: Option<f64>) -> f64 {
         Some(along) if class.is_off_the_interval() => outside.max(along),
         _ => in_space,
     }
-}
-
-fn scaling_part<F: Scalar>(gate: &Gate, study: &GateStudy<F>) -> Option<ScalingPart> {
-    let [absolute, relative] = &study.scales;
-    let (first, last) = (absolute.first()?, absolute.last()?);
-    let row = |row: &AtScale<F>| ScaleRow {
-        scale: format!("2^{}", row.exponent),
-        misses_up_to: row.misses_up_to.map(shortest),
-        hits_from: row.hits_from.map(shortest),
-        missed_anyway: row.missed_anyway.0,
-        must_hit: row.missed_anyway.1,
-    };
-    let rows = |scales: &[AtScale<F>]| ScaleRows {
-        rows: scales.iter().map(row).collect(),
-        common: common(scales).map(|(from, to)| [from.map(shortest), to.map(shortest)]),
-    };
-    let slope_of = |limit: fn(&AtScale<F>) -> Option<F>| {
-        slope((first.exponent, limit(first)?), (last.exponent, limit(last)?))
-    };
-    Some(ScalingPart {
-        predicted: gate.dimension.length,
-        misses: slope_of(|row| row.misses_up_to),
-        hits: slope_of(|row| row.hits_from),
-        absolute: rows(absolute),
-        form: scale_free_form(gate.dimension),
-        unit: unit_of_length(gate.dimension).to_owned(),
-        relative: rows(relative),
-    })
 }
 
 fn map_part<F: Scalar>(row: &Row, map: &Map<F>) -> MapPart {

@@ -95,8 +95,7 @@ impl<'a> Panel<'a> {
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let GatePart { kernel, scalar, gate, refuses, form, .. } = self.part;
-        let form = if form == "e" { String::new() } else { format!(", with {form} in place of e") };
+        let GatePart { kernel, scalar, gate, refuses, .. } = self.part;
         writeln!(
             out,
             "<text x=\"{LEFT}\" y=\"20\" font-size=\"15\" font-weight=\"bold\">{}</text>",
@@ -105,7 +104,7 @@ impl<'a> Panel<'a> {
         writeln!(
             out,
             "<text x=\"{LEFT}\" y=\"38\">{}</text>",
-            escaped(&format!("refuses where {refuses}{form}"))
+            escaped(&format!("refuses where {refuses}"))
         )?;
         self.axes(out)?;
         self.marks(out)?;

@@ -59,10 +59,6 @@ pub struct GatePart {
     pub refuses: String,
     /// The margin's powers of length and of |d|.
     pub dimension: [i8; 2],
-    /// What `e` stands for: `e`, or with --relative its multiple, as `e * L^2 * |d|`.
-    pub form: String,
-    /// What the unit of length in the form is; empty if there is none.
-    pub unit: String,
     /// The epsilons of the other gates.
     pub others: BTreeMap<String, String>,
     /// The contract, in words.
@@ -77,8 +73,6 @@ pub struct GatePart {
     pub trade: TradePart,
     /// What epsilons cost, by running the kernel with them.
     pub prices: Vec<PricePart>,
-    /// How the limits move with scale.
-    pub scaling: Option<ScalingPart>,
     /// What is proved of this gate's epsilons, whatever the cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proved: Option<String>,
@@ -193,52 +187,6 @@ pub struct FarthestPart {
     pub ulps: f64,
     /// Shows the case.
     pub command: String,
-}
-
-/// How the limits move with scale.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ScalingPart {
-    /// The power of length in the margin's dimension.
-    pub predicted: i8,
-    /// The measured power, of the last epsilon without an avoidable miss.
-    pub misses: Option<f64>,
-    /// The measured power, of the first epsilon without an avoidable false hit.
-    pub hits: Option<f64>,
-    /// With absolute epsilons.
-    pub absolute: ScaleRows,
-    /// The comparison that means the same at every scale; none if the gate's own does.
-    pub form: Option<String>,
-    /// What the form's unit of length is.
-    pub unit: String,
-    /// With epsilons in that form.
-    pub relative: ScaleRows,
-}
-
-/// The limits at each scale.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ScaleRows {
-    /// Scale by scale.
-    pub rows: Vec<ScaleRow>,
-    /// The epsilons that are best at every scale, from and to, each none if no case sets it.
-    pub common: Option<[Option<String>; 2]>,
-}
-
-/// The limits at one scale.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ScaleRow {
-    /// `2^k`.
-    pub scale: String,
-    /// The last epsilon without an avoidable miss; none if no case sets one.
-    pub misses_up_to: Option<String>,
-    /// The first epsilon without an avoidable false hit; none if no case sets one.
-    pub hits_from: Option<String>,
-    /// Of the cases that must be hit, those missed at every epsilon.
-    pub missed_anyway: u64,
-    /// The cases that must be hit.
-    pub must_hit: u64,
 }
 
 /// Two gates against each other.

@@ -7,7 +7,7 @@ use crate::report::record::Rate;
 use crate::report::{Style, group_digits, number_of};
 use std::io::{self, Write};
 
-/// Writes the limits, the prices and the scaling of every gate.
+/// Writes the limits and the prices of every gate.
 pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
     for (i, part) in record.result.gates.iter().enumerate() {
         if i > 0 {
@@ -19,9 +19,6 @@ pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Resul
             writeln!(out, "  proved {proved} (hairline prove --kernel {})", part.kernel)?;
         }
         prices(part, out)?;
-        if let Some(scaling) = &part.scaling {
-            write_scaling(part, scaling, out)?;
-        }
     }
     for map in &record.result.maps {
         writeln!(out)?;
@@ -31,15 +28,8 @@ pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Resul
 }
 
 fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<()> {
-    let GatePart { kernel, scalar, gate, refuses, form, .. } = part;
+    let GatePart { kernel, scalar, gate, refuses, .. } = part;
     writeln!(out, "{kernel} {scalar}, gate {gate}: refuses where {refuses}")?;
-    if form != "e" {
-        let unit = match part.unit.as_str() {
-            "" => String::new(),
-            unit => format!(", {unit}"),
-        };
-        writeln!(out, "  with {form} in place of e{unit}; no kernel is run with such an epsilon")?;
-    }
     let others: Vec<String> =
         part.others.iter().map(|(gate, epsilon)| format!("{gate} = {epsilon}")).collect();
     if !others.is_empty() {
@@ -80,7 +70,10 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         None => Ok(()),
     };
     let what = "possible false hits of the kinds that this gate is there to refuse";
-    writeln!(out, "  right epsilons: seen on these cases (--scene has limits with a confidence)")?;
+    writeln!(
+        out,
+        "  seen on these cases, which are not yours (--scene recommends epsilons for a scene):"
+    )?;
     if misses.command.is_none() {
         writeln!(out, "    every e: {}", least(misses, "possible false misses"))?;
     } else {
@@ -106,26 +99,20 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
     }
     match settled {
         _ if misses.of == 0 || hits.of == 0 => {
-            let (side, limit) = if hits.of == 0 { ("lower", "hits") } else { ("upper", "misses") };
+            let (side, limit) = if hits.of == 0 { ("lower", "hit") } else { ("upper", "miss") };
             writeln!(
                 out,
-                "    these cases set no {side} limit: nothing is asked about false {limit}"
+                "    these cases set no {side} limit: none of them can show a false {limit}"
             )
         }
         Some([from, to]) if misses.command.is_none() && hits.command.is_none() => {
-            writeln!(out, "    so this gate decides nothing here: any e will do ({from} to {to})")
+            writeln!(out, "    so this gate decides nothing here, at any e from {from} to {to}")
         }
         Some([from, to]) if misses.command.is_none() => {
-            writeln!(
-                out,
-                "    so on these cases use any e from {from} (to {to}): both counts are at their least"
-            )
+            writeln!(out, "    from {from} up both counts are at their least")
         }
         Some([from, to]) => {
-            writeln!(
-                out,
-                "    so on these cases use an e from {from} to {to}: both counts are at their least"
-            )
+            writeln!(out, "    from {from} to {to} both counts are at their least")
         }
         None => writeln!(
             out,
@@ -227,60 +214,6 @@ fn share(rate: &Rate) -> String {
 
 fn short(rate: &Rate) -> String {
     rate.rate.map_or("-".to_owned(), percent)
-}
-
-fn write_scaling(part: &GatePart, scaling: &ScalingPart, out: &mut dyn Write) -> io::Result<()> {
-    let [length, direction] = part.dimension;
-    writeln!(
-        out,
-        "  when everything is scaled (the margin has dimension length^{length}·|d|^{direction}, so limits should move by scale^{length}):"
-    )?;
-    let slope = |slope: Option<f64>| slope.map_or("-".to_owned(), |slope| format!("{slope:.2}"));
-    let relative = scaling.form.as_deref().filter(|_| !scaling.relative.rows.is_empty());
-    let second = relative.map_or(String::new(), |form| format!("   with {form}:"));
-    writeln!(
-        out,
-        "    {:<8} {:>23} {:>23} {:>13} {:>9}{second}",
-        "scale", "no avoidable miss up to", "no such hit from", "missed anyway", "of hits"
-    )?;
-    let or_dash = |limit: &Option<String>| limit.clone().unwrap_or("-".to_owned());
-    for (i, row) in scaling.absolute.rows.iter().enumerate() {
-        let anyway = match row.must_hit {
-            0 => "-".to_owned(),
-            of => percent(row.missed_anyway as f64 / of as f64),
-        };
-        let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));
-        let of = group_digits(row.must_hit);
-        write!(out, "    {:<8} {misses:>23} {hits:>23} {anyway:>13} {of:>9}", row.scale)?;
-        match relative.and(scaling.relative.rows.get(i)) {
-            Some(row) => {
-                let (misses, hits) = (or_dash(&row.misses_up_to), or_dash(&row.hits_from));
-                writeln!(out, "   {misses:>23} {hits:>23}")?;
-            }
-            None => writeln!(out)?,
-        }
-    }
-    let (misses, hits) = (slope(scaling.misses), slope(scaling.hits));
-    writeln!(out, "    measured powers: {misses} and {hits}; predicted: {}", scaling.predicted)?;
-    writeln!(out, "    an absolute e: {}", at_all_scales(&scaling.absolute.common))?;
-    let Some(form) = relative else { return Ok(()) };
-    let unit = match scaling.unit.as_str() {
-        "" => String::new(),
-        unit => format!(", with {unit}"),
-    };
-    let common = at_all_scales(&scaling.relative.common);
-    writeln!(out, "    scale-free form: {form}{unit}: {common}")
-}
-
-/// Which epsilons are best at every scale.
-fn at_all_scales(common: &Option<[Option<String>; 2]>) -> String {
-    match common {
-        None => "none is right at all of them".to_owned(),
-        Some([None, None]) => "no case sets a limit".to_owned(),
-        Some([Some(from), None]) => format!("any from {from} up is right at all of them"),
-        Some([None, Some(to)]) => format!("any up to {to} is right at all of them"),
-        Some([Some(from), Some(to)]) => format!("from {from} to {to} it is right at all of them"),
-    }
 }
 
 fn write_map(map: &MapPart, out: &mut dyn Write) -> io::Result<()> {

@@ -5,6 +5,7 @@ use super::words::{
     bound, flag, human, label, least_t, meaning, of_unit, share, short_error, spaced, unit_of,
     unit_of_t, where_of,
 };
+use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
 /// Everything that is said of one kernel in one scalar.
@@ -13,20 +14,24 @@ pub(super) struct Answer {
     pub title: String,
     /// The scene's words.
     pub scene: String,
-    /// What to use, to be pasted.
-    pub used: String,
-    /// What that means, a sentence each.
-    pub notes: Vec<String>,
+    /// What to use; the best first.
+    pub used: Vec<Use>,
     /// The names of what was tried.
     pub columns: Vec<String>,
     /// What it did: a label, and a cell for each column.
     pub rows: Vec<(String, Vec<String>)>,
-    /// A cheaper form that follows each triangle's size, in two lines.
-    pub relative: Option<[String; 2]>,
     /// How far each number may move.
     pub limits: Vec<LimitRow>,
     /// Limits that do not meet, and what helps.
     pub conflicts: Vec<[String; 2]>,
+}
+
+/// Epsilons to use.
+pub(super) struct Use {
+    /// As they are pasted.
+    pub text: String,
+    /// What they mean, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A limit of a number.
@@ -53,16 +58,35 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         title,
         scene: format!("{}{}", record.scene, of_unit(&record.unit)),
         used: used(record, part),
-        notes: notes(record, part),
-        columns: part.tried.iter().map(|tried| column(&tried.name)).collect(),
+        columns: columns(part).map(|tried| column(part, &tried.name)).collect(),
         rows: rows(record, part),
-        relative: part.relative.as_ref().map(|relative| relative_lines(part, relative)),
         limits: limit_rows(record, part),
         conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
     }
 }
 
-fn used(record: &SceneRecord, part: &SceneKernelPart) -> String {
+/// A form without a unit is the answer if it leaves less than this share of the cost.
+const DECISIVE: f64 = 0.5;
+
+/// What was tried: the recommended epsilons, the form without a unit, the others.
+fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
+    let (first, others) = part.tried.split_at(1);
+    first.iter().chain(&part.relative).chain(others)
+}
+
+fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
+    let fixed = Use { text: fixed(record, part), notes: notes(record, part) };
+    match &part.relative {
+        Some(relative) if relative.cost < DECISIVE * part.tried[0].cost => {
+            vec![scale_free(part, relative), fixed]
+        }
+        Some(relative) => vec![fixed, scale_free(part, relative)],
+        None => vec![fixed],
+    }
+}
+
+/// Numbers to paste.
+fn fixed(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let epsilons = &part.tried[0].epsilons;
     let t = least_t(part, epsilons).map(|e| match part.takes_interval {
         true => format!("t_min = {}{} on every ray", human(e), unit_of_t(record)),
@@ -88,7 +112,7 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     notes.extend(match part.is_accurate {
         None => Vec::new(),
         Some(true) => {
-            vec![format!("99 % of the hits that remain are off by at most {wanted} (95 % sure)")]
+            vec![format!("chosen so that 99 % of the hits that remain are off by at most {wanted}")]
         }
         Some(false) => vec![
             format!(
@@ -101,8 +125,9 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
 }
 
 /// What a column is called.
-pub(super) fn column(name: &str) -> String {
+pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
     match name {
+        "recommended" if part.relative.is_some() => "fixed",
         "recommended" => "this",
         "source" => "as published",
         name if 13 <= name.len() => "as given",
@@ -113,16 +138,24 @@ pub(super) fn column(name: &str) -> String {
 
 fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     let of_counts = part.counts.iter().enumerate().map(|(i, count)| {
-        let cells = part.tried.iter().map(|tried| share(&tried.wrong[i])).collect();
+        let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
         (label(&count.stratum, &count.kind).to_owned(), cells)
     });
     let mut rows: Vec<(String, Vec<String>)> = of_counts.collect();
+    for (i, count) in part.counts.iter().enumerate() {
+        let found: Vec<Option<&Rate>> =
+            columns(part).map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of)).collect();
+        if found.iter().any(Option::is_some) {
+            let cells = found.into_iter().map(|rate| rate.map_or("-".to_owned(), share));
+            rows.push((format!("too far off, {}", where_of(&count.stratum)), cells.collect()));
+        }
+    }
     for value in ["t", "point"] {
         let unit = if value == "t" { String::new() } else { of_unit(&record.unit) };
         for (place, count) in part.counts.iter().enumerate() {
             let is_of = |error: &&ErrorPart| error.count == place && error.value == value;
             let of = |tried: &TriedPart| tried.errors.iter().find(is_of).map(errors);
-            let found: Vec<Option<String>> = part.tried.iter().map(of).collect();
+            let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
                 let name = format!("{value}{unit}, {}", where_of(&count.stratum));
@@ -130,7 +163,7 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             }
         }
     }
-    let costs = part.tried.iter().map(|tried| format!("{:.3}", tried.cost));
+    let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
     rows.push(("cost".to_owned(), costs.collect()));
     rows
 }
@@ -140,16 +173,18 @@ fn errors(error: &ErrorPart) -> String {
     [error.median, error.most, error.worst].map(short_error).join(" ")
 }
 
-fn relative_lines(part: &SceneKernelPart, relative: &TriedPart) -> [String; 2] {
+/// Comparisons that follow each triangle's size.
+fn scale_free(part: &SceneKernelPart, relative: &TriedPart) -> Use {
     let forms = part.knobs.iter().zip(&relative.epsilons).map(|(knob, e)| match &knob.form {
-        Some(form) => format!("{}: {}", knob.name, form.replacen('e', e, 1)),
-        None => format!("{}: {e}", knob.name),
+        Some(form) => format!("{} = {}", knob.name, form.replacen('e', e, 1)),
+        None => format!("{} = {e}", knob.name),
     });
-    let forms: Vec<String> = forms.collect();
-    let cost = relative.cost;
-    let what =
-        "epsilons that follow each triangle's size (L its longest edge, M the largest coordinate)";
-    [format!("{what} would cost {cost:.3}:"), forms.join(", ")]
+    let (least, most) = (relative.cost, part.tried[0].cost);
+    let notes = vec![
+        "epsilons that follow each triangle's size, in the place of fixed ones;".to_owned(),
+        format!("they cost {least:.3}, the best fixed ones {most:.3}"),
+    ];
+    Use { text: forms.collect::<Vec<_>>().join(", "), notes }
 }
 
 fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
@@ -233,6 +268,13 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         "t, point: errors of the hits that remain: half, 99 % are at most this; the worst"
             .to_owned(),
     ];
+    if record.kernels.iter().any(|part| part.relative.is_some()) {
+        let forms = [
+            "scale-free: L is the triangle's longest edge, M the largest coordinate; counted by the",
+            "kernel's own values before the comparison, not run",
+        ];
+        lines.extend(forms.map(str::to_owned));
+    }
     if record.kernels.iter().any(|part| !part.limits.is_empty()) {
         let most =
             "at most: what this number itself makes wrong; what the others make comes on top";

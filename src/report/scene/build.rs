@@ -69,6 +69,7 @@ pub fn kernel_part<F: Scalar>(
             form: scale_free_form(dimension),
         }
     };
+    let tried_part = |tried| tried_part(tried, max_error.is_some());
     let tried = study.tried.iter().map(tried_part).collect();
     let limits = study.limits.iter().map(|(limit, trials)| {
         let knob = setting.knobs[limit.knob];
@@ -183,12 +184,16 @@ fn error_parts(errors: &[ErrorSums]) -> Vec<ErrorPart> {
     all.filter(|(.., sum)| 0 < sum.count()).map(part).collect()
 }
 
-fn tried_part<F: Float>(tried: &Tried<F>) -> TriedPart {
+fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
     TriedPart {
         name: tried.name.clone(),
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
         cost: tried.cost,
         errors: error_parts(&tried.errors),
+        exceeded: match is_limited {
+            true => tried.exceeded.iter().map(|trials| Rate::new(*trials, true)).collect(),
+            false => Vec::new(),
+        },
     }
 }

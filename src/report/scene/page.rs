@@ -50,14 +50,16 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
     html! {
         section {
             h2 { (answer.title) }
-            p.use {
-                b { "Use " }
-                @for (i, used) in answer.used.split("  and  ").enumerate() {
-                    @if 0 < i { " and " }
-                    code { (used) }
+            @for (i, used) in answer.used.iter().enumerate() {
+                p.use {
+                    b { (if i == 0 { "Use " } else { "Or " }) }
+                    @for (i, part) in used.text.split("  and  ").enumerate() {
+                        @if 0 < i { " and " }
+                        code { (part) }
+                    }
                 }
+                ul { @for note in &used.notes { li { (note) } } }
             }
-            ul { @for note in &answer.notes { li { (note) } } }
             div.plots {
                 @for panel in panels(record, part, answer) {
                     figure {
@@ -78,7 +80,6 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
                     }
                 }
             }
-            @if let Some([first, forms]) = &answer.relative { p { (first) " " code { (forms) } } }
             @if !answer.limits.is_empty() {
                 div.scroll {
                     table {

@@ -70,8 +70,11 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
     for part in &record.kernels {
         let answer = answer(record, part);
         let mut heading = vec![(answer.title.clone(), "this"), (answer.scene.clone(), "soft")];
-        let used = answer.used.split("  and  ").enumerate();
-        heading.extend(used.map(|(i, part)| (format!("{} {part}", ["use", "and"][i.min(1)]), "")));
+        for (i, used) in answer.used.iter().enumerate() {
+            let parts = used.text.split("  and  ").enumerate();
+            let words = [["use", "and"], ["or", "and"]][i.min(1)];
+            heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
+        }
         y += 8.0;
         for (text, class) in heading {
             y += LINE;
@@ -189,7 +192,7 @@ impl<'a> Draft<'a> {
         };
         let mut tried: Vec<(f64, String)> = Vec::new();
         for one in &part.tried {
-            let (value, name) = (number(&one.epsilons[place]), column(&one.name));
+            let (value, name) = (number(&one.epsilons[place]), column(part, &one.name));
             match tried.iter_mut().find(|(known, _)| *known == value) {
                 Some((_, names)) => {
                     let _ = write!(names, ", {name}");
@@ -393,7 +396,7 @@ impl<'a> Draft<'a> {
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
         if self.within().is_some() {
             let mark = "<rect class=\"within\" y=\"-6\" width=\"30\" height=\"12\"/>".to_owned();
-            all.push((mark, "within every limit (95 % sure of each)".to_owned()));
+            all.push((mark, "within every limit, 95 % sure of each (beside has none)".to_owned()));
         } else if self.limits().any(|(.., is_proved)| !is_proved) {
             all.push((String::new(), "no value is within every limit".to_owned()));
         }

@@ -143,6 +143,9 @@ pub struct TriedPart {
     pub cost: f64,
     /// The errors of the hits that remain.
     pub errors: Vec<ErrorPart>,
+    /// If errors are limited: by count, the hits that remain and are farther off; of none where no hit can
+    /// be lost.
+    pub exceeded: Vec<Rate>,
 }
 
 /// The errors of some hits.

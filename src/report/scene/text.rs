@@ -20,8 +20,10 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             Some(_) => writeln!(out, "{}\n  {}", answer.title, answer.scene)?,
             None => writeln!(out, "{} in {}", answer.title, answer.scene)?,
         }
-        writeln!(out, "  use  {}", answer.used)?;
-        answer.notes.iter().try_for_each(|note| writeln!(out, "       {note}"))?;
+        for (i, used) in answer.used.iter().enumerate() {
+            writeln!(out, "  {}  {}", if i == 0 { "use" } else { "or " }, used.text)?;
+            used.notes.iter().try_for_each(|note| writeln!(out, "       {note}"))?;
+        }
         effects(record, &answer, out)?;
         limits(&answer, out)?;
     }
@@ -43,10 +45,7 @@ fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Re
         write!(out, "  {label:<30}")?;
         cells(row, out)?;
     }
-    match &answer.relative {
-        Some([first, forms]) => writeln!(out, "{first}\n  {forms}"),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 fn limits(answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
