@@ -53,8 +53,7 @@ def truth(ray, triangle, aside=(0, 0, 0)):
         p = sub([x + t * y for x, y in zip(o, d)], a)
         u, v = dot(cross(p, sub(c, a)), n) / area, dot(cross(sub(b, a), p), n) / area
         weights = [1 - u - v, u, v]
-        names = "vertex_a vertex_b edge_ab vertex_c edge_ca edge_bc interior".split()
-        where = "outside" if min(weights) < 0 else names[sum(2**i for i in range(3) if weights[i]) - 1]
+        where = "outside" if min(weights) < 0 else "vertex_a vertex_b edge_ab vertex_c edge_ca edge_bc interior".split()[sum(2**i for i in range(3) if weights[i]) - 1]
         places = [(t < low, "before"), (t == low, "at_min"), (t == high, "at_max"), (t > high, "beyond"), (1, "within")]
         place = next(name for is_there, name in places if is_there)
         closed = where != "outside" and place not in ("before", "beyond")
@@ -124,9 +123,8 @@ def check(test):
 
 def main():
     wrong = []
-    lines = sys.stdin if sys.argv[1:] == ["-"] else []
-    tests = [json.loads(line) for line in lines]
-    if not lines:
+    tests = [json.loads(line) for line in sys.stdin] if sys.argv[1:] == ["-"] else None
+    if tests is None:
         files = sorted(HERE.glob("*.json"))
         digest = hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
         if (HERE / "sha256.txt").read_text().strip() != digest:
