@@ -114,7 +114,8 @@ impl GroupCount {
             first.push(index);
         }
         if let Some(digest) = digest {
-            digest.add(Place { index, triangle: 0 });
+            let place = Place { index, triangle: 0 };
+            digest.add(place, Digest::hash(place));
         }
         outcome
     }
@@ -129,9 +130,9 @@ impl GroupCount {
         self.missed_folds += other.missed_folds;
         self.even += other.even;
         self.elsewhere += other.elsewhere;
-        self.crack_digest.merge(other.crack_digest);
-        self.double_digest.merge(other.double_digest);
-        self.odd_fold_digest.merge(other.odd_fold_digest);
+        self.crack_digest.merge(&other.crack_digest);
+        self.double_digest.merge(&other.double_digest);
+        self.odd_fold_digest.merge(&other.odd_fold_digest);
         for (list, more) in [
             (&mut self.first_cracks, other.first_cracks),
             (&mut self.first_doubles, other.first_doubles),

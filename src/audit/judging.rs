@@ -24,7 +24,7 @@ pub(super) struct Known {
     /// None of invalid input.
     distances: Option<Distances>,
     /// Of its place.
-    digest: Digest,
+    hash: u128,
 }
 
 impl Known {
@@ -32,7 +32,7 @@ impl Known {
         let valid = !chunk.class(case).is_invalid();
         Known {
             distances: valid.then(|| Distances::of(&chunk.cases[case], &chunk.truths[case])),
-            digest: Digest::of(chunk.places[case]),
+            hash: Digest::hash(chunk.places[case]),
         }
     }
 }
@@ -68,12 +68,11 @@ impl<F: Scalar> RowIn<F> {
             }
             if let Some(finding) = judge::judge(obligation, truth, gives, verdict) {
                 // Kernels tend to be wrong on the same cases.
-                let Known { distances, digest } =
-                    known[i].get_or_insert_with(|| Known::of(chunk, i));
+                let Known { distances, hash } = known[i].get_or_insert_with(|| Known::of(chunk, i));
                 let severity = distances.as_ref().map(|distances| {
                     (distances.nearest_change(truth, contract), distances.edge_in_ulps)
                 });
-                tally.find(class(i), finding, (chunk.places[i], *digest), severity);
+                tally.find(class(i), finding, (chunk.places[i], *hash), severity);
                 if finding.is_failure() {
                     tally.classes[number].fail(obligation);
                 }

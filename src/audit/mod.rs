@@ -28,6 +28,7 @@ mod rows;
 mod run;
 mod severity;
 mod shard;
+mod sketch;
 mod source;
 mod stored;
 mod tally;

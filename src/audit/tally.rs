@@ -103,11 +103,11 @@ pub struct Examples {
 }
 
 impl Examples {
-    fn add(&mut self, (place, digest): (Place, Digest), severity: f64, limit: usize) {
+    fn add(&mut self, (place, hash): (Place, u128), severity: f64, limit: usize) {
         if self.first.len() < limit {
             self.first.push(place);
         }
-        self.digest.merge(digest);
+        self.digest.add(place, hash);
         self.propose((severity, place));
     }
 
@@ -123,7 +123,7 @@ impl Examples {
     }
 
     fn merge(&mut self, other: Examples, limit: usize) {
-        self.digest.merge(other.digest);
+        self.digest.merge(&other.digest);
         self.first.extend(other.first);
         self.first.sort_unstable();
         self.first.truncate(limit);
@@ -156,7 +156,7 @@ impl PolygonCount {
             self.count.fail(obligation);
         }
         let place = Place { index, triangle: 0 };
-        self.examples.entry(finding).or_default().add((place, Digest::of(place)), 0.0, limit);
+        self.examples.entry(finding).or_default().add((place, Digest::hash(place)), 0.0, limit);
     }
 
     fn merge(&mut self, other: PolygonCount, limit: usize) {
@@ -262,14 +262,14 @@ impl Tally {
         }
     }
 
-    /// Counts a finding at a place, whose digest is known, with its severity: how far the case is from
+    /// Counts a finding at a place, whose hash is known, with its severity: how far the case is from
     /// where the verdict would be right, in longest edges, and the longest edge in ulps; none of invalid
     /// input.
     pub fn find(
         &mut self,
         class: Class,
         finding: Finding,
-        place: (Place, Digest),
+        place: (Place, u128),
         severity: Option<(f64, f64)>,
     ) {
         self.classes[class.number()].find(finding, !class.is_invalid());
@@ -345,7 +345,7 @@ mod tests {
             if index.is_multiple_of(3) {
                 let place = Place { index, triangle: 0 };
                 let severity = Some(((index * 7 % 11) as f64, 2.0));
-                tally.find(class, Finding::FalseMiss, (place, Digest::of(place)), severity);
+                tally.find(class, Finding::FalseMiss, (place, Digest::hash(place)), severity);
             }
             let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
             products.add_ray(index % 4, 4);

@@ -4,13 +4,13 @@ use super::exit::{Failure, Status};
 use super::flags::JUDGING;
 use super::github;
 use super::input::{read_record, read_text};
-use super::output::write_result;
+use super::output::{write_result, write_results};
 use super::prove::demand;
 use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;
-use crate::expect::{self, Expectations, NetChange};
+use crate::expect::{self, Expectations, Lock};
 use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
@@ -37,7 +37,7 @@ struct CheckFlags {
     #[arg(long, value_name = "FILE")]
     config: Option<String>,
 
-    /// The known disagreements; without this file none is known
+    /// The known disagreements, with their cases in FILE.lock; without this file none is known
     #[arg(long, value_name = "FILE", default_value = DEFAULT_FILE)]
     expectations: String,
 
@@ -151,22 +151,23 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         return part_only(&arguments, partial, || outputs.write(&record));
     }
     let file = &arguments.expectations;
-    let expected = read_expectations(file, &given, arguments.bless)?;
+    let expected = read_expectations(file, &given, &kernels_of(&record), arguments.bless)?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
-    let mut conformance = expect::compare(&record.result, &expected, known_file);
+    let (result, target) = (&record.result, record.provenance.target.as_str());
+    let mut conformance = expect::compare(result, target, &expected, known_file);
     if arguments.bless {
-        let change = NetChange::of(&expected, &conformance);
+        let change = conformance.change;
         if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
             eprintln!(
                 "hairline: {file} stays as it is: {change}; --accept-worse writes it all the same"
             );
         } else {
             expected = blessed(&record, &expected, &conformance, file)?;
-            conformance = expect::compare(&record.result, &expected, Some(file));
+            conformance = expect::compare(result, target, &expected, Some(file));
             if !arguments.run.report.quiet {
                 let was = known_file.map_or(String::new(), |_| format!(" ({change})"));
-                eprintln!("{file}: {} known disagreements{was}", expected.entries.len());
+                eprintln!("{file}: {} known disagreements{was}", conformance.known.len());
             }
         }
     }
@@ -228,6 +229,7 @@ fn defaults() -> Result<CheckFlags, clap::Error> {
 fn read_expectations(
     file: &str,
     given: &[Given],
+    kernels: &[&str],
     blessing: bool,
 ) -> Result<Option<Expectations>, Failure> {
     let from_command_line =
@@ -235,25 +237,54 @@ fn read_expectations(
     if !Path::new(file).exists() && (blessing || !from_command_line) {
         return Ok(None);
     }
-    Ok(Some(expect::read(&read_text(file)?, file)?))
+    let mut expectations = expect::read(&read_text(file)?, file, kernels)?;
+    let lock = lock_of(file);
+    if Path::new(&lock).exists() {
+        expectations.lock = Some(Lock::read(&read_text(&lock)?, &lock)?);
+    }
+    if !blessing {
+        expectations.agree(file)?;
+    }
+    Ok(Some(expectations))
 }
 
-/// Writes the expectations that the run meets, and reads them again.
+/// The kernels of a record: those of one's own need not be here.
+fn kernels_of(record: &Record) -> Vec<&str> {
+    record.result.plan.rows.iter().map(|row| row.kernel.as_str()).collect()
+}
+
+/// The name of the file of the cases.
+fn lock_of(file: &str) -> String {
+    format!("{file}.lock")
+}
+
+/// Writes the expectations that the run meets, and their cases, and reads them again.
 fn blessed(
     record: &Record,
     old: &Expectations,
     conformance: &Conformance,
     file: &str,
 ) -> Result<Expectations, Failure> {
-    let text = expect::bless(&record.result, old, conformance).map_err(|error| {
+    let (result, target) = (&record.result, &record.provenance.target);
+    let blessed = expect::bless(result, target, old, conformance).map_err(|error| {
         Failure::usage(format!(
             "--bless: {file} has {} expectations of kernels, scalars or families outside this plan, \
              which would be lost: run the whole plan, or remove them first",
             error.outside_the_plan
         ))
     })?;
-    let expectations = expect::read(&text, file)?;
-    write_result(file, |out| out.write_all(text.as_bytes()))?;
+    let lock = lock_of(file);
+    let mut expectations = expect::read(&blessed.file, file, &kernels_of(record))?;
+    expectations.lock = Some(Lock::read(&blessed.lock, &lock)?);
+    expectations.agree(file)?;
+    let texts = vec![(&blessed.file, file), (&blessed.lock, lock.as_str())];
+    write_results(texts, |text, _, out| out.write_all(text.as_bytes()))?;
+    if !blessed.dropped.is_empty() {
+        eprintln!(
+            "{lock}: the counts of {} were of other cases, and are gone",
+            blessed.dropped.join(", ")
+        );
+    }
     Ok(expectations)
 }
 

@@ -1,8 +1,10 @@
 //! Writing what a run found as what is expected from now on.
 
-use super::{Amount, Entry, Expectations, SCHEMA};
-use crate::report::{Conformance, Disagreement, Method, ResultPart, disagreements};
-use std::fmt::{self, Write};
+use super::{Amount, Cases, Expectations, Lock, SCHEMA};
+use crate::report::{Conformance, Key, ResultPart, disagreements};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 
 /// Why expectations cannot be written: the file also has entries for kernels, scalars or families that
 /// the plan leaves out, and these would be lost.
@@ -12,136 +14,103 @@ pub struct Unblessable {
     pub outside_the_plan: u64,
 }
 
-/// How many classes of disagreement change when a run becomes what is expected.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct NetChange {
-    /// Fewer cases than expected, or none.
-    pub better: u64,
-    /// More cases than expected.
-    pub worse: u64,
-    /// Cases where none is expected.
-    pub new: u64,
-    /// As many cases as expected, but not the same ones.
-    pub other_cases: u64,
-    /// As expected.
-    pub unchanged: u64,
+/// Expectations, written out.
+pub struct Blessed {
+    /// The file for people.
+    pub file: String,
+    /// The file of the cases beside it.
+    pub lock: String,
+    /// The targets whose counts are of other cases, and are left out.
+    pub dropped: Vec<String>,
 }
 
-impl NetChange {
-    /// From expectations to what a run found.
-    pub fn of(old: &Expectations, compared: &Conformance) -> NetChange {
-        let mut change = NetChange {
-            better: compared.stale.len() as u64,
-            unchanged: compared.known.len() as u64,
-            ..NetChange::default()
-        };
-        for found in &compared.unexpected {
-            let is_same_rate = |count: u64, of: Option<u64>| {
-                compared.method == Method::CaseByCase
-                    && count == found.found.count
-                    && of.is_none_or(|of| of == found.found.of)
-            };
-            *match old.entries.get(&found.key()).map(|entry| &entry.amount) {
-                None => &mut change.new,
-                Some(Amount::Count { count, of, .. }) if is_same_rate(*count, *of) => {
-                    &mut change.other_cases
-                }
-                Some(_) => &mut change.worse,
-            } += 1;
-        }
-        change
-    }
-
-    /// Whether something got worse.
-    pub fn is_worse(&self) -> bool {
-        0 < self.worse + self.new
-    }
-}
-
-impl fmt::Display for NetChange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NetChange { better, worse, new, other_cases, unchanged } = self;
-        write!(
-            f,
-            "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
-        )
-    }
-}
-
-/// The file of expectations that a run would meet. Reasons and links of the old one are kept, and so
-/// are bounds by rate that hold; nothing that the plan leaves out is dropped silently.
+/// The expectations that a run on a target meets. Reasons and links of the old ones are kept, and so are bounds
+/// by rate that hold, and the cases of other targets; nothing that the plan leaves out is dropped silently.
 pub fn bless(
     result: &ResultPart,
+    target: &str,
     old: &Expectations,
     compared: &Conformance,
-) -> Result<String, Unblessable> {
+) -> Result<Blessed, Unblessable> {
     if compared.outside_the_plan > 0 {
         return Err(Unblessable { outside_the_plan: compared.outside_the_plan });
     }
-    let mut text = format!(
-        "# Known disagreements: what `hairline check` expects beside the default, which is none.\n\
-         # `hairline check --bless` writes this file; `why` and `url` of an entry are kept.\n\
-         # An entry has a count (with `of` and the digest of the cases), or a `rate`, an upper bound.\n\
-         schema = \"{SCHEMA}\"\nplan = \"{}\"\n",
-        result.plan.hash
-    );
-    let found = disagreements(result);
-    let row = |found: &Disagreement| {
-        let key = &found.key;
-        (key.scalar.clone(), key.kernel.clone(), key.set.clone())
+    let cases_of_plan = result.plan.hash_of_cases();
+    let (mut kept, dropped) = match old.lock.clone() {
+        Some(lock) if lock.cases == cases_of_plan => (lock.targets, BTreeMap::new()),
+        Some(lock) => (BTreeMap::new(), lock.targets),
+        None => Default::default(),
     };
-    let rows = result.plan.scalars.iter().flat_map(|scalar| {
-        let of_row =
-            |part: &crate::report::RowPart| (scalar.clone(), part.kernel.clone(), part.set.clone());
-        result.plan.rows.iter().map(of_row).collect::<Vec<_>>()
+    // What people took out is expected nowhere.
+    for target in kept.values_mut() {
+        target.retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
+    }
+    let mut lock = Lock { cases: cases_of_plan, targets: kept };
+    let cases = disagreements(result).into_iter().map(|found| {
+        let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
+        (found.key, Cases { count, of, digest })
     });
-    for wanted in rows {
-        let mut of_row = found.iter().filter(|found| row(found) == wanted).peekable();
-        if of_row.peek().is_none() {
-            continue;
+    lock.targets.insert(target.to_owned(), cases.collect());
+    let dropped = dropped.into_keys().filter(|name| name != target).collect();
+    Ok(Blessed { file: reviewed(&lock, old, compared), lock: lock.to_string(), dropped })
+}
+
+/// Families, each with its amount, the larger count first.
+type Amounts<'a> = BTreeMap<(Reverse<u64>, &'a str), String>;
+
+/// The file for people: a line for each finding of a kernel row in a scalar, and for each reason.
+fn reviewed(lock: &Lock, old: &Expectations, compared: &Conformance) -> String {
+    let mut text = format!(
+        "# Known disagreements: what `hairline check` expects beside the default, which is none. The cases are\n\
+         # in the .lock file beside this one. `hairline check --bless` writes both, and keeps `why` and `url`.\n\
+         # A line may be split by families, each part with its reason. A family in `rates = {{ NAME = 0.02 }}`\n\
+         # instead of `counts` has an upper bound.\n\
+         schema = \"{SCHEMA}\"\ncases = \"{}\"\n",
+        lock.cases
+    );
+    let exceeded: BTreeSet<Key> = compared.unexpected.iter().map(|found| found.key()).collect();
+    let most = lock.most();
+    let rows: BTreeSet<(&str, &str)> =
+        most.keys().map(|key| (key.kernel.as_str(), key.set.as_str())).collect();
+    for row in rows {
+        let (kernel, set) = (quoted(row.0), quoted(row.1));
+        let _ = write!(text, "\n[[known]]\nkernel = {kernel}\nset = {set}\nfindings = [\n");
+        let mut lines: BTreeMap<[Option<&str>; 4], [Amounts; 2]> = BTreeMap::new();
+        for (key, count) in most.iter().filter(|(key, _)| (&*key.kernel, &*key.set) == row) {
+            let old = old.entries.get(key);
+            let why = old.and_then(|old| old.why.as_deref());
+            let url = old.and_then(|old| old.url.as_deref());
+            let line = [Some(&*key.scalar), Some(&*key.finding), why, url];
+            let (kind, amount) = match old.map(|old| &old.amount) {
+                Some(Amount::Rate(rate)) if !exceeded.contains(key) => (1, format!("{rate:?}")),
+                _ => (0, count.to_string()),
+            };
+            let place = (Reverse(*count), key.family.as_str());
+            lines.entry(line).or_default()[kind].insert(place, amount);
         }
-        let (scalar, kernel, set) = &wanted;
-        let (kernel, set, scalar) = (quoted(kernel), quoted(set), quoted(scalar));
-        let _ = write!(
-            text,
-            "\n[[known]]\nkernel = {kernel}\nset = {set}\nscalar = {scalar}\nfindings = [\n"
-        );
-        for found in of_row {
-            let held = compared.known.iter().any(|known| known.key() == found.key);
-            let old = old.entries.get(&found.key);
-            let _ = writeln!(text, "  {},", line(found, old, held));
+        for (words, amounts) in lines {
+            let [scalar, finding, why, url] = words.map(|words| words.map(quoted));
+            let [counts, rates] = amounts.map(|amounts| {
+                let each = amounts.iter();
+                let each =
+                    each.map(|((_, family), amount)| format!("{} = {amount}", named(family)));
+                let each: Vec<String> = each.collect();
+                (!each.is_empty()).then(|| format!("{{ {} }}", each.join(", ")))
+            });
+            let names = ["scalar", "finding", "counts", "rates", "why", "url"];
+            let parts = names.into_iter().zip([scalar, finding, counts, rates, why, url]);
+            let parts = parts.filter_map(|(name, value)| Some(format!("{name} = {}", value?)));
+            let _ = writeln!(text, "  {{ {} }},", parts.collect::<Vec<_>>().join(", "));
         }
         text.push_str("]\n");
     }
-    Ok(text)
+    text
 }
 
-fn line(found: &Disagreement, old: Option<&Entry>, held: bool) -> String {
-    let key = &found.key;
-    let amount = match old.map(|old| &old.amount) {
-        Some(Amount::Rate(rate)) if held => format!("rate = {rate:?}"),
-        _ => format!(
-            "count = {}, of = {}, digest = {}",
-            found.rate.count,
-            found.rate.of,
-            quoted(found.digest)
-        ),
-    };
-    let mut line = format!(
-        "{{ family = {}, class = {}, finding = {}, {amount}",
-        quoted(&key.family),
-        quoted(&key.class),
-        quoted(&key.finding)
-    );
-    for (name, text) in [
-        ("why", old.and_then(|old| old.why.as_ref())),
-        ("url", old.and_then(|old| old.url.as_ref())),
-    ] {
-        if let Some(text) = text {
-            let _ = write!(line, ", {name} = {}", quoted(text));
-        }
-    }
-    line + " }"
+/// A TOML key.
+fn named(key: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
+    if !key.is_empty() && key.chars().all(is_bare) { key.to_owned() } else { quoted(key) }
 }
 
 /// A TOML string.

@@ -1,18 +1,22 @@
 //! A run beside its expectations.
 
+use super::known::{Found, Known};
 use super::{Amount, Entry, Expectations};
-use crate::audit::Interval;
+use crate::audit::{Digest, Interval};
+use crate::case::{Case, CaseId};
+use crate::family;
 use crate::judge::Finding;
+use crate::kernel::Scalar;
 use crate::report::{
-    Conformance, Deviation, Disagreement, KernelResult, Key, Method, Rate, ResultPart, Verdict,
-    disagreements, group_digits, rate_of,
+    Conformance, Deviation, Example, KernelResult, Key, Method, NetChange, Rate, ResultPart,
+    Verdict, group_digits, rate_of,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The probability that at least one of all comparisons by interval reports a difference by chance.
 const ERROR: f64 = 0.05;
 
-/// Compares; `file` is the expectations' name.
+/// Compares a run on a target; `file` is the expectations' name.
 ///
 /// Under the plan of the expectations everything is deterministic: counts and digests must be the
 /// same. Under another, rates of random samples differ if their Clopper-Pearson intervals are
@@ -20,19 +24,24 @@ const ERROR: f64 = 0.05;
 /// as none of as many; but for a kernel row without any expectation, and for panics, one is too many.
 pub fn compare(
     result: &ResultPart,
+    target: &str,
     expectations: &Expectations,
     file: Option<&str>,
 ) -> Conformance {
-    let found = disagreements(result);
-    let same_plan = result.plan.hash == expectations.plan;
+    let same_plan = result.plan.hash_of_cases() == expectations.cases;
+    let known = Known::of(expectations, same_plan, target, file.unwrap_or_default());
+    let found = known.found(result);
     let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
-    let unlisted = found.iter().filter(|found| !expectations.entries.contains_key(&found.key));
-    let comparisons = expectations.entries.len() + unlisted.count();
+    let entries = &known.entries;
+    let unlisted = found.iter().filter(|found| !entries.contains_key(&found.key));
+    let comparisons = entries.len() + unlisted.count();
     let judge = Judge { method, tail: ERROR / comparisons.max(1) as f64 / 2.0 };
     let mut conformance = Conformance {
         verdict: Verdict::Conforms,
         method,
         expectations: file.map(str::to_owned),
+        note: known.note.clone(),
+        change: NetChange::default(),
         unexpected: Vec::new(),
         stale: Vec::new(),
         known: Vec::new(),
@@ -40,19 +49,19 @@ pub fn compare(
         outside_the_plan: 0,
     };
     for found in &found {
-        if !expectations.entries.contains_key(&found.key) {
-            if judge.is_unexpected(found, expectations) {
-                conformance.unexpected.push(deviation(&found.key, None, found.rate, Some(found)));
+        if !entries.contains_key(&found.key) {
+            if judge.is_unexpected(found, entries) {
+                conformance.unexpected.push(deviation(&found.key, None, &found.rate, Some(found)));
+                conformance.change.new += 1;
             } else {
                 conformance.too_rare_to_tell += 1;
             }
         }
     }
-    let found: BTreeMap<&Key, &Disagreement> =
-        found.iter().map(|found| (&found.key, found)).collect();
+    let found: BTreeMap<&Key, &Found> = found.iter().map(|found| (&found.key, found)).collect();
     let planned = Planned::of(result);
-    for (key, entry) in &expectations.entries {
-        let Some(result) = planned.result(key) else {
+    for (key, entry) in entries {
+        let Some(part) = planned.result(key) else {
             if planned.leaves_out(key) {
                 conformance.outside_the_plan += 1;
             } else {
@@ -61,20 +70,25 @@ pub fn compare(
             continue;
         };
         let found = found.get(key).copied();
-        let rate = rate_of(result, &key.class, &key.finding);
+        let rate = rate_of(part, &key.class, &key.finding);
         let mut deviation = deviation(key, Some(entry), &rate, found);
-        match judge.outcome(entry, &rate, found.map(|found| found.digest)) {
+        match judge.outcome(entry, &rate, found.and_then(|found| found.digest)) {
             Outcome::Same => conformance.known.push(deviation),
             Outcome::Better => conformance.stale.push(deviation),
             Outcome::Worse => {
-                // Expectations hold no cases, only their number and digest.
-                if deviation.case.is_some() {
-                    deviation.expected += "; the case shown may have failed before";
-                }
+                let new =
+                    found.filter(|_| same_plan).and_then(|found| new_case(result, entry, found));
+                show(&mut deviation, new);
+                *match same_plan && is_as_many(&entry.amount, &rate) {
+                    true => &mut conformance.change.other_cases,
+                    false => &mut conformance.change.worse,
+                } += 1;
                 conformance.unexpected.push(deviation);
             }
         }
     }
+    conformance.change.better = conformance.stale.len() as u64;
+    conformance.change.unchanged = conformance.known.len() as u64;
     // What is known needs no example: with them a record would be half as large again.
     for known in &mut conformance.known {
         (known.case, known.bits, known.command) = (None, None, None);
@@ -85,6 +99,40 @@ pub fn compare(
         _ => Verdict::Disagreements,
     };
     conformance
+}
+
+/// A case that shows a finding and is none of those that are expected to, if the digests tell one.
+fn new_case(result: &ResultPart, entry: &Entry, found: &Found) -> Option<Example> {
+    let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
+    let read = |digest: &str| Digest::try_from(digest.to_owned()).ok();
+    let (expected, example) = (read(expected)?, found.example.as_ref()?);
+    let is_source =
+        |scalar: &str, family: &str| scalar == found.key.scalar && family == found.key.family;
+    let source = result.sources.iter().find(|source| is_source(&source.scalar, &source.family))?;
+    let place = read(found.digest?)?.beyond(&expected, source.indices)?;
+    // The name of a stored case does not follow from its place.
+    let mut id: CaseId = example.case.parse().ok()?;
+    (id.index, id.triangle) = (place.index, id.triangle.map(|_| place.triangle as usize));
+    let case = id.to_string();
+    let is_plain = id.parameters.mesh.is_none() && id.parameters.scene.is_none();
+    let is_of_cases = !example.bits.is_empty() && is_plain;
+    let bits = match &*id.scalar {
+        _ if !is_of_cases => None,
+        "f32" => bits::<f32>(&id),
+        _ => bits::<f64>(&id),
+    };
+    Some(Example {
+        command: example.command.replace(&example.case, &case),
+        bits: bits.unwrap_or_default(),
+        severity: None,
+        case,
+    })
+}
+
+/// The bits of a family's case.
+fn bits<F: Scalar>(id: &CaseId) -> Option<String> {
+    let made = family::find(&id.family)?.make::<F>(&id.parameters, id.seed, id.index);
+    made.cases().get(id.triangle.unwrap_or(0)).map(Case::hex)
 }
 
 /// What the plan holds.
@@ -131,14 +179,14 @@ struct Judge {
 
 impl Judge {
     /// Whether a disagreement without an expectation is one too many.
-    fn is_unexpected(&self, found: &Disagreement, expectations: &Expectations) -> bool {
+    fn is_unexpected(&self, found: &Found, entries: &BTreeMap<Key, Entry>) -> bool {
         let trials = found.rate.trials();
         let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
         let row_of_found = row(&found.key);
         self.method == Method::CaseByCase
             || found.rate.interval.is_none()
             || found.key.finding == Finding::Panic.name()
-            || !expectations.entries.keys().any(|key| row(key) == row_of_found)
+            || !entries.keys().any(|key| row(key) == row_of_found)
             || trials.interval_of_others(0, trials.of, self.tail).high
                 < trials.interval_at(self.tail).low
     }
@@ -146,14 +194,16 @@ impl Judge {
     fn outcome(&self, entry: &Entry, found: &Rate, digest: Option<&str>) -> Outcome {
         match &entry.amount {
             Amount::Rate(bound) => self.within(*bound, found),
-            Amount::Count { count, of, digest: expected } => {
+            Amount::Count { count, cases } => {
+                let of = cases.as_ref().map(|(of, _)| *of);
                 let same_trials = of.is_none_or(|of| of == found.of);
                 let exact =
                     self.method == Method::CaseByCase || (found.interval.is_none() && same_trials);
                 if !exact {
                     return self.rates(*count, of.unwrap_or(found.of), found);
                 }
-                let same_cases = expected.is_none() || expected.as_deref() == digest;
+                let same_cases =
+                    cases.as_ref().is_none_or(|(_, expected)| Some(expected.as_str()) == digest);
                 if found.count < *count {
                     Outcome::Better
                 } else if found.count == *count && same_trials && same_cases {
@@ -197,12 +247,7 @@ impl Judge {
     }
 }
 
-fn deviation(
-    key: &Key,
-    entry: Option<&Entry>,
-    rate: &Rate,
-    found: Option<&Disagreement>,
-) -> Deviation {
+fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found>) -> Deviation {
     let example = found.and_then(|found| found.example.clone());
     let bits = example.as_ref().map(|example| example.bits.clone());
     Deviation {
@@ -213,7 +258,7 @@ fn deviation(
         class: key.class.clone(),
         finding: key.finding.clone(),
         expected: entry.map_or("none".to_owned(), |entry| {
-            describe(&entry.amount, rate, found.map(|found| found.digest))
+            describe(&entry.amount, rate, found.and_then(|found| found.digest))
         }),
         found: rate.clone(),
         line: entry.map(|entry| entry.line),
@@ -225,17 +270,32 @@ fn deviation(
     }
 }
 
+/// Shows a case that is none of the expected ones, or says that the one shown may be.
+fn show(deviation: &mut Deviation, new: Option<Example>) {
+    if let Some(Example { case, bits, command, .. }) = new {
+        deviation.expected += "; the case shown is new";
+        (deviation.case, deviation.command) = (Some(case), Some(command));
+        deviation.bits = Some(bits).filter(|bits| !bits.is_empty());
+    } else if deviation.case.is_some() {
+        deviation.expected += "; the case shown may have failed before";
+    }
+}
+
+/// Whether as many of as many cases were found as expected.
+fn is_as_many(amount: &Amount, found: &Rate) -> bool {
+    let Amount::Count { count, cases } = amount else { return false };
+    *count == found.count && cases.as_ref().is_none_or(|(of, _)| *of == found.of)
+}
+
 /// The expectation; where as many were found, whether they are other cases.
 fn describe(amount: &Amount, found: &Rate, digest: Option<&str>) -> String {
     match amount {
         Amount::Rate(bound) => format!("a share of at most {bound}, and not none"),
-        Amount::Count { count, of, digest: expected } => {
-            let of = of.unwrap_or(found.of);
-            let is_other = (*count, of) == (found.count, found.of)
-                && expected.is_some()
-                && expected.as_deref() != digest;
+        Amount::Count { count, cases: None } => group_digits(*count),
+        Amount::Count { count, cases: Some((of, expected)) } => {
+            let is_other = is_as_many(amount, found) && Some(expected.as_str()) != digest;
             let other = if is_other { " (other cases)" } else { "" };
-            format!("{} of {}{other}", group_digits(*count), group_digits(of))
+            format!("{} of {}{other}", group_digits(*count), group_digits(*of))
         }
     }
 }
@@ -260,7 +320,7 @@ mod tests {
     }
 
     fn count(count: u64, of: u64, digest: &str) -> Amount {
-        Amount::Count { count, of: Some(of), digest: Some(digest.to_owned()) }
+        Amount::Count { count, cases: Some((of, digest.to_owned())) }
     }
 
     #[test]
@@ -270,7 +330,7 @@ mod tests {
         };
         assert_eq!(exactly(10, "a"), 0);
         assert_eq!((exactly(11, "b"), exactly(9, "b"), exactly(10, "b")), (1, -1, 1));
-        let by_hand = Amount::Count { count: 10, of: None, digest: None };
+        let by_hand = Amount::Count { count: 10, cases: None };
         assert_eq!(outcome(Method::CaseByCase, by_hand, (10, 90, true), "b"), 0);
     }
 

@@ -1,35 +1,42 @@
 //! Floor 6: expectations, the known disagreements of a project, and how a run compares with them.
 //!
-//! By default no finding is expected, and a file lists the exceptions. An entry that no longer occurs is
-//! stale, and that fails too. So the file shrinks as kernels get better, and never hides that they got
-//! worse.
+//! By default no finding is expected, and a file lists the exceptions: counts by family, with reasons, for
+//! people to review. A lock file beside it has the cases behind the counts, for each target. An entry that no
+//! longer occurs is stale, and that fails too. So the files shrink as kernels get better, and never hide that
+//! they got worse.
 
 #![forbid(unsafe_code)]
 
 mod bless;
 mod compare;
 mod file;
+mod known;
+mod lock;
 
-pub use bless::{NetChange, Unblessable, bless};
+pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
 pub use file::read;
+pub use lock::{Cases, Lock};
 
 use crate::report::Key;
 use std::collections::BTreeMap;
 
 /// The schema's name and version.
-pub const SCHEMA: &str = "hairline-expectations/1";
+pub const SCHEMA: &str = "hairline-expectations/2";
 
-/// The contents of a file of expectations.
+/// What a project expects.
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
-    /// The hash of the plan whose counts they are.
-    pub plan: String,
-    /// The expectation for each class of disagreement. Every other class is expected not to occur.
+    /// The hash of what chooses the cases that are counted.
+    pub cases: String,
+    /// The expectation for each finding on a family, of all classes together. Every other finding is
+    /// expected not to occur.
     pub entries: BTreeMap<Key, Entry>,
+    /// The cases behind the counts; none if there is no such file.
+    pub lock: Option<Lock>,
 }
 
-/// What is expected of a class of disagreement.
+/// What is expected of a disagreement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// The line of the file, counted from 1.
@@ -49,10 +56,8 @@ pub enum Amount {
     Count {
         /// How many.
         count: u64,
-        /// Of how many.
-        of: Option<u64>,
-        /// Of the set of cases.
-        digest: Option<String>,
+        /// Of how many, and of the set of cases: of one class, as the lock file has it.
+        cases: Option<(u64, String)>,
     },
     /// At most this share, but more than zero.
     Rate(f64),

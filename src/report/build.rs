@@ -79,6 +79,14 @@ pub(super) fn plan_part(plan: &Plan) -> PlanPart {
     part
 }
 
+impl PlanPart {
+    /// Of what chooses the cases, which are the same for any kernels, epsilons and contracts.
+    pub fn hash_of_cases(&self) -> String {
+        let text = serde_json::to_string(&self.sources).unwrap_or_default();
+        hex(&Sha256::digest(text.as_bytes())[..8])
+    }
+}
+
 /// A source as the plan names it.
 pub(super) fn planned_source(source: &Source) -> PlannedSource {
     PlannedSource {
@@ -265,7 +273,10 @@ fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonP
         PolygonFinding {
             finding: finding.name().to_owned(),
             rate: rate(polygons.count.of(finding), polygons.count.trials(finding), sample),
-            digest: examples.map(|examples| examples.digest).unwrap_or_default().to_string(),
+            digest: examples
+                .map(|examples| examples.digest.clone())
+                .unwrap_or_default()
+                .to_string(),
             first: places.map(|place| source.id::<F>(place.index, None)).collect(),
         }
     };

@@ -3,6 +3,7 @@
 use super::rate::Rate;
 use super::{Key, group_digits};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// How a run compares with its expectations.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -15,6 +16,12 @@ pub struct Conformance {
     pub method: Method,
     /// The file of expectations; none if there is none, and nothing is expected.
     pub expectations: Option<String>,
+    /// What was not compared, and why.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+    /// What changed.
+    #[serde(default)]
+    pub change: NetChange,
     /// Disagreements that were not expected, or are worse than expected.
     pub unexpected: Vec<Deviation>,
     /// Expectations that no longer come true: what was wrong is less so, or gone.
@@ -40,14 +47,48 @@ pub enum Verdict {
     Stale,
 }
 
+/// How many classes of disagreement changed from what is expected to what a run found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct NetChange {
+    /// Fewer cases than expected, or none.
+    pub better: u64,
+    /// More cases than expected.
+    pub worse: u64,
+    /// Cases where none is expected.
+    pub new: u64,
+    /// As many cases as expected, but not the same ones.
+    pub other_cases: u64,
+    /// As expected.
+    pub unchanged: u64,
+}
+
+impl NetChange {
+    /// Whether something got worse.
+    pub fn is_worse(&self) -> bool {
+        0 < self.worse + self.new
+    }
+}
+
+impl fmt::Display for NetChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let NetChange { better, worse, new, other_cases, unchanged } = self;
+        write!(
+            f,
+            "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
+        )
+    }
+}
+
 /// How counts are compared with expectations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// The plan is that of the expectations: the same cases must fail, by count and digest.
+    /// The cases of the plan are those of the expectations: the same must fail, by count and digest.
     CaseByCase,
-    /// The plan is another: rates of samples are compared by their intervals.
+    /// They are others: rates of samples are compared by their intervals.
     Intervals,
 }
 
@@ -121,8 +162,16 @@ impl Conformance {
             Verdict::Disagreements => "does not conform",
             Verdict::Stale => "better than expected: the expectations are stale",
         };
+        let NetChange { worse, new, other_cases, .. } = self.change;
+        let how = [(worse, "worse"), (new, "new"), (other_cases, "of other cases")];
+        let how = how.iter().filter(|(count, _)| 0 < *count);
+        let how = how.map(|(count, how)| format!("{} {how}", group_digits(*count)));
+        let how = match how.collect::<Vec<_>>().join(", ") {
+            how if how.is_empty() => how,
+            how => format!(" ({how})"),
+        };
         format!(
-            "{verdict}: {}, {}, {}",
+            "{verdict}: {}{how}, {}, {}",
             count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
             count(&self.stale, "stale expectation", "stale expectations"),
             count(&self.known, "known disagreement", "known disagreements")

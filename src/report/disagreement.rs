@@ -21,6 +21,9 @@ pub struct Key {
     pub finding: String,
 }
 
+/// In place of a class: all of them together.
+const ALL_CLASSES: &str = "any class";
+
 /// Every kind of finding that a record can hold, with what it means.
 pub const FINDING_KINDS: &[(&str, &str)] = &[
     ("false-miss", "The contract asks for a hit and the kernel reports a miss"),
@@ -47,6 +50,11 @@ impl Key {
             class: class.to_owned(),
             finding: finding.to_owned(),
         }
+    }
+
+    /// The same finding, of all classes together.
+    pub fn of_all_classes(&self) -> Key {
+        Key { class: ALL_CLASSES.to_owned(), ..self.clone() }
     }
 
     /// `kernel (set)`.
@@ -145,6 +153,12 @@ pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {
 
 /// How often a finding of a class occurred in a result, or could have: nought if it did not.
 pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
+    if class == ALL_CLASSES {
+        let together = across(part).into_iter().chain(polygons(part));
+        let together =
+            together.filter(|(name, ..)| *name == finding).map(|(_, rate, ..)| rate.clone());
+        return Rate::sum(&together.chain(part.total.rate(finding)).collect::<Vec<_>>());
+    }
     let together = match class {
         "group" => across(part),
         "polygon" => polygons(part),

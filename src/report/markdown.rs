@@ -58,6 +58,9 @@ fn whole(record: &Record) -> String {
 
 fn conformance_part(conformance: &Conformance, text: &mut String) {
     text.push_str(&format!("## hairline {}\n", conformance.summary()));
+    if let Some(note) = &conformance.note {
+        text.push_str(&format!("\n{}\n", cell(note)));
+    }
     deviations("Unexpected disagreements", &conformance.unexpected, text);
     deviations("Stale expectations", &conformance.stale, text);
 }

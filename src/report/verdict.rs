@@ -18,11 +18,14 @@ pub(super) fn write(
         (_, None) => "nothing is expected: there is no file of expectations".to_owned(),
         (Method::CaseByCase, Some(file)) => format!("compared case by case with {file}"),
         (Method::Intervals, Some(file)) => format!(
-            "compared by intervals with {file}, whose plan is another (it has {} entries)",
+            "compared by intervals with {file}, which is of other cases (it has {} entries)",
             group_digits((conformance.known.len() + conformance.stale.len()) as u64)
         ),
     };
     writeln!(out, "{}, plan {}: {how}", record.provenance.tool, record.result.plan.hash)?;
+    if let Some(note) = &conformance.note {
+        writeln!(out, "{note}")?;
+    }
     if 0 < conformance.too_rare_to_tell {
         writeln!(
             out,

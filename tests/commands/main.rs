@@ -1,6 +1,8 @@
 //! The program `hairline`, command by command, as its users run it. One binary, because each one links
 //! the whole library.
 
+#[cfg(unix)]
+mod action;
 mod attribution;
 mod check;
 mod cli;

@@ -37,10 +37,11 @@ fn how(conformance: &Conformance) -> Markup {
                 "Compared case by case with " code { (shortened(file, 200)) } ". " (known) "."
             }
             (Some(file), Method::Intervals) => {
-                "Compared by intervals with " code { (shortened(file, 200)) } ", whose plan is another. "
+                "Compared by intervals with " code { (shortened(file, 200)) } ", which is of other cases. "
                 (known) "."
             }
         }
+        @if let Some(note) = &conformance.note { " " (note) "." }
         @if 0 < conformance.too_rare_to_tell {
             " " (group_digits(conformance.too_rare_to_tell))
             " classes of disagreement have no entry and are too rare to tell from none."

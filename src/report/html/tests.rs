@@ -1,7 +1,7 @@
 use super::*;
 use crate::report::record::*;
 use crate::report::{
-    Conformance, Deviation, Illustrations, MapPart, Method, ResponsePart, Verdict,
+    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, Verdict,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -121,6 +121,8 @@ fn conformance(deviations: Vec<Deviation>) -> Conformance {
         verdict: Verdict::Disagreements,
         method: Method::CaseByCase,
         expectations: Some(HOSTILE.to_owned()),
+        note: Some(HOSTILE.to_owned()),
+        change: NetChange::default(),
         unexpected: deviations.clone(),
         stale: deviations.clone(),
         known: deviations,

@@ -17,7 +17,8 @@ pub struct FindingPart {
     pub rate: Rate,
     /// Why; none where nothing was attributed.
     pub causes: Option<CausesPart>,
-    /// Of the set of all its cases, whatever their order.
+    /// Of the set of all its cases, whatever their order: a sum, a colon, and a sketch, which shows cases that
+    /// only one of two sets has.
     pub digest: String,
     /// The one with the largest severity.
     pub worst: Example,

@@ -1,0 +1,82 @@
+//! What is known of a run on a target: of each class where the lock file has the cases, otherwise of all
+//! classes of a family together.
+
+use super::{Amount, Entry, Expectations};
+use crate::report::{Disagreement, Example, Key, Rate, ResultPart, disagreements, rate_of};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is expected of a run.
+pub(super) struct Known {
+    /// By class, or of all classes together.
+    pub entries: BTreeMap<Key, Entry>,
+    /// What people should know of the comparison, in one line.
+    pub note: Option<String>,
+}
+
+/// A disagreement of a run, of one class or of all.
+pub(super) struct Found<'a> {
+    /// What it is.
+    pub key: Key,
+    /// How often.
+    pub rate: Rate,
+    /// Of the set of its cases; of one class only.
+    pub digest: Option<&'a str>,
+    /// A case.
+    pub example: Option<Example>,
+}
+
+impl Known {
+    /// Of a run on a target, on the cases of the expectations or on others; `file` is their name.
+    pub fn of(expectations: &Expectations, same_plan: bool, target: &str, file: &str) -> Known {
+        let lock = expectations.lock.as_ref();
+        let cases = lock.and_then(|lock| lock.targets.get(target));
+        let is_rate = |entry: &Entry| matches!(entry.amount, Amount::Rate(_));
+        let without_cases = |entry: &&Entry| is_rate(entry) || (cases.is_none() && same_plan);
+        let mut entries: BTreeMap<Key, Entry> = expectations
+            .entries
+            .iter()
+            .filter(|(_, entry)| without_cases(entry))
+            .map(|(key, entry)| (key.clone(), entry.clone()))
+            .collect();
+        for (key, cases) in cases.into_iter().flatten() {
+            // What people took out is not expected.
+            let entry = expectations.entries.get(&key.of_all_classes());
+            if let Some(entry) = entry.filter(|entry| !is_rate(entry)) {
+                let of_class = Some((cases.of, cases.digest.clone()));
+                let amount = Amount::Count { count: cases.count, cases: of_class };
+                entries.insert(key.clone(), Entry { amount, ..entry.clone() });
+            }
+        }
+        let lacking = match lock {
+            None => format!("{file}.lock is missing"),
+            Some(_) => format!("{file}.lock has no section of {target}"),
+        };
+        let note = match (cases, same_plan) {
+            (Some(_), _) => None,
+            _ if expectations.entries.values().all(is_rate) => None,
+            (None, true) => Some(format!("{lacking}: counts by family are compared, not cases")),
+            (None, false) => Some(format!(
+                "{lacking}, and the counts of {file} are of other cases: they are not used"
+            )),
+        };
+        Known { entries, note }
+    }
+
+    /// What a run found, of each class, or of all together where the expectation is.
+    pub fn found<'a>(&self, result: &'a ResultPart) -> Vec<Found<'a>> {
+        let results = result.by_place();
+        let mut together: BTreeSet<Key> = BTreeSet::new();
+        let mut all: Vec<Found> = Vec::new();
+        for Disagreement { key, rate, digest, example } in disagreements(result) {
+            let whole = key.of_all_classes();
+            if !self.entries.contains_key(&whole) {
+                all.push(Found { key, rate: rate.clone(), digest: Some(digest), example });
+            } else if together.insert(whole.clone()) {
+                let part = results[&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]];
+                let rate = rate_of(part, &whole.class, &whole.finding);
+                all.push(Found { key: whole, rate, digest: None, example });
+            }
+        }
+        all
+    }
+}

@@ -1,0 +1,216 @@
+//! The lock file: for each target the cases behind the counts, one line a class, so that a difference of two
+//! versions shows what changed.
+
+use super::{Amount, Expectations};
+use crate::audit::Digest;
+use crate::corpus::InputError;
+use crate::report::Key;
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+
+/// The first word of the file, after its comment.
+const SCHEMA: &str = "hairline-expectations-lock/1";
+
+/// The cases behind the counts of expectations.
+#[derive(Clone, Debug, Default)]
+pub struct Lock {
+    /// The hash of what chooses the cases, which are the same on all targets.
+    pub cases: String,
+    /// By target, as a record's provenance names it, and by class of finding.
+    pub targets: BTreeMap<String, BTreeMap<Key, Cases>>,
+}
+
+/// The cases of one class that show a finding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cases {
+    /// How many.
+    pub count: u64,
+    /// Of how many.
+    pub of: u64,
+    /// Of the set of them.
+    pub digest: String,
+}
+
+impl Lock {
+    /// Reads a lock file; `file` is its name in errors.
+    pub fn read(text: &str, file: &str) -> Result<Lock, InputError> {
+        let mut lock = Lock::default();
+        let mut section = None;
+        for (number, line) in (1..).zip(text.lines()) {
+            let wrong = |expected: String| {
+                InputError::at(
+                    file,
+                    number,
+                    format!("expected {expected}; `hairline check --bless` writes this file"),
+                )
+            };
+            if line.is_empty() || line.starts_with('#') {
+                continue;
+            }
+            if lock.cases.is_empty() {
+                let cases = line.strip_prefix(SCHEMA).and_then(|rest| rest.strip_prefix(" cases "));
+                cases
+                    .ok_or_else(|| wrong(format!("'{SCHEMA} cases HASH'")))?
+                    .clone_into(&mut lock.cases);
+            } else if let Some(target) =
+                line.strip_prefix('[').and_then(|line| line.strip_suffix(']'))
+            {
+                section = Some(lock.targets.entry(target.to_owned()).or_default());
+            } else {
+                let section = section
+                    .as_mut()
+                    .ok_or_else(|| wrong("a target, as [x86_64-linux]".to_owned()))?;
+                let (key, cases) = entry(line).map_err(wrong)?;
+                if section.insert(key, cases).is_some() {
+                    return Err(wrong("each class of a finding once".to_owned()));
+                }
+            }
+        }
+        Ok(lock)
+    }
+
+    /// By finding on a family: the count of the target that has the most.
+    pub fn most(&self) -> BTreeMap<Key, u64> {
+        let mut most: BTreeMap<Key, u64> = BTreeMap::new();
+        for target in self.targets.values() {
+            let mut sums: BTreeMap<Key, u64> = BTreeMap::new();
+            for (key, cases) in target {
+                let sum = sums.entry(key.of_all_classes()).or_default();
+                *sum = sum.saturating_add(cases.count);
+            }
+            for (key, sum) in sums {
+                let most = most.entry(key).or_default();
+                *most = sum.max(*most);
+            }
+        }
+        most
+    }
+}
+
+fn entry(line: &str) -> Result<(Key, Cases), String> {
+    let shape = || {
+        "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest"
+            .to_owned()
+    };
+    let [kernel, set, scalar, family, class, finding, count, of, digest] =
+        line.split('\t').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
+    let [kernel, set, scalar, family, class, finding] =
+        [kernel, set, scalar, family, class, finding].map(str::to_owned);
+    let number = |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
+    let (count, of) = (number(count)?, number(of)?);
+    if count == 0 || of < count {
+        return Err(format!("a count from 1 to {of}, not {count}"));
+    }
+    let digest = digest.to_owned();
+    Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
+    Ok((Key { kernel, set, scalar, family, class, finding }, Cases { count, of, digest }))
+}
+
+impl fmt::Display for Lock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "# The cases behind the counts, one line a class. `hairline check --bless` writes this file."
+        )?;
+        writeln!(f, "{SCHEMA} cases {}", self.cases)?;
+        for (target, entries) in &self.targets {
+            writeln!(f, "[{target}]")?;
+            for (Key { kernel, set, scalar, family, class, finding }, cases) in entries {
+                let Cases { count, of, digest } = cases;
+                writeln!(
+                    f,
+                    "{kernel}\t{set}\t{scalar}\t{family}\t{class}\t{finding}\t{count}\t{of}\t{digest}"
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Expectations {
+    /// Checks that the reviewed counts are those of the lock file: that of the target with the most.
+    ///
+    /// Errors: file and line of a count that differs, and what to do.
+    pub fn agree(&self, file: &str) -> Result<(), InputError> {
+        let Some(lock) = &self.lock else { return Ok(()) };
+        let advice = "put back what was there, or let `hairline check --bless` write both files";
+        if lock.cases != self.cases {
+            let message =
+                format!("cases {}, but {file}.lock has cases {}: {advice}", self.cases, lock.cases);
+            return Err(InputError::of(file, message));
+        }
+        let most = lock.most();
+        let keys = most.keys().chain(self.entries.keys().filter(|key| !most.contains_key(key)));
+        for key in keys {
+            let locked = most.get(key).copied().unwrap_or(0);
+            let entry = self.entries.get(key);
+            let count = match entry.map(|entry| &entry.amount) {
+                Some(Amount::Rate(_)) => continue,
+                Some(Amount::Count { count, .. }) => *count,
+                None => 0,
+            };
+            if count != locked {
+                let mut message = String::new();
+                let place = [&key.scalar, &key.family, &key.finding].map(String::as_str).join(" ");
+                let _ = write!(
+                    message,
+                    "{} {place}: {count} here, {locked} in {file}.lock: {advice}",
+                    key.row()
+                );
+                return Err(InputError {
+                    line: entry.map(|entry| entry.line),
+                    ..InputError::of(file, message)
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LINE: &str = "cramer\tsource\tf32\ttiny\tparallel\tfalse-hit\t3\t9\t0a:";
+
+    fn file(lines: &str) -> String {
+        format!("# comment\n{SCHEMA} cases 0\n[pdp11-unix]\n{lines}\n")
+    }
+
+    #[test]
+    fn what_is_written_is_read_and_the_target_with_the_most_counts() {
+        let more = LINE.replace("parallel", "coplanar");
+        let text = file(&format!("{LINE}\n{more}"))
+            + "[vax-vms]\n"
+            + &LINE.replace("\t3\t", "\t5\t")
+            + "\n";
+        let lock = Lock::read(&text, "e.lock").unwrap();
+        let most: Vec<(String, u64)> =
+            lock.most().into_iter().map(|(key, n)| (key.to_string(), n)).collect();
+        assert_eq!(most, [("cramer (source) f32 tiny: false-hit of any class".to_owned(), 6)]);
+        assert_eq!(Lock::read(&lock.to_string(), "e.lock").unwrap().targets, lock.targets);
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        for (from, to, expected) in [
+            (
+                "-lock/1",
+                "-lock/9",
+                "e.lock:2: expected 'hairline-expectations-lock/1 cases HASH'; ",
+            ),
+            ("[pdp11-unix]", "pdp11-unix", "e.lock:3: expected a target, as [x86_64-linux]; "),
+            ("\tf32\t", " f32 ", "e.lock:4: expected 9 words between tabs: kernel, "),
+            ("\t3\t", "\tthree\t", "e.lock:4: expected a number, not 'three'; "),
+            ("\t3\t", "\t0\t", "e.lock:4: expected a count from 1 to 9, not 0; "),
+            ("\t3\t", "\t10\t", "e.lock:4: expected a count from 1 to 9, not 10; "),
+            ("0a:", "0a", "e.lock:4: expected the digest of a set of cases; "),
+            (LINE, &format!("{LINE}\n{LINE}"), "e.lock:5: expected each class of a finding once; "),
+        ] {
+            let error =
+                Lock::read(&file(LINE).replace(from, to), "e.lock").unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{expected}: {error}");
+            assert!(error.ends_with("`hairline check --bless` writes this file"), "{error}");
+        }
+    }
+}
