@@ -20,11 +20,22 @@ pub fn read<R: BufRead>(
     reader: R,
     file: &str,
 ) -> impl Iterator<Item = Result<StoredCase, InputError>> + use<R> {
-    let file = file.to_owned();
-    TextLines::new(reader, &file, LONGEST_LINE).map(move |line| {
-        let (number, text) = line?;
-        case_json::parse(&text, number).map_err(|message| InputError::at(&file, number, message))
-    })
+    let name = file.to_owned();
+    texts(reader, file)
+        .map(move |line| line.and_then(|(number, text)| case_of(&text, number, &name)))
+}
+
+/// The lines of a corpus file with their numbers, for [`case_of`]; the errors are those of [`read`].
+pub fn texts<R: BufRead>(
+    reader: R,
+    file: &str,
+) -> impl Iterator<Item = Result<(usize, String), InputError>> + use<R> {
+    TextLines::new(reader, file, LONGEST_LINE)
+}
+
+/// The case that stands in a line.
+pub fn case_of(text: &str, line: usize, file: &str) -> Result<StoredCase, InputError> {
+    case_json::parse(text, line).map_err(|message| InputError::at(file, line, message))
 }
 
 /// A case as one line without its end, with its bit patterns. [`read`] gives the same case back,

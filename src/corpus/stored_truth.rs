@@ -129,9 +129,16 @@ impl StoredTruth {
         }
         let hits_closed = self.hits_closed.map(|hits| hits.map(|hits| hits.to_string()));
         same("hits_closed", &hits_closed, line.hits_closed.map(boolean_name))?;
-        same("t_exact", &self.t_exact, line.t_exact.as_deref())?;
-        same("u_exact", &self.u_exact, line.u_exact.as_deref())?;
-        same("v_exact", &self.v_exact, line.v_exact.as_deref())
+        let text = |field: &Stored<String>| field.clone().flatten();
+        same("t_exact", &self.t_exact, text(&line.t_exact).as_deref())?;
+        same("u_exact", &self.u_exact, text(&line.u_exact).as_deref())?;
+        same("v_exact", &self.v_exact, text(&line.v_exact).as_deref())
+    }
+
+    /// Whether a fraction is stored, or null for one.
+    pub fn has_fractions(&self) -> bool {
+        let of_contact = self.contact.iter().flatten().any(|contact| contact.t.is_some());
+        of_contact || [&self.t_exact, &self.u_exact, &self.v_exact].into_iter().any(Option::is_some)
     }
 }
 
@@ -148,12 +155,12 @@ impl From<&TruthLine> for StoredTruth {
             contact: Some(line.contact.as_ref().map(|contact| StoredContact {
                 kind: word(Some(contact.kind)),
                 feature: word(contact.feature),
-                t: Some(contact.t.clone()),
+                t: contact.t.clone(),
             })),
             hits_closed: Some(line.hits_closed),
-            t_exact: Some(line.t_exact.clone()),
-            u_exact: Some(line.u_exact.clone()),
-            v_exact: Some(line.v_exact.clone()),
+            t_exact: line.t_exact.clone(),
+            u_exact: line.u_exact.clone(),
+            v_exact: line.v_exact.clone(),
         }
     }
 }
@@ -176,7 +183,7 @@ impl StoredContact {
         same("contact.kind", &self.kind, Some(contact.kind))?;
         same("contact.feature", &self.feature, contact.feature)?;
         let t = self.t.as_ref().map(|t| t.as_ref().map(ends));
-        same("contact.t", &t, contact.t.as_ref().map(ends).as_deref())
+        same("contact.t", &t, contact.t.as_ref().and_then(Option::as_ref).map(ends).as_deref())
     }
 }
 

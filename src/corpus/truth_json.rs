@@ -24,12 +24,15 @@ pub struct TruthLine {
     pub contact: Option<ContactLine>,
     /// Whether the ray on its interval meets the closed triangle; null for invalid input.
     pub hits_closed: Option<bool>,
-    /// t of a transversal case.
-    pub t_exact: Option<String>,
+    /// t of a transversal case. The fractions are left out where nobody asked for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub t_exact: Option<Option<String>>,
     /// The weight of b.
-    pub u_exact: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub u_exact: Option<Option<String>>,
     /// The weight of c.
-    pub v_exact: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub v_exact: Option<Option<String>>,
 }
 
 /// A contact as JSON.
@@ -39,13 +42,27 @@ pub struct ContactLine {
     pub kind: &'static str,
     /// Where the point lies; null for the other kinds.
     pub feature: Option<&'static str>,
-    /// The first and the last t, equal for a point; null if there is no contact.
-    pub t: Option<[String; 2]>,
+    /// The first and the last t, equal for a point; null if there is no contact. Left out with the fractions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub t: Option<Option<[String; 2]>>,
 }
 
 impl TruthLine {
     /// The truth of a case and the numbers behind it. What `exact` leaves out is null.
     pub fn new(name: Option<&str>, truth: &Truth, exact: &ExactValues) -> TruthLine {
+        let mut line = TruthLine::without_fractions(name, truth);
+        let text = |value: &Option<BigRational>| Some(value.as_ref().map(fraction_text));
+        (line.t_exact, line.u_exact, line.v_exact) =
+            (text(&exact.t), text(&exact.u), text(&exact.v));
+        if let Some(contact) = &mut line.contact {
+            let ends = exact.contact_t.as_ref().filter(|_| contact.kind != "none");
+            contact.t = Some(ends.map(|ends| ends.each_ref().map(fraction_text)));
+        }
+        line
+    }
+
+    /// The truth of a case.
+    pub fn without_fractions(name: Option<&str>, truth: &Truth) -> TruthLine {
         let crossing = truth.crossing();
         let contact = match truth {
             Truth::Coplanar(contact) | Truth::Degenerate(contact) => Some(contact),
@@ -57,24 +74,23 @@ impl TruthLine {
             facing: crossing.map(|crossing| crossing.facing.name()),
             t: crossing.map(|crossing| crossing.place.name()),
             feature: crossing.map(|crossing| crossing.feature.name()),
-            contact: contact.map(|contact| ContactLine::new(contact, exact.contact_t.as_ref())),
+            contact: contact.map(ContactLine::new),
             hits_closed: truth.hits_closed(),
-            t_exact: exact.t.as_ref().map(fraction_text),
-            u_exact: exact.u.as_ref().map(fraction_text),
-            v_exact: exact.v.as_ref().map(fraction_text),
+            t_exact: None,
+            u_exact: None,
+            v_exact: None,
         }
     }
 }
 
 impl ContactLine {
-    fn new(contact: &Contact, t: Option<&[BigRational; 2]>) -> ContactLine {
+    fn new(contact: &Contact) -> ContactLine {
         let (kind, feature) = match contact.kind {
             ContactKind::None => ("none", None),
             ContactKind::Point(feature) => ("point", Some(feature.name())),
             ContactKind::Segment => ("segment", None),
         };
-        let t = t.filter(|_| contact.kind != ContactKind::None);
-        ContactLine { kind, feature, t: t.map(|ends| ends.each_ref().map(fraction_text)) }
+        ContactLine { kind, feature, t: None }
     }
 }
 

@@ -261,10 +261,21 @@ const CASE: &str = r#"{"name":"mid","scalar":"f32","origin":[1,0,1],"direction":
 fn truth_prints_one_json_line_a_case() {
     let folder = scratch("truth");
     let coplanar = r#"{"scalar":"f64","origin":[-1,1,0],"direction":[1,0,0],"a":[0,0,0],"b":[4,0,0],"c":[0,4,0],"t_max":2}"#;
-    let output = hairline_in(&folder, &["truth", "-"], &format!("{CASE}\n\n{coplanar}\n"));
-    assert_eq!(code(&output), 0);
-    let lines: Vec<serde_json::Value> =
-        text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let run = |arguments: &[&str]| -> Vec<serde_json::Value> {
+        let output = hairline_in(&folder, arguments, &format!("{CASE}\n\n{coplanar}\n"));
+        assert_eq!(code(&output), 0);
+        text(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    };
+    let (lines, brief) = (run(&["truth", "--exact", "-"]), run(&["truth", "-"]));
+    // Without --exact the same but for the fractions, which are left out.
+    for (line, brief) in lines.iter().zip(&brief) {
+        let mut line = line.as_object().unwrap().clone();
+        line.retain(|field, _| !field.ends_with("_exact"));
+        if let Some(contact) = line["contact"].as_object_mut() {
+            contact.remove("t");
+        }
+        assert_eq!(&serde_json::Value::Object(line), brief);
+    }
     let expected = serde_json::json!({
         "name": "mid", "class": "transversal", "facing": "front", "t": "within", "feature": "edge_ab",
         "contact": null, "hits_closed": true, "t_exact": "1/1", "u_exact": "1/2", "v_exact": "0/1"
@@ -507,6 +518,42 @@ fn generated_cases_carry_truths_that_verify() {
     let output = hairline_in(&folder, &["truth", "fan.jsonl"], "");
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert!(text(&output.stdout).lines().count() >= 30 * 4);
+}
+
+#[test]
+fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
+    let folder = scratch("truth-order");
+    let mut all = String::new();
+    for family in ["coplanar", "degenerate", "edge-near", "range-ends", "invalid"] {
+        for scalar in ["f32", "f64"] {
+            let flags = ["--family", family, "--scalar", scalar, "-n", "700"];
+            let made = hairline(&[&["corpus", "generate"][..], &flags].concat());
+            all += &text(&made.stdout);
+        }
+    }
+    fs::write(folder.join("all.jsonl"), &all).unwrap();
+    // More lines than are decided at once; with fractions every line is decided by the definition.
+    let run = |arguments: &[&str]| text(&hairline_in(&folder, arguments, "").stdout);
+    let (fast, exact) = (run(&["truth", "all.jsonl"]), run(&["truth", "--exact", "all.jsonl"]));
+    assert!(5000 < fast.lines().count());
+    for (fast, exact) in fast.lines().zip(exact.lines()) {
+        let [fast, exact]: [serde_json::Value; 2] =
+            [fast, exact].map(|line| serde_json::from_str(line).unwrap());
+        for field in ["name", "class", "facing", "t", "feature", "hits_closed"] {
+            assert_eq!(fast[field], exact[field], "{exact}");
+        }
+        assert_eq!(fast["contact"]["kind"], exact["contact"]["kind"], "{exact}");
+    }
+    // A wrong line stops where it stands, and names itself.
+    fs::write(folder.join("all.jsonl"), all.replacen("\"scalar\":\"f64\"", "\"scalar\":\"f6\"", 1))
+        .unwrap();
+    let output = hairline_in(&folder, &["truth", "all.jsonl"], "");
+    let line = all.lines().position(|line| line.contains("\"scalar\":\"f64\"")).unwrap() + 1;
+    let error = text(&output.stderr);
+    assert!(
+        code(&output) == 65 && error.contains(&format!("all.jsonl:{line}: scalar: ")),
+        "{error}"
+    );
 }
 
 #[test]
