@@ -29,6 +29,7 @@ open!(
     selfcheck,
     spawn,
     truth,
+    vectors,
 );
 
 #[cfg(feature = "cli")]

@@ -52,6 +52,7 @@ mod orientation;
 mod prove;
 mod selfcheck;
 mod spawn;
+mod vectors;
 
 mod report;
 

@@ -40,6 +40,8 @@ mod settings;
 mod sources;
 mod spawn;
 mod truth;
+mod vectors;
+mod verify;
 
 use exit::{Failure, Status};
 
@@ -95,6 +97,10 @@ enum Command {
     Selfcheck(selfcheck::SelfcheckArguments),
     /// Verify the stored cases, or write them again
     Corpus(corpus::CorpusArguments),
+    /// Write test vectors: cases with their answers, for programs that do not run hairline
+    Vectors(vectors::VectorsArguments),
+    /// Judge what a product answered to the test vectors
+    Verify(verify::VerifyArguments),
     /// Run orientation predicates on families of points, and report wrong signs
     Orient(Box<orient::OrientArguments>),
     /// The old names of the commands of `fuzz`.
@@ -119,7 +125,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
-    ("Bring your own", &["generate", "judge", "truth"]),
+    ("Bring your own", &["generate", "judge", "truth", "vectors", "verify"]),
     ("Trust it", &["selfcheck", "corpus", "orient"]),
 ];
 
@@ -227,6 +233,8 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),
         Command::Corpus(arguments) => corpus::run(&arguments),
+        Command::Vectors(arguments) => vectors::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
         Command::Orient(arguments) => orient::run(&arguments),
         Command::OfFuzz(command) => command.run(),
         Command::OfCheck(command) => command.run(),

@@ -104,7 +104,7 @@ fn binary_exponent(text: &str) -> Option<i64> {
 /// The float nearest to `integer * 2^exponent`, or to a little more where `inexact` (by less than
 /// one unit of an integer that then has more than 120 bits); ties to even. `integer` is below
 /// 2^124.
-fn rounded<F: Float>(integer: u128, inexact: bool, exponent: i64) -> F {
+pub(crate) fn rounded<F: Float>(integer: u128, inexact: bool, exponent: i64) -> F {
     if integer == 0 {
         return F::zero();
     }

@@ -79,7 +79,7 @@ impl ContactLine {
 }
 
 /// `p/q`, reduced, q > 0.
-pub(super) fn fraction_text(value: &BigRational) -> String {
+pub(crate) fn fraction_text(value: &BigRational) -> String {
     let value = value.reduced();
     format!("{}/{}", value.numer(), value.denom())
 }

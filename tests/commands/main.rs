@@ -29,4 +29,5 @@ mod shards;
 mod shrink;
 mod spawn;
 mod variants;
+mod vectors;
 mod worst;

@@ -20,4 +20,5 @@ mod severity;
 mod spawn;
 mod strategy;
 mod trials;
+mod vectors;
 mod watertight;

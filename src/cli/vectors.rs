@@ -1,0 +1,122 @@
+//! `hairline vectors`: test vectors for programs that do not run hairline.
+
+use super::exit::{Failure, Status};
+use super::output::{write_result, write_results};
+use crate::vectors::{Test, binary, c, core, csv, digest, json, numbered};
+use clap::{Args, ValueEnum};
+use rayon::prelude::*;
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Which tests, and in what form.
+#[derive(Args)]
+pub struct VectorsArguments {
+    /// The folder to write the core set to: JSON by topic, all in one CSV, and their digest
+    #[arg(default_value = "vectors", value_name = "DIR", conflicts_with = "format")]
+    path: String,
+
+    /// Write one file of this format instead
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+
+    /// The first N tests of the full set instead of the core set
+    #[arg(short = 'n', long, value_name = "N", requires = "format", value_parser = clap::value_parser!(u64).range(1..=1 << 32))]
+    count: Option<u64>,
+
+    /// Where that file goes; - is standard output
+    #[arg(short, long, default_value = "-", value_name = "FILE", requires = "format")]
+    output: String,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// A JSON object a line
+    Json,
+    /// A row a triangle
+    Csv,
+    /// A header with an array
+    C,
+    /// Records of 184 bytes
+    Binary,
+}
+
+/// How many tests are made at a time: memory does not grow with their number.
+const CHUNK: u64 = 1 << 13;
+
+/// Runs the command.
+pub fn run(arguments: &VectorsArguments) -> Result<Status, Failure> {
+    match arguments.format {
+        None => write_core(Path::new(&arguments.path))?,
+        Some(format) => write_result(&arguments.output, |out| match arguments.count {
+            None => write_tests(out, format),
+            Some(count) => write_numbered(out, format, count),
+        })?,
+    }
+    Ok(Status::Success)
+}
+
+fn write_core(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| Failure::of_path(folder, &error))?;
+    let topics = core();
+    let mut files: Vec<(String, String)> =
+        topics.iter().map(|(topic, tests)| json::topic_file(topic, tests)).collect();
+    let digest = digest(&files);
+    let rows: String = topics.iter().flat_map(|(_, tests)| tests).map(csv::rows).collect();
+    files.push(("core.csv".to_owned(), format!("{}\n{rows}", csv::HEADER)));
+    files.push(("sha256.txt".to_owned(), format!("{digest}\n")));
+    let paths: Vec<String> =
+        files.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
+    let outputs = files.iter().map(|(_, text)| text).zip(paths.iter().map(String::as_str));
+    write_results(outputs.collect(), |text, _, out| out.write_all(text.as_bytes()))?;
+    let count: usize = topics.iter().map(|(_, tests)| tests.len()).sum();
+    eprintln!("{}: {count} tests in {} topics, SHA-256 {digest}", folder.display(), topics.len());
+    Ok(())
+}
+
+fn write_tests(out: &mut dyn Write, format: Format) -> io::Result<()> {
+    let topics = core();
+    let files: Vec<_> =
+        topics.iter().map(|(topic, tests)| json::topic_file(topic, tests)).collect();
+    out.write_all(&head(format, &digest(&files)))?;
+    for (number, test) in topics.iter().flat_map(|(_, tests)| tests).enumerate() {
+        out.write_all(&written(format, number as u64, test))?;
+    }
+    out.write_all(tail(format))
+}
+
+fn write_numbered(out: &mut dyn Write, format: Format, count: u64) -> io::Result<()> {
+    out.write_all(&head(format, &format!("the first {count} of the full set")))?;
+    for start in (0..count).step_by(CHUNK as usize) {
+        let numbers = start..count.min(start + CHUNK);
+        let of_number = |number| numbered(number).map(|test| written(format, number, &test));
+        let parts: Vec<Option<Vec<u8>>> = numbers.into_par_iter().map(of_number).collect();
+        parts.iter().flatten().try_for_each(|part| out.write_all(part))?;
+    }
+    out.write_all(tail(format))
+}
+
+fn head(format: Format, digest: &str) -> Vec<u8> {
+    match format {
+        Format::Json => Vec::new(),
+        Format::Csv => format!("{}\n", csv::HEADER).into_bytes(),
+        Format::C => c::head(digest).into_bytes(),
+        Format::Binary => binary::head(),
+    }
+}
+
+fn written(format: Format, number: u64, test: &Test) -> Vec<u8> {
+    match format {
+        Format::Json => format!("{}\n", json::line(test)).into_bytes(),
+        Format::Csv => csv::rows(test).into_bytes(),
+        Format::C => c::rows(test).into_bytes(),
+        Format::Binary => binary::records(number, test),
+    }
+}
+
+fn tail(format: Format) -> &'static [u8] {
+    match format {
+        Format::C => c::TAIL.as_bytes(),
+        Format::Json | Format::Csv | Format::Binary => b"",
+    }
+}

@@ -1,0 +1,237 @@
+//! Floor 4: test vectors for programs that do not run hairline: rays, triangles and what is right, as data.
+//! `source` says which tests there are; one format a file.
+
+#![forbid(unsafe_code)]
+
+pub mod binary;
+pub mod c;
+pub mod csv;
+mod flags;
+pub mod json;
+mod number;
+pub mod profile;
+mod source;
+
+pub use source::{Topic, core, numbered};
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::contract::{Boundary, Contract, Demand, Extent};
+use crate::corpus::hex;
+use crate::family::Grouping;
+use crate::judge::{GroupTruth, Obligation, group_obligation, obligation};
+use crate::oracle::define;
+use crate::truth::{Crossing, Place, Truth};
+use num_rational::BigRational;
+use num_traits::One;
+use number::Number;
+use sha2::{Digest, Sha256};
+
+/// Every point of the closed triangle is a hit at every t of the closed interval, a coplanar triangle and
+/// one without area included. Invalid input is free.
+const CLOSED: Contract = Contract {
+    extent: Extent::Interval,
+    coplanar: Demand::Hit,
+    degenerate: Demand::Hit,
+    invalid: Demand::Free,
+    ..Contract::CLOSED_RAY
+};
+
+/// Only a line that crosses the plane hits: inside the triangle, strictly between the ends of the interval.
+const OPEN: Contract = Contract {
+    boundary: Boundary::Open,
+    ends: Boundary::Open,
+    coplanar: Demand::Miss,
+    degenerate: Demand::Miss,
+    ..CLOSED
+};
+
+/// One test: a ray and a triangle, or a ray and the triangles of a group.
+pub struct Test {
+    /// A name, and a digest of the numbers: an id never comes back with other numbers.
+    pub id: String,
+    /// What the test is, in one line.
+    pub comment: String,
+    /// Where a published case comes from.
+    pub source: Option<String>,
+    /// What may go wrong, in words that each file explains.
+    pub flags: Vec<&'static str>,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Origin, direction, t_min and t_max.
+    ray: [Number; 8],
+    /// One, or those of the group.
+    pub triangles: Vec<Triangle>,
+    /// What is right of the triangles of a group together; none for a single triangle.
+    pub group: Option<Group>,
+}
+
+/// A triangle of a test, and what is right on it.
+pub struct Triangle {
+    /// The coordinates of a, b and c.
+    numbers: [Number; 9],
+    /// The exact truth.
+    pub truth: Truth,
+    /// t, u, v and the margin, if the line crosses the plane.
+    values: Option<[BigRational; 4]>,
+}
+
+/// What is right of the triangles of a group together.
+#[derive(Clone, Copy)]
+pub struct Group {
+    /// How the triangles lie to each other and to the ray.
+    pub truth: GroupTruth,
+    /// How many triangles the ray hits under the closed reading, and how many under the open one.
+    pub counts: [usize; 2],
+}
+
+/// What a test is called, and what is known beside its numbers.
+struct Label {
+    /// The id without its digest.
+    name: String,
+    comment: String,
+    source: Option<String>,
+    /// The flag of its family.
+    flag: Option<&'static str>,
+}
+
+impl Test {
+    /// Of a case, or of the cases of a group; none if nothing is demanded of the group.
+    fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<Test> {
+        let triangles: Vec<Triangle> = cases.iter().map(Triangle::new).collect();
+        let truths: Vec<Truth> = triangles.iter().map(|triangle| triangle.truth).collect();
+        let group = grouping.shares_a_ray().then(|| Group::new(cases, &truths, grouping));
+        if group.is_some_and(|group| group.truth == GroupTruth::Free) {
+            return None;
+        }
+        let [[ox, oy, oz], [dx, dy, dz], ..] = cases[0].vectors();
+        let (t_min, t_max) = (cases[0].ray.t_min, cases[0].ray.t_max);
+        let ray = [ox, oy, oz, dx, dy, dz, t_min, t_max].map(Number::of);
+        let Label { name, comment, source, flag } = label;
+        let mut flags: Vec<&str> = flag.into_iter().collect();
+        let of_truths = truths.iter().flat_map(flags::of_truth);
+        of_truths.for_each(|flag| {
+            if !flags.contains(&flag) {
+                flags.push(flag)
+            }
+        });
+        let mut test =
+            Test { id: name, comment, source, flags, scalar: F::NAME, ray, triangles, group };
+        test.id = format!("{}-{}", test.id, test.digest());
+        Some(test)
+    }
+
+    /// The bit patterns of the ray and then of each triangle, in hexadecimal between spaces.
+    fn bits(&self) -> String {
+        let triangles = self.triangles.iter().flat_map(|triangle| &triangle.numbers);
+        let words: Vec<String> = self.ray.iter().chain(triangles).map(Number::bits).collect();
+        words.join(" ")
+    }
+
+    /// The first eight digits of the SHA-256 of the scalar and the bit patterns.
+    fn digest(&self) -> String {
+        hex(&Sha256::digest(format!("{} {}", self.scalar, self.bits())))[..8].to_owned()
+    }
+}
+
+impl Triangle {
+    fn new<F: Float>(case: &Case<F>) -> Triangle {
+        let definition = define(case);
+        let vertices = case.vectors();
+        let exact = definition.exact;
+        let values = exact.t.zip(exact.u).zip(exact.v).map(|((t, u), v)| {
+            let w = BigRational::one() - &u - &v;
+            let margin = (&u).min(&v).min(&w).clone();
+            [t, u, v, margin]
+        });
+        let numbers = std::array::from_fn(|i| Number::of(vertices[2 + i / 3][i % 3]));
+        Triangle { numbers, truth: definition.truth, values }
+    }
+
+    /// Hit, miss, or free for invalid input, if edges, vertices, ends and every contact are hits.
+    pub fn closed(&self) -> Obligation {
+        obligation(&self.truth, &CLOSED, false)
+    }
+
+    /// The same if none of them is.
+    pub fn open(&self) -> Obligation {
+        obligation(&self.truth, &OPEN, false)
+    }
+
+    /// What is demanded whatever the reading.
+    pub fn result(&self) -> Obligation {
+        result(&self.truth)
+    }
+
+    /// Why the test is free, in the words of a profile.
+    fn free_because(&self) -> Vec<&'static str> {
+        let crossing = |is: fn(&Crossing) -> bool| self.truth.crossing().is_some_and(is);
+        let is_class = |name: &str| self.truth.class_name() == name;
+        let reasons = [
+            ("boundary", crossing(|c| c.feature.is_edge() || c.feature.is_vertex())),
+            ("ends", crossing(|c| matches!(c.place, Place::AtMin | Place::AtMax))),
+            ("coplanar", is_class("coplanar")),
+            ("degenerate", is_class("degenerate")),
+            ("invalid", is_class("invalid")),
+        ];
+        let free = self.result() == Obligation::Free;
+        reasons.into_iter().filter(|(_, holds)| free && *holds).map(|(name, _)| name).collect()
+    }
+
+    /// Where the line meets the plane, or the class of a line that does not cross it.
+    fn place(&self) -> &'static str {
+        place(&self.truth)
+    }
+}
+
+/// What is demanded whatever the reading.
+fn result(truth: &Truth) -> Obligation {
+    let [closed, open] = [CLOSED, OPEN].map(|reading| obligation(truth, &reading, false));
+    if closed == open { closed } else { Obligation::Free }
+}
+
+/// Where a line meets the plane, or the class of a line that does not cross it.
+fn place(truth: &Truth) -> &'static str {
+    truth.crossing().map_or(truth.class_name(), |crossing| crossing.feature.name())
+}
+
+impl Group {
+    fn new<F: Float>(cases: &[Case<F>], truths: &[Truth], grouping: Grouping) -> Group {
+        let hits = |reading| {
+            let asked = truths.iter().map(|truth| obligation(truth, &reading, false));
+            asked.filter(|asked| *asked == Obligation::MustHit).count()
+        };
+        let truth = group_obligation(cases, truths, &CLOSED, grouping);
+        Group { truth, counts: [CLOSED, OPEN].map(hits) }
+    }
+
+    /// The number of hits that is right.
+    pub fn result(&self) -> &'static str {
+        match self.truth {
+            _ if self.counts == [1, 1] => "exactly-one",
+            GroupTruth::Crossing => "at-least-one",
+            GroupTruth::Fold { .. } | GroupTruth::Free => "free",
+        }
+    }
+
+    /// Whether the line passes an odd or an even number of the triangles.
+    pub fn parity(&self) -> &'static str {
+        if self.truth == (GroupTruth::Fold { odd: false }) { "even" } else { "odd" }
+    }
+}
+
+/// The word in the vectors.
+pub fn word(obligation: Obligation) -> &'static str {
+    match obligation {
+        Obligation::MustHit => "hit",
+        Obligation::MustMiss => "miss",
+        Obligation::Free => "free",
+    }
+}
+
+/// The SHA-256 of the core set: of its JSON files, in the order of their names.
+pub fn digest(files: &[(String, String)]) -> String {
+    let mut sum = Sha256::new();
+    files.iter().for_each(|(_, text)| sum.update(text));
+    hex(&sum.finalize())
+}

@@ -1,0 +1,116 @@
+//! Numbers of the vectors as text: bit patterns, hexadecimal floats, and the doubles nearest to fractions.
+
+use crate::arith::{Float, decompose};
+use crate::corpus::number::rounded;
+use num_bigint::Sign;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+/// A float of either scalar.
+#[derive(Clone, Copy)]
+pub(super) struct Number {
+    /// In the low bits.
+    pub pattern: u64,
+    value: f64,
+    digits: usize,
+}
+
+impl Number {
+    pub fn of<F: Float>(x: F) -> Number {
+        Number { pattern: x.to_bits(), value: x.to_f64(), digits: x.hex().len() }
+    }
+
+    /// The bit pattern, all digits.
+    pub fn bits(&self) -> String {
+        format!("{:0width$x}", self.pattern, width = self.digits)
+    }
+
+    /// As C, Python and Java read it: `-0x1.8p-3`, `Infinity`, `NaN`.
+    pub fn text(&self) -> String {
+        let sign = if self.value.is_sign_negative() { "-" } else { "" };
+        if self.value.is_nan() {
+            return "NaN".to_owned();
+        }
+        if self.value.is_infinite() {
+            return format!("{sign}Infinity");
+        }
+        let (odd, exponent) = decompose(self.value.abs());
+        if odd == 0 {
+            return format!("{sign}0x0p0");
+        }
+        let places = odd.ilog2();
+        // What follows the leading one, from the left.
+        let fraction = (u128::from(odd as u64) << (64 - places)) as u64;
+        let fraction = format!("{fraction:016x}");
+        let fraction = fraction.trim_end_matches('0');
+        let point = if fraction.is_empty() { "" } else { "." };
+        format!("{sign}0x1{point}{fraction}p{}", exponent + i64::from(places))
+    }
+}
+
+/// The double nearest to a fraction, ties to even; infinite beyond the largest.
+pub(super) fn nearest(value: &BigRational) -> f64 {
+    let (numerator, denominator) = (value.numer().magnitude(), value.denom().magnitude());
+    // A quotient of 122 or 123 bits.
+    let shift = 122 + denominator.bits() as i64 - numerator.bits() as i64;
+    let [mut dividend, mut divisor] = [numerator.clone(), denominator.clone()];
+    if shift < 0 {
+        divisor <<= -shift
+    } else {
+        dividend <<= shift
+    }
+    let quotient = &dividend / &divisor;
+    let inexact = &quotient * divisor != dividend;
+    let magnitude: f64 = rounded(quotient.to_u128().unwrap_or(0), inexact, -shift);
+    if value.numer().sign() == Sign::Minus { -magnitude } else { magnitude }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+    use crate::corpus::number::parse;
+
+    #[test]
+    fn a_float_is_written_as_its_bits_and_as_a_literal_that_reads_back() {
+        for (x, text) in [
+            (1.0, "0x1p0"),
+            (-0.0, "-0x0p0"),
+            (-0.1875, "-0x1.8p-3"),
+            (f64::from_bits(1), "0x1p-1074"),
+            (f64::MAX, "0x1.fffffffffffffp1023"),
+            (f64::NEG_INFINITY, "-Infinity"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(Number::of(x).text(), text);
+        }
+        assert_eq!(Number::of(f32::from_bits(1)).text(), "0x1p-149");
+        assert_eq!(Number::of(1f32).bits(), "3f800000");
+        let mut draw = Draw::new("numbers", 1, 1);
+        for _ in 0..1000 {
+            let x = f64::from_bits(draw.bits());
+            if x.is_finite() {
+                assert_eq!(parse::<f64>(&Number::of(x).text()), Ok(x));
+            }
+        }
+    }
+
+    #[test]
+    fn fractions_are_rounded_to_nearest_and_ties_to_even() {
+        let ratio = |p: i128, q: i128| BigRational::new(p.into(), q.into());
+        assert_eq!(nearest(&ratio(1, 3)), 1.0 / 3.0);
+        assert_eq!(nearest(&ratio(0, 1)), 0.0);
+        assert_eq!(nearest(&ratio(-22, 7)), -22.0 / 7.0);
+        let tie = (1 << 53) + 1;
+        assert_eq!(nearest(&ratio(tie, 1)), (1u64 << 53) as f64);
+        assert_eq!(nearest(&ratio(tie + 2, 1)), ((1u64 << 53) + 4) as f64);
+        assert_eq!(nearest(&ratio(3 * tie + 1, 3)), ((1u64 << 53) + 2) as f64);
+        let big = ratio(1, 1) * num_traits::pow(ratio(10, 1), 400);
+        assert_eq!(nearest(&big), f64::INFINITY);
+        assert_eq!(nearest(&big.recip()), 0.0);
+        let least = BigRational::from_float(f64::from_bits(1)).unwrap();
+        assert_eq!(nearest(&(&least * ratio(3, 4))), f64::from_bits(1));
+        assert_eq!(nearest(&(&least * ratio(3, 2))), f64::from_bits(2));
+        assert_eq!(nearest(&(&least * ratio(1, 2))), 0.0);
+    }
+}

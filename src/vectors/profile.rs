@@ -1,0 +1,149 @@
+//! Profiles: what a specification demands of the tests that are free, with its sentences. They are files
+//! that a reader in any language applies alike.
+
+use super::{Test, Triangle, word};
+use crate::contract::{Boundary, Contract, Demand};
+use crate::judge::{Obligation, obligation};
+use serde::Deserialize;
+
+/// The profiles by name.
+const PROFILES: [(&str, &str); 4] = [
+    ("dxr", include_str!("../../vectors/profiles/dxr.json")),
+    ("parity", include_str!("../../vectors/profiles/parity.json")),
+    ("picking", include_str!("../../vectors/profiles/picking.json")),
+    ("vulkan", include_str!("../../vectors/profiles/vulkan.json")),
+];
+
+/// A specification's answers.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Profile {
+    /// The name on the command line.
+    pub name: String,
+    /// The specification with its version.
+    pub specification: String,
+    /// Where it can be read.
+    pub url: Option<String>,
+    answers: Answers,
+}
+
+/// One answer for each word of `free_because`, and one for groups.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answers {
+    boundary: Answer<Single>,
+    ends: Answer<Single>,
+    coplanar: Answer<Single>,
+    degenerate: Answer<Single>,
+    invalid: Answer<Single>,
+    groups: Answer<Groups>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Answer<T> {
+    result: T,
+    /// The section of the specification; null where it says nothing.
+    #[expect(dead_code, reason = "for readers of the file")]
+    section: Option<String>,
+    /// Its words, or why there is no answer.
+    #[expect(dead_code, reason = "for readers of the file")]
+    sentence: String,
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Single {
+    Hit,
+    Miss,
+    Free,
+}
+
+#[derive(Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Groups {
+    ExactlyOne,
+    AtLeastOne,
+    Parity,
+    Free,
+}
+
+/// What a product says of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answered {
+    /// A hit or a miss.
+    Single(bool),
+    /// How many triangles of a group are hit.
+    Hits(u64),
+}
+
+impl Profile {
+    /// The names of all profiles.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        PROFILES.iter().map(|(name, _)| *name)
+    }
+
+    /// The profile of a name.
+    pub fn find(name: &str) -> Option<Profile> {
+        let (_, text) = PROFILES.iter().find(|(known, _)| *known == name)?;
+        Some(serde_json::from_str(text).expect("tests read the profiles"))
+    }
+
+    fn contract(&self) -> Contract {
+        let Answers { boundary, ends, coplanar, degenerate, invalid, .. } = &self.answers;
+        let rim = |answer: &Answer<Single>| match answer.result {
+            Single::Hit => Boundary::Closed,
+            Single::Miss => Boundary::Open,
+            Single::Free => Boundary::Free,
+        };
+        let demand = |answer: &Answer<Single>| match answer.result {
+            Single::Hit => Demand::Hit,
+            Single::Miss => Demand::Miss,
+            Single::Free => Demand::Free,
+        };
+        Contract {
+            boundary: rim(boundary),
+            ends: rim(ends),
+            coplanar: demand(coplanar),
+            degenerate: demand(degenerate),
+            invalid: demand(invalid),
+            ..super::CLOSED
+        }
+    }
+}
+
+/// What is demanded of a test: a word of `result`, `odd` or `even`.
+pub fn demanded(test: &Test, profile: Option<&Profile>) -> &'static str {
+    match (&test.group, profile.map(|profile| profile.answers.groups.result)) {
+        (None, _) => word(of_triangle(&test.triangles[0], profile)),
+        (Some(group), Some(Groups::Parity)) => group.parity(),
+        // Two triangles that fold have no number that is right but for parity.
+        (Some(group), _) if group.result() != "at-least-one" => group.result(),
+        (Some(_), Some(Groups::ExactlyOne)) => "exactly-one",
+        (Some(_), Some(Groups::Free)) => "free",
+        (Some(_), None | Some(Groups::AtLeastOne)) => "at-least-one",
+    }
+}
+
+fn of_triangle(triangle: &Triangle, profile: Option<&Profile>) -> Obligation {
+    match (triangle.result(), profile) {
+        (Obligation::Free, Some(profile)) => {
+            obligation(&triangle.truth, &profile.contract(), false)
+        }
+        (result, _) => result,
+    }
+}
+
+/// Whether an answer is what is demanded; none if it is the answer to another kind of test.
+pub fn is_right(demanded: &str, answered: Answered) -> Option<bool> {
+    Some(match (demanded, answered) {
+        ("free", _) => true,
+        ("hit", Answered::Single(hit)) => hit,
+        ("miss", Answered::Single(hit)) => !hit,
+        ("exactly-one", Answered::Hits(hits)) => hits == 1,
+        ("at-least-one", Answered::Hits(hits)) => hits > 0,
+        ("odd", Answered::Hits(hits)) => hits % 2 == 1,
+        ("even", Answered::Hits(hits)) => hits % 2 == 0,
+        _ => return None,
+    })
+}

@@ -1,0 +1,240 @@
+//! Which tests there are: the core set by topic, and as many more as somebody wants, by number.
+
+use super::{Group, Label, Test, flags, place, result, word};
+use crate::case::{Case, Parameters};
+use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::family::{FAMILIES, Family, Grouping, find};
+use crate::judge::Obligation;
+use crate::kernel::Scalar;
+use crate::oracle::truth;
+use crate::truth::{Place, Truth};
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write;
+
+/// A file of the core set.
+pub struct Topic {
+    /// The file's name, and the first word of its ids.
+    pub name: &'static str,
+    /// What its tests are about.
+    pub about: &'static str,
+    /// Families, and how many of their indices in f32.
+    families: &'static [(&'static str, usize)],
+}
+
+/// The files of the core set, in the order of their names.
+const TOPICS: &[Topic] = &[
+    Topic {
+        name: "basics",
+        about: "ordinary hits and misses, and rays and triangles along the axes",
+        families: &[("interior", 14), ("outside", 10), ("axis-aligned", 10), ("lattice", 10)],
+    },
+    Topic {
+        name: "coplanar",
+        about: "rays in the plane of the triangle",
+        families: &[("coplanar", 12)],
+    },
+    Topic {
+        name: "degenerate",
+        about: "triangles without area: segments and points",
+        families: &[("degenerate", 10)],
+    },
+    Topic {
+        name: "edges",
+        about: "lines exactly through an edge, and a few ulps beside one",
+        families: &[("edge-exact", 10), ("edge-near", 36)],
+    },
+    Topic {
+        name: "fans",
+        about: "closed fans of triangles around a vertex, the ray at the vertex or at a spoke",
+        families: &[("fan", 16)],
+    },
+    Topic {
+        name: "far",
+        about: "small triangles far from the origin of the coordinates",
+        families: &[("far", 24)],
+    },
+    Topic {
+        name: "grazing",
+        about: "rays that are nearly parallel to the plane",
+        families: &[("grazing", 30)],
+    },
+    Topic {
+        name: "invalid",
+        about: "NaN, infinities, directions of zeros, empty intervals",
+        families: &[("invalid", 10)],
+    },
+    Topic {
+        name: "parallel",
+        about: "rays that are exactly parallel to the plane, beside it",
+        families: &[("parallel-off", 24)],
+    },
+    Topic { name: "published", about: "failing inputs that people reported", families: &[] },
+    Topic {
+        name: "shared-edges",
+        about: "two triangles that share an edge, the ray at the edge",
+        families: &[("shared-edge", 32)],
+    },
+    Topic {
+        name: "sizes",
+        about: "tiny, huge and thin triangles, short and long directions, the ends of the exponents",
+        families: &[
+            ("sliver", 12),
+            ("tiny", 10),
+            ("huge", 10),
+            ("direction-length", 12),
+            ("mixed-scale", 8),
+            ("range-ends", 10),
+        ],
+    },
+    Topic {
+        name: "starts",
+        about: "rays that start on the triangle or beside it, hits behind the start and at the ends of the interval",
+        families: &[("origin-on", 8), ("origin-near", 20), ("behind", 8), ("interval-ends", 8)],
+    },
+    Topic {
+        name: "vertices",
+        about: "lines exactly through a vertex, and a few ulps beside one",
+        families: &[("vertex-exact", 10), ("vertex-near", 24)],
+    },
+];
+
+const CURATED: &str = include_str!("../../corpora/curated.jsonl");
+const PUBLISHED: &str = include_str!("../../corpora/published.jsonl");
+
+/// The seed of all generated tests.
+const SEED: u64 = 1;
+/// From how many indices of a family the core set picks.
+const PICKED_FROM: u64 = 200;
+
+/// The core set: the files, each with its tests. No test stands twice in it.
+pub fn core() -> Vec<(&'static Topic, Vec<Test>)> {
+    let [curated, published] = [CURATED, PUBLISHED].map(stored);
+    let mut seen = HashSet::new();
+    let mut tests_of = |topic: &'static Topic| {
+        let mut tests: Vec<Test> = Vec::new();
+        if topic.name == "published" {
+            let groups = published.chunk_by(|one, other| group_name(one) == group_name(other));
+            tests.extend(groups.filter_map(|cases| named(cases, Some("published"))));
+        }
+        let curated = curated.iter().filter_map(|case| named(std::slice::from_ref(case), None));
+        tests.extend(curated.filter(|test| topic_of(&test.triangles[0].truth) == topic.name));
+        for &(family, count) in topic.families {
+            let family = find(family).expect("a family of the table");
+            tests.extend(picked::<f32>(topic, family, count));
+            // Doubles are twice as long, and fewer programs use them.
+            tests.extend(picked::<f64>(topic, family, count * 3 / 4));
+        }
+        tests.retain(|test| seen.insert(test.digest()));
+        (topic, tests)
+    };
+    TOPICS.iter().map(&mut tests_of).collect()
+}
+
+/// The cases of a corpus file of this repository.
+fn stored(text: &str) -> Vec<StoredCase> {
+    let cases = lines::read(text.as_bytes(), "corpora").collect::<Result<_, _>>();
+    cases.expect("tests read these files")
+}
+
+/// A case with a name of its own, or the cases of a pair on one edge: `name.0` and `name.1`.
+fn named(stored: &[StoredCase], flag: Option<&'static str>) -> Option<Test> {
+    let label = Label {
+        name: group_name(&stored[0])?.to_owned(),
+        comment: stored[0].why.clone()?,
+        source: stored[0].url.clone(),
+        flag,
+    };
+    let (mut cases_f32, mut cases_f64) = (Vec::new(), Vec::new());
+    for case in stored {
+        match &case.case {
+            AnyCase::F32(case) => cases_f32.push(*case),
+            AnyCase::F64(case) => cases_f64.push(*case),
+        }
+    }
+    let grouping = if stored.len() > 1 { Grouping::SharedEdge } else { Grouping::Single };
+    match cases_f32.is_empty() {
+        false => Test::new(label, &cases_f32, grouping),
+        true => Test::new(label, &cases_f64, grouping),
+    }
+}
+
+/// The name before `.0` or `.1`.
+fn group_name(stored: &StoredCase) -> Option<&str> {
+    stored.name.as_deref().and_then(|name| name.split('.').next())
+}
+
+/// The file of a curated case.
+fn topic_of(truth: &Truth) -> &'static str {
+    match truth {
+        Truth::Transversal(crossing) if crossing.feature.is_edge() => "edges",
+        Truth::Transversal(crossing) if crossing.feature.is_vertex() => "vertices",
+        Truth::Transversal(crossing) if crossing.place != Place::Within => "starts",
+        Truth::Transversal(_) => "basics",
+        other => other.class_name(),
+    }
+}
+
+/// Tests of a family's first indices, each kind in turn, so that the rare ones are there.
+fn picked<F: Scalar>(topic: &Topic, family: &'static Family, count: usize) -> Vec<Test> {
+    let mut of_kind: HashMap<String, usize> = HashMap::new();
+    let mut ranked: Vec<(usize, u64)> = (0..PICKED_FROM)
+        .map(|index| {
+            let made = family.make::<F>(&Parameters::default(), SEED, index);
+            let rank = of_kind.entry(kind(made.cases(), family.grouping)).or_default();
+            *rank += 1;
+            (*rank, index)
+        })
+        .collect();
+    ranked.sort();
+    let tests = ranked.iter().filter_map(|(_, index)| generated::<F>(topic.name, family, *index));
+    tests.take(count).collect()
+}
+
+/// What two tests have in common if one of them could do.
+fn kind<F: Scalar>(cases: &[Case<F>], grouping: Grouping) -> String {
+    let truths: Vec<Truth> = cases.iter().map(truth).collect();
+    if grouping.shares_a_ray() {
+        let group = Group::new(cases, &truths, grouping);
+        return format!("{} {} {:?}", group.result(), group.parity(), group.counts);
+    }
+    match result(&truths[0]) {
+        Obligation::Free => "free".to_owned(),
+        demanded => format!("{} {}", word(demanded), place(&truths[0])),
+    }
+}
+
+/// Test `number` of the full set: families in turn, then scalars, then indices. None where nothing is
+/// demanded of a group.
+pub fn numbered(number: u64) -> Option<Test> {
+    // Rays of `secondary-ray` start where a kernel's rounding puts them, and a polygon is no group.
+    let is_in =
+        |family: &&Family| !matches!(family.grouping, Grouping::SecondaryRay | Grouping::Polygon);
+    let families: Vec<&'static Family> = FAMILIES.iter().filter(is_in).collect();
+    let family = families[(number % families.len() as u64) as usize];
+    let number = number / families.len() as u64;
+    match number % 2 {
+        0 => generated::<f32>(family.name, family, number / 2),
+        _ => generated::<f64>(family.name, family, number / 2),
+    }
+}
+
+fn generated<F: Scalar>(name: &str, family: &'static Family, index: u64) -> Option<Test> {
+    let parameters = Parameters::default();
+    let made = family.make::<F>(&parameters, SEED, index);
+    let label = Label {
+        name: name.to_owned(),
+        comment: family.id::<F>(&parameters, SEED, index).to_string(),
+        source: None,
+        flag: flags::of_family(family.name),
+    };
+    let mut test = Test::new(label, made.cases(), family.grouping)?;
+    let _ = match test.group {
+        None => write!(test.comment, ": {}", test.triangles[0].truth),
+        Some(group) => {
+            let [closed, open] = group.counts;
+            let count = test.triangles.len();
+            write!(test.comment, ": {count} triangles, closed {closed} hits, open {open}")
+        }
+    };
+    Some(test)
+}
