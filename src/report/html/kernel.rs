@@ -3,6 +3,7 @@
 use super::curve;
 use super::findings::{self, Depth};
 use super::pictures;
+use super::questions;
 use super::room::Room;
 use super::view::{InScalar, Kind, Row, View};
 use super::words::{apart, code, counts, percent, share, shortened};
@@ -71,6 +72,7 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
                                 (scalar.all(kind).rate().rate.map_or("–".to_owned(), percent)) " " (kind.words())
                             } " "
                         }
+                        @if let Some(across) = view.across(row, scalar.scalar) { (questions::in_short(across)) }
                     }
                 }
             }

@@ -10,6 +10,7 @@ mod findings;
 mod heat;
 mod kernel;
 mod pictures;
+mod questions;
 mod room;
 mod view;
 mod words;
@@ -42,6 +43,7 @@ fn within(record: &Record, limit: usize) -> String {
     let around = STYLE.len() + SCRIPT.len() + 40_000;
     let mut room = Room::new(limit.saturating_sub(around));
     let deviations = deviations::section(record, &mut room);
+    let questions = questions::section(&view, &mut room);
     let heat = heat::section(&view, &mut room);
     let kernels = kernel::section(&view, &mut room);
     let title = shortened(&verdict(&view), 300);
@@ -54,6 +56,7 @@ fn within(record: &Record, limit: usize) -> String {
                 (head(&view, &title))
                 main #main {
                     (deviations)
+                    (questions)
                     (heat)
                     (kernels)
                     (guide())
@@ -167,6 +170,7 @@ fn head(view: &View, title: &str) -> Markup {
             }
             nav aria-label="Report" {
                 @if record.conformance.is_some() { a href="#deviations" { "Deviations" } }
+                a href="#questions" { "Kernels by question" }
                 a href="#heat" { "Kernels × families" }
                 a href="#kernels" { "Kernel by kernel" }
                 a href="#guide" { "How to read" }
@@ -193,6 +197,12 @@ fn guide() -> Markup {
                 dd { "How far the case is from where the verdict would be right, exactly: in the triangle's longest edges, and in ulps of the largest coordinate." }
                 dt { "Crack, double" }
                 dd { "A ray through the inside of a fan, a polygon or a shared edge that no triangle reports, or two do." }
+                dt { "Promised" }
+                dd { "How many triangles of a surface report a ray that crosses it. " em { "≥ 1" } ": no ray slips through, no crack. " em { "= 1" } ": no double either. A contract that promises nothing has its cracks and doubles counted, and no finding." }
+                dt { "Odd fold, missed fold" }
+                dd { "Where a surface folds back along an edge, a line through the edge meets both triangles. " em { "Odd" } ": one of them reported it, which swaps inside and outside where hits are counted. " em { "Missed" } ": none did." }
+                dt { "Self-hit" }
+                dd { "A ray that starts at a rounded hit point on a triangle hits that triangle again." }
                 dt { "Replay" }
                 dd { "Each case has a command. It makes the case again from its id and shows the exact truth and each gate's margin." }
             }

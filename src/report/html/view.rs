@@ -1,5 +1,7 @@
 //! A record by kernel row, as the report walks through it.
 
+use crate::report::columns::{Across, Column};
+use crate::report::lines::{Line, lines};
 use crate::report::pool::Pool;
 use crate::report::record::*;
 use std::collections::HashMap;
@@ -11,6 +13,10 @@ pub(super) struct View<'a> {
     pub rows: Vec<Row<'a>>,
     /// The names of sources, in the order of the plan.
     pub families: Vec<&'a str>,
+    /// The questions that the sources ask.
+    pub columns: Vec<Column>,
+    /// Each row in each scalar, by question.
+    pub lines: Vec<Line<'a>>,
 }
 
 /// A kernel with its epsilons.
@@ -90,7 +96,17 @@ impl<'a> View<'a> {
             }
         }
         let families = plan.sources.iter().map(|source| source.family.as_str()).collect();
-        View { record, rows, families }
+        let columns = Column::all(record);
+        let lines = lines(record, &columns);
+        View { record, rows, families, columns, lines }
+    }
+}
+
+impl View<'_> {
+    /// What the triangles of groups did together, of a row in a scalar.
+    pub fn across(&self, row: &Row, scalar: &str) -> Option<&Across> {
+        let is_of = |line: &&Line| line.scalar == scalar && std::ptr::eq(line.row.part, row.part);
+        self.lines.iter().find(is_of)?.across.as_ref()
     }
 }
 

@@ -1,0 +1,116 @@
+//! The answer on the front page: cracks and doubles beside what is promised, then verdicts by question.
+
+use super::heat::shade;
+use super::room::Room;
+use super::view::View;
+use super::words::{interval, percent};
+use crate::report::columns::{Across, Cell, Column};
+use crate::report::lines::{Line, column_legend};
+use crate::report::{group_digits, number_of};
+use maud::{Markup, PreEscaped, html};
+
+/// Bytes for the table.
+const MOST: usize = 1_000_000;
+
+pub(super) fn section(view: &View, room: &mut Room) -> Markup {
+    let has_groups = view.lines.iter().any(|line| line.across.is_some());
+    let mut part = room.part(MOST);
+    let body = part.fill(view.lines.iter(), |line| row(view, line, has_groups).into_string());
+    let left_out = part.left_out;
+    room.take_back(part);
+    html! {
+        section #questions aria-labelledby="questions-title" {
+            h2 #questions-title { "Kernels by question" }
+            p {
+                "Of a ray through a surface, how many triangles must report it, and what did: orange where a promise is "
+                "broken, blue where nothing is promised. Then the share of wrong verdicts on single triangles, false "
+                "misses and false hits, by each row's own contract, with the 95 % interval. The cases are chosen to be "
+                "hard. A star: more than 0.1 % of the verdicts are wrong by over 1/1000 of the triangle's longest edge."
+            }
+            div.scroll role="group" aria-label="The table" tabindex="0" {
+                table.heat.few[view.columns.len() < 12] {
+                    thead { tr {
+                        th scope="col" { "kernel (epsilons)" }
+                        @if has_groups {
+                            th.text scope="col" { "promised" } th scope="col" { "cracks" } th scope="col" { "doubles" }
+                        }
+                        @for column in &view.columns { th scope="col" { (column.label()) } }
+                    } }
+                    tbody { (PreEscaped(body)) }
+                }
+            }
+            @if 0 < left_out {
+                p.note { (number_of(left_out, "row is", "rows are")) " left out here; the JSON record has all." }
+            }
+            p { (column_legend(&view.columns, &view.lines)) "." }
+        }
+    }
+}
+
+fn row(view: &View, line: &Line, has_groups: bool) -> Markup {
+    let row = view.rows.iter().find(|row| std::ptr::eq(row.part, line.row.part));
+    let part = line.row.part;
+    html! {
+        tr {
+            th scope="row" {
+                @match row {
+                    Some(row) => { a href={ "#" (row.anchor) } { (part.kernel) } },
+                    None => (part.kernel),
+                }
+                " " span.set { "(" (part.set) ")" } " " span.what { (line.scalar) }
+            }
+            @if has_groups { (across(line.across.as_ref())) }
+            @for (column, cell) in view.columns.iter().zip(&line.cells) { (share_of(*column, cell)) }
+        }
+    }
+}
+
+fn share_of(column: Column, cell: &Cell) -> Markup {
+    let Some(share) = cell.wrong.share() else { return html! { td { "–" } } };
+    let star = if cell.is_far() { " *" } else { "" };
+    let ends = cell.wrong.interval();
+    let [count, of] = [cell.wrong.count, cell.wrong.of].map(group_digits);
+    html! {
+        td class={ "m" (shade(share)) } {
+            (percent(share)) (star)
+            small { @match column.complete {
+                true => { (count) " of " (of) },
+                false => (interval([ends.low, ends.high])),
+            } }
+        }
+    }
+}
+
+/// Whether the promise was kept, cracks, and doubles, which are shaded where they are ruled out.
+fn across(across: Option<&Across>) -> Markup {
+    let Some(across) = across else { return html! { td.text { "–" } td { "–" } td { "–" } } };
+    let rate = |[count, of]: [u64; 2], hue: &str| {
+        let share = count as f64 / of.max(1) as f64;
+        let class = if hue.is_empty() { String::new() } else { format!("{hue}{}", shade(share)) };
+        html! { td class=(class) { (percent(share)) small { (group_digits(count)) " of " (group_digits(of)) } } }
+    };
+    let [no_crack, no_double] = across.rules_out();
+    html! {
+        td class={ "text " (promise_class(across)) } { (across.words()) }
+        (rate(across.cracks, if no_crack { "m" } else { "h" }))
+        (rate(across.doubles, if no_double { "m" } else { "" }))
+    }
+}
+
+/// Whether a promise was kept, as a colour.
+fn promise_class(across: &Across) -> &'static str {
+    match (across.rules_out()[0], across.is_broken()) {
+        (false, _) => "set",
+        (true, true) => "broken",
+        (true, false) => "kept",
+    }
+}
+
+/// Cracks and doubles of one row in one scalar, in a few words.
+pub(super) fn in_short(across: &Across) -> Markup {
+    let share = |[count, of]: [u64; 2]| percent(count as f64 / of.max(1) as f64);
+    html! {
+        (share(across.cracks)) " cracks, " (share(across.doubles)) " doubles; promised "
+        span class=(promise_class(across)) { (across.words()) }
+    }
+}
