@@ -129,9 +129,10 @@ fn new_case(result: &ResultPart, entry: &Entry, found: &Found) -> Option<Example
     })
 }
 
-/// The bits of a family's case.
+/// The bits of a family's case, if it is of the version that this program makes.
 fn bits<F: Scalar>(id: &CaseId) -> Option<String> {
-    let made = family::find(&id.family)?.make::<F>(&id.parameters, id.seed, id.index);
+    let family = family::find(&id.family).filter(|family| family.version == id.version)?;
+    let made = family.make::<F>(&id.parameters, id.seed, id.index);
     made.cases().get(id.triangle.unwrap_or(0)).map(Case::hex)
 }
 

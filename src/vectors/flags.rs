@@ -6,7 +6,7 @@ use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 pub(super) const FLAGS: &[(&str, &str)] = &[
     (
         "edge",
-        "The line meets an edge exactly. Of one triangle both answers are right; of the triangles that share the edge one must report the hit, or light leaks between them.",
+        "The line meets an edge exactly. Of one triangle both answers are right; of the triangles that share the edge one must report the hit, or light leaks between them. Woop, Benthin and Wald 2013: https://jcgt.org/published/0002/01/05/",
     ),
     (
         "vertex",
@@ -51,7 +51,7 @@ pub(super) const FLAGS: &[(&str, &str)] = &[
     ),
     (
         "start-on-plane",
-        "The ray starts on the triangle or very near it, as a shadow ray does. A minimum of t may reject a true hit, and rounding may invent one.",
+        "The ray starts on the triangle or very near it, as a shadow ray does. A minimum of t may reject a true hit, and rounding may invent one. Pharr, Jakob and Humphreys, section 6.8: https://pbr-book.org/4ed/Shapes/Managing_Rounding_Error",
     ),
     (
         "sliver",

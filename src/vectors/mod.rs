@@ -20,10 +20,12 @@ use crate::contract::{Boundary, Contract, Demand, Extent};
 use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation, group_obligation, obligation};
-use crate::oracle::define;
+use crate::oracle::integer::{align, cross, dot, minus};
+use crate::oracle::truth;
 use crate::truth::{Crossing, Place, Truth};
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::Signed;
 use number::Number;
 use sha2::{Digest, Sha256};
 
@@ -136,16 +138,10 @@ impl Test {
 
 impl Triangle {
     fn new<F: Float>(case: &Case<F>) -> Triangle {
-        let definition = define(case);
         let vertices = case.vectors();
-        let exact = definition.exact;
-        let values = exact.t.zip(exact.u).zip(exact.v).map(|((t, u), v)| {
-            let w = BigRational::one() - &u - &v;
-            let margin = (&u).min(&v).min(&w).clone();
-            [t, u, v, margin]
-        });
         let numbers = std::array::from_fn(|i| Number::of(vertices[2 + i / 3][i % 3]));
-        Triangle { numbers, truth: definition.truth, values }
+        let truth = truth(case);
+        Triangle { numbers, truth, values: truth.crossing().map(|_| values(&case.widen())) }
     }
 
     /// Hit, miss, or free for invalid input, if edges, vertices, ends and every contact are hits.
@@ -182,6 +178,26 @@ impl Triangle {
     fn place(&self) -> &'static str {
         place(&self.truth)
     }
+}
+
+/// t, u, v and the smallest weight of a line that crosses the plane. With the weights U, V and W of a, b
+/// and c, D = -(U + V + W), and t = T/D.
+fn values(case: &Case<f64>) -> [BigRational; 4] {
+    let [o, d, a, b, c] = case.vectors();
+    let ([o, a, b, c], positions) = align([o, a, b, c]);
+    let ([d], direction) = align([d]);
+    let weight = |x, y| dot(&d, &cross(&minus(x, &o), &minus(y, &o)));
+    let weights = [weight(&c, &b), weight(&a, &c), weight(&b, &a)];
+    let sum: BigInt = weights.iter().sum();
+    let mut t = [dot(&cross(&minus(&b, &a), &minus(&c, &a)), &minus(&a, &o)), -&sum];
+    let exponent = positions - direction;
+    t[usize::from(exponent < 0)] <<= exponent.unsigned_abs();
+    let [numerator, denominator] = t;
+    let least = if sum.is_negative() { weights.iter().max() } else { weights.iter().min() };
+    let least = least.cloned().unwrap_or_default();
+    let [_, u, v] = weights;
+    let of_sum = |weight: BigInt| BigRational::new(weight, sum.clone());
+    [BigRational::new(numerator, denominator), of_sum(u), of_sum(v), of_sum(least)]
 }
 
 /// What is demanded whatever the reading.

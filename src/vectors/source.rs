@@ -233,7 +233,7 @@ fn generated<F: Scalar>(name: &str, family: &'static Family, index: u64) -> Opti
         Some(group) => {
             let [closed, open] = group.counts;
             let count = test.triangles.len();
-            write!(test.comment, ": {count} triangles, closed {closed} hits, open {open}")
+            write!(test.comment, ": {count} triangles; hits: {closed} closed, {open} open")
         }
     };
     Some(test)

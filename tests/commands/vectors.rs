@@ -3,6 +3,7 @@
 use crate::json_schema;
 use crate::program::{ends, scratch};
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -52,6 +53,12 @@ fn the_committed_vectors_are_what_the_command_writes_small_and_with_ids_of_their
         error.contains(&format!("{} tests in {}", tests.len(), topic_files().len())),
         "{error}"
     );
+    for test in &tests {
+        let [id, scalar, bits] = ["id", "scalar", "bits"].map(|key| test[key].as_str().unwrap());
+        let digest = Sha256::digest(format!("{scalar} {bits}"));
+        let digits: String = digest[..4].iter().map(|byte| format!("{byte:02x}")).collect();
+        assert!(id.ends_with(&format!("-{digits}")), "{id} has other numbers than its digest says");
+    }
     let ids: HashSet<&str> = tests.iter().map(|test| test["id"].as_str().unwrap()).collect();
     assert_eq!(ids.len(), tests.len(), "each test has an id of its own");
 }
