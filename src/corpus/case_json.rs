@@ -9,6 +9,7 @@ use crate::arith::Float;
 use crate::case::Case;
 use serde_json::Value;
 use serde_json::value::RawValue;
+use std::fmt;
 
 /// The fields that are vectors, in the order of [`Case::vectors`].
 const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
@@ -98,8 +99,20 @@ fn parse_case<F: Float>(
     Ok(Case::new(origin, direction, [a, b, c]).on(t_min, t_max))
 }
 
+/// `origin[2]`, written only where something is wrong.
+struct Path {
+    field: &'static str,
+    axis: usize,
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}[{}]", self.field, self.axis)
+    }
+}
+
 fn parse_vector<F: Float>(
-    field: &str,
+    field: &'static str,
     value: &RawValue,
     bits: Option<&RawValue>,
 ) -> Result<[F; 3], String> {
@@ -108,7 +121,7 @@ fn parse_vector<F: Float>(
     let bits = bits.map_err(|message| format!("bits.{field}: {message}"))?;
     let mut vector = [F::zero(); 3];
     for (axis, number) in vector.iter_mut().enumerate() {
-        let path = format!("{field}[{axis}]");
+        let path = Path { field, axis };
         let parsed = parse_number(&path, values[axis])?;
         *number = agreed(&path, parsed, bits.map(|bits| bits[axis]))?;
     }
@@ -116,7 +129,10 @@ fn parse_vector<F: Float>(
 }
 
 /// A JSON number or a string, from its text.
-pub(crate) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, String> {
+pub(crate) fn parse_number<F: Float>(
+    path: impl fmt::Display,
+    value: &RawValue,
+) -> Result<F, String> {
     let text = value.get();
     let number = match text.as_bytes().first() {
         Some(b'"') => json::string(value).and_then(|text| number::parse(&text)),
@@ -128,7 +144,11 @@ pub(crate) fn parse_number<F: Float>(path: &str, value: &RawValue) -> Result<F, 
 
 /// The number, which must have the bit pattern that stands beside it, if one does; of a NaN the
 /// pattern's.
-fn agreed<F: Float>(path: &str, number: F, bits: Option<&RawValue>) -> Result<F, String> {
+fn agreed<F: Float>(
+    path: impl fmt::Display,
+    number: F,
+    bits: Option<&RawValue>,
+) -> Result<F, String> {
     let Some(bits) = bits else { return Ok(number) };
     let pattern: F = parse_pattern(bits).map_err(|message| format!("bits.{path}: {message}"))?;
     if pattern.to_bits() == number.to_bits() || pattern.is_nan() && number.is_nan() {

@@ -56,7 +56,7 @@ fn rows<F: Float, const N: usize, const M: usize>(value: &RawValue) -> Result<[[
         let numbers =
             json::array::<M>(point, "numbers").map_err(|m| format!("points[{i}]: {m}"))?;
         for (j, (x, number)) in row.iter_mut().zip(numbers).enumerate() {
-            *x = case_json::parse_number(&format!("points[{i}][{j}]"), number)?;
+            *x = case_json::parse_number(format_args!("points[{i}][{j}]"), number)?;
         }
     }
     Ok(rows)
