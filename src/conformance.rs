@@ -2,15 +2,21 @@
 
 #![forbid(unsafe_code)]
 
+mod outcome;
+
+pub use outcome::Outcome;
+pub(crate) use outcome::conforms;
+
 use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source};
-use crate::case::Parameters;
-use crate::contract::Contract;
+use crate::case::{Parameters, Scene};
+use crate::contract::{Across, Contract};
 use crate::engine::Unobserved;
-use crate::family::{FAMILIES, Family, find};
+use crate::family::{FAMILIES, Family, Stratum, find};
 use crate::kernel::{Entry, kept};
-use crate::report::{Context, FindingPart, Key, Rate, Record, build, disagreements, interval_of};
+use crate::report::{Context, build};
 use crate::suggest::did_you_mean;
-use std::fmt::{self, Write};
+use outcome::ALLOWED;
+use std::collections::BTreeMap;
 
 /// An audit of a kernel, to be narrowed and run: all families, 2,000 cases of each, seed 1, the
 /// kernel's own epsilons and contract, unless said otherwise.
@@ -42,6 +48,10 @@ pub fn audit(kernel: &Entry) -> Request {
         parameters: Parameters::default(),
         epsilons: EpsilonChoice::Source,
         contract: None,
+        promise: None,
+        band: None,
+        scene: None,
+        allowed: BTreeMap::new(),
     }
 }
 
@@ -55,6 +65,10 @@ pub struct Request {
     parameters: Parameters,
     epsilons: EpsilonChoice,
     contract: Option<Contract>,
+    promise: Option<Across>,
+    band: Option<String>,
+    scene: Option<String>,
+    allowed: BTreeMap<String, f64>,
 }
 
 impl Request {
@@ -95,17 +109,87 @@ impl Request {
         self
     }
 
-    /// Runs it, in each scalar that the kernel runs in. An error names the family, gate or epsilon
-    /// that does not exist.
+    /// What the kernel promises of a ray that crosses a surface, such as [`Across::AtLeastOne`]: no crack.
+    pub fn promise(mut self, across: Across) -> Request {
+        self.promise = Some(across);
+        self
+    }
+
+    /// Both answers are right nearer than this to the boundary between hits and misses: `4ulps` of the
+    /// triangle's largest coordinate, or `1e-6` of its longest edge.
+    pub fn band(mut self, distance: &str) -> Request {
+        self.band = Some(distance.to_owned());
+        self
+    }
+
+    /// Rays in a scene instead of families, as `hairline audit --scene` runs them: `room`, or
+    /// `extent=1000,edge=0.01..10,distance=0..2000`. [`Request::families`] may choose its strata.
+    pub fn scene(mut self, words: &str) -> Request {
+        self.scene = Some(words.to_owned());
+        self
+    }
+
+    /// Lets a kind of finding, `false-miss`, `false-hit`, `bad-value`, `crack`, `double` or `odd-fold`, occur in
+    /// at most this share of the cases of each family and scalar. The cases are the same in every run, so
+    /// the answer is too.
+    ///
+    /// ```
+    /// use hairline::{Case, Contract, Entry, Hit, KernelInfo, Vector, audit};
+    ///
+    /// fn moller_trumbore(case: &Case<f32>, epsilon: f32) -> Option<Hit<f32>> {
+    ///     let (ray, [a, b, c]) = (&case.ray, case.triangle.vertices());
+    ///     let (ab, ac, from) = (b - a, c - a, ray.origin - a);
+    ///     let p = ray.direction.cross(ac);
+    ///     let det = ab.dot(p);
+    ///     let (u, q) = (from.dot(p) / det, from.cross(ab));
+    ///     let (v, t) = (ray.direction.dot(q) / det, ac.dot(q) / det);
+    ///     let inside = det.abs() >= epsilon && u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+    ///     (inside && t >= 0.0).then(|| Hit::at(t))
+    /// }
+    ///
+    /// // In a test of your own:
+    /// let room = |epsilon: f32| {
+    ///     const MINE: KernelInfo = KernelInfo::own("mine", Contract::CLOSED_RAY);
+    ///     let test = move |case: &Case<f32>, _: &[f32]| moller_trumbore(case, epsilon);
+    ///     let kernel = Entry::new(&MINE).f32(test);
+    ///     audit(&kernel).scene("room").band("4ulps").allow("false-hit", 0.05)
+    /// };
+    /// room(1e-12).assert_conforms();
+    /// // The determinant of a triangle of 1 cm is small from every side.
+    /// let outcome = room(1e-3).run()?;
+    /// assert!(!outcome.conforms() && outcome.to_string().contains("false-miss"));
+    /// # Ok::<(), hairline::PlanError>(())
+    /// ```
+    pub fn allow(mut self, finding: &str, share: f64) -> Request {
+        self.allowed.insert(finding.to_owned(), share);
+        self
+    }
+
+    /// Runs it, in each scalar that the kernel runs in. An error names the family, gate, epsilon, scene,
+    /// band or finding that does not exist.
     pub fn run(&self) -> Result<Outcome, PlanError> {
-        let mut rows = self.epsilons.rows(&[self.entry], None)?;
-        if let Some(contract) = self.contract {
-            rows.iter_mut().for_each(|row| row.contract = contract);
+        for (finding, share) in &self.allowed {
+            if !ALLOWED.contains(&finding.as_str()) || !(0.0..=1.0).contains(share) {
+                let names = ALLOWED.join(", ");
+                let what = format!("allow({finding:?}, {share:?})");
+                return Err(PlanError(format!(
+                    "{what}: expected one of {names}, and a share from 0 to 1"
+                )));
+            }
         }
+        let band = self.band.as_deref().map(str::parse).transpose();
+        let band = band.map_err(|error| PlanError(format!("band: {error}")))?;
+        let mut rows = self.epsilons.rows(&[self.entry], None)?;
+        for row in &mut rows {
+            row.contract = self.contract.unwrap_or(row.contract);
+            row.contract.across = self.promise.unwrap_or(row.contract.across);
+            row.contract.band = band.or(row.contract.band);
+        }
+        let parameters = Parameters { scene: self.parsed_scene()?, ..self.parameters.clone() };
         rows.iter().try_for_each(|row| row.check_in([true; 2]))?;
         let source = |family| Source::Family {
             family,
-            parameters: self.parameters.clone(),
+            parameters: parameters.clone(),
             seed: self.seed,
             count: self.count,
             exhaustive: false,
@@ -119,7 +203,7 @@ impl Request {
         };
         let sums = audit::run(&plan, &Unobserved);
         let context = Context { seconds: 0.0, threads: rayon::current_num_threads() };
-        Ok(Outcome { record: build(&plan, &sums, &context) })
+        Ok(Outcome { record: build(&plan, &sums, &context), allowed: self.allowed.clone() })
     }
 
     /// Runs it and panics unless the kernel keeps its contract on every case. The message has each
@@ -134,97 +218,35 @@ impl Request {
     }
 
     fn chosen_families(&self) -> Result<Vec<&'static Family>, PlanError> {
-        let Some(names) = &self.families else { return Ok(FAMILIES.iter().collect()) };
+        let all: Vec<&'static Family> = match self.scene {
+            Some(_) => Stratum::ALL.map(Stratum::family).into(),
+            None => FAMILIES.iter().collect(),
+        };
+        let Some(names) = &self.families else { return Ok(all) };
         let known = |name: &String| {
-            find(name).ok_or_else(|| {
-                let names = FAMILIES.iter().map(|family| family.name);
+            let family =
+                find(name).filter(|family| all.iter().any(|other| other.name == family.name));
+            family.ok_or_else(|| {
+                let names = all.iter().map(|family| family.name);
                 let advice = did_you_mean(name, names, "hairline list families");
                 PlanError(format!("unknown family '{name}'{advice}"))
             })
         };
         names.iter().map(known).collect()
     }
-}
 
-/// What an audit found.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// The record, as `hairline audit --format json` writes it; its times are zero.
-    pub record: Record,
-}
-
-impl Outcome {
-    /// Each class of finding that occurred, by scalar, family and epsilons.
-    pub fn findings(&self) -> impl Iterator<Item = &FindingPart> {
-        self.record.result.results.iter().flat_map(|result| &result.findings)
-    }
-
-    /// Whether the kernel kept its contract on every case, and what it promises across triangles.
-    pub fn conforms(&self) -> bool {
-        conforms(&self.record)
-    }
-
-    /// Panics unless [`Outcome::conforms`].
-    #[track_caller]
-    pub fn assert_conforms(&self) {
-        if !self.conforms() {
-            panic!("{self}");
+    /// The scene, which the scalars of the kernel can hold.
+    fn parsed_scene(&self) -> Result<Option<Scene>, PlanError> {
+        let Some(words) = &self.scene else { return Ok(self.parameters.scene.clone()) };
+        let about = |error| PlanError(format!("scene: {error}"));
+        let (scene, _) = Scene::parse(words).map_err(about)?;
+        let [in_f32, in_f64] = self.entry.scalars();
+        let held = [(in_f32, scene.check_in::<f32>()), (in_f64, scene.check_in::<f64>())];
+        for (_, held) in held.into_iter().filter(|(runs, _)| *runs) {
+            held.map_err(about)?;
         }
+        Ok(Some(scene))
     }
-}
-
-/// Whether every kernel of a record kept its contract, on polygons and across triangles too.
-pub(crate) fn conforms(record: &Record) -> bool {
-    disagreements(&record.result).is_empty()
-}
-
-/// How many findings a message shows in full.
-const SHOWN: usize = 8;
-
-impl fmt::Display for Outcome {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut parts = Vec::new();
-        for result in &self.record.result.results {
-            let at = format!("{} {} ({})", result.scalar, result.family, result.set);
-            for part in &result.findings {
-                parts.push(describe(&at, part)?);
-            }
-        }
-        // What single cases do not show: polygons, and what is promised across triangles.
-        let across = disagreements(&self.record.result);
-        for found in across.iter().filter(|found| !found.is_of_cases()) {
-            let Key { kernel: _, set, scalar, family, class, finding } = &found.key;
-            let Rate { count, of, .. } = found.rate;
-            let share = interval_of(found.rate);
-            let mut text = format!(
-                "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
-            );
-            if let Some(example) = &found.example {
-                writeln!(text, "    hairline explain '{}'", example.case)?;
-            }
-            parts.push(text);
-        }
-        for row in &self.record.result.plan.rows {
-            let breaks = if parts.is_empty() { "keeps" } else { "breaks" };
-            writeln!(f, "{} ({}) {breaks} its contract: {}", row.kernel, row.set, row.contract)?;
-        }
-        parts.iter().take(SHOWN).try_for_each(|part| f.write_str(part))?;
-        match parts.len().saturating_sub(SHOWN) {
-            0 => Ok(()),
-            more => writeln!(f, "and {more} more classes of findings"),
-        }
-    }
-}
-
-/// A class of findings with its rate and its first cases.
-fn describe(at: &str, part: &FindingPart) -> Result<String, fmt::Error> {
-    let Rate { count, of, .. } = part.rate;
-    let share = interval_of(&part.rate);
-    let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
-    for example in &part.first {
-        writeln!(text, "    hairline explain '{}'\n        {}", example.case, example.bits)?;
-    }
-    Ok(text)
 }
 
 #[cfg(test)]
@@ -232,6 +254,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::kernel::{Hit, KERNELS, KernelInfo};
+    use crate::report::disagreements;
 
     #[test]
     fn an_entry_is_kept_once_however_often_it_is_audited() {
@@ -250,5 +273,65 @@ mod tests {
             outcome.findings().any(|finding| finding.finding == "false-hit")
         };
         assert_eq!([hits(&always), hits(&never)], [true, false]);
+    }
+
+    #[test]
+    fn what_is_allowed_passes_up_to_its_share_and_no_further() {
+        let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
+        let request = audit(kernel).families(["edge-near"]).count(500);
+        let outcome = request.run().unwrap();
+        assert!(!outcome.conforms());
+        let results = &outcome.record.result.results;
+        let most = |rate: fn(&crate::report::Counts) -> f64| {
+            results.iter().map(|result| rate(&result.total)).fold(0.0, f64::max)
+        };
+        let share = |rate: &crate::report::Rate| rate.count as f64 / rate.of as f64;
+        let [misses, hits] =
+            [most(|c| c.false_misses.rate.unwrap()), most(|c| c.false_hits.rate.unwrap())];
+        assert_eq!(
+            misses,
+            results.iter().map(|r| share(&r.total.false_misses)).fold(0.0, f64::max)
+        );
+        let both = |misses: f64, hits: f64| {
+            let request = request.clone().allow("false-miss", misses).allow("false-hit", hits);
+            request.run().unwrap()
+        };
+        let more = |share: f64| share * (1.0 + 1e-12);
+        assert!(both(more(misses), more(hits)).conforms());
+        let outcome = both(misses * 0.99, more(hits));
+        let text = outcome.to_string();
+        assert!(!outcome.conforms() && !text.contains("(source): false-hit"), "{text}");
+        assert!(text.contains("allowed: false-miss in up to"), "{text}");
+        assert!(
+            text.contains("Case::<f32>::new([") && text.contains(" --kernel moller-trumbore"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn a_promise_a_band_and_a_scene_change_what_is_asked() {
+        let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
+        let scene = |request: Request| request.scene("room").families(["scene-edges"]).count(500);
+        let findings = |request: &Request| -> Vec<String> {
+            let outcome = request.run().unwrap();
+            let found = disagreements(&outcome.record.result);
+            found.iter().map(|found| found.key.finding.clone()).collect()
+        };
+        let plain = scene(audit(kernel));
+        assert!(!findings(&plain).contains(&"crack".to_owned()));
+        let promised = plain.clone().promise(Across::AtLeastOne);
+        assert!(findings(&promised).contains(&"crack".to_owned()));
+        // At an edge everything is within a hundredth of a triangle's size.
+        assert_eq!(findings(&plain.clone().band("0.01")), [""; 0]);
+        for (request, part) in [
+            (plain.clone().band("wide"), "band: "),
+            (plain.clone().scene("castle"), "scene: "),
+            (plain.clone().families(["edge-near"]), "unknown family 'edge-near'"),
+            (plain.clone().allow("crash", 0.1), "expected one of false-miss"),
+            (plain.clone().allow("crack", f64::NAN), "a share from 0 to 1"),
+        ] {
+            let error = request.run().unwrap_err().to_string();
+            assert!(error.contains(part), "{part}: {error}");
+        }
     }
 }

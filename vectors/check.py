@@ -98,7 +98,7 @@ def check(test):
         read = float.fromhex(text)
         if not (isnan(read) and isnan(number) or struct.pack(">d", read) == struct.pack(">d", number)):
             yield f"{text} is not {number.hex()}"
-    digest = hashlib.sha256(f"{test['scalar']} {test['bits']}".encode()).hexdigest()[:8]
+    digest = hashlib.sha256(f"{test['scalar']} {test['bits']}".encode()).hexdigest()[:16]
     if not test["id"].endswith("-" + digest):
         yield f"the numbers have the digest {digest}"
     found = [truth(ray, triangle) for triangle in triangles]

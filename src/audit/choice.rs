@@ -162,6 +162,11 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanErr
 fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
     let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
     let advice = did_you_mean(name, gates, "hairline list kernels");
+    let advice = match name {
+        "t_min" => "; it is the start of each ray's interval: `hairline epsilon --scene` takes it"
+            .to_owned(),
+        _ => advice,
+    };
     PlanError(format!("no selected kernel has a gate '{name}'{advice}"))
 }
 

@@ -137,6 +137,11 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     for given in &given {
         arguments.set(given)?;
     }
+    let is_default_file = arguments.expectations == DEFAULT_FILE;
+    if let (true, Some(config)) = (is_default_file, &arguments.config) {
+        let beside = Path::new(config).with_file_name(DEFAULT_FILE);
+        arguments.expectations = beside.display().to_string();
+    }
     let outputs = arguments.run.report.outputs()?;
     let unmet = demand::unmet(&arguments.proved)?;
     let mut record = match &arguments.record {
@@ -151,7 +156,10 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         return part_only(&arguments, partial, || outputs.write(&record));
     }
     let file = &arguments.expectations;
-    let expected = read_expectations(file, &given, &kernels_of(&record), arguments.bless)?;
+    let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
+    let may_be_missing = arguments.bless || !is_demanded;
+    let kernels = kernels_of(&record);
+    let expected = read_expectations(file, may_be_missing, &kernels, arguments.bless)?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
     let (result, target) = (&record.result, record.provenance.target.as_str());
@@ -225,16 +233,14 @@ fn defaults() -> Result<CheckFlags, clap::Error> {
     CheckFlags::from_arg_matches(&words_command().try_get_matches_from([""; 0])?)
 }
 
-/// The expectations; none if the file is not there, unless the command line names it to be read.
+/// The expectations; none if the file is not there and may be missing.
 fn read_expectations(
     file: &str,
-    given: &[Given],
+    may_be_missing: bool,
     kernels: &[&str],
     blessing: bool,
 ) -> Result<Option<Expectations>, Failure> {
-    let from_command_line =
-        file != DEFAULT_FILE && given.iter().all(|given| given.key != "expectations");
-    if !Path::new(file).exists() && (blessing || !from_command_line) {
+    if may_be_missing && !Path::new(file).exists() {
         return Ok(None);
     }
     let mut expectations = expect::read(&read_text(file)?, file, kernels)?;

@@ -18,7 +18,7 @@ pub struct TruthArguments {
     #[arg(value_name = "FILE")]
     file: String,
 
-    /// Add t, u and v, and the ends of contacts, as exact fractions; some thirty times slower
+    /// Add t, u and v, and the ends of contacts, as exact fractions; some twenty times slower
     #[arg(long)]
     exact: bool,
 

@@ -119,7 +119,13 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
                 continue;
             };
             let demanded = demanded(test, profile.as_ref());
-            match is_right(demanded, answer) {
+            let fits = match answer {
+                Answered::Single(_) => test.group.is_none(),
+                Answered::Hits(hits) => {
+                    test.group.is_some() && hits as usize <= test.triangles.len()
+                }
+            };
+            match is_right(demanded, answer).filter(|_| fits) {
                 Some(true) if demanded == "free" => counts.free += 1,
                 Some(true) => counts.right += 1,
                 Some(false) => {
@@ -165,7 +171,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
 fn expected(test: &Test) -> &'static str {
     match test.group {
         None => "expected \"hit\" or \"miss\", because the test has one triangle",
-        Some(_) => "expected the number of triangles that are hit, because the test is a group",
+        Some(_) => "expected the number of its triangles that are hit, because the test is a group",
     }
 }
 
@@ -258,7 +264,7 @@ impl Report<'_> {
     fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
         let Counts { tests, right, wrong, free, missing } = self.total;
         let answers = number_of(wrong as u64, "wrong answer", "wrong answers");
-        write!(out, "{}: {answers}, {right} right", self.product)?;
+        write!(out, "{}: {answers}, {right} right", self.product.escape_debug())?;
         if let Some(profile) = self.profile {
             write!(out, " by profile {profile}")?;
         }

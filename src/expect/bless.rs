@@ -69,7 +69,14 @@ fn reviewed(lock: &Lock, old: &Expectations, compared: &Conformance) -> String {
         lock.cases
     );
     let exceeded: BTreeSet<Key> = compared.unexpected.iter().map(|found| found.key()).collect();
-    let most = lock.most();
+    let mut most = lock.most();
+    let stale: BTreeSet<Key> = compared.stale.iter().map(|found| found.key()).collect();
+    // A bound of what did not occur holds, too.
+    let is_bound = |entry: &super::Entry| matches!(entry.amount, Amount::Rate(_));
+    let bounds = old.entries.iter().filter(|(key, entry)| is_bound(entry) && !stale.contains(key));
+    bounds.for_each(|(key, _)| {
+        most.entry(key.clone()).or_insert(0);
+    });
     let rows: BTreeSet<(&str, &str)> =
         most.keys().map(|key| (key.kernel.as_str(), key.set.as_str())).collect();
     for row in rows {

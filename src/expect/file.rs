@@ -4,7 +4,7 @@
 use super::{Amount, Entry, Expectations, SCHEMA};
 use crate::audit::is_of_mesh;
 use crate::corpus::InputError;
-use crate::family::FAMILIES;
+use crate::family::{FAMILIES, STRATA};
 use crate::kernel;
 use crate::report::{FINDING_KINDS, Key};
 use crate::suggest::nearest_name;
@@ -150,7 +150,8 @@ impl Reader<'_> {
     ) -> Result<Vec<(Key, Entry)>, InputError> {
         let FindingText { scalar, finding, counts, rates, why, url } = spanned.get_ref();
         let kinds: Vec<&str> = FINDING_KINDS.iter().map(|(name, _)| *name).collect();
-        let families: Vec<&str> = FAMILIES.iter().map(|family| family.name).collect();
+        let families = FAMILIES.iter().chain(STRATA);
+        let families: Vec<&str> = families.map(|family| family.name).collect();
         self.check("scalar", (scalar.get_ref(), scalar.span()), &["f32", "f64"])?;
         self.check("finding", (finding.get_ref(), finding.span()), &kinds)?;
         let wrong = |message: String| self.error(&spanned.span(), message);

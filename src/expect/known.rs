@@ -28,7 +28,8 @@ pub(super) struct Found<'a> {
 impl Known {
     /// Of a run on a target, on the cases of the expectations or on others; `file` is their name.
     pub fn of(expectations: &Expectations, same_plan: bool, target: &str, file: &str) -> Known {
-        let lock = expectations.lock.as_ref();
+        // A lock of other cases says nothing of those of the file.
+        let lock = expectations.lock.as_ref().filter(|lock| lock.cases == expectations.cases);
         let cases = lock.and_then(|lock| lock.targets.get(target));
         let is_rate = |entry: &Entry| matches!(entry.amount, Amount::Rate(_));
         let without_cases = |entry: &&Entry| is_rate(entry) || (cases.is_none() && same_plan);

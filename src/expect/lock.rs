@@ -36,6 +36,10 @@ impl Lock {
     pub fn read(text: &str, file: &str) -> Result<Lock, InputError> {
         let mut lock = Lock::default();
         let mut section = None;
+        if !text.is_empty() && !text.ends_with('\n') {
+            let message = "the last line is cut off; `hairline check --bless` writes this file";
+            return Err(InputError::at(file, text.lines().count(), message));
+        }
         for (number, line) in (1..).zip(text.lines()) {
             let wrong = |expected: String| {
                 InputError::at(

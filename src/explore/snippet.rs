@@ -14,13 +14,6 @@ pub fn rust_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature)
     let epsilons: Vec<F> = row.epsilons();
     let (truth, verdict, _) = verdict_and_finding(row, &epsilons, case);
     let scalar = F::NAME;
-    let [origin, direction, a, b, c] = case.vectors().map(|v| rust_list(&v));
-    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-    let interval = if t_min.to_bits() == 0 && t_max == F::infinity() {
-        String::new()
-    } else {
-        format!("\n    let case = case.on({}, {});", rust_number(t_min), rust_number(t_max))
-    };
     let (kernel, finding) = (signature.kernel, signature.finding.name());
     let name =
         format!("{kernel}_{scalar}_{finding}").replace(|c: char| !c.is_ascii_alphanumeric(), "_");
@@ -30,8 +23,7 @@ pub fn rust_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature)
 #[test]
 fn {name}() {{
     use hairline::{{Case, Scalar, Verdict, find, truth}};
-    let triangle = [{a}, {b}, {c}];
-    let case = Case::<{scalar}>::new({origin}, {direction}, triangle);{interval}
+    let case = {literal};
     let kernel = {scalar}::subject(find(\"{kernel}\").unwrap()).unwrap();
     let mut verdict = [Verdict::miss(None)];
     kernel.run(&[case], &{epsilons}, &mut verdict);
@@ -40,11 +32,24 @@ fn {name}() {{
     assert!({not}verdict[0].hit);
 }}
 ",
+        literal = rust_case(case),
         contract = row.contract.describe(),
         epsilons = rust_list(&epsilons),
         asked = asked(signature.finding),
         not = if verdict.hit { "" } else { "!" },
     )
+}
+
+/// A case as an expression in Rust.
+pub fn rust_case<F: Float>(case: &Case<F>) -> String {
+    let [origin, direction, a, b, c] = case.vectors().map(|v| rust_list(&v));
+    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
+    let interval = if t_min.to_bits() == F::zero().to_bits() && t_max == F::infinity() {
+        String::new()
+    } else {
+        format!(".on({}, {})", rust_number(t_min), rust_number(t_max))
+    };
+    format!("Case::<{}>::new({origin}, {direction}, [{a}, {b}, {c}]){interval}", F::NAME)
 }
 
 /// The numbers in C, as hexadecimal floats, for a test of whatever kernel.

@@ -22,7 +22,7 @@ pub struct Key {
 }
 
 /// In place of a class: all of them together.
-const ALL_CLASSES: &str = "any class";
+pub const ALL_CLASSES: &str = "any class";
 
 /// Every kind of finding that a record can hold, with what it means.
 pub const FINDING_KINDS: &[(&str, &str)] = &[

@@ -42,7 +42,7 @@ pub use build::{Context, build};
 pub use compare::{Change, Comparison, ContractChange, Difference, difference};
 pub use conformance::*;
 use disagreement::kinds_of;
-pub use disagreement::{Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
+pub use disagreement::{ALL_CLASSES, Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
 #[cfg(feature = "cli")]
 pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ResponsePart};

@@ -191,6 +191,10 @@ fn write_answer(
             let [near, far] = [first(|a, b| a.far.cmp(&b.far)), first(|a, b| b.far.cmp(&a.far))];
             let far = match far.far {
                 0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
+                most if most == near.far => format!(
+                    "Each was wrong {} times by over 1/1000 of the longest edge.",
+                    group_digits(most),
+                ),
                 most => format!(
                     "Wrong by over 1/1000 of the longest edge, least: {}, {} times; most: {}, {}.",
                     near.label,
@@ -362,15 +366,13 @@ fn write_next(
     let sources = if sources.is_empty() { String::new() } else { format!(" {sources}") };
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
     // Many rows leave less room.
-    let (only, after) = match is_alone {
-        true => (format!(" {}", first.selector), "\n"),
-        false => (String::new(), "   "),
-    };
+    let after = if is_alone { "\n" } else { "   " };
     if !is_alone {
         let one = tuned.unwrap_or(first);
         write!(out, "{bold}One kernel:{plain} hairline audit {}{sources}{after}", one.selector)?;
     }
     writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
+    let all_sources = sources.clone();
     if let Some(tuned) = tuned {
         // `epsilon` knows no rays at a mesh's edges.
         let sources = sources.split(" --directions").next().unwrap_or_default();
@@ -380,5 +382,12 @@ fn write_next(
             tuned.selector
         )?;
     }
-    writeln!(out, "{bold}Gate a CI:{plain} hairline check{only} --bless")
+    // Of many rows nobody names each.
+    let mut selectors: Vec<&str> = rows.iter().map(|row| &*row.selector).collect();
+    selectors.dedup();
+    let named = match selectors.len() {
+        1..=3 => format!(" {}", selectors.join(" ")),
+        _ => String::new(),
+    };
+    writeln!(out, "{bold}Gate a CI:{plain} hairline check{named}{all_sources} --bless")
 }

@@ -130,9 +130,9 @@ impl Test {
         words.join(" ")
     }
 
-    /// The first eight digits of the SHA-256 of the scalar and the bit patterns.
+    /// The first sixteen digits of the SHA-256 of the scalar and the bit patterns.
     fn digest(&self) -> String {
-        hex(&Sha256::digest(format!("{} {}", self.scalar, self.bits())))[..8].to_owned()
+        hex(&Sha256::digest(format!("{} {}", self.scalar, self.bits())))[..16].to_owned()
     }
 }
 

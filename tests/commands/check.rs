@@ -493,6 +493,66 @@ fn the_contract_and_the_band_of_a_project_are_settings() {
 }
 
 #[test]
+fn expectations_stand_beside_the_configuration_wherever_check_runs() {
+    let folder = scratch("check-elsewhere");
+    let settings = "kernel = \"cramer\"\nfamily = \"edge-near\"\nscalar = \"f32\"\ncount = 300\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    ends(&folder, &["check", "-q", "--bless"], 0);
+    let inside = folder.join("inside");
+    fs::create_dir_all(&inside).unwrap();
+    ends(&inside, &["check", "-q", "--config", "../hairline.toml"], 0);
+    fs::remove_file(folder.join("hairline.expectations.toml")).unwrap();
+    ends(&inside, &["check", "-q", "--config", "../hairline.toml"], 1);
+    // Blessing writes it there, too.
+    ends(&inside, &["check", "-q", "--config", "../hairline.toml", "--bless", "--accept-worse"], 0);
+    assert!(folder.join("hairline.expectations.toml").exists());
+}
+
+#[test]
+fn a_scene_is_blessed_and_a_lock_that_is_cut_is_refused() {
+    let folder = scratch("check-scene");
+    let scene = ["check", "-q", "--scene", "room", "--kernel", "cramer", "--scalar", "f32"];
+    ends(&folder, &[&scene[..], &["-n", "300", "--bless"]].concat(), 0);
+    ends(&folder, &[&scene[..], &["-n", "300"]].concat(), 0);
+    let lock = folder.join("hairline.expectations.toml.lock");
+    let text = fs::read_to_string(&lock).unwrap();
+    fs::write(&lock, &text[..text.len() - 10]).unwrap();
+    let (_, error) = ends(&folder, &[&scene[..], &["-n", "300"]].concat(), 65);
+    assert!(error.contains("the last line is cut off"), "{error}");
+}
+
+#[test]
+fn the_place_of_a_stored_case_is_not_taken_for_its_name() {
+    let folder = scratch("check-stored");
+    let made = ["corpus", "generate", "--family", "edge-near", "-n", "400", "--scalar", "f32"];
+    let (made, _) = ends(&folder, &made, 0);
+    // The names are ids, in another order.
+    let reversed: Vec<&str> = made.lines().rev().collect();
+    fs::write(folder.join("stored.jsonl"), reversed.join("\n") + "\n").unwrap();
+    let check = ["check", "-q", "--corpus", "stored.jsonl", "--kernel", "cramer"];
+    ends(&folder, &[&check[..], &["--band", "1ulps", "--bless"]].concat(), 0);
+    let (out, _) = ends(&folder, &check, 1);
+    assert!(out.contains("may have failed before") && !out.contains("is new"), "{out}");
+}
+
+#[test]
+fn a_bound_of_what_does_not_occur_is_kept_by_blessing() {
+    let folder = scratch("check-bound");
+    let check =
+        ["check", "-q", "--family", "interior,edge-near", "--kernel", "cramer", "-n", "200"];
+    let bless = [&check[..], &["--scalar", "f32", "--bless"]].concat();
+    ends(&folder, &bless, 0);
+    let line = "  { scalar = \"f32\", finding = \"false-miss\", rates = { interior = 0.001 }, why = \"ours\" },";
+    edit(&folder, |text| text.replacen("findings = [", &format!("findings = [\n{line}"), 1));
+    let before = fs::read_to_string(folder.join("hairline.expectations.toml")).unwrap();
+    assert!(before.contains(line));
+    ends(&folder, &[&check[..], &["--scalar", "f32"]].concat(), 0);
+    ends(&folder, &bless, 0);
+    let after = fs::read_to_string(folder.join("hairline.expectations.toml")).unwrap();
+    assert!(after.contains(line), "{after}");
+}
+
+#[test]
 fn the_other_exit_codes_come_from_real_commands() {
     let folder = blessed("check-codes");
     let case = "{\"scalar\":\"f32\",\"origin\":[1,0,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[2,0,0],\"c\":[0,2,0]}\n";

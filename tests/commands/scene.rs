@@ -242,7 +242,7 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     );
     assert!(
         screen("t=1e-12")
-            .contains("no values at which 99 % of the hits are off by at most 1e-12 of t:")
+            .contains("no fixed values at which 99 % of the hits are off by at most 1e-12 of t:")
     );
     let (_, error) = ends(&folder, &["epsilon", "--scene", "room", "--max-error", "t=0"], 2);
     assert!(error.contains("--max-error: t=0: not a number above 0"), "{error}");

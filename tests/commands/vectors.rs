@@ -56,7 +56,7 @@ fn the_committed_vectors_are_what_the_command_writes_small_and_with_ids_of_their
     for test in &tests {
         let [id, scalar, bits] = ["id", "scalar", "bits"].map(|key| test[key].as_str().unwrap());
         let digest = Sha256::digest(format!("{scalar} {bits}"));
-        let digits: String = digest[..4].iter().map(|byte| format!("{byte:02x}")).collect();
+        let digits: String = digest[..8].iter().map(|byte| format!("{byte:02x}")).collect();
         assert!(id.ends_with(&format!("-{digits}")), "{id} has other numbers than its digest says");
     }
     let ids: HashSet<&str> = tests.iter().map(|test| test["id"].as_str().unwrap()).collect();
@@ -316,6 +316,11 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
         found.unwrap()["id"].as_str().unwrap().to_owned()
     };
     let (single, group) = (id(false), id(true));
+    // What is free has answers of its kind all the same.
+    let free = tests.iter().find(|test| test["result"] == "free" && test["triangles"].is_array());
+    let free = free.unwrap()["id"].as_str().unwrap();
+    let (_, error) = verify(&results(&[(free.to_owned(), json!("hit"))]), &[], 65);
+    assert!(error.contains("because the test is a group"), "{error}");
     let good = results(&[(single.clone(), json!("hit")), (group.clone(), json!(1))]);
     let replaced = |old: &str, new: &str| good.replacen(old, new, 1);
     let cases: BTreeMap<&str, (String, String)> = BTreeMap::from([
@@ -369,7 +374,18 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
             "word for a group",
             (
                 replaced(&format!("{group}\":1"), &format!("{group}\":\"hit\"")),
-                format!("results.json:5: {group}: expected the number of triangles that are hit"),
+                format!(
+                    "results.json:5: {group}: expected the number of its triangles that are hit"
+                ),
+            ),
+        ),
+        (
+            "more hits than triangles",
+            (
+                replaced(&format!("{group}\":1"), &format!("{group}\":99")),
+                format!(
+                    "results.json:5: {group}: expected the number of its triangles that are hit"
+                ),
             ),
         ),
         (

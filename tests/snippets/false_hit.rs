@@ -3,9 +3,7 @@
 #[test]
 fn half_space_f64_false_hit() {
     use hairline::{Case, Scalar, Verdict, find, truth};
-    let triangle = [[0.0, 0.0, 0.0], [0.001, 1e22, 0.0], [-1.0, 0.0, 0.0]];
-    let case = Case::<f64>::new([-0.1, 0.2, -1.0], [0.0, -0.0, -1.0], triangle);
-    let case = case.on(-f64::INFINITY, 0.5);
+    let case = Case::<f64>::new([-0.1, 0.2, -1.0], [0.0, -0.0, -1.0], [[0.0, 0.0, 0.0], [0.001, 1e22, 0.0], [-1.0, 0.0, 0.0]]).on(-f64::INFINITY, 0.5);
     let kernel = f64::subject(find("half-space").unwrap()).unwrap();
     let mut verdict = [Verdict::miss(None)];
     kernel.run(&[case], &[0.0], &mut verdict);

@@ -150,7 +150,11 @@ impl Run<'_> {
         let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
         named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
         for text in self.at {
-            named.push((text.clone(), vec![number("--at", text)?]));
+            let value = number("--at", text)?;
+            if value < F::zero() && knobs[..] == [Knob::LeastT] {
+                return Err(Failure::usage(format!("--at: {LEAST_T} is at least 0")));
+            }
+            named.push((text.clone(), vec![value]));
         }
         let Run { costs, max_error, seed, count, progress, .. } = *self;
         let study = study_scene(&setting, costs, max_error, &named, seed, count, progress)

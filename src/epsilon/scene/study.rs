@@ -29,7 +29,8 @@ pub struct SceneStudy<F> {
     pub proved: Vec<(Proved<F>, Trials)>,
     /// By knob: what each value does on fresh rays while the others stay.
     pub curves: Vec<Curve<F>>,
-    /// The cheapest epsilons that follow each case's size, if they are cheaper by a fifth.
+    /// The cheapest epsilons that follow each case's size, if they are cheaper by a fifth, or if only they
+    /// keep the errors as small as was wanted.
     pub relative: Option<Tried<F>>,
     /// How far such epsilons may move.
     pub relative_limits: Vec<Limit<F>>,
@@ -133,7 +134,9 @@ pub fn study_scene<F: Scalar>(
                 measure(&relative, &attempt, 1, max_error, fresh, count, observer, no_run);
             let vector = ("scale-free".to_owned(), followed);
             let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
-            (Some(relative).filter(|relative| relative.cost < WORTH_SAYING * all[0].cost), found)
+            // Where no fixed values are accurate enough, a form that is needs no lower cost.
+            let is_worth = |form: &Tried<F>| !is_accurate || form.cost < WORTH_SAYING * all[0].cost;
+            (Some(relative).filter(is_worth), found)
         }
         None => (None, Vec::new()),
     };

@@ -22,8 +22,9 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
         section #questions aria-labelledby="questions-title" {
             h2 #questions-title { "Kernels by question" }
             p {
-                "Of a ray through a surface, how many triangles must report it, and what did: orange where a promise is "
-                "broken, blue where nothing is promised. Then the share of wrong verdicts on single triangles, false "
+                "Rays that cross a surface at an edge or a vertex: a crack is one that no triangle reports, a double one "
+                "that two do. Blue: cracks where the contract promises nothing; orange: what it rules out. Then, in "
+                "orange, the share of wrong verdicts on single triangles, false "
                 "misses and false hits, by each row's own contract, with the 95 % interval. The cases are chosen to be "
                 "hard. A star: more than 0.1 % of the verdicts are wrong by over 1/1000 of the triangle's longest edge."
             }

@@ -77,7 +77,9 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
 fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
     let fixed = Use { text: fixed(record, part), notes: notes(record, part) };
     match &part.relative {
-        Some(relative) if relative.cost < DECISIVE * part.tried[0].cost => {
+        Some(relative)
+            if relative.cost < DECISIVE * part.tried[0].cost || part.is_accurate == Some(false) =>
+        {
             vec![scale_free(part, relative), fixed]
         }
         Some(relative) => vec![fixed, scale_free(part, relative)],
@@ -100,6 +102,10 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
     let mut notes: Vec<String> = meanings.collect();
+    if !part.others.is_empty() {
+        let others = part.others.iter().map(|(gate, e)| format!("{gate}={e}"));
+        notes.push(format!("the others stay: {}", others.collect::<Vec<_>>().join(", ")));
+    }
     let wanted =
         record.max_error.iter().map(|NamedNumber { name, number: most }| match name.as_str() {
             "t" => format!("{} of t", human(&format!("{most:e}"))),
@@ -116,7 +122,7 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         }
         Some(false) => vec![
             format!(
-                "these rays show no values at which 99 % of the hits are off by at most {wanted}:"
+                "these rays show no fixed values at which 99 % of the hits are off by at most {wanted}:"
             ),
             "it takes more rays (-n), wider numbers, another kernel or other rays".to_owned(),
         ],
@@ -276,8 +282,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         lines.extend(forms.map(str::to_owned));
     }
     if record.kernels.iter().any(|part| !part.limits.is_empty()) {
-        let most =
-            "at most: what this number itself makes wrong; what the others make comes on top";
+        let most = "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper";
         lines.push(most.to_owned());
     }
     let is_set = |limit: &LimitPart| limit.set_by.is_some();

@@ -91,6 +91,14 @@ pub fn kernel_part<F: Scalar>(
         least_shape: setting.mesh.map(|mesh| mesh.least_shape::<F>()),
         takes_interval: setting.row.contract.extent == Extent::Interval,
         knobs: setting.knobs.iter().map(knob_part).collect(),
+        others: setting
+            .row
+            .tuned()
+            .filter(|(gate, _)| {
+                !setting.knobs.iter().any(|knob| knob.name(info.gates) == gate.name)
+            })
+            .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
+            .collect(),
         counts: setting
             .counts
             .iter()

@@ -2,6 +2,7 @@
 
 use crate::report::record::Rate;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The schema's name and version.
 pub const SCENE_SCHEMA: &str = "hairline-scene/1";
@@ -80,6 +81,8 @@ pub struct SceneKernelPart {
     pub takes_interval: bool,
     /// What can be chosen.
     pub knobs: Vec<KnobPart>,
+    /// The epsilons of the gates that are not chosen.
+    pub others: BTreeMap<String, String>,
     /// What is counted.
     pub counts: Vec<CountPart>,
     /// If errors are limited: whether 99 % of the hits that remain keep the limit with the recommended
@@ -95,8 +98,8 @@ pub struct SceneKernelPart {
     pub curves: Vec<CurvePart>,
     /// The knobs for which no value keeps every limit, and what does.
     pub conflicts: Vec<ConflictPart>,
-    /// Epsilons that follow each case's size, if they are cheaper by a fifth; counted, no kernel runs
-    /// with them.
+    /// Epsilons that follow each case's size, if they are cheaper by a fifth, or if only they keep the errors
+    /// as small as was wanted; counted, no kernel runs with them.
     pub relative: Option<TriedPart>,
 }
 

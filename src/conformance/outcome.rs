@@ -1,0 +1,147 @@
+//! What an audit from a test found, and what its panic says.
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::explore::rust_case;
+use crate::kernel::KERNELS;
+use crate::report::{
+    ALL_CLASSES, FindingPart, KernelResult, Key, Rate, Record, disagreements, interval_of, percent,
+    rate_of,
+};
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+
+/// The kinds of finding that may be allowed.
+pub(super) const ALLOWED: [&str; 6] =
+    ["false-miss", "false-hit", "bad-value", "crack", "double", "odd-fold"];
+
+/// What an audit found.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The record, as `hairline audit --format json` writes it; its times are zero.
+    pub record: Record,
+    pub(super) allowed: BTreeMap<String, f64>,
+}
+
+impl Outcome {
+    /// Each class of finding that occurred, by scalar, family and epsilons.
+    pub fn findings(&self) -> impl Iterator<Item = &FindingPart> {
+        self.record.result.results.iter().flat_map(|result| &result.findings)
+    }
+
+    /// Whether the kernel kept its contract on every case, and what it promises across triangles, but for
+    /// the shares that [`Request::allow`](super::Request::allow) lets pass.
+    pub fn conforms(&self) -> bool {
+        disagreements(&self.record.result).iter().all(|found| self.is_allowed(&found.key))
+    }
+
+    /// Whether a kind of finding is rare enough in its family and scalar.
+    fn is_allowed(&self, key: &Key) -> bool {
+        let Some(most) = self.allowed.get(&key.finding) else { return false };
+        let is_of = |part: &&KernelResult| {
+            (&part.kernel, &part.set, &part.scalar, &part.family)
+                == (&key.kernel, &key.set, &key.scalar, &key.family)
+        };
+        let part = self.record.result.results.iter().find(is_of);
+        let rate = part.map(|part| rate_of(part, ALL_CLASSES, &key.finding));
+        rate.is_some_and(|rate| rate.count as f64 <= most * rate.of as f64)
+    }
+
+    /// Panics unless [`Outcome::conforms`].
+    #[track_caller]
+    pub fn assert_conforms(&self) {
+        if !self.conforms() {
+            panic!("{self}");
+        }
+    }
+}
+
+/// Whether every kernel of a record kept its contract, on polygons and across triangles too.
+pub(crate) fn conforms(record: &Record) -> bool {
+    disagreements(&record.result).is_empty()
+}
+
+/// How many findings a message shows in full.
+const SHOWN: usize = 8;
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        for result in &self.record.result.results {
+            let at = format!("{} {} ({})", result.scalar, result.family, result.set);
+            for part in &result.findings {
+                if !self.is_allowed(&Key::of(result, &part.class, &part.finding)) {
+                    parts.push(describe(&at, &result.kernel, part)?);
+                }
+            }
+        }
+        // What single cases do not show: polygons, and what is promised across triangles.
+        let across = disagreements(&self.record.result);
+        for found in
+            across.iter().filter(|found| !found.is_of_cases() && !self.is_allowed(&found.key))
+        {
+            let Key { kernel, set, scalar, family, class, finding } = &found.key;
+            let Rate { count, of, .. } = found.rate;
+            let share = interval_of(found.rate);
+            let mut text = format!(
+                "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
+            );
+            if let Some(example) = &found.example {
+                writeln!(text, "    {}", shown_by(kernel, &example.case))?;
+            }
+            parts.push(text);
+        }
+        for row in &self.record.result.plan.rows {
+            let breaks = if parts.is_empty() { "keeps" } else { "breaks" };
+            writeln!(f, "{} ({}) {breaks} its contract: {}", row.kernel, row.set, row.contract)?;
+        }
+        for (finding, share) in &self.allowed {
+            writeln!(f, "allowed: {finding} in up to {} of each family", percent(*share))?;
+        }
+        parts.iter().take(SHOWN).try_for_each(|part| f.write_str(part))?;
+        match parts.len().saturating_sub(SHOWN) {
+            0 => Ok(()),
+            more => writeln!(f, "and {more} more classes of findings"),
+        }
+    }
+}
+
+/// A class of findings with its rate and its first cases.
+fn describe(at: &str, kernel: &str, part: &FindingPart) -> Result<String, fmt::Error> {
+    let Rate { count, of, .. } = part.rate;
+    let share = interval_of(&part.rate);
+    let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
+    for example in &part.first {
+        let literal =
+            literal(&example.bits).map_or(String::new(), |case| format!("\n        {case}"));
+        let command = shown_by(kernel, &example.case);
+        writeln!(text, "    {command}{literal}\n        {}", example.bits)?;
+    }
+    Ok(text)
+}
+
+/// The command that shows a case: a kernel of one's own is known to one's own program.
+fn shown_by(kernel: &str, case: &str) -> String {
+    let is_built_in = KERNELS.iter().any(|entry| entry.info.name == kernel);
+    let program = if is_built_in { "hairline" } else { "YOUR-PROGRAM (cli::main_with)" };
+    format!("{program} explain '{case}' --kernel {kernel}")
+}
+
+/// A case as a literal in Rust, from its bits.
+fn literal(bits: &str) -> Option<String> {
+    let words =
+        bits.split([' ', ',', '=']).filter(|word| word.chars().all(|c| c.is_ascii_hexdigit()));
+    let words: Vec<&str> = words.filter(|word| 8 <= word.len()).collect();
+    match words.first()?.len() {
+        8 => literal_of::<f32>(&words),
+        _ => literal_of::<f64>(&words),
+    }
+}
+
+fn literal_of<F: Float>(words: &[&str]) -> Option<String> {
+    let number = |word: &&str| Some(F::from_bits(u64::from_str_radix(word, 16).ok()?));
+    let numbers: [F; 17] = words.iter().map(number).collect::<Option<Vec<F>>>()?.try_into().ok()?;
+    let vector = |i: usize| [numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]];
+    let case = Case::new(vector(0), vector(1), [vector(2), vector(3), vector(4)]);
+    Some(rust_case(&case.on(numbers[15], numbers[16])))
+}
