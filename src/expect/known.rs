@@ -1,7 +1,7 @@
 //! What is known of a run on a target: of each class where the lock file has the cases, otherwise of all
 //! classes of a family together.
 
-use super::{Amount, Entry, Expectations};
+use super::{Amount, Entry, Expectations, Lock};
 use crate::report::{Disagreement, Example, Key, Rate, ResultPart, disagreements, rate_of};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,8 +28,9 @@ pub(super) struct Found<'a> {
 impl Known {
     /// Of a run on a target, on the cases of the expectations or on others; `file` is their name.
     pub fn of(expectations: &Expectations, same_plan: bool, target: &str, file: &str) -> Known {
-        // A lock of other cases says nothing of those of the file.
-        let lock = expectations.lock.as_ref().filter(|lock| lock.cases == expectations.cases);
+        // A lock of other cases says nothing of those of the file and the run.
+        let is_of_others = |lock: &&Lock| same_plan && lock.cases != expectations.cases;
+        let lock = expectations.lock.as_ref().filter(|lock| !is_of_others(lock));
         let cases = lock.and_then(|lock| lock.targets.get(target));
         let is_rate = |entry: &Entry| matches!(entry.amount, Amount::Rate(_));
         let without_cases = |entry: &&Entry| is_rate(entry) || (cases.is_none() && same_plan);
@@ -49,6 +50,7 @@ impl Known {
             }
         }
         let lacking = match lock {
+            None if expectations.lock.is_some() => format!("{file}.lock is of other cases"),
             None => format!("{file}.lock is missing"),
             Some(_) => format!("{file}.lock has no section of {target}"),
         };

@@ -553,6 +553,26 @@ fn a_bound_of_what_does_not_occur_is_kept_by_blessing() {
 }
 
 #[test]
+fn files_of_which_one_is_older_are_refused_and_blessed_again() {
+    let folder = scratch("check-half-written");
+    let check = ["check", "-q", "--family", "edge-near", "--kernel", "cramer", "-n", "300"];
+    let run = |seed: &'static str, more: &[&'static str], code: i32| {
+        let flags = ["--scalar", "f32", "--seed", seed];
+        ends(&folder, &[&check[..], &flags, more].concat(), code)
+    };
+    // As if a run was killed after the first of the two files.
+    run("1", &["--bless"], 0);
+    let lock = folder.join("hairline.expectations.toml.lock");
+    let old = fs::read(&lock).unwrap();
+    run("2", &["--bless", "--accept-worse"], 0);
+    fs::write(&lock, old).unwrap();
+    let (_, error) = run("2", &[], 65);
+    assert!(error.contains("has cases "), "{error}");
+    run("2", &["--bless"], 0);
+    run("2", &[], 0);
+}
+
+#[test]
 fn the_other_exit_codes_come_from_real_commands() {
     let folder = blessed("check-codes");
     let case = "{\"scalar\":\"f32\",\"origin\":[1,0,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[2,0,0],\"c\":[0,2,0]}\n";
