@@ -74,11 +74,22 @@ pub fn compare(
         let mut deviation = deviation(key, Some(entry), &rate, found);
         match judge.outcome(entry, &rate, found.and_then(|found| found.digest)) {
             Outcome::Same => conformance.known.push(deviation),
-            Outcome::Better => conformance.stale.push(deviation),
+            Outcome::Better => {
+                let right = found
+                    .filter(|_| same_plan)
+                    .and_then(|found| changed_case(result, entry, found, Change::Right));
+                if rate.of == 0 {
+                    deviation.expected +=
+                        "; nothing is demanded there now: has the contract changed?";
+                }
+                show(&mut deviation, Change::Right, right);
+                conformance.stale.push(deviation);
+            }
             Outcome::Worse => {
-                let new =
-                    found.filter(|_| same_plan).and_then(|found| new_case(result, entry, found));
-                show(&mut deviation, new);
+                let new = found
+                    .filter(|_| same_plan)
+                    .and_then(|found| changed_case(result, entry, found, Change::New));
+                show(&mut deviation, Change::New, new);
                 *match same_plan && is_as_many(&entry.amount, &rate) {
                     true => &mut conformance.change.other_cases,
                     false => &mut conformance.change.worse,
@@ -101,8 +112,22 @@ pub fn compare(
     conformance
 }
 
-/// A case that shows a finding and is none of those that are expected to, if the digests tell one.
-fn new_case(result: &ResultPart, entry: &Entry, found: &Found) -> Option<Example> {
+/// What changed about a case.
+#[derive(Clone, Copy, PartialEq)]
+enum Change {
+    /// It shows a finding, and is none of those that are expected to.
+    New,
+    /// It is expected to show a finding, and shows none.
+    Right,
+}
+
+/// A case that changed, if the digests tell one.
+fn changed_case(
+    result: &ResultPart,
+    entry: &Entry,
+    found: &Found,
+    change: Change,
+) -> Option<Example> {
     let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
     // The place of a stored case does not tell its name, which may be another case's id.
     if found.key.family.starts_with("corpus:") {
@@ -113,7 +138,11 @@ fn new_case(result: &ResultPart, entry: &Entry, found: &Found) -> Option<Example
     let is_source =
         |scalar: &str, family: &str| scalar == found.key.scalar && family == found.key.family;
     let source = result.sources.iter().find(|source| is_source(&source.scalar, &source.family))?;
-    let place = read(found.digest?)?.beyond(&expected, source.indices)?;
+    let now = read(found.digest?)?;
+    let place = match change {
+        Change::New => now.beyond(&expected, source.indices),
+        Change::Right => expected.beyond(&now, source.indices),
+    }?;
     let mut id: CaseId = example.case.parse().ok()?;
     (id.index, id.triangle) = (place.index, id.triangle.map(|_| place.triangle as usize));
     let case = id.to_string();
@@ -274,14 +303,26 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
     }
 }
 
-/// Shows a case that is none of the expected ones, or says that the one shown may be.
-fn show(deviation: &mut Deviation, new: Option<Example>) {
-    if let Some(Example { case, bits, command, .. }) = new {
-        deviation.expected += "; the case shown is new";
-        (deviation.case, deviation.command) = (Some(case), Some(command));
-        deviation.bits = Some(bits).filter(|bits| !bits.is_empty());
-    } else if deviation.case.is_some() {
-        deviation.expected += "; the case shown may have failed before";
+/// Shows a case that changed. Else what got worse says that the case shown may have failed before, and what
+/// got better shows none: it may still be wrong.
+fn show(deviation: &mut Deviation, change: Change, changed: Option<Example>) {
+    deviation.expected += match (change, &changed) {
+        (Change::New, Some(_)) => "; the case shown is new",
+        (Change::Right, Some(_)) => "; the case shown is right now",
+        (Change::New, None) if deviation.case.is_some() => {
+            "; the case shown may have failed before"
+        }
+        (_, None) => "",
+    };
+    match changed {
+        Some(Example { case, bits, command, .. }) => {
+            (deviation.case, deviation.command) = (Some(case), Some(command));
+            deviation.bits = Some(bits).filter(|bits| !bits.is_empty());
+        }
+        None if change == Change::Right => {
+            (deviation.case, deviation.bits, deviation.command) = (None, None, None);
+        }
+        None => {}
     }
 }
 

@@ -573,6 +573,26 @@ fn files_of_which_one_is_older_are_refused_and_blessed_again() {
 }
 
 #[test]
+fn the_case_of_what_got_better_is_right_now() {
+    let folder = scratch("check-better");
+    let check = ["check", "-q", "--family", "edge-near", "--kernel", "cramer", "--scalar", "f32"];
+    let run = |more: &[&'static str], code| ends(&folder, &[&check[..], more].concat(), code).0;
+    run(&["-n", "400", "--bless"], 0);
+    let out = run(&["-n", "400", "--band", "1ulps"], 3);
+    let better: Vec<&str> = out.split("; the case shown is right now").skip(1).collect();
+    assert!(!better.is_empty(), "{out}");
+    for text in better {
+        let id = text.split('\'').nth(1).unwrap();
+        let all = ["explain", id, "--kernel", "cramer", "--band", "1ulps"];
+        let (shown, _) = ends(&folder, &all, 0);
+        assert!(!shown.contains("FALSE-"), "{shown}");
+    }
+    // Nothing is demanded any more.
+    let out = run(&["-n", "400", "--band", "1e9"], 3);
+    assert!(out.contains("nothing is demanded there now: has the contract changed?"), "{out}");
+}
+
+#[test]
 fn the_other_exit_codes_come_from_real_commands() {
     let folder = blessed("check-codes");
     let case = "{\"scalar\":\"f32\",\"origin\":[1,0,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[2,0,0],\"c\":[0,2,0]}\n";

@@ -18,7 +18,7 @@ const MOST_COLUMNS: usize = 16_000;
 /// Where shades begin, as shares; below the first there is one for what is not nought.
 const SHADES: [f64; 4] = [0.001, 0.01, 0.1, 0.5];
 
-const SHADE_NAMES: [&str; 6] =
+pub(super) const SHADE_NAMES: [&str; 6] =
     ["none found", "below 0.1 %", "0.1 to 1 %", "1 to 10 %", "10 to 50 %", "50 % and more"];
 
 pub(super) fn section(view: &View, room: &mut Room) -> Markup {

@@ -1,6 +1,6 @@
 //! The answer on the front page: cracks and doubles beside what is promised, then verdicts by question.
 
-use super::heat::shade;
+use super::heat::{SHADE_NAMES, shade};
 use super::room::Room;
 use super::view::View;
 use super::words::{interval, percent};
@@ -28,6 +28,7 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
                 "misses and false hits, by each row's own contract, with the 95 % interval. The cases are chosen to be "
                 "hard. A star: more than 0.1 % of the verdicts are wrong by over 1/1000 of the triangle's longest edge."
             }
+            (legend())
             div.scroll role="group" aria-label="The table" tabindex="0" {
                 table.heat.few[view.columns.len() < 12] {
                     thead { tr {
@@ -44,6 +45,19 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
                 p.note { (number_of(left_out, "row is", "rows are")) " left out here; the JSON record has all." }
             }
             p { (column_legend(&view.columns, &view.lines)) "." }
+        }
+    }
+}
+
+fn legend() -> Markup {
+    html! {
+        div.legend role="group" aria-label="Shades" {
+            @for (letter, what) in [("m", "wrong"), ("h", "cracks, not promised")] {
+                p {
+                    b { (what) }
+                    @for (i, name) in SHADE_NAMES.iter().enumerate() { span class={ (letter) (i) } { (name) } }
+                }
+            }
         }
     }
 }
