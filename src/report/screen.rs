@@ -382,12 +382,7 @@ fn write_next(
             tuned.selector
         )?;
     }
-    // Of many rows nobody names each.
-    let mut selectors: Vec<&str> = rows.iter().map(|row| &*row.selector).collect();
-    selectors.dedup();
-    let named = match selectors.len() {
-        1..=3 => format!(" {}", selectors.join(" ")),
-        _ => String::new(),
-    };
-    writeln!(out, "{bold}Gate a CI:{plain} hairline check{named}{all_sources} --bless")
+    let kernels = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.kernels.as_str());
+    let kernels = if kernels.is_empty() { String::new() } else { format!(" {kernels}") };
+    writeln!(out, "{bold}Gate a CI:{plain} hairline check{kernels}{all_sources} --bless")
 }
