@@ -80,9 +80,9 @@ fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
         Some(relative)
             if relative.cost < DECISIVE * part.tried[0].cost || part.is_accurate == Some(false) =>
         {
-            vec![scale_free(part, relative), fixed]
+            vec![scale_free(record, part, relative), fixed]
         }
-        Some(relative) => vec![fixed, scale_free(part, relative)],
+        Some(relative) => vec![fixed, scale_free(record, part, relative)],
         None => vec![fixed],
     }
 }
@@ -106,28 +106,39 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         let others = part.others.iter().map(|(gate, e)| format!("{gate}={e}"));
         notes.push(format!("the others stay: {}", others.collect::<Vec<_>>().join(", ")));
     }
-    let wanted =
-        record.max_error.iter().map(|NamedNumber { name, number: most }| match name.as_str() {
-            "t" => format!("{} of t", human(&format!("{most:e}"))),
-            _ => {
-                let most = human(&format!("{most:e}"));
-                format!("{most}{} of the point", spaced(&record.unit))
-            }
-        });
-    let wanted = wanted.collect::<Vec<_>>().join(", ");
-    notes.extend(match part.is_accurate {
-        None => Vec::new(),
-        Some(true) => {
-            vec![format!("chosen so that 99 % of the hits that remain are off by at most {wanted}")]
+    match part.is_accurate {
+        Some(false) => {
+            let most = most_errors(record);
+            notes.push(format!(
+                "these rays show no fixed values at which 99 % of the hits are off by at most {most}:"
+            ));
+            let advice = "it takes more rays (-n), wider numbers, another kernel or other rays";
+            notes.push(advice.to_owned());
         }
-        Some(false) => vec![
-            format!(
-                "these rays show no fixed values at which 99 % of the hits are off by at most {wanted}:"
-            ),
-            "it takes more rays (-n), wider numbers, another kernel or other rays".to_owned(),
-        ],
-    });
+        _ => notes.extend(accuracy(record)),
+    }
     notes
+}
+
+/// What was wanted of the errors of epsilons that keep it; none if nothing was.
+fn accuracy(record: &SceneRecord) -> Option<String> {
+    let wanted = || {
+        let most = most_errors(record);
+        format!("chosen so that 99 % of the hits that remain are off by at most {most}")
+    };
+    (!record.max_error.is_empty()).then(wanted)
+}
+
+/// The largest errors that were wanted, in words.
+fn most_errors(record: &SceneRecord) -> String {
+    let words = record.max_error.iter().map(|NamedNumber { name, number }| {
+        let most = human(&format!("{number:e}"));
+        match name.as_str() {
+            "t" => format!("{most} of t"),
+            _ => format!("{most}{} of the point", spaced(&record.unit)),
+        }
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// What a column is called.
@@ -180,16 +191,17 @@ fn errors(error: &ErrorPart) -> String {
 }
 
 /// Comparisons that follow each triangle's size.
-fn scale_free(part: &SceneKernelPart, relative: &TriedPart) -> Use {
+fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart) -> Use {
     let forms = part.knobs.iter().zip(&relative.epsilons).map(|(knob, e)| match &knob.form {
         Some(form) => format!("{} = {}", knob.name, form.replacen('e', e, 1)),
         None => format!("{} = {e}", knob.name),
     });
     let (least, most) = (relative.cost, part.tried[0].cost);
-    let notes = vec![
+    let mut notes = vec![
         "epsilons that follow each triangle's size, in the place of fixed ones;".to_owned(),
         format!("they cost {least:.3}, the best fixed ones {most:.3}"),
     ];
+    notes.extend(accuracy(record));
     Use { text: forms.collect::<Vec<_>>().join(", "), notes }
 }
 
