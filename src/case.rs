@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod bits;
 mod scene;
 
 pub(crate) use scene::Number;
@@ -115,24 +116,6 @@ impl<F: Float> Case<F> {
     /// The case in exact numbers.
     pub fn exact(&self) -> (Ray<ExactVector>, Triangle<ExactVector>) {
         self.widen().lift(Exact::from_f64)
-    }
-
-    /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.
-    pub fn hex(&self) -> String {
-        let triples = self.vectors().map(|v| v.map(F::hex).join(","));
-        let [o, d, a, b, c] = triples;
-        let (t_min, t_max) = (self.ray.t_min.hex(), self.ray.t_max.hex());
-        format!("o={o} d={d} a={a} b={b} c={c} t={t_min},{t_max}")
-    }
-
-    /// The bits of all seventeen numbers, in the order of [`Case::hex`]: what a digest covers.
-    pub fn bits(&self) -> [u64; 17] {
-        let vectors = self.vectors();
-        std::array::from_fn(|i| match i {
-            15 => self.ray.t_min.to_bits(),
-            16 => self.ray.t_max.to_bits(),
-            _ => vectors[i / 3][i % 3].to_bits(),
-        })
     }
 }
 

@@ -4,7 +4,7 @@ use super::exit::{Failure, Status};
 use super::input::{open, truth_line};
 use super::output::write_result;
 use crate::corpus::InputError;
-use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::corpus::lines::{self, AnyCase, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
 use crate::oracle;
 use clap::Args;
@@ -98,14 +98,8 @@ fn line(stored: &StoredCase, exact: bool) -> Result<TruthLine, String> {
         };
         TruthLine::without_fractions(name, &truth)
     };
-    let Some(truth) = &stored.truth else {
-        return Ok(if exact { truth_line(stored) } else { fast() });
-    };
-    if exact || truth.has_fractions() {
-        let line = truth_line(stored);
-        truth.check(&line)?;
-        return Ok(if exact { line } else { fast() });
-    }
-    let line = fast();
-    truth.check(&line).map(|()| line)
+    let is_stored_exactly = stored.truth.as_ref().is_some_and(StoredTruth::has_fractions);
+    let line = if exact || is_stored_exactly { truth_line(stored) } else { fast() };
+    stored.truth.as_ref().map_or(Ok(()), |truth| truth.check(&line))?;
+    Ok(if is_stored_exactly && !exact { fast() } else { line })
 }

@@ -1,12 +1,11 @@
 //! What an audit from a test found, and what its panic says.
 
-use crate::arith::Float;
 use crate::case::Case;
 use crate::explore::rust_case;
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, FindingPart, KernelResult, Key, Rate, Record, disagreements, interval_of, percent,
-    rate_of,
+    ALL_CLASSES, Example, FindingPart, KernelResult, Key, Rate, Record, disagreements, interval_of,
+    percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -87,7 +86,7 @@ impl fmt::Display for Outcome {
                 "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
             );
             if let Some(example) = &found.example {
-                writeln!(text, "    {}", shown_by(kernel, &example.case))?;
+                writeln!(text, "    {}", shown_by(kernel, example))?;
             }
             parts.push(text);
         }
@@ -114,34 +113,22 @@ fn describe(at: &str, kernel: &str, part: &FindingPart) -> Result<String, fmt::E
     for example in &part.first {
         let literal =
             literal(&example.bits).map_or(String::new(), |case| format!("\n        {case}"));
-        let command = shown_by(kernel, &example.case);
+        let command = shown_by(kernel, example);
         writeln!(text, "    {command}{literal}\n        {}", example.bits)?;
     }
     Ok(text)
 }
 
-/// The command that shows a case: a kernel of one's own is known to one's own program.
-fn shown_by(kernel: &str, case: &str) -> String {
+/// The command of an example; a kernel of one's own is known to one's own program only.
+fn shown_by(kernel: &str, example: &Example) -> String {
     let is_built_in = KERNELS.iter().any(|entry| entry.info.name == kernel);
     let program = if is_built_in { "hairline" } else { "YOUR-PROGRAM (cli::main_with)" };
-    format!("{program} explain '{case}' --kernel {kernel}")
+    example.command.replacen("hairline", program, 1)
 }
 
-/// A case as a literal in Rust, from its bits.
+/// A case as a literal in Rust, from its bits; none of a group.
 fn literal(bits: &str) -> Option<String> {
-    let words =
-        bits.split([' ', ',', '=']).filter(|word| word.chars().all(|c| c.is_ascii_hexdigit()));
-    let words: Vec<&str> = words.filter(|word| 8 <= word.len()).collect();
-    match words.first()?.len() {
-        8 => literal_of::<f32>(&words),
-        _ => literal_of::<f64>(&words),
-    }
-}
-
-fn literal_of<F: Float>(words: &[&str]) -> Option<String> {
-    let number = |word: &&str| Some(F::from_bits(u64::from_str_radix(word, 16).ok()?));
-    let numbers: [F; 17] = words.iter().map(number).collect::<Option<Vec<F>>>()?.try_into().ok()?;
-    let vector = |i: usize| [numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]];
-    let case = Case::new(vector(0), vector(1), [vector(2), vector(3), vector(4)]);
-    Some(rust_case(&case.on(numbers[15], numbers[16])))
+    let in_f32 = || Some(rust_case(&Case::<f32>::from_hex(bits)?));
+    let in_f64 = || Some(rust_case(&Case::<f64>::from_hex(bits)?));
+    in_f32().or_else(in_f64)
 }

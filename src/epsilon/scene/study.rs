@@ -92,8 +92,10 @@ pub fn study_scene<F: Scalar>(
     let at_proved =
         |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
     attempts.extend(proofs.iter().map(at_proved));
-    let run = run_at(setting, &attempts, plain, max_error, fresh, count, observer)?;
-    let Wrong { trials: mut wrong, of_hits, .. } = run;
+    let differs = differs(setting, &attempts[0].epsilons)?;
+    let run = measure(setting, &attempts, plain, max_error, fresh, count, observer, differs);
+    let Wrong { trials: mut wrong, of_hits, fault } = run;
+    fault.map_or(Ok(()), Err)?;
     let of_proofs = wrong.split_off(attempts.len() - proofs.len());
     let of_proof = |(proved, wrong): (Proved<F>, Vec<Trials>)| {
         let trials = wrong[proved.count];
@@ -324,37 +326,27 @@ fn measure<F: Scalar>(
     setting.sum(seed, count, observer, empty, add)
 }
 
-/// The same, where the kernel also runs at the first epsilons, and must do as its margins say.
-fn run_at<F: Scalar>(
+/// Runs the kernel at some epsilons on a trial; a fault if it does not do as its margins say.
+fn differs<F: Scalar>(
     setting: &Setting<'_, F>,
-    attempts: &[Attempt<F>],
-    with_errors: usize,
-    max_error: Option<&MaxError>,
-    seed: u64,
-    count: u64,
-    observer: &dyn Observer,
-) -> Result<Wrong, String> {
+    at: &[F],
+) -> Result<impl Fn(&Trial<'_, F>) -> Option<String> + Sync, String> {
     let kernel = F::subject(setting.row.entry).ok_or("the kernel does not run in this scalar")?;
     let mut epsilons = setting.row.epsilons::<F>();
     let mut least_t = None;
-    for (knob, epsilon) in setting.knobs.iter().zip(&attempts[0].epsilons) {
+    for (knob, epsilon) in setting.knobs.iter().zip(at) {
         match knob {
             Knob::Gate(gate) => epsilons[*gate] = *epsilon,
             Knob::LeastT => least_t = Some(*epsilon),
         }
     }
-    let is_hit = |trial: &Trial<'_, F>| {
+    Ok(move |trial: &Trial<'_, F>| {
         let mut verdicts = vec![Verdict::miss(None); trial.cases.len()];
         kernel.run(trial.cases, &epsilons, &mut verdicts);
-        verdicts.iter().any(|verdict| verdict.hit && least_t.is_none_or(|t| t <= verdict.t))
-    };
-    let check = |trial: &Trial<'_, F>| {
-        let first = &attempts[0].epsilons;
-        let differs = is_hit(trial) != trial.is_hit(first);
+        let is_hit =
+            verdicts.iter().any(|verdict| verdict.hit && least_t.is_none_or(|t| t <= verdict.t));
         let case = &trial.cases[0];
-        differs.then(|| format!("the margins and the run differ at {first:?} on {}", case.hex()))
-    };
-    let mut wrong =
-        measure(setting, attempts, with_errors, max_error, seed, count, observer, check);
-    wrong.fault.take().map_or(Ok(wrong), Err)
+        (is_hit != trial.is_hit(at))
+            .then(|| format!("the margins and the run differ at {at:?} on {}", case.hex()))
+    })
 }

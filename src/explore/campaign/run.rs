@@ -3,7 +3,6 @@
 use super::find::Find;
 use super::island::{Island, Newcomer};
 use super::state::{SavedIndividual, State};
-use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
@@ -170,12 +169,6 @@ where
     let island = island.ok_or_else(|| format!("no {} in {}", saved.kernel, F::NAME))?;
     let bits: &[u64; 17] =
         saved.bits.as_slice().try_into().map_err(|_| "bits: expected 17 numbers".to_owned())?;
-    island.restore(case_of_bits(bits), row);
+    island.restore(Case::from_bits(bits), row);
     Ok(())
-}
-
-fn case_of_bits<F: Float>(bits: &[u64; 17]) -> Case<F> {
-    let number = |i: usize| F::from_bits(bits[i]);
-    let vector = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2)];
-    Case::new(vector(0), vector(1), [vector(2), vector(3), vector(4)]).on(number(15), number(16))
 }

@@ -3,7 +3,6 @@
 use super::room::Room;
 use super::view::{InScalar, Kind, Row};
 use super::words::code;
-use crate::arith::Float;
 use crate::audit;
 use crate::case::Case;
 use crate::epsilon::SPANNING;
@@ -147,43 +146,6 @@ fn worst<'a>(scalar: &InScalar<'a>, kind: Kind) -> Option<(&'a str, &'a FindingP
 }
 
 fn drawn<F: Scalar>(row: &audit::Row, bits: &str) -> Option<String> {
-    let case = case_of::<F>(bits)?;
+    let case = Case::<F>::from_hex(bits)?;
     catch_unwind(AssertUnwindSafe(|| map::drawing(&case, row).ok())).ok().flatten()
-}
-
-/// A case from its bits, as `Case::hex` writes them.
-fn case_of<F: Float>(bits: &str) -> Option<Case<F>> {
-    let mut words = bits.split(' ');
-    let mut numbers = |name: &str| -> Option<Vec<F>> {
-        let list = words.next()?.strip_prefix(name)?.strip_prefix('=')?;
-        let number = |text: &str| {
-            let bits = u64::from_str_radix(text, 16).ok()?;
-            let number = F::from_bits(bits);
-            (number.hex() == text).then_some(number)
-        };
-        list.split(',').map(number).collect()
-    };
-    let mut vector = |name: &str| <[F; 3]>::try_from(numbers(name)?).ok();
-    let (origin, direction) = (vector("o")?, vector("d")?);
-    let triangle = [vector("a")?, vector("b")?, vector("c")?];
-    let [t_min, t_max] = <[F; 2]>::try_from(numbers("t")?).ok()?;
-    Some(Case::new(origin, direction, triangle).on(t_min, t_max))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_case_comes_back_from_its_bits_and_nothing_else_does() {
-        let case =
-            Case::<f32>::new([0.1, -0.0, f32::NAN], [1.0; 3], [[0.0; 3], [2.0; 3], [1e30; 3]]);
-        let case = case.on(-1.0, f32::INFINITY);
-        let again = case_of::<f32>(&case.hex()).unwrap();
-        assert_eq!(again.hex(), case.hex());
-        assert!(case_of::<f64>(&case.hex()).is_none(), "of the other scalar");
-        for bad in ["", "o=", "o=zz,00000000,00000000 d=", &case.hex()[..60]] {
-            assert!(case_of::<f32>(bad).is_none(), "{bad}");
-        }
-    }
 }
