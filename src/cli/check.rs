@@ -184,6 +184,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     github::announce(&record)?;
     if !unmet.is_empty() {
         unmet.iter().for_each(|line| eprintln!("hairline: {line}"));
+        eprintln!("hairline: the check fails, because a proof is not what [proved] demands");
         return Ok(Status::Disagreements);
     }
     Ok(match record.conformance.map(|conformance| conformance.verdict) {

@@ -72,7 +72,7 @@ pub fn compare(
         let found = found.get(key).copied();
         let rate = rate_of(part, &key.class, &key.finding);
         let mut deviation = deviation(key, Some(entry), &rate, found);
-        match judge.outcome(entry, &rate, found.and_then(|found| found.digest)) {
+        match judge.outcome(&key.finding, entry, &rate, found.and_then(|found| found.digest)) {
             Outcome::Same => conformance.known.push(deviation),
             Outcome::Better => {
                 let right = found
@@ -228,7 +228,7 @@ impl Judge {
                 < trials.interval_at(self.tail).low
     }
 
-    fn outcome(&self, entry: &Entry, found: &Rate, digest: Option<&str>) -> Outcome {
+    fn outcome(&self, finding: &str, entry: &Entry, found: &Rate, digest: Option<&str>) -> Outcome {
         match &entry.amount {
             Amount::Rate(bound) => self.within(*bound, found),
             Amount::Count { count, cases } => {
@@ -241,6 +241,8 @@ impl Judge {
                 }
                 let same_cases =
                     cases.as_ref().is_none_or(|(_, expected)| Some(expected.as_str()) == digest);
+                // Bad values are counted among the hits, whose number moves with other findings.
+                let same_trials = same_trials || finding == Finding::BadValue.name();
                 if found.count < *count {
                     Outcome::Better
                 } else if found.count == *count && same_trials && same_cases {
@@ -361,7 +363,7 @@ mod tests {
     fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {
         let judge = Judge { method, tail: 1e-5 };
         let rate = Rate::new(Trials::independent(found.0, found.1), found.2);
-        match judge.outcome(&entry(amount), &rate, Some(digest)) {
+        match judge.outcome("false-miss", &entry(amount), &rate, Some(digest)) {
             Outcome::Better => -1,
             Outcome::Same => 0,
             Outcome::Worse => 1,
