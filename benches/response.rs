@@ -87,8 +87,8 @@ fn lines<F: Scalar>() {
                 black_box(&verdicts);
             }
         });
-        let gated = F::subject(row.entry).and_then(|subject| subject.gated()).expect("built in");
-        let request = Request { row, gated, gates: &gates, axis: &axis, exact: false };
+        let subject = F::subject(row.entry).expect("built in");
+        let request = Request { row, subject, gates: &gates, axis: &axis, exact: false };
         let response = median(|| drop(black_box(run(&request, &sources, &Silent))));
         println!(
             "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",

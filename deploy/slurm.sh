@@ -13,14 +13,18 @@ set -euo pipefail
 
 folder=$1
 shift
-# Passed on explicitly: the number of tasks is that of the array, and the first index is 0.
+mkdir -p "$folder"
+# As many parts as the records in the folder say, so that lost ones run again alone (sbatch --array=17 with the
+# same words); of an empty folder the array has them all.
 k=$SLURM_ARRAY_TASK_ID
-n=$SLURM_ARRAY_TASK_COUNT
-if ((SLURM_ARRAY_TASK_MIN != 0 || SLURM_ARRAY_TASK_MAX != n - 1)); then
-    echo "the array must be 0-$((n - 1)), each index once" >&2
+n=$(find "$folder" -name '*-of-*.json' | sed -n 's|.*/[0-9]*-of-\([0-9]*\)\.json$|\1|p' | sort -u)
+if [[ -z $n ]] && ((SLURM_ARRAY_TASK_MIN == 0 && SLURM_ARRAY_TASK_MAX == SLURM_ARRAY_TASK_COUNT - 1)); then
+    n=$SLURM_ARRAY_TASK_COUNT
+fi
+if ! [[ $n =~ ^[0-9]+$ ]] || ((k >= n)); then
+    echo "the array must be 0-N, each index once, or parts of the one run whose records are in $folder" >&2
     exit 2
 fi
 
-mkdir -p "$folder"
 exec hairline audit "$@" --shard "$k/$n" --threads "${SLURM_CPUS_PER_TASK:-1}" --quiet \
     --format json -o "$folder/$k-of-$n.json"

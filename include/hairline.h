@@ -54,7 +54,8 @@ typedef struct {
 #define HAIRLINE_GIVES_UV 2u
 #define HAIRLINE_GIVES_FACING 4u
 
-/* An epsilon that the kernel takes. Raising it must only refuse more; a tolerance is negative. */
+/* An epsilon that the kernel takes. Raising it must only refuse more, whatever the others are; a tolerance
+ * is negative. */
 typedef struct {
     const char *name;     /* one word: `--epsilon NAME=VALUE` sets it */
     const char *value;    /* its usual value, in decimal, as "1e-6" */

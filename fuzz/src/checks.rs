@@ -154,7 +154,7 @@ where
     let asked: Vec<Obligation> = cases.iter().map(asked).collect();
     let sources = [Source::Corpus(stored(&cases))];
     let gates = tunable_gates(entry.info.gates);
-    let request = Request { row: &row, gated, gates: &gates, axis, exact: true };
+    let request = Request { row: &row, subject, gates: &gates, axis, exact: true };
     for response in &run(&request, &sources, &Unobserved)[0].gates {
         let gate = response.gate;
         let margin = |case: &Case<F>| gated.measure(case).margins[gate];

@@ -174,7 +174,12 @@ impl Row {
     /// The row of a kernel, its epsilons as [`Row::epsilon_argument`] writes them (none: as the source
     /// has them), and a contract in the words of [`Contract::from_words`].
     pub fn named(kernel: &str, epsilons: Option<&str>, contract: &str) -> Result<Row, PlanError> {
-        let entry = find(kernel).ok_or_else(|| PlanError(format!("unknown kernel '{kernel}'")))?;
+        let unknown = || {
+            PlanError(format!(
+                "unknown kernel '{kernel}': one of your own is known by its --kernel-lib or --kernel-cmd"
+            ))
+        };
+        let entry = find(kernel).ok_or_else(unknown)?;
         let choice = match epsilons {
             Some(text) => EpsilonChoice::parse(text)?,
             None => EpsilonChoice::Source,
@@ -295,6 +300,6 @@ mod tests {
         }
         let unknown =
             RowSpec { kernel: "x".into(), set: None, epsilons: None, contract: "own".into() };
-        assert_eq!(unknown.row().err().unwrap().0, "unknown kernel 'x'");
+        assert!(unknown.row().err().unwrap().0.starts_with("unknown kernel 'x': one of your own"));
     }
 }

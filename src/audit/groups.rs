@@ -2,12 +2,12 @@
 
 use super::chunk::Chunk;
 use super::group_count::Judged;
-use super::rows::{RowIn, verdicts_of};
+use super::rows::RowIn;
 use super::source::Source;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{GroupTruth, may_be_elsewhere};
-use crate::kernel::{Scalar, Verdict};
+use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::Facing;
 

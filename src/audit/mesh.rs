@@ -4,12 +4,12 @@
 use super::chunk::{Chunk, SourceSummary};
 use super::group_count::{GroupCount, Outcome};
 use super::row::Row;
-use super::rows::{Rows, verdicts_of};
+use super::rows::Rows;
 use super::source::Source;
 use crate::case::Parameters;
 use crate::contract::Across;
 use crate::engine::{self, Merge, Observer};
-use crate::kernel::{Scalar, Verdict};
+use crate::kernel::{Scalar, Verdict, verdicts_of};
 use crate::mesh::{Aim, Part, Surface};
 use crate::oracle::Layers;
 use crate::truth::Truth;

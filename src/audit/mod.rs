@@ -53,7 +53,6 @@ pub(crate) use judging::polygon_verdict;
 pub use plan::Plan;
 pub(crate) use row::flags;
 pub use row::{PlanError, Row, RowSpec, quoted, shell_word};
-pub(crate) use rows::verdicts_of;
 pub use run::{Audit, Cell, finish, run, run_scalar, sum};
 pub use severity::{Severity, exact_severity};
 pub(crate) use shard::MOST_SHARDS;

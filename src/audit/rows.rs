@@ -1,11 +1,8 @@
 //! The rows of a plan in one scalar: kernels, epsilons and contracts looked up once.
 
 use super::row::Row;
-use crate::arith::Float;
-use crate::case::Case;
 use crate::contract::Contract;
-use crate::kernel::{Failure, KernelInfo, Scalar, Subject, Verdict};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use crate::kernel::{KernelInfo, Scalar, Subject};
 
 /// The rows whose kernels run in a scalar.
 pub(super) struct Rows<F: 'static> {
@@ -41,26 +38,5 @@ impl<F: Scalar> Rows<F> {
         };
         let each = rows.iter().enumerate().filter_map(resolve).collect();
         Rows { each, contracts }
-    }
-}
-
-/// Runs a kernel on all cases.
-pub(crate) fn verdicts_of<F: Float>(
-    subject: &dyn Subject<F>,
-    cases: &[Case<F>],
-    epsilons: &[F],
-    verdicts: &mut [Verdict<F>],
-) {
-    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
-    };
-    if run(cases, verdicts).is_ok() {
-        return;
-    }
-    // Once more, one by one, to pin the cases at which it panicked.
-    for i in 0..cases.len() {
-        if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
-            verdicts[i] = Verdict::failed(Failure::Panic);
-        }
     }
 }

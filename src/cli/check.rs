@@ -143,7 +143,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         arguments.expectations = beside.display().to_string();
     }
     let outputs = arguments.run.report.outputs()?;
-    let unmet = demand::unmet(&arguments.proved)?;
+    let unproved = demand::unproved(&arguments.proved)?;
     let mut record = match &arguments.record {
         Some(file) => read_record(file)?,
         None => {
@@ -179,14 +179,10 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
             }
         }
     }
+    conformance.demand(unproved);
     record.conformance = Some(conformance);
     outputs.write(&record)?;
     github::announce(&record)?;
-    if !unmet.is_empty() {
-        unmet.iter().for_each(|line| eprintln!("hairline: {line}"));
-        eprintln!("hairline: the check fails, because a proof is not what [proved] demands");
-        return Ok(Status::Disagreements);
-    }
     Ok(match record.conformance.map(|conformance| conformance.verdict) {
         Some(Verdict::Disagreements) => Status::Disagreements,
         Some(Verdict::Stale) => Status::Stale,
@@ -241,12 +237,18 @@ fn read_expectations(
     kernels: &[&str],
     blessing: bool,
 ) -> Result<Option<Expectations>, Failure> {
+    let lock = lock_of(file);
+    let has_lock = Path::new(&lock).exists();
     if may_be_missing && !Path::new(file).exists() {
+        if has_lock {
+            let message =
+                format!("{file}, whose cases these are, is missing: restore it, or remove both");
+            return Err(InputError::of(&lock, message).into());
+        }
         return Ok(None);
     }
     let mut expectations = expect::read(&read_text(file)?, file, kernels)?;
-    let lock = lock_of(file);
-    if Path::new(&lock).exists() {
+    if has_lock {
         expectations.lock = Some(Lock::read(&read_text(&lock)?, &lock)?);
     }
     if !blessing {

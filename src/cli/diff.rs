@@ -3,7 +3,7 @@
 use super::exit::{Failure, Status};
 use super::input::read_record;
 use super::output::write_result;
-use crate::report::{Change, difference};
+use crate::expect::{Trend, difference};
 use clap::{Args, ValueEnum};
 use std::io;
 
@@ -55,6 +55,6 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
         let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
     }
-    let is_worse = comparison.differences.iter().any(|found| found.change == Change::Worse);
+    let is_worse = comparison.differences.iter().any(|found| found.change == Trend::Worse);
     Ok(if arguments.exit_code && is_worse { Status::Disagreements } else { Status::Success })
 }

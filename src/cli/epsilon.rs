@@ -12,7 +12,7 @@ use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::{FAMILIES, Family};
-use crate::kernel::{Gate, Gated, Scalar};
+use crate::kernel::{Entry, Gate, Scalar};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
 use crate::suggest::nearest_name;
@@ -143,8 +143,7 @@ fn run_study<F: Scalar>(
     sources: &[Source],
     progress: &Progress,
 ) -> StudyParts {
-    let study = study(plan, sources, progress)
-        .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
+    let study = study(plan, sources, progress).map_err(|error| fault(plan.row.entry, error))?;
     Ok(parts(plan, sources, &study))
 }
 
@@ -184,11 +183,7 @@ impl EpsilonArguments {
         if tunable.is_empty() {
             return Err(format!("{name} has no gate that takes an epsilon"));
         }
-        if gated::<f32>(row).is_none() && gated::<f64>(row).is_none() {
-            return Err(format!(
-                "{name} does not show its gates: `hairline audit --epsilon GATE=VALUE` runs it at one epsilon"
-            ));
-        }
+        tells_margins(row.entry)?;
         if self.gate.is_empty() {
             return Ok(tunable);
         }
@@ -254,13 +249,35 @@ impl EpsilonArguments {
         });
         let at = at.collect::<Result<_, _>>()?;
         let name = row.entry.info.name;
-        let gated = gated(row).ok_or_else(|| {
-            Failure::usage(format!("{name} does not show its gates in {}", F::NAME))
-        })?;
-        Ok(StudyPlan { row, gated, at, gates: chosen, exact: self.exact, map: self.map })
+        let subject = F::subject(row.entry)
+            .ok_or_else(|| Failure::usage(format!("{name} does not run in {}", F::NAME)))?;
+        Ok(StudyPlan { row, subject, at, gates: chosen, exact: self.exact, map: self.map })
     }
 }
 
-fn gated<F: Scalar>(row: &Row) -> Option<&'static dyn Gated<F>> {
-    F::subject(row.entry)?.gated()
+/// An error if a kernel takes too long to be asked for its margins.
+fn tells_margins(entry: &Entry) -> Result<(), String> {
+    if entry.tells_margins() {
+        return Ok(());
+    }
+    Err(format!(
+        "{}: a command is too slow to be asked at many epsilons a case (a --kernel-lib is not, nor is a command \
+         that answers for margins: docs/protocol.md); `hairline audit --epsilon GATE=VALUE` runs it at one",
+        entry.info.name
+    ))
+}
+
+/// A disagreement between margins and runs: a fault of this tool, or of a kernel whose gates nobody sees.
+fn fault(entry: &Entry, error: String) -> Failure {
+    if entry.shows_gates() {
+        return Failure::Message(Status::SelfCheck, format!("self-check: {error}"));
+    }
+    let name = entry.info.name;
+    Failure::Message(
+        Status::BadInput,
+        format!(
+            "kernel '{name}': its epsilons do not each act alone: {error}. Raising one must only refuse more, \
+             whatever the others are, and its answers must depend on the case and the epsilons alone"
+        ),
+    )
 }

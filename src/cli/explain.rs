@@ -6,7 +6,7 @@ use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
 use crate::arith::{Exact, Float, Real};
-use crate::audit::{Errors, Row, attribute, exact_severity, polygon_verdict, verdicts_of};
+use crate::audit::{Errors, Row, attribute, exact_severity, polygon_verdict};
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
@@ -16,13 +16,14 @@ use crate::judge::{
     Finding, GroupTruth, Obligation, asked, group_obligation, judge, may_be_elsewhere,
     polygon_obligation, polygon_truth,
 };
-use crate::kernel::{Gated, Gives, Scalar, Tunable, Verdict};
+use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict, verdicts_of};
 use crate::oracle;
 use crate::report::epsilon::shortest;
 use crate::truth::{Feature, Truth};
 use clap::Args;
 use std::cmp::Ordering;
 use std::io::{self, Write};
+use std::slice;
 
 /// Which case, and which kernels.
 #[derive(Args)]
@@ -186,7 +187,7 @@ fn write_row<F: Scalar>(
     };
     let epsilons: Vec<F> = row.epsilons();
     let mut verdict = [Verdict::miss(None)];
-    verdicts_of(subject, std::slice::from_ref(case), &epsilons, &mut verdict);
+    verdicts_of(subject, slice::from_ref(case), &epsilons, &mut verdict);
     let [verdict] = verdict;
 
     let asked = asked(case, truth, &row.contract, secondary);
@@ -198,7 +199,7 @@ fn write_row<F: Scalar>(
     }
     match subject.gated() {
         Some(gated) => write_gates(out, case, gated, &verdict, row)?,
-        None => write_epsilons(out, row)?,
+        None => write_epsilons(out, case, subject, row)?,
     }
     if let Some(finding) = finding.filter(|finding| !finding.is_failure()) {
         let why = attribute(subject, case, &epsilons, truth, asked);
@@ -213,12 +214,33 @@ fn write_row<F: Scalar>(
     write_errors(out, case, truth, finding, gives, &verdict)
 }
 
-/// The epsilons that the kernel was given, where it does not show its gates.
-fn write_epsilons(out: &mut dyn Write, row: &Row) -> io::Result<()> {
-    for (gate, epsilon) in row.tuned() {
-        writeln!(out, "    {:<10} at e = {epsilon}   [{}]", gate.name, gate.refuses)?;
+/// The epsilons that the kernel was given, where it does not show its gates, and the margins that runs at other
+/// epsilons find.
+fn write_epsilons<F: Scalar>(
+    out: &mut dyn Write,
+    case: &Case<F>,
+    subject: &dyn Subject<F>,
+    row: &Row,
+) -> io::Result<()> {
+    let info = row.entry.info;
+    let epsilons: Vec<F> = row.epsilons();
+    let mut margins = vec![F::zero(); info.gates.len()];
+    let tells = subject.tells_margins();
+    if tells {
+        subject.margins(info, slice::from_ref(case), &mut margins, &mut []);
     }
-    writeln!(out, "    it does not show its gates: no margins, no run without rounding")
+    for (i, gate) in info.gates.iter().enumerate().filter(|(_, g)| g.epsilon != Tunable::Fixed) {
+        let (name, e) = (gate.name, epsilons[i]);
+        let margin = margin_text(&Exact::from_f64(margins[i].to_f64()), e, false);
+        let found = match tells {
+            true if margins[i] == -F::infinity() => "refused at every e, ".to_owned(),
+            true if margins[i] == F::infinity() => "accepted at every e, ".to_owned(),
+            true => format!("accepted up to e = {margin}, "),
+            false => String::new(),
+        };
+        writeln!(out, "    {name:<10} {found}at e = {e}   [{}]", gate.refuses)?;
+    }
+    writeln!(out, "    it does not show its gates: no exact margins, no run without rounding")
 }
 
 /// Each gate's margin, computed and exact, and what it decided.

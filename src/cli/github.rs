@@ -1,7 +1,7 @@
 //! GitHub Actions: annotations on the run, and its summary, when the program runs there.
 
 use super::exit::Failure;
-use crate::report::{Conformance, Deviation, MARKDOWN_LIMIT, Record, markdown_within};
+use crate::report::{Conformance, Deviation, MARKDOWN_LIMIT, Record, Unproved, markdown_within};
 use std::fs::{self, File};
 use std::io::{self, Write};
 
@@ -29,7 +29,10 @@ fn append(file: &str, record: &Record) -> io::Result<()> {
 }
 
 fn annotations(conformance: &Conformance) -> Vec<String> {
-    let mut lines = Vec::new();
+    let missing = |unproved: &Unproved| {
+        format!("::error title=hairline%3A proof missing::{}", data(&unproved.to_string()))
+    };
+    let mut lines: Vec<String> = conformance.unproved.iter().map(missing).collect();
     for (list, title) in [
         (&conformance.unexpected, "unexpected disagreement"),
         (&conformance.stale, "stale expectation"),

@@ -57,7 +57,15 @@ pub fn read_record(path: &str) -> Result<Record, Failure> {
         let message = format!("a record of schema '{}', expected '{SCHEMA}'", version.schema);
         return Err(InputError::of(path, message).into());
     }
-    Ok(serde_json::from_str(&text).map_err(bad)?)
+    let record: Record = serde_json::from_str(&text).map_err(bad)?;
+    let target = &record.provenance.target;
+    if target.is_empty() || !target.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
+    {
+        let message =
+            format!("provenance.target: {target:?} is none; expected one as x86_64-linux");
+        return Err(InputError::of(path, message).into());
+    }
+    Ok(record)
 }
 
 /// Reads a mesh, with a progress bar for a large one, and prints its notes.

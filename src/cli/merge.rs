@@ -2,6 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::input::{corpus_set, read_mesh, read_record};
+use super::plugins::PluginArguments;
 use super::progress::Progress;
 use super::reporting::{ReportArguments, self_check};
 use crate::audit::{Plan, Source, StoredSource};
@@ -25,12 +26,17 @@ pub struct MergeArguments {
     allow_partial: bool,
 
     #[command(flatten)]
+    plugins: PluginArguments,
+
+    #[command(flatten)]
     report: ReportArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let outputs = arguments.report.outputs()?;
+    // What they answer is looked at again, for the worst findings and their causes.
+    arguments.plugins.entries()?;
     let files = &arguments.records;
     let records = files.iter().map(|file| read_record(file)).collect::<Result<Vec<_>, _>>()?;
     let parts = mergeable(records, arguments.allow_partial).map_err(|error| {

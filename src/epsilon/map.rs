@@ -71,7 +71,7 @@ fn add<F: Scalar>(
     let info = request.row.entry.info;
     let given = request.row.epsilons::<F>();
     let mut margins = vec![F::zero(); chunk.cases.len() * info.gates.len()];
-    request.gated.margins(&chunk.cases, &mut margins);
+    request.subject.margins(info, &chunk.cases, &mut margins, &mut []);
     let obligations = chunk.obligations(&request.row.contract);
     for (margins, obligation) in margins.chunks_exact(info.gates.len()).zip(obligations) {
         let counts_of = match obligation {

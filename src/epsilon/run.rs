@@ -8,7 +8,7 @@ use crate::audit::{Chunk, Place, Row, Source, SourceSummary};
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation};
-use crate::kernel::{Gate, Gated, Scalar, Tunable};
+use crate::kernel::{Gate, Scalar, Subject, Tunable};
 use std::ops::Range;
 
 /// A kernel, and the gates whose responses are computed.
@@ -16,8 +16,8 @@ use std::ops::Range;
 pub struct Request<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.
     pub row: &'a Row,
-    /// The kernel's gates.
-    pub gated: &'static dyn Gated<F>,
+    /// The same kernel in the scalar.
+    pub subject: &'static dyn Subject<F>,
     /// The gates, each varied alone.
     pub gates: &'a [usize],
     /// Where the answer is exact.
@@ -159,7 +159,8 @@ impl<'a, F: Scalar> Pass<'a, F> {
         let obligations = chunk.obligations(contract);
         let groups = chunk.group_truths(contract);
         sums.margins.resize(chunk.cases.len() * self.gates.len(), F::zero());
-        self.request.gated.margins(&chunk.cases, &mut sums.margins);
+        let info = self.request.row.entry.info;
+        self.request.subject.margins(info, &chunk.cases, &mut sums.margins, &mut []);
         for (gate_sums, &gate) in sums.gates.iter_mut().zip(self.request.gates) {
             self.add_cases(&chunk, &obligations, &sums.margins, gate, gate_sums);
             add_groups(&chunk, &groups, self.request.axis, gate_sums);

@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::duty::Duty;
 use super::run::{Request, Response, run, tunable_gates};
 use crate::audit::{CorpusSet, Observer, Row, Source};
-use crate::kernel::{Gated, Scalar};
+use crate::kernel::{Scalar, Subject};
 
 /// Families whose sizes span the scalar's range. An epsilon that is right for one size is wrong for
 /// another there.
@@ -25,7 +25,7 @@ pub struct Sketch<F> {
 /// Sketches of all gates that take an epsilon, each varied alone; empty without a source.
 pub fn sketch<F: Scalar>(
     row: &Row,
-    gated: &'static dyn Gated<F>,
+    subject: &'static dyn Subject<F>,
     sources: &[Source],
     axis: &Axis<F>,
     observer: &dyn Observer,
@@ -36,7 +36,7 @@ pub fn sketch<F: Scalar>(
         return Vec::new();
     }
     // Margins are kept one by one: there are few, and cells for each source would cost more.
-    let request = Request { row, gated, gates: &tunable, axis, exact: true };
+    let request = Request { row, subject, gates: &tunable, axis, exact: true };
     let responses = run(&request, sources, observer);
     let sketch = |(n, &gate): (usize, &usize)| {
         let duty = Duty::of(gates, gate, &row.contract);

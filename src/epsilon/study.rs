@@ -10,14 +10,14 @@ use super::run::{Request, Response, SourceResponse, run};
 use crate::arith::Float;
 use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_scalar};
 use crate::judge::{Class, Finding};
-use crate::kernel::{Gate, Gated, PRESETS, Preset, Scalar};
+use crate::kernel::{Gate, PRESETS, Preset, Scalar, Subject};
 
 /// What to study.
 pub struct StudyPlan<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.
     pub row: &'a Row,
-    /// The kernel's gates.
-    pub gated: &'static dyn Gated<F>,
+    /// The same kernel in the scalar.
+    pub subject: &'static dyn Subject<F>,
     /// The gates, each varied alone.
     pub gates: Vec<usize>,
     /// Further epsilons to weigh.
@@ -82,7 +82,7 @@ pub fn study<F: Scalar>(
     let axis = Axis::new(&edges);
     let request = Request {
         row: plan.row,
-        gated: plan.gated,
+        subject: plan.subject,
         gates: &plan.gates,
         axis: &axis,
         exact: plan.exact,

@@ -1,12 +1,10 @@
 //! A run beside its expectations.
 
+use super::changed::{Change, UNSURE, changed_case};
 use super::known::{Found, Known};
 use super::{Amount, Entry, Expectations};
 use crate::audit::{Digest, Interval};
-use crate::case::{Case, CaseId};
-use crate::family;
 use crate::judge::Finding;
-use crate::kernel::Scalar;
 use crate::report::{
     Conformance, Deviation, Example, KernelResult, Key, Method, NetChange, Rate, ResultPart,
     Verdict, group_digits, rate_of,
@@ -42,6 +40,7 @@ pub fn compare(
         expectations: file.map(str::to_owned),
         note: known.note.clone(),
         change: NetChange::default(),
+        unproved: Vec::new(),
         unexpected: Vec::new(),
         stale: Vec::new(),
         known: Vec::new(),
@@ -77,7 +76,7 @@ pub fn compare(
             Outcome::Better => {
                 let right = found
                     .filter(|_| same_plan)
-                    .and_then(|found| changed_case(result, entry, found, Change::Right));
+                    .and_then(|found| changed(result, entry, found, Change::Right));
                 if rate.of == 0 {
                     deviation.expected +=
                         "; nothing is demanded there now: has the contract changed?";
@@ -88,7 +87,7 @@ pub fn compare(
             Outcome::Worse => {
                 let new = found
                     .filter(|_| same_plan)
-                    .and_then(|found| changed_case(result, entry, found, Change::New));
+                    .and_then(|found| changed(result, entry, found, Change::New));
                 show(&mut deviation, Change::New, new);
                 *match same_plan && is_as_many(&entry.amount, &rate) {
                     true => &mut conformance.change.other_cases,
@@ -112,64 +111,12 @@ pub fn compare(
     conformance
 }
 
-/// What changed about a case.
-#[derive(Clone, Copy, PartialEq)]
-enum Change {
-    /// It shows a finding, and is none of those that are expected to.
-    New,
-    /// It is expected to show a finding, and shows none.
-    Right,
-}
-
-/// A case that changed, if the digests tell one.
-fn changed_case(
-    result: &ResultPart,
-    entry: &Entry,
-    found: &Found,
-    change: Change,
-) -> Option<Example> {
+/// A case of a class that changed, if the digests tell one.
+fn changed(result: &ResultPart, entry: &Entry, found: &Found, change: Change) -> Option<Example> {
     let Amount::Count { cases: Some((_, expected)), .. } = &entry.amount else { return None };
-    // The place of a stored case does not tell its name, which may be another case's id.
-    if found.key.family.starts_with("corpus:") {
-        return None;
-    }
     let read = |digest: &str| Digest::try_from(digest.to_owned()).ok();
-    let (expected, example) = (read(expected)?, found.example.as_ref()?);
-    let is_source =
-        |scalar: &str, family: &str| scalar == found.key.scalar && family == found.key.family;
-    let source = result.sources.iter().find(|source| is_source(&source.scalar, &source.family))?;
-    let now = read(found.digest?)?;
-    let place = match change {
-        Change::New => now.beyond(&expected, source.indices),
-        Change::Right => expected.beyond(&now, source.indices),
-    }?;
-    let mut id: CaseId = example.case.parse().ok()?;
-    // Of a family of single cases another triangle is none: several places were taken for one.
-    if id.triangle.is_none() && place.triangle != 0 {
-        return None;
-    }
-    (id.index, id.triangle) = (place.index, id.triangle.map(|_| place.triangle as usize));
-    let case = id.to_string();
-    let is_plain = id.parameters.mesh.is_none() && id.parameters.scene.is_none();
-    let is_of_cases = !example.bits.is_empty() && is_plain;
-    let bits = match &*id.scalar {
-        _ if !is_of_cases => None,
-        "f32" => bits::<f32>(&id),
-        _ => bits::<f64>(&id),
-    };
-    Some(Example {
-        command: example.command.replace(&example.case, &case),
-        bits: bits.unwrap_or_default(),
-        severity: None,
-        case,
-    })
-}
-
-/// The bits of a family's case, if it is of the version that this program makes.
-fn bits<F: Scalar>(id: &CaseId) -> Option<String> {
-    let family = family::find(&id.family).filter(|family| family.version == id.version)?;
-    let made = family.make::<F>(&id.parameters, id.seed, id.index);
-    made.cases().get(id.triangle.unwrap_or(0)).map(Case::hex)
+    let (before, now) = (read(expected)?, read(found.digest?)?);
+    changed_case(result, &found.key, found.example.as_ref()?, change.of(&before, &now))
 }
 
 /// What the plan holds.
@@ -313,11 +260,8 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
 /// got better shows none: it may still be wrong.
 fn show(deviation: &mut Deviation, change: Change, changed: Option<Example>) {
     deviation.expected += match (change, &changed) {
-        (Change::New, Some(_)) => "; the case shown is new",
-        (Change::Right, Some(_)) => "; the case shown is right now",
-        (Change::New, None) if deviation.case.is_some() => {
-            "; the case shown may have failed before"
-        }
+        (_, Some(_)) => change.note(),
+        (Change::New, None) if deviation.case.is_some() => UNSURE,
         (_, None) => "",
     };
     match changed {

@@ -1,4 +1,5 @@
-//! Floor 6: expectations, the known disagreements of a project, and how a run compares with them.
+//! Floor 6: expectations, the known disagreements of a project, and how a run compares with them, or with
+//! another run.
 //!
 //! By default no finding is expected, and a file lists the exceptions: counts by family, with reasons, for
 //! people to review. A lock file beside it has the cases behind the counts, for each target. An entry that no
@@ -8,13 +9,16 @@
 #![forbid(unsafe_code)]
 
 mod bless;
+mod changed;
 mod compare;
+mod difference;
 mod file;
 mod known;
 mod lock;
 
 pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
+pub use difference::{Comparison, Difference, Trend, difference};
 pub use file::read;
 pub use lock::{Cases, Lock};
 

@@ -87,8 +87,7 @@ impl Recipe for SecondaryRay {
     fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut Made<F>) {
         let Made::One(case) = made else { return };
         let triangle = case.triangle.vertices().map(Into::into);
-        let kernel = find(draw.pick(&FIRST_HIT)).and_then(F::subject).and_then(|k| k.gated());
-        let point = kernel.and_then(|kernel| hit_point(draw, case, kernel));
+        let point = find(draw.pick(&FIRST_HIT)).and_then(|kernel| hit_point(draw, case, kernel));
         // A kernel that misses leaves the middle of the triangle.
         let middle = || combination(triangle, [F::from_f64(1.0 / 3.0); 3]);
         let direction = apply_to_direction(parameters, rounded(any_direction(draw)));

@@ -11,12 +11,14 @@
 #![forbid(unsafe_code)]
 
 pub mod gate;
+mod margins;
 mod own;
 mod preset;
 mod recording;
 mod registry;
 mod subject;
 mod variant;
+mod verdict;
 
 mod baldwin_weber;
 mod cramer;
@@ -32,12 +34,15 @@ mod woop_watertight;
 pub use gate::{
     Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
 };
+pub(crate) use margins::{by_running, open_epsilons, values_of};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Compared, Path};
 pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
-pub use subject::{ExactRun, Failure, Gated, Generic, Measured, Subject, TrackedRun, Verdict};
+pub(crate) use subject::verdicts_of;
+pub use subject::{ExactRun, Gated, Generic, Measured, Subject, TrackedRun};
+pub use verdict::{Failure, Verdict};
 
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};

@@ -72,6 +72,12 @@ impl Entry {
         f32 || self.f64.is_some_and(|subject| subject.gated().is_some())
     }
 
+    /// Whether a study of epsilons can ask it for margins: see [`Subject::tells_margins`].
+    pub fn tells_margins(&self) -> bool {
+        self.f32.is_none_or(|subject| subject.tells_margins())
+            && self.f64.is_none_or(|subject| subject.tells_margins())
+    }
+
     /// Whether it runs in `f32`, and in `f64`.
     pub const fn scalars(&self) -> [bool; 2] {
         [self.f32.is_some(), self.f64.is_some()]

@@ -1,107 +1,18 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
 use super::gate::Either;
+use super::margins::{by_running, open_epsilons, values_of};
 use super::recording::{Path, paths};
 use super::variant::Variant;
-use super::{Deciding, Hit, Kernel, KernelInfo, Measuring, Watching};
+use super::{Deciding, Failure, Hit, Kernel, KernelInfo, Measuring, Verdict, Watching};
 use crate::arith::{
     Arithmetic, Bounded, Exact, Exceptions, Float, Real, Tracked, Triple, Vector, bounded, tracked,
 };
 use crate::case::{Case, Ray, Triangle};
 use crate::truth::Facing;
-use std::fmt;
 use std::marker::PhantomData;
-
-/// A kernel's answer. Values that the kernel does not give are NaN ([`KernelInfo::gives`]).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Verdict<F> {
-    /// Hit or miss.
-    pub hit: bool,
-    /// The gate that refused.
-    pub refused_by: Option<u8>,
-    /// The side hit.
-    pub facing: Option<Facing>,
-    /// The ray's parameter.
-    pub t: F,
-    /// The weight of b.
-    pub u: F,
-    /// The weight of c.
-    pub v: F,
-    /// Why there is no verdict; the rest is then that of a miss.
-    pub failure: Option<Failure>,
-}
-
-/// Why a kernel gave no verdict on a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Failure {
-    /// It panicked.
-    Panic,
-    /// Its process was killed by a signal.
-    Signal(i32),
-    /// Its process ended by itself, with this exit code.
-    Exit(i32),
-    /// It wrote to its input, or touched what lies beside its buffers.
-    Overrun,
-    /// It gave no answer in time.
-    Timeout,
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Failure::Panic => f.write_str("panicked"),
-            Failure::Signal(number) => match signal_name(*number) {
-                Some(name) => write!(f, "died of signal {number} ({name})"),
-                None => write!(f, "died of signal {number}"),
-            },
-            Failure::Exit(code) => write!(f, "ended its process with exit code {code}"),
-            Failure::Overrun => f.write_str("touched memory outside its buffers"),
-            Failure::Timeout => f.write_str("gave no answer in time"),
-        }
-    }
-}
-
-/// The signals that a kernel's faults raise; the numbers are those of Linux, macOS and the BSDs alike.
-fn signal_name(number: i32) -> Option<&'static str> {
-    match number {
-        4 => Some("SIGILL"),
-        5 => Some("SIGTRAP"),
-        6 => Some("SIGABRT"),
-        8 => Some("SIGFPE"),
-        9 => Some("SIGKILL"),
-        11 => Some("SIGSEGV"),
-        13 => Some("SIGPIPE"),
-        15 => Some("SIGTERM"),
-        _ => None,
-    }
-}
-
-impl<F: Float> Verdict<F> {
-    /// A miss at a gate.
-    pub fn miss(refused_by: Option<u8>) -> Self {
-        let nan = F::from_f64(f64::NAN);
-        Verdict { hit: false, refused_by, facing: None, t: nan, u: nan, v: nan, failure: None }
-    }
-
-    /// No verdict: the kernel failed.
-    pub fn failed(failure: Failure) -> Self {
-        Verdict { failure: Some(failure), ..Verdict::miss(None) }
-    }
-
-    /// What a kernel returned, and the gate at which it stopped.
-    #[inline(always)]
-    pub fn of(hit: Option<Hit<F>>, refused_by: Option<usize>) -> Self {
-        match hit {
-            None => Verdict::miss(refused_by.map(|gate| gate as u8)),
-            Some(Hit { t, uv, facing }) => {
-                let nan = F::from_f64(f64::NAN);
-                let (u, v) = uv.unwrap_or((nan, nan));
-                let t = t.unwrap_or(nan);
-                Verdict { hit: true, refused_by: None, facing, t, u, v, failure: None }
-            }
-        }
-    }
-}
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::slice;
 
 /// The margins of one case, and the values computed along the way.
 #[derive(Clone, Debug)]
@@ -259,6 +170,46 @@ pub trait Subject<F: Float>: Sync {
         None
     }
 
+    /// Whether [`Subject::margins`] is quick enough to be asked.
+    fn tells_margins(&self) -> bool {
+        true
+    }
+
+    /// Every gate's margin on each case, one entry a gate for each case in turn, and what a hit would report,
+    /// unless `values` is empty.
+    ///
+    /// Where gates are not shown the kernel runs at many epsilons. Then margins are -inf if it misses whatever
+    /// the epsilons are, or panics.
+    fn margins(
+        &self,
+        info: &KernelInfo,
+        cases: &[Case<F>],
+        margins: &mut [F],
+        values: &mut [Option<Hit<F>>],
+    ) {
+        let (width, open) = (info.gates.len(), open_epsilons(info));
+        margins.fill(-F::infinity());
+        for (i, case) in cases.iter().enumerate() {
+            let verdict = |epsilons: &[F]| {
+                let mut verdict = [Verdict::miss(None)];
+                self.run(slice::from_ref(case), epsilons, &mut verdict);
+                verdict[0]
+            };
+            let of_case = &mut margins[i * width..(i + 1) * width];
+            let measured = catch_unwind(AssertUnwindSafe(|| {
+                let values = values_of(info, &verdict(&open))?;
+                by_running(&open, |epsilons| verdict(epsilons).hit, of_case);
+                Some(values)
+            }));
+            if measured.is_err() {
+                of_case.fill(-F::infinity());
+            }
+            if let Some(place) = values.get_mut(i) {
+                *place = measured.ok().flatten();
+            }
+        }
+    }
+
     /// What should be known beside its verdicts, which stand; each in one line.
     fn notes(&self) -> Vec<String> {
         Vec::new()
@@ -270,13 +221,31 @@ pub trait Subject<F: Float>: Sync {
     }
 }
 
+/// Runs a kernel on all cases; a panic is the verdict on the case at which it happens.
+pub(crate) fn verdicts_of<F: Float>(
+    subject: &dyn Subject<F>,
+    cases: &[Case<F>],
+    epsilons: &[F],
+    verdicts: &mut [Verdict<F>],
+) {
+    let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
+        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
+    };
+    if run(cases, verdicts).is_ok() {
+        return;
+    }
+    // Once more, one by one, to pin the cases at which it panicked.
+    for i in 0..cases.len() {
+        if run(&cases[i..=i], &mut verdicts[i..=i]).is_err() {
+            verdicts[i] = Verdict::failed(Failure::Panic);
+        }
+    }
+}
+
 /// A kernel that shows its gates: each one's margin, and its formula without rounding.
 pub trait Gated<F: Float>: Sync {
     /// What it is and what it promises.
     fn info(&self) -> &'static KernelInfo;
-
-    /// Every gate's margin on each case; `margins` has one entry a gate for each case in turn.
-    fn margins(&self, cases: &[Case<F>], margins: &mut [F]);
 
     /// Every gate's margin on a case, and the values of a hit.
     fn measure(&self, case: &Case<F>) -> Measured<F>;
@@ -336,6 +305,22 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         Some(self)
     }
 
+    fn margins(
+        &self,
+        info: &KernelInfo,
+        cases: &[Case<F>],
+        margins: &mut [F],
+        values: &mut [Option<Hit<F>>],
+    ) {
+        let rows = margins.chunks_exact_mut(info.gates.len());
+        for (i, (case, margins)) in cases.iter().zip(rows).enumerate() {
+            let hit = measure_into::<K, F::Vector>(&case.ray, &case.triangle, margins);
+            if let Some(place) = values.get_mut(i) {
+                *place = hit;
+            }
+        }
+    }
+
     fn in_arithmetic(
         &self,
         arithmetic: Arithmetic,
@@ -348,12 +333,6 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
 impl<F: Float, K: Kernel> Gated<F> for Generic<K> {
     fn info(&self) -> &'static KernelInfo {
         &const { K::INFO }
-    }
-
-    fn margins(&self, cases: &[Case<F>], margins: &mut [F]) {
-        for (case, margins) in cases.iter().zip(margins.chunks_exact_mut(K::INFO.gates.len())) {
-            measure_into::<K, F::Vector>(&case.ray, &case.triangle, margins);
-        }
     }
 
     fn measure(&self, case: &Case<F>) -> Measured<F> {

@@ -99,17 +99,27 @@ impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
     fn gated(&self) -> Option<&dyn Gated<F>> {
         Some(self)
     }
+
+    fn margins(
+        &self,
+        info: &KernelInfo,
+        cases: &[Case<F>],
+        margins: &mut [F],
+        values: &mut [Option<Hit<F>>],
+    ) {
+        let rows = margins.chunks_exact_mut(info.gates.len());
+        for (i, (case, margins)) in cases.iter().zip(rows).enumerate() {
+            let hit = self.measure_into(case, margins);
+            if let Some(place) = values.get_mut(i) {
+                *place = hit.map(|hit| hit.map(|x| x.value()));
+            }
+        }
+    }
 }
 
 impl<F: Float, K: Kernel> Gated<F> for Variant<K> {
     fn info(&self) -> &'static KernelInfo {
         self.info
-    }
-
-    fn margins(&self, cases: &[Case<F>], margins: &mut [F]) {
-        for (case, margins) in cases.iter().zip(margins.chunks_exact_mut(self.info.gates.len())) {
-            self.measure_into(case, margins);
-        }
     }
 
     fn measure(&self, case: &Case<F>) -> Measured<F> {

@@ -2,11 +2,11 @@
 
 use super::{AxisText, Grid, Map, MapError, Pixels, RayPixel, Step};
 use crate::arith::Float;
-use crate::audit::{Row, verdicts_of};
+use crate::audit::Row;
 use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{Obligation, asked, judge, obligation};
-use crate::kernel::{Scalar, Subject, Verdict};
+use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
 use crate::truth::{Crossing, Feature, Truth};
 use rayon::prelude::*;

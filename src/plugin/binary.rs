@@ -10,7 +10,9 @@ use crate::truth::Facing;
 
 /// The first four bytes of a batch.
 pub(super) const BATCH: [u8; 4] = *b"HLB1";
-/// The first four bytes of the answer to one.
+/// The first four bytes of a batch whose margins are asked for too. Its epsilons let the most through.
+pub(super) const MARGINS: [u8; 4] = *b"HLM1";
+/// The first four bytes of the answer to either.
 pub(super) const ANSWER: [u8; 4] = *b"HLA1";
 /// Instead of an answer, from the host of a library: the kernel touched memory outside its buffers.
 pub(super) const OVERRUN: [u8; 4] = *b"HLX1";
@@ -30,15 +32,23 @@ pub(super) const fn verdict_bytes<F: Float>() -> usize {
     8 + 3 * size_of::<F>()
 }
 
-fn push<F: Float>(bytes: &mut Vec<u8>, value: F) {
+/// Appends a number.
+pub(super) fn push<F: Float>(bytes: &mut Vec<u8>, value: F) {
     bytes.extend_from_slice(&value.to_bits().to_le_bytes()[..size_of::<F>()]);
 }
 
-/// A batch: the head, the epsilons, the cases.
-pub(super) fn batch<F: Float>(cases: &[Case<F>], epsilons: &[F]) -> Vec<u8> {
+/// A number from its bytes.
+pub(super) fn float<F: Float>(bytes: &[u8]) -> F {
+    let mut bits = [0; 8];
+    bits[..size_of::<F>()].copy_from_slice(bytes);
+    F::from_bits(u64::from_le_bytes(bits))
+}
+
+/// A batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the cases.
+pub(super) fn batch<F: Float>(kind: [u8; 4], cases: &[Case<F>], epsilons: &[F]) -> Vec<u8> {
     let numbers = epsilons.len() + CASE_NUMBERS * cases.len();
     let mut bytes = Vec::with_capacity(BATCH_HEAD + numbers * size_of::<F>());
-    bytes.extend(BATCH);
+    bytes.extend(kind);
     for count in [8 * size_of::<F>(), cases.len(), epsilons.len()] {
         bytes.extend((count as u32).to_le_bytes());
     }
@@ -66,12 +76,7 @@ pub(super) fn environment(head: &[u8]) -> Option<FloatEnvironment> {
 pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
     let integer =
         |at: usize| i32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
-    let float = |place: usize| {
-        let mut bits = [0; 8];
-        let start = 8 + place * size_of::<F>();
-        bits[..size_of::<F>()].copy_from_slice(&bytes[start..start + size_of::<F>()]);
-        F::from_bits(u64::from_le_bytes(bits))
-    };
+    let number = |place: usize| float(&bytes[8 + place * size_of::<F>()..][..size_of::<F>()]);
     match integer(0) {
         0 => return Ok(Verdict::miss(None)),
         1 => {}
@@ -83,7 +88,7 @@ pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
         2 => Some(Facing::Back),
         other => return Err(format!("facing is {other}, expected 0, 1 (front) or 2 (back)")),
     };
-    let [t, u, v] = [0, 1, 2].map(float);
+    let [t, u, v] = [0, 1, 2].map(number);
     Ok(Verdict { hit: true, facing, t, u, v, ..Verdict::miss(None) })
 }
 
@@ -94,14 +99,14 @@ mod tests {
     #[test]
     fn records_have_the_layout_of_the_header() {
         let case = Case::<f32>::new([1.0; 3], [0.0, 0.0, -1.0], [[0.0; 3]; 3]).on(-1.0, 2.0);
-        let bytes = batch(&[case], &[0.5]);
+        let bytes = batch(BATCH, &[case], &[0.5]);
         assert_eq!(bytes.len(), 16 + 4 + 68);
         assert_eq!(bytes[..20], *b"HLB1\x20\0\0\0\x01\0\0\0\x01\0\0\0\0\0\0\x3f");
         assert_eq!(bytes[20..24], 1f32.to_le_bytes());
         assert_eq!(bytes[80..], *b"\0\0\x80\xbf\0\0\0\x40");
         assert_eq!((verdict_bytes::<f32>(), verdict_bytes::<f64>()), (20, 32));
-        let wide = batch(&[case.widen()], &[]);
-        assert_eq!((wide.len(), wide[4]), (16 + 136, 64));
+        let wide = batch(MARGINS, &[case.widen()], &[]);
+        assert_eq!((wide.len(), wide[..5].to_vec()), (16 + 136, b"HLM1\x40".to_vec()));
         assert_eq!(wide[16..24], 1f64.to_le_bytes());
     }
 

@@ -22,6 +22,8 @@ pub struct Hello {
     pub binary: bool,
     /// How its arithmetic rounds.
     pub floats: FloatEnvironment,
+    /// Whether it can be asked for margins.
+    pub margins: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +47,7 @@ pub struct Start {
     scalars: Option<[bool; 2]>,
     binary: Option<bool>,
     floats: Option<FloatEnvironment>,
+    margins: Option<()>,
     epsilons: Vec<Epsilon>,
 }
 
@@ -84,10 +87,11 @@ impl Start {
                     floats.ok_or_else(|| format!("floats: '{}' is not 0 to 15", shown(rest)))?;
                 once("floats", &mut self.floats, floats)?;
             }
+            "margins" => once("margins", &mut self.margins, ())?,
             "epsilon" => self.epsilons.push(epsilon(rest)?),
             "ready" => return self.finish().map(Some),
             _ => {
-                let known = "name, source, contract, gives, scalars, encoding, floats, epsilon, ready, error";
+                let known = "name, source, contract, gives, scalars, encoding, floats, margins, epsilon, ready, error";
                 return Err(format!("'{}' is none of {known}", shown(line)));
             }
         }
@@ -99,6 +103,9 @@ impl Start {
         let scalars = self.scalars.ok_or_else(|| missing("scalars"))?;
         if scalars == [false; 2] {
             return Err("scalars: none is named; there are f32 and f64".to_owned());
+        }
+        if self.margins.is_some() && self.binary != Some(true) {
+            return Err("margins: they are asked for in 'encoding binary' only".to_owned());
         }
         let epsilons = std::mem::take(&mut self.epsilons);
         if let Some(i) =
@@ -119,11 +126,17 @@ impl Start {
             scalars,
             binary: self.binary.unwrap_or(false),
             floats: self.floats.unwrap_or_default(),
+            margins: self.margins.is_some(),
         })
     }
 }
 
 impl Hello {
+    /// Whether it takes epsilons.
+    pub fn has_epsilons(&self) -> bool {
+        !self.epsilons.is_empty()
+    }
+
     /// The kernel's name.
     pub fn name(&self) -> &str {
         &self.name

@@ -6,21 +6,23 @@
 
 #![allow(unsafe_code)]
 
+mod guard;
+
 use super::PROTOCOL;
 use super::binary::{
-    ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, OVERRUN, environment_head, verdict_bytes,
+    ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, MARGINS, environment_head, float, push, verdict_bytes,
 };
-use crate::arith::FloatEnvironment;
+use crate::arith::{Float, FloatEnvironment};
+use crate::kernel::by_running;
+use guard::{Buffer, overrun_head, watch_guards};
 use libloading::os::unix;
-use std::ffi::{CStr, c_char, c_int, c_void};
+use std::ffi::{CStr, c_char, c_void};
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::mem::ManuallyDrop;
 use std::os::fd::{AsFd, AsRawFd};
 use std::os::unix::process::parent_id;
 use std::path::Path;
-use std::ptr;
-use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -93,20 +95,18 @@ impl Protocol {
         let library = Library::open(path)?;
         let hello = library.hello()?;
         let mut floats = FloatEnvironment::now();
-        let hello = format!("{hello}floats {}\nready\n", floats.bits());
+        let hello = format!("{hello}floats {}\nmargins\nready\n", floats.bits());
         let failed = |error: io::Error| error.to_string();
         self.output.write_all(hello.as_bytes()).map_err(failed)?;
         watch_guards(self.output.as_raw_fd());
-        while let Some((test, size, cases, epsilons)) = self.batch(&library).map_err(failed)? {
-            self.answer(test, size, &cases, &epsilons, &mut floats).map_err(failed)?;
+        while let Some(batch) = self.batch(&library).map_err(failed)? {
+            self.answer(&batch, &mut floats).map_err(failed)?;
         }
         Ok(())
     }
 
-    /// A batch: the function it is for, the bytes of its scalar, its cases and epsilons; none at the
-    /// end of the input.
-    #[allow(clippy::type_complexity)]
-    fn batch(&mut self, library: &Library) -> io::Result<Option<(Test, usize, Buffer, Buffer)>> {
+    /// A batch; none at the end of the input.
+    fn batch(&mut self, library: &Library) -> io::Result<Option<Batch>> {
         let mut head = [0; BATCH_HEAD];
         if self.input.read(&mut head[..1])? == 0 {
             return Ok(None);
@@ -116,7 +116,8 @@ impl Protocol {
             u32::from_le_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]) as usize
         };
         let test = if word(4) == 32 { library.f32 } else { library.f64 };
-        let (Some(test), true) = (test, head[..4] == BATCH) else {
+        let with_margins = head[..4] == MARGINS;
+        let (Some(test), true) = (test, with_margins || head[..4] == BATCH) else {
             return Err(io::Error::other("not a batch"));
         };
         let (size, count) = (word(4) / 8, word(8));
@@ -126,18 +127,11 @@ impl Protocol {
         self.input.read_exact(cases.bytes())?;
         cases.make_read_only()?;
         epsilons.make_read_only()?;
-        Ok(Some((test, size, cases, epsilons)))
+        Ok(Some(Batch { test, size, count, cases, epsilons, with_margins }))
     }
 
-    fn answer(
-        &mut self,
-        test: Test,
-        size: usize,
-        cases: &Buffer,
-        epsilons: &Buffer,
-        floats: &mut FloatEnvironment,
-    ) -> io::Result<()> {
-        let count = cases.length / (CASE_NUMBERS * size);
+    fn answer(&mut self, batch: &Batch, floats: &mut FloatEnvironment) -> io::Result<()> {
+        let &Batch { test, size, count, ref cases, ref epsilons, with_margins } = batch;
         let record = if size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
         let mut verdicts = Buffer::new(2, count * record)?;
         // No verdict has a hit of -1: what stays so was not answered.
@@ -146,6 +140,11 @@ impl Protocol {
         // the library keeps to it is what this process is for.
         unsafe {
             test(cases.start().cast(), count, epsilons.start().cast(), verdicts.start().cast())
+        };
+        let margins = match (with_margins, size) {
+            (false, _) => Vec::new(),
+            (true, 4) => batch.margins::<f32>(&mut verdicts),
+            (true, _) => batch.margins::<f64>(&mut verdicts),
         };
         let before = std::mem::replace(floats, FloatEnvironment::now());
         if *floats != before {
@@ -157,9 +156,55 @@ impl Protocol {
         }
         self.output.write_all(&ANSWER)?;
         self.output.write_all(&(count as u32).to_le_bytes())?;
-        self.output.write_all(verdicts.bytes())
+        self.output.write_all(verdicts.bytes())?;
+        self.output.write_all(&margins)
     }
 }
+
+/// What a library is asked.
+struct Batch {
+    test: Test,
+    /// Bytes of the scalar.
+    size: usize,
+    /// Of cases.
+    count: usize,
+    cases: Buffer,
+    epsilons: Buffer,
+    with_margins: bool,
+}
+
+impl Batch {
+    /// The bytes of each case's margins, one a gate; -inf where the verdict at this batch's epsilons, which let
+    /// the most through, is no hit.
+    fn margins<F: Float>(&self, verdicts: &mut Buffer) -> Vec<u8> {
+        let open: Vec<F> =
+            self.epsilons.as_bytes().chunks_exact(size_of::<F>()).map(float).collect();
+        let mut bytes = Vec::with_capacity(self.count * size_of_val(&open[..]));
+        for (i, verdict) in verdicts.bytes().chunks_exact(verdict_bytes::<F>()).enumerate() {
+            let mut margins = vec![-F::infinity(); open.len()];
+            if verdict[..4] == HIT {
+                by_running(&open, |epsilons| self.is_hit(i, epsilons), &mut margins);
+            }
+            margins.into_iter().for_each(|margin| push(&mut bytes, margin));
+        }
+        bytes
+    }
+
+    /// Whether the library hits one case at some epsilons.
+    fn is_hit<F: Float>(&self, i: usize, epsilons: &[F]) -> bool {
+        // Room for a verdict in either scalar, and as strictly aligned.
+        let mut verdict = [u64::MAX; 4];
+        // SAFETY: the i-th case is one of the batch, and the other pointers are as include/hairline.h promises.
+        unsafe {
+            let case = self.cases.start().add(i * CASE_NUMBERS * self.size);
+            (self.test)(case.cast(), 1, epsilons.as_ptr().cast(), verdict.as_mut_ptr().cast());
+        }
+        verdict[0].to_ne_bytes()[..4] == HIT
+    }
+}
+
+/// The first bytes of a verdict that is a hit.
+const HIT: [u8; 4] = 1i32.to_ne_bytes();
 
 /// No core files, and no life without the program that started this one: a kernel that hangs does not
 /// see its input end.
@@ -291,129 +336,4 @@ unsafe fn text_of(text: *const c_char) -> Option<String> {
 
 fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
-}
-
-/// Guard pages on each side of a buffer.
-const GUARD_PAGES: usize = 16;
-/// What stands between the guard in front of a buffer and the buffer.
-const SLACK: u8 = 0xa5;
-
-/// Where each of the three buffers begins and ends, guards included: what the handler looks at.
-static RANGES: [[AtomicUsize; 2]; 3] = [const { [const { AtomicUsize::new(0) }; 2] }; 3];
-/// Where the handler writes.
-static OUTPUT: AtomicI32 = AtomicI32::new(-1);
-
-/// Memory that ends where a guard begins: the first byte past it is a fault.
-struct Buffer {
-    map: *mut c_void,
-    map_length: usize,
-    page: usize,
-    length: usize,
-}
-
-impl Buffer {
-    /// A buffer in one of the three places that the handler knows.
-    fn new(place: usize, length: usize) -> io::Result<Buffer> {
-        // SAFETY: a plain question.
-        let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) }.max(1) as usize;
-        let guard = GUARD_PAGES * page;
-        let data = length.max(1).next_multiple_of(page);
-        let map_length = data + 2 * guard;
-        let flags = libc::MAP_PRIVATE | libc::MAP_ANON;
-        // SAFETY: a new mapping, which nothing else knows.
-        let map = unsafe { libc::mmap(ptr::null_mut(), map_length, libc::PROT_NONE, flags, -1, 0) };
-        if map == libc::MAP_FAILED {
-            return Err(io::Error::last_os_error());
-        }
-        let mut buffer = Buffer { map, map_length, page, length };
-        buffer.protect(libc::PROT_READ | libc::PROT_WRITE)?;
-        buffer.slack().fill(SLACK);
-        RANGES[place][0].store(map as usize, Ordering::SeqCst);
-        RANGES[place][1].store(map as usize + map_length, Ordering::SeqCst);
-        Ok(buffer)
-    }
-
-    fn make_read_only(&mut self) -> io::Result<()> {
-        self.protect(libc::PROT_READ)
-    }
-
-    fn protect(&mut self, protection: c_int) -> io::Result<()> {
-        let guard = GUARD_PAGES * self.page;
-        // SAFETY: the pages of this mapping between its guards; no reference into them is alive.
-        let done = unsafe {
-            libc::mprotect(self.map.byte_add(guard), self.map_length - 2 * guard, protection)
-        };
-        if done == 0 { Ok(()) } else { Err(io::Error::last_os_error()) }
-    }
-
-    fn end(&self) -> *mut u8 {
-        // SAFETY: within the mapping.
-        unsafe { self.map.byte_add(self.map_length - GUARD_PAGES * self.page).cast() }
-    }
-
-    fn start(&self) -> *mut u8 {
-        // SAFETY: within the mapping.
-        unsafe { self.end().sub(self.length) }
-    }
-
-    fn bytes(&mut self) -> &mut [u8] {
-        // SAFETY: `length` bytes before the guard, mapped, and borrowed from this buffer alone.
-        unsafe { std::slice::from_raw_parts_mut(self.start(), self.length) }
-    }
-
-    /// The bytes between the guard in front and the buffer.
-    fn slack(&mut self) -> &mut [u8] {
-        let length = self.map_length - 2 * GUARD_PAGES * self.page - self.length;
-        // SAFETY: these bytes lie between the guard in front and the buffer.
-        unsafe { std::slice::from_raw_parts_mut(self.start().sub(length), length) }
-    }
-
-    fn is_untouched_before(&mut self) -> bool {
-        self.slack().iter().all(|byte| *byte == SLACK)
-    }
-}
-
-impl Drop for Buffer {
-    fn drop(&mut self) {
-        // SAFETY: this buffer's own mapping, which nothing refers to any more.
-        unsafe { libc::munmap(self.map, self.map_length) };
-    }
-}
-
-fn overrun_head() -> [u8; 8] {
-    let [a, b, c, d] = OVERRUN;
-    [a, b, c, d, 0, 0, 0, 0]
-}
-
-/// From now on a fault in or beside a buffer is reported as such; any other kills the process as usual.
-fn watch_guards(output: c_int) {
-    OUTPUT.store(output, Ordering::SeqCst);
-    // SAFETY: the handler calls only what may be called in one.
-    unsafe {
-        let mut action: libc::sigaction = std::mem::zeroed();
-        let handler: extern "C" fn(c_int, *mut libc::siginfo_t, *mut c_void) = on_fault;
-        action.sa_sigaction = handler as usize;
-        action.sa_flags = libc::SA_SIGINFO | libc::SA_ONSTACK;
-        libc::sigemptyset(&mut action.sa_mask);
-        libc::sigaction(libc::SIGSEGV, &action, ptr::null_mut());
-        libc::sigaction(libc::SIGBUS, &action, ptr::null_mut());
-    }
-}
-
-extern "C" fn on_fault(signal: c_int, info: *mut libc::siginfo_t, _: *mut c_void) {
-    // SAFETY: with SA_SIGINFO the system passes a valid siginfo; write, _exit and signal may be
-    // called in a handler.
-    unsafe {
-        let address = (*info).si_addr() as usize;
-        let is_ours = RANGES.iter().any(|[start, end]| {
-            (start.load(Ordering::SeqCst)..end.load(Ordering::SeqCst)).contains(&address)
-        });
-        if is_ours {
-            let head = overrun_head();
-            libc::write(OUTPUT.load(Ordering::SeqCst), head.as_ptr().cast(), head.len());
-            libc::_exit(1);
-        }
-        // Back to the default: the faulting instruction runs again, and ends the process.
-        libc::signal(signal, libc::SIG_DFL);
-    }
 }

@@ -8,7 +8,7 @@ use super::running::{Lost, Program, Running};
 use super::{binary, text};
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
-use crate::kernel::{Entry, Failure, Subject, Verdict};
+use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -111,12 +111,14 @@ impl Process {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Gets the verdicts on a batch from a process, which goes back to the idle ones if it answered.
+    /// Gets the verdicts on a batch from a process, which goes back to the idle ones if it answered; the
+    /// margins too, if there is room for them.
     fn ask<F: Float>(
         &self,
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
+        margins: &mut [F],
     ) -> Result<(), Lost> {
         let idle = self.state().idle.pop();
         let mut running = match idle {
@@ -124,7 +126,7 @@ impl Process {
             None => self.another()?,
         };
         if self.hello.binary {
-            self.ask_in_binary(&mut running, cases, epsilons, verdicts)?;
+            self.ask_in_binary(&mut running, cases, epsilons, verdicts, margins)?;
         } else {
             self.ask_in_text(&mut running, cases, epsilons, verdicts)?;
         }
@@ -189,8 +191,10 @@ impl Process {
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
+        margins: &mut [F],
     ) -> Result<(), Lost> {
-        running.send(binary::batch(cases, epsilons));
+        let kind = if margins.is_empty() { binary::BATCH } else { binary::MARGINS };
+        running.send(binary::batch(kind, cases, epsilons));
         let mut head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
         if let Some(floats) = binary::environment(&head) {
             self.has_changed_to(floats)?;
@@ -213,6 +217,10 @@ impl Process {
             *place = binary::verdict(record)
                 .map_err(|message| Lost::Garbled(format!("verdict {id} of {of}: {message}")))?;
         }
+        let bytes = running.bytes(size_of_val(margins), self.limits.silence)?;
+        for (bytes, margin) in bytes.chunks_exact(size_of::<F>()).zip(margins) {
+            *margin = binary::float(bytes);
+        }
         Ok(())
     }
 
@@ -234,9 +242,14 @@ impl Process {
     }
 
     /// Gets the verdict on one case.
-    fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
+    fn ask_one<F: Float>(
+        &self,
+        case: &Case<F>,
+        epsilons: &[F],
+        margins: &mut [F],
+    ) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
-        match self.ask(std::slice::from_ref(case), epsilons, &mut verdict) {
+        match self.ask(std::slice::from_ref(case), epsilons, &mut verdict, margins) {
             Ok(()) => Ok(verdict[0]),
             Err(Lost::Garbled(message)) => Err(message),
             Err(Lost::Failed(failure)) => self.pinned(failure, case),
@@ -264,9 +277,15 @@ impl Process {
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
+        margins: &mut [F],
     ) -> Result<(), String> {
-        for (case, verdict) in cases.iter().zip(&mut *verdicts) {
-            *verdict = self.ask_one(case, epsilons)?;
+        let width = margins.len() / cases.len();
+        for (i, (case, verdict)) in cases.iter().zip(&mut *verdicts).enumerate() {
+            let margins = &mut margins[i * width..(i + 1) * width];
+            *verdict = self.ask_one(case, epsilons, margins)?;
+            if verdict.failure.is_some() {
+                margins.fill(-F::infinity());
+            }
         }
         if verdicts.iter().all(|verdict| verdict.failure.is_none()) {
             self.note(format!(
@@ -279,14 +298,25 @@ impl Process {
 
 impl<F: Float> Subject<F> for Process {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
-        verdicts.fill(Verdict::miss(None));
-        let has_given_up = self.state().gave_up.is_some();
-        if has_given_up {
-            return;
-        }
-        if let Err(message) = self.try_run(cases, epsilons, verdicts) {
-            self.state().gave_up.get_or_insert(message);
-        }
+        self.answer(cases, epsilons, verdicts, &mut []);
+    }
+
+    fn tells_margins(&self) -> bool {
+        self.hello.margins || !self.hello.has_epsilons()
+    }
+
+    fn margins(
+        &self,
+        info: &KernelInfo,
+        cases: &[Case<F>],
+        margins: &mut [F],
+        values: &mut [Option<Hit<F>>],
+    ) {
+        let mut verdicts = vec![Verdict::miss(None); cases.len()];
+        margins.fill(-F::infinity());
+        self.answer(cases, &open_epsilons(info), &mut verdicts, margins);
+        let pairs = values.iter_mut().zip(&verdicts);
+        pairs.for_each(|(place, verdict)| *place = values_of(info, verdict));
     }
 
     fn notes(&self) -> Vec<String> {
@@ -299,20 +329,42 @@ impl<F: Float> Subject<F> for Process {
 }
 
 impl Process {
-    fn try_run<F: Float>(
+    /// Misses, once it has given up.
+    fn answer<F: Float>(
         &self,
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
+        margins: &mut [F],
+    ) {
+        verdicts.fill(Verdict::miss(None));
+        let has_given_up = self.state().gave_up.is_some();
+        if has_given_up {
+            return;
+        }
+        if let Err(message) = self.try_answer(cases, epsilons, verdicts, margins) {
+            self.state().gave_up.get_or_insert(message);
+        }
+    }
+
+    fn try_answer<F: Float>(
+        &self,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+        margins: &mut [F],
     ) -> Result<(), String> {
-        match (self.ask(cases, epsilons, verdicts), cases) {
+        match (self.ask(cases, epsilons, verdicts, margins), cases) {
             (Ok(()), _) => Ok(()),
             (Err(Lost::Garbled(message)), _) => Err(message),
             (Err(Lost::Failed(failure)), [case]) => {
                 verdicts[0] = self.pinned(failure, case)?;
+                margins.fill(-F::infinity());
                 Ok(())
             }
-            (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts),
+            (Err(Lost::Failed(failure)), _) => {
+                self.pin_all(failure, cases, epsilons, verdicts, margins)
+            }
         }
     }
 }

@@ -22,6 +22,9 @@ pub struct Conformance {
     /// What changed.
     #[serde(default)]
     pub change: NetChange,
+    /// Proofs that `[proved]` demands and that there are none of.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unproved: Vec<Unproved>,
     /// Disagreements that were not expected, or are worse than expected.
     pub unexpected: Vec<Deviation>,
     /// Expectations that no longer come true: what was wrong is less so, or gone.
@@ -41,7 +44,7 @@ pub struct Conformance {
 pub enum Verdict {
     /// All is as expected.
     Conforms,
-    /// There are unexpected disagreements.
+    /// There are unexpected disagreements, or proofs missing.
     Disagreements,
     /// There are none, but expectations that no longer come true.
     Stale,
@@ -91,6 +94,57 @@ pub enum Method {
     /// They are others: rates of samples are compared by their intervals.
     Intervals,
 }
+
+/// A demand on a proof that is not met.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Unproved {
+    /// The kernel's name.
+    pub kernel: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// The gate, or `watertight`.
+    pub gate: String,
+    /// What is demanded: a bound in units of u, or `true`.
+    pub demanded: String,
+    /// What is there instead.
+    pub why: String,
+    /// Shows what is proved.
+    pub command: String,
+}
+
+impl Unproved {
+    /// What it is about, beside disagreements.
+    pub fn key(&self) -> Key {
+        Key {
+            kernel: self.kernel.clone(),
+            set: "any epsilon".to_owned(),
+            scalar: self.scalar.clone(),
+            family: "proof".to_owned(),
+            class: self.gate.clone(),
+            finding: UNPROVED.to_owned(),
+        }
+    }
+}
+
+impl fmt::Display for Unproved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Unproved { kernel, scalar, gate, demanded, why, .. } = self;
+        match gate.as_str() {
+            WATERTIGHT => write!(f, "{kernel} {scalar} must be proved watertight: {why}"),
+            _ => {
+                write!(f, "{kernel} {scalar} {gate} must be proved to at most {demanded} u: {why}")
+            }
+        }
+    }
+}
+
+/// The kind of finding of an [`Unproved`].
+pub const UNPROVED: &str = "unproved";
+
+/// In place of a gate, in a demand.
+pub const WATERTIGHT: &str = "watertight";
 
 /// A class of disagreement beside what was expected of it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -148,6 +202,14 @@ impl Deviation {
 }
 
 impl Conformance {
+    /// Adds demands on proofs that are not met.
+    pub fn demand(&mut self, unproved: Vec<Unproved>) {
+        if !unproved.is_empty() {
+            self.verdict = Verdict::Disagreements;
+        }
+        self.unproved = unproved;
+    }
+
     /// One line.
     pub fn summary(&self) -> String {
         let count = |list: &[Deviation], one: &str, many: &str| {
@@ -170,8 +232,13 @@ impl Conformance {
             how if how.is_empty() => how,
             how => format!(" ({how})"),
         };
+        let proofs = match self.unproved.len() {
+            0 => String::new(),
+            1 => "1 proof missing, ".to_owned(),
+            n => format!("{n} proofs missing, "),
+        };
         format!(
-            "{verdict}: {}{how}, {}, {}",
+            "{verdict}: {proofs}{}{how}, {}, {}",
             count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
             count(&self.stale, "stale expectation", "stale expectations"),
             count(&self.known, "known disagreement", "known disagreements")

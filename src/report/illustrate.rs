@@ -76,17 +76,17 @@ fn map_part(row: &Row, spot: Spot, map: &Map) -> Option<MapPart> {
     })
 }
 
-/// The responses of a row, if it shows its gates.
+/// The responses of a row, if it tells its margins.
 fn responses<F: Scalar>(
     row: &Row,
     sources: &[Source],
     axis: &Axis<F>,
     observer: &dyn Observer,
 ) -> Vec<ResponsePart> {
-    let gated = F::subject(row.entry).and_then(|subject| subject.gated());
-    let Some(gated) = gated else { return Vec::new() };
+    let subject = F::subject(row.entry).filter(|subject| subject.tells_margins());
+    let Some(subject) = subject else { return Vec::new() };
     let sample = sources.iter().any(Source::is_sample);
-    let sketches = sketch::<F>(row, gated, sources, axis, observer);
+    let sketches = sketch::<F>(row, subject, sources, axis, observer);
     sketches.iter().map(|sketch| response(row, sketch, sample)).collect()
 }
 

@@ -32,6 +32,9 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
     result.results.iter().try_for_each(|result| line("result", result, out))?;
     result.totals.iter().try_for_each(|total| line("total", total, out))?;
     if let Some(conformance) = &record.conformance {
+        for unproved in &conformance.unproved {
+            line("unproved", unproved, out)?;
+        }
         let mut deviations =
             |kind, list: &[Deviation]| list.iter().try_for_each(|found| line(kind, found, out));
         deviations("unexpected", &conformance.unexpected)?;

@@ -68,6 +68,10 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
             }
         }
         Some(conformance) => {
+            for unproved in &conformance.unproved {
+                let failure = (unproved.to_string(), unproved.command.clone());
+                case_of(&mut suites, &unproved.key()).failures.push(failure);
+            }
             for (list, title) in
                 [(&conformance.unexpected, "unexpected"), (&conformance.stale, "stale")]
             {

@@ -61,6 +61,12 @@ fn conformance_part(conformance: &Conformance, text: &mut String) {
     if let Some(note) = &conformance.note {
         text.push_str(&format!("\n{}\n", cell(note)));
     }
+    if !conformance.unproved.is_empty() {
+        text.push_str("\n### Proofs missing\n\n");
+    }
+    for unproved in &conformance.unproved {
+        text.push_str(&format!("- {}: {}\n", cell(&unproved.to_string()), code(&unproved.command)));
+    }
     deviations("Unexpected disagreements", &conformance.unexpected, text);
     deviations("Stale expectations", &conformance.stale, text);
 }

@@ -8,7 +8,6 @@
 mod build;
 mod close_up;
 mod columns;
-mod compare;
 mod conformance;
 mod disagreement;
 mod distribution;
@@ -39,7 +38,6 @@ mod why;
 mod worst;
 
 pub use build::{Context, build};
-pub use compare::{Change, Comparison, ContractChange, Difference, difference};
 pub use conformance::*;
 use disagreement::kinds_of;
 pub use disagreement::{ALL_CLASSES, Disagreement, FINDING_KINDS, Key, disagreements, rate_of};

@@ -1,7 +1,8 @@
 //! The record as SARIF 2.1.0, for forges that show code scanning: one result a class of disagreement.
 
 use super::{
-    Conformance, Deviation, FINDING_KINDS, Key, Rate, Record, Style, disagreements, group_digits,
+    Conformance, Deviation, FINDING_KINDS, Key, Rate, Record, Style, UNPROVED, disagreements,
+    group_digits,
 };
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -52,13 +53,18 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
 /// The rules, whose order and names are stable: new ones go to the end.
 fn rules() -> Vec<Value> {
     let stale = (STALE, "What was expected to be wrong is less so, or right");
-    let all = FINDING_KINDS.iter().copied().chain([stale]);
+    let unproved = (UNPROVED, "A bound or a property that must be proved is not");
+    let all = FINDING_KINDS.iter().copied().chain([stale, unproved]);
     all.map(|(id, text)| json!({ "id": id, "shortDescription": { "text": text } })).collect()
 }
 
 /// What is new comes first, and what is known is suppressed.
 fn of_check(conformance: &Conformance) -> Vec<Value> {
     let file = conformance.expectations.as_deref();
+    let unproved = conformance.unproved.iter().map(|unproved| {
+        let text = format!("{unproved}\n{}", unproved.command);
+        result(&unproved.key(), UNPROVED, "error", &text, &Rate::default())
+    });
     let unexpected =
         conformance.unexpected.iter().map(|found| deviation(found, &found.finding, "error", file));
     let stale = conformance.stale.iter().map(|found| deviation(found, STALE, "error", file));
@@ -68,7 +74,7 @@ fn of_check(conformance: &Conformance) -> Vec<Value> {
         result["suppressions"] = json!([{ "kind": "external", "justification": why }]);
         result
     });
-    unexpected.chain(stale).chain(known).collect()
+    unproved.chain(unexpected).chain(stale).chain(known).collect()
 }
 
 fn deviation(found: &Deviation, rule: &str, level: &str, file: Option<&str>) -> Value {

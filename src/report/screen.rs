@@ -356,12 +356,11 @@ fn write_next(
     let Some(first) = rows.first() else {
         return writeln!(out, "{bold}Everything:{plain} --details");
     };
-    // `epsilon` varies the gates of kernels that this program can look into.
-    let shows_gates = |row: &&&RowPart| {
+    let tells_margins = |row: &&&RowPart| {
         let entry = kernel::find(&row.kernel);
-        !row.epsilons.is_empty() && entry.is_some_and(|entry| entry.shows_gates())
+        !row.epsilons.is_empty() && entry.is_some_and(|entry| entry.tells_margins())
     };
-    let tuned = rows.iter().find(shows_gates);
+    let tuned = rows.iter().find(tells_margins);
     let sources = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.sources.as_str());
     let sources = if sources.is_empty() { String::new() } else { format!(" {sources}") };
     let is_alone = rows.iter().all(|row| row.selector == first.selector);

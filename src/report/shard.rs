@@ -116,6 +116,13 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
                 format!("cut in {}, expected {} as the first", partial.of, all.partial.of);
             return Err(error(i, message));
         }
+        let (target, first) = (&record.provenance.target, &all.provenance[0].target);
+        if target != first {
+            let message = format!(
+                "made on {target}, the first on {first}: a kernel may answer otherwise there"
+            );
+            return Err(error(i, message));
+        }
         if let Some(twice) = partial.present.iter().find(|k| all.partial.present.contains(k)) {
             return Err(error(i, format!("shard {twice}/{} is given twice", partial.of)));
         }
@@ -174,8 +181,10 @@ pub fn merged<E: From<String>>(
     record.result.partial = (!complete).then_some(parts.partial);
     record.shard = shard;
     record.illustrations = illustrate(&plan);
-    record.provenance.plan_flags =
-        parts.provenance.first().and_then(|part| part.plan_flags.clone());
+    if let Some(first) = parts.provenance.first() {
+        record.provenance.plan_flags.clone_from(&first.plan_flags);
+        record.provenance.target.clone_from(&first.target);
+    }
     for (kernel, notes) in parts.provenance.iter().flat_map(|part| &part.kernel_notes) {
         let known = record.provenance.kernel_notes.entry(kernel.clone()).or_default();
         known

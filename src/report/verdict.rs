@@ -40,6 +40,12 @@ pub(super) fn write(
             group_digits(conformance.outside_the_plan)
         )?;
     }
+    if !conformance.unproved.is_empty() {
+        writeln!(out, "\n{bold}Proofs that [proved] demands and that are missing{plain}")?;
+    }
+    for unproved in &conformance.unproved {
+        writeln!(out, "{unproved}\n    {}", unproved.command)?;
+    }
     for (title, list) in [
         ("Unexpected disagreements", &conformance.unexpected),
         (

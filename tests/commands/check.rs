@@ -52,6 +52,19 @@ fn forget_cases(folder: &Path) {
     fs::remove_file(folder.join(LOCK)).unwrap();
 }
 
+#[test]
+fn cases_without_their_counts_are_a_mistake() {
+    let folder = blessed("check-lock-alone");
+    fs::remove_file(folder.join(FILE)).unwrap();
+    for words in [&["check", "-q"][..], &["check", "-q", "--bless"]] {
+        let error = ends(&folder, words, 65).1;
+        let expected = format!("{LOCK}: {FILE}, whose cases these are, is missing: restore it");
+        assert!(error.contains(&expected), "{error}");
+    }
+    fs::remove_file(folder.join(LOCK)).unwrap();
+    ends(&folder, &["check", "-q", "--bless"], 0);
+}
+
 /// The count of the first family of a name among those that people review.
 fn count_of(text: &str, family: &str) -> u64 {
     let after = text.split(&format!("{family} = ")).nth(1).unwrap();
@@ -501,7 +514,7 @@ fn expectations_stand_beside_the_configuration_wherever_check_runs() {
     let inside = folder.join("inside");
     fs::create_dir_all(&inside).unwrap();
     ends(&inside, &["check", "-q", "--config", "../hairline.toml"], 0);
-    fs::remove_file(folder.join("hairline.expectations.toml")).unwrap();
+    [FILE, LOCK].iter().for_each(|file| fs::remove_file(folder.join(file)).unwrap());
     ends(&inside, &["check", "-q", "--config", "../hairline.toml"], 1);
     // Blessing writes it there, too.
     ends(&inside, &["check", "-q", "--config", "../hairline.toml", "--bless", "--accept-worse"], 0);

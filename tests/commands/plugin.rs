@@ -229,6 +229,68 @@ fn crashes_are_expected_once_they_are_blessed() {
 }
 
 #[test]
+fn records_of_a_library_are_merged_when_it_is_named_again() {
+    let source = PathBuf::from(HERE).join("examples/c/moller_trumbore.c");
+    let Some(library) = library(&source, "merged", &[]) else { return };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("plugin-merged");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let at = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let run = |words: &[&str], file: &str| {
+        let to = ["-q", "--format", "json", "-o", file];
+        let output = hairline(&[words, &to].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let record: Value = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+        record["result"].clone()
+    };
+    let plan = ["audit", "--kernel-lib", &library, "--family", "tiny", "-n", "500"];
+    let whole = run(&plan, &at("whole"));
+    let parts = [at("0"), at("1")];
+    for (file, shard) in parts.iter().zip(["0/2", "1/2"]) {
+        run(&[&plan[..], &["--shard", shard]].concat(), file);
+    }
+    let merge = ["merge", &parts[0], &parts[1]];
+    assert!(refused(&merge, 65).contains("one of your own is known by its --kernel-lib"));
+    let merged = run(&[&merge[..], &["--kernel-lib", &library]].concat(), &at("merged"));
+    assert_eq!(merged, whole);
+}
+
+#[test]
+fn a_difference_of_two_records_shows_a_case_that_one_of_the_kernels_gets_right() {
+    let source = PathBuf::from(HERE).join("tests/kernels/year.c");
+    let of = |name: &str, epsilon: &str| {
+        let library = library(&source, name, &[&format!("-DEPSILON=\"{epsilon}\"")])?;
+        let file = format!("{library}.json");
+        let plan = ["audit", "-q", "--kernel-lib", &library, "--family", "grazing,fan"];
+        let output =
+            hairline(&[&plan[..], &["-n", "500", "--format", "json", "-o", &file]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        Some((library, file))
+    };
+    let (Some(strict), Some(loose)) = (of("strict", "1e-3"), of("loose", "1e-9")) else { return };
+    let is_right = |case: &str, library: &str| {
+        let shown = text(&hairline(&["explain", case, "--kernel-lib", library]).stdout);
+        assert!(shown.contains("mine (own): "), "{shown}");
+        shown.contains("as it should")
+    };
+    for (old, new, note) in [(&loose, &strict, "is new"), (&strict, &loose, "is right now")] {
+        let output = hairline(&["diff", &old.1, &new.1]);
+        let shown = text(&output.stdout);
+        let lines: Vec<&str> = shown.lines().collect();
+        let noted = format!("; the case shown {note}");
+        let places = (0..lines.len()).filter(|&i| lines[i].ends_with(&noted));
+        let cases = places.map(|i| lines[i + 1].split('\'').nth(1).unwrap());
+        let mut seen = 0;
+        for case in cases {
+            let [before, now] = [old, new].map(|side| is_right(case, &side.0));
+            assert_eq!([before, now], [note == "is new", note != "is new"], "{case}: {shown}");
+            seen += 1;
+        }
+        assert!(0 < seen, "{shown}");
+    }
+}
+
+#[test]
 fn a_crash_that_no_single_case_repeats_is_said() {
     let Some(library) = misbehaving("ONLY_IN_BATCHES") else { return };
     let (record, error) = record(&[&["--kernel-lib", &library][..], &FLAGS].concat());
@@ -299,6 +361,58 @@ fn the_example_in_c_is_moller_trumbore_bit_for_bit() {
 }
 
 /// A kernel in `sh` with these lines after its hello; `$1` is `case`, `end` and so on.
+#[test]
+fn the_epsilons_of_a_library_are_those_of_the_same_kernel_with_gates() {
+    let source = PathBuf::from(HERE).join("examples/c/moller_trumbore.c");
+    let Some(library) = library(&source, "tuned", &[]) else { return };
+    let table = |kernel: &[&str], own: &str, name: &str| -> Vec<String> {
+        let words = ["epsilon", "--scene", "room", "-n", "1500", "--quiet", "--format", "csv"];
+        let output = hairline(&[&words[..], kernel].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let plain = text(&output.stdout).replace(name, "K").replace(own, ",own,");
+        // What is proved needs the formula.
+        plain.lines().filter(|line| !line.contains(",proved,")).map(str::to_owned).collect()
+    };
+    let in_c = table(&["--kernel-lib", &library], ",own,", "c-moller-trumbore");
+    let gates = ["--kernel", "moller-trumbore", "--gate", "parallel,t_min"];
+    let built_in = table(&gates, ",source,", "moller-trumbore");
+    assert_eq!(in_c, built_in);
+    assert!(60 < in_c.len() && in_c[1].starts_with("K,f32,epsilon,recommended,parallel,"));
+    // Gate by gate, and case by case.
+    let of_gate =
+        ["epsilon", "--kernel-lib", &library, "--gate", "parallel", "--family", "grazing"];
+    let shown = text(&hairline(&[&of_gate[..], &["-n", "500"]].concat()).stdout);
+    assert!(shown.contains("gate parallel: refuses where abs(det) < e"), "{shown}");
+    let case = ["explain", "tiny@1/f32/-/1/0", "--kernel", "moller-trumbore", "--kernel-lib"];
+    let shown = text(&hairline(&[&case[..], &[&library]].concat()).stdout);
+    let number = |after: &str| {
+        let rest = shown.split_once(after).unwrap_or_else(|| panic!("{after}: {shown}")).1;
+        rest.split_whitespace().next().unwrap().trim_end_matches(',').to_owned()
+    };
+    assert_eq!(number("accepted up to e = "), number("parallel   margin"));
+}
+
+#[test]
+fn an_epsilon_that_does_not_refuse_more_as_it_grows_is_found_out() {
+    let source = PathBuf::from(HERE).join("tests/kernels/year.c");
+    let Some(library) = library(&source, "backwards", &["-DBACKWARDS"]) else { return };
+    let error = refused_after_output(&["epsilon", "--kernel-lib", &library, "-n", "1500"]);
+    assert!(error.contains("kernel 'mine': its epsilons do not each act alone"), "{error}");
+    assert!(error.contains("Raising one must only refuse more"), "{error}");
+}
+
+#[test]
+fn crashes_while_margins_are_asked_for_end_nothing() {
+    let source = PathBuf::from(HERE).join("tests/kernels/year.c");
+    let Some(library) = library(&source, "crashing", &["-DCRASH"]) else { return };
+    let output = hairline(&["epsilon", "--kernel-lib", &library, "--scene", "room", "-n", "1000"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("use  --epsilon parallel="));
+    let few = ["--scene", "room", "-n", "1000", "--kernel-failures", "0"];
+    let few = [&["epsilon", "--kernel-lib", &library][..], &few].concat();
+    assert!(refused_after_output(&few).contains("the limit of --kernel-failures; first: died of"));
+}
+
 fn shell(body: &str) -> String {
     let hello =
         "printf 'hairline-kernel 1\\nname sh\\nscalars f64\\ncontract closed-ray\\nready\\n'";

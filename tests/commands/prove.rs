@@ -317,13 +317,30 @@ fn check_holds_what_is_proved() {
     let output = check(
         "[proved]\n\"woop-watertight+fma\".f32.watertight = true\nwoop-watertight.f32.edge = 21.5\n",
     );
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{error}");
-    assert!(
-        error.contains("woop-watertight+fma/f32/watertight=true: no longer proved watertight"),
-        "{error}"
-    );
-    assert!(error.contains("woop-watertight/f32/edge=21.5: the bound is 21.97"), "{error}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("does not conform: 2 proofs missing, 0 unexpected"), "{text}");
+    let not_watertight = "woop-watertight+fma f32 must be proved watertight: no longer proved";
+    let bound = "woop-watertight f32 edge must be proved to at most 21.5 u: the bound is 21.97";
+    // Every format says it.
+    let formats = ["text", "json", "jsonl", "junit", "sarif", "markdown", "html"];
+    let files: Vec<String> =
+        formats.map(|format| folder.join(format).to_str().unwrap().to_owned()).into();
+    let mut words = vec!["check", "--config", config, "-q", "--format"];
+    let all = formats.join(",");
+    words.push(&all);
+    words.extend(files.iter().flat_map(|file| ["-o", file.as_str()]));
+    assert_eq!(hairline(&words).status.code(), Some(1));
+    for file in &files {
+        let text = fs::read_to_string(file).unwrap();
+        let is_data = file.ends_with("json") || file.ends_with("jsonl");
+        let [one, other] = match is_data {
+            true => ["\"gate\":\"watertight\"", "\"demanded\":\"21.5\""],
+            false => [not_watertight, bound],
+        };
+        let text = if is_data { text.replace(": \"", ":\"") } else { text };
+        assert!(text.contains(one) && text.contains(other), "{file}: {text}");
+    }
     for (demands, message) in [
         ("[proved]\nwoop.f32.edge = 1\n", "unknown kernel 'woop'"),
         ("[proved]\nwoop-watertight.f32.edges = 1\n", "unknown gate 'edges'"),

@@ -145,6 +145,58 @@ fn what_is_no_part_of_the_same_run_is_refused_by_name() {
 }
 
 #[test]
+fn parts_of_one_kind_of_machine_become_a_record_of_it() {
+    let folder = folder("shards-targets");
+    let files = shards(&folder, 2);
+    let moved = |file: &str, target: &str| {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+        record["provenance"]["target"] = target.into();
+        let name = format!("on-{target}-{file}");
+        fs::write(folder.join(&name), record.to_string()).unwrap();
+        name
+    };
+    let there = [moved(&files[0], "pdp11-unix"), moved(&files[1], "pdp11-unix")];
+    let error = merge(&folder, &[&files[0], &there[1]], &[], 65);
+    assert!(error.contains("made on pdp11-unix, the first on "), "{error}");
+    merge(&folder, &[&there[0], &there[1]], &["-o", "there.json"], 0);
+    let text = fs::read_to_string(folder.join("there.json")).unwrap();
+    let record: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(record["provenance"]["target"], "pdp11-unix");
+    let bad = moved(&files[0], "a]\nb");
+    let error = ends(&folder, &["check", "-q", "--record", &bad], 65).1;
+    assert!(error.contains("provenance.target: \"a]\\nb\" is none"), "{error}");
+}
+
+#[test]
+fn lost_parts_run_again_alone_on_slurm() {
+    let folder = scratch("shards-slurm");
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/deploy/slurm.sh");
+    // In place of the program: says what it was asked, and writes a record.
+    let bin = folder.join("bin");
+    fs::create_dir_all(&bin).unwrap();
+    let fake = "#!/bin/sh\nwhile [ $# -gt 1 ]; do\n[ \"$1\" = --shard ] && echo \"$2\"\n[ \"$1\" = -o ] && : > \"$2\"\nshift\ndone\n";
+    fs::write(bin.join("hairline"), fake).unwrap();
+    let task = |task: &str, count: &str, [min, max]: [&str; 2]| {
+        let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+        let output = std::process::Command::new("bash")
+            .args([script, folder.join("out").to_str().unwrap()])
+            .env("PATH", path)
+            .envs([("SLURM_ARRAY_TASK_ID", task), ("SLURM_ARRAY_TASK_COUNT", count)])
+            .envs([("SLURM_ARRAY_TASK_MIN", min), ("SLURM_ARRAY_TASK_MAX", max)])
+            .output()
+            .unwrap();
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    std::process::Command::new("chmod").arg("+x").arg(bin.join("hairline")).status().unwrap();
+    assert_eq!(task("17", "1", ["17", "17"]).0, Some(2));
+    assert_eq!(task("0", "64", ["0", "63"]), (Some(0), "0/64".to_owned()));
+    assert_eq!(task("17", "1", ["17", "17"]), (Some(0), "17/64".to_owned()));
+    assert_eq!(task("3", "4", ["0", "3"]), (Some(0), "3/64".to_owned()));
+    assert_eq!(task("64", "1", ["64", "64"]).0, Some(2));
+}
+
+#[test]
 fn a_check_in_parts_is_judged_when_they_are_merged() {
     let folder = scratch("shards-check");
     let settings = "kernel = \"plucker\"\nfamily = [\"tiny\", \"edge-near\"]\ncount = 400\n";

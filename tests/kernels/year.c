@@ -1,5 +1,5 @@
 /* A project's kernel over a year, for tests/commands/action.rs: Moller and Trumbore's test in float, and what
- * becomes of it with -DREFACTORED, -DEPSILON=..., -DWIDE and -DCRASH. */
+ * becomes of it with -DREFACTORED, -DEPSILON=..., -DWIDE and -DCRASH; with -DBACKWARDS its epsilon is none. */
 #include "hairline.h"
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +64,11 @@ void hairline_test_f32(const hairline_case_f32 *cases, size_t count, const float
 #ifdef CRASH
         if (c->a[0] > 0.995f && c->a[0] < 1) abort();
 #endif
+#ifdef BACKWARDS
+        if (fabs(det) > epsilons[0]) continue;
+#else
         if (fabs(det) < epsilons[0]) continue;
+#endif
         number inverse = 1 / det;
         number u = dot(s, p) * inverse, v = dot(direction, q) * inverse;
         if (u < 0 || v < 0 || u + v > 1) continue;

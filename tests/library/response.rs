@@ -87,8 +87,8 @@ fn responses_agree_with_running<F: Scalar>(exact: bool) {
     let axis = Axis::<F>::new(&[F::from_f64(1e-6)]);
     for row in base_rows() {
         let gates = tunable_gates(row.entry.info.gates);
-        let gated = F::subject(row.entry).unwrap().gated().unwrap();
-        let request = Request { row: &row, gated, gates: &gates, axis: &axis, exact };
+        let subject = F::subject(row.entry).unwrap();
+        let request = Request { row: &row, subject, gates: &gates, axis: &axis, exact };
         let responses = run(&request, &sources(count), &Silent);
         for (number, source) in responses.iter().enumerate() {
             for response in &source.gates {
@@ -137,8 +137,8 @@ fn a_response_does_not_depend_on_the_number_of_threads() {
     let row = &base_rows()[0];
     let gates = tunable_gates(row.entry.info.gates);
     let axis = Axis::<f32>::new(&[]);
-    let gated = f32::subject(row.entry).unwrap().gated().unwrap();
-    let request = Request { row, gated, gates: &gates, axis: &axis, exact: false };
+    let subject = f32::subject(row.entry).unwrap();
+    let request = Request { row, subject, gates: &gates, axis: &axis, exact: false };
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let responses = pool.install(|| run(&request, &sources(5000), &Silent));

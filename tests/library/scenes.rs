@@ -141,8 +141,8 @@ fn setting<'a>(
     counts: &'a [Count],
     scene: &'a Scene,
 ) -> Setting<'a, f32> {
-    let gated = f32::subject(row.entry).unwrap().gated().unwrap();
-    Setting { row, gated, knobs, counts, scene, mesh: None, relative: false }
+    let subject = f32::subject(row.entry).unwrap();
+    Setting { row, subject, knobs, counts, scene, mesh: None, relative: false }
 }
 
 /// A case or group, and which of the counts it is for.

@@ -1,6 +1,6 @@
 //! `hairline epsilon` for a scene: which epsilons, all together, for a scene.
 
-use super::{EpsilonArguments, gated};
+use super::{EpsilonArguments, fault, tells_margins};
 use crate::audit::Row;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
@@ -121,12 +121,12 @@ impl Run<'_> {
     fn study<F: Scalar>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
         let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
-        let shown = || Failure::usage(format!("{name} does not show its gates in {}", F::NAME));
+        let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
         let row = Row { contract: contract_with(knobs, &row.contract), ..(*row).clone() };
         let counts = counts(knobs, &row.contract);
         let setting = Setting {
             row: &row,
-            gated: gated::<F>(&row).ok_or_else(shown)?,
+            subject: F::subject(row.entry).ok_or_else(missing)?,
             knobs,
             counts: &counts,
             scene: &self.studied.scene,
@@ -157,8 +157,8 @@ impl Run<'_> {
             named.push((text.clone(), vec![value]));
         }
         let Run { costs, max_error, seed, count, progress, .. } = *self;
-        let study = study_scene(&setting, costs, max_error, &named, seed, count, progress)
-            .map_err(|error| Failure::Message(Status::SelfCheck, format!("self-check: {error}")))?;
+        let study = study_scene(&setting, costs, max_error, &named, seed, count, progress);
+        let study = study.map_err(|error| fault(row.entry, error))?;
         Ok(kernel_part(&setting, &study, max_error))
     }
 }
@@ -189,11 +189,7 @@ impl EpsilonArguments {
     fn knobs(&self, row: &Row) -> Result<Vec<Knob>, String> {
         let info = row.entry.info;
         let name = info.name;
-        if gated::<f32>(row).is_none() && gated::<f64>(row).is_none() {
-            return Err(format!(
-                "{name} does not show its gates: `hairline audit --scene … --epsilon GATE=VALUE` runs it at one epsilon"
-            ));
-        }
+        tells_margins(row.entry)?;
         let all = Knob::all(row);
         let names: Vec<&str> = all.iter().map(|knob| knob.name(info.gates)).collect();
         if let Some(unknown) = self.gate.iter().find(|gate| !names.contains(&gate.as_str())) {

@@ -4,6 +4,7 @@ use super::super::exit::Failure;
 use super::super::flags::unknown;
 use crate::kernel::{self, Entry, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
+use crate::report::{Unproved, WATERTIGHT};
 
 /// A demand, as `kernel/scalar/gate=17` (no bound above 17 u in the unit domain) or
 /// `kernel/scalar/watertight=true`.
@@ -12,18 +13,27 @@ struct Demand<'a> {
     entry: &'static Entry,
     is_f64: bool,
     gate: &'a str,
+    value: &'a str,
     most: f64,
 }
 
 /// The demands that are not met, each with what is proved instead.
-pub fn unmet(demands: &[String]) -> Result<Vec<String>, Failure> {
-    let mut unmet = Vec::new();
+pub fn unproved(demands: &[String]) -> Result<Vec<Unproved>, Failure> {
+    let mut unproved = Vec::new();
     for text in demands {
         let demand = Demand::read(text)?;
         let why = if demand.is_f64 { demand.why_not::<f64>() } else { demand.why_not::<f32>() };
-        unmet.extend(why?.map(|why| format!("proved: {text}: {why}")));
+        let kernel = demand.entry.info.name;
+        unproved.extend(why?.map(|why| Unproved {
+            kernel: kernel.to_owned(),
+            scalar: if demand.is_f64 { "f64" } else { "f32" }.to_owned(),
+            gate: demand.gate.to_owned(),
+            demanded: demand.value.to_owned(),
+            why,
+            command: format!("hairline prove {}", demand.entry.selector()),
+        }));
     }
-    Ok(unmet)
+    Ok(unproved)
 }
 
 impl Demand<'_> {
@@ -45,15 +55,15 @@ impl Demand<'_> {
             _ => return Err(wrong()),
         };
         let most = match (gate, value) {
-            ("watertight", "true") => 0.0,
-            ("watertight", _) => return Err(wrong()),
+            (WATERTIGHT, "true") => 0.0,
+            (WATERTIGHT, _) => return Err(wrong()),
             _ => value.parse().ok().filter(|x| *x > 0.0).ok_or_else(wrong)?,
         };
         let gates = || entry.info.gates.iter().map(|gate| gate.name);
-        if gate != "watertight" && !gates().any(|name| name == gate) {
+        if gate != WATERTIGHT && !gates().any(|name| name == gate) {
             return Err(unknown("gate", gate, gates(), &format!("hairline prove --kernel {name}")));
         }
-        Ok(Demand { text, entry, is_f64, gate, most })
+        Ok(Demand { text, entry, is_f64, gate, value, most })
     }
 
     /// Why a demand is not met, if it is not.
@@ -63,7 +73,7 @@ impl Demand<'_> {
             Ok(summary) => summary,
             Err(why) => return Ok(Some(format!("no proof: {why}"))),
         };
-        if self.gate == "watertight" {
+        if self.gate == WATERTIGHT {
             let proved = summary.symmetry == Symmetry::ExactSigns;
             return Ok((!proved).then(|| "no longer proved watertight".to_owned()));
         }

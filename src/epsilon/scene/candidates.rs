@@ -69,7 +69,7 @@ pub fn grid<F: Scalar>(
     let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
     let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
         let kind = setting.counts[trial.count].kind;
-        let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(setting, &trial.cases[0]));
+        let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
         let is_refused = match kind {
             // A hit that is too far off is to be refused too.
             Kind::Miss => max_error.is_some_and(is_exceeded),

@@ -1,11 +1,11 @@
 //! Errors of the hits that remain: of t relative to itself, of the point in the scene's unit of length.
 
 use super::confidence::is_shown;
-use super::trials::Setting;
+use super::trials::Trial;
 use crate::arith::{Bounded, Exact, Float, Real, Vector};
 use crate::audit::{Histogram, values};
 use crate::case::Case;
-use crate::kernel::{Hit, Scalar};
+use crate::kernel::Hit;
 
 /// What of a hit can be off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,10 +83,10 @@ impl MaxError {
     }
 }
 
-/// The errors of what a kernel reports of a case, if that is a hit.
-pub fn errors_of<F: Scalar>(setting: &Setting<'_, F>, case: &Case<F>) -> HitErrors {
-    let values = setting.gated.measure(case).values;
-    values.map_or([None; Value::ALL.len()], |hit| hit_errors(case, &hit))
+/// The errors of what a kernel reports of a trial's first triangle, if that is a hit.
+pub fn errors_of<F: Float>(trial: &Trial<'_, F>) -> HitErrors {
+    let values = trial.values[0].as_ref();
+    values.map_or([None; Value::ALL.len()], |hit| hit_errors(&trial.cases[0], hit))
 }
 
 /// The errors of a hit on a triangle whose plane the line crosses.

@@ -142,8 +142,7 @@ impl<F: Scalar> Joint<F> {
                 terms.iter().for_each(|(sign, places)| cells[grid.cell(places)] += sign);
             };
             add_to(&mut sums.cells[trial.count]);
-            let is_exceeded =
-                |max: &MaxError| max.is_exceeded(&errors_of(setting, &trial.cases[0]));
+            let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
             let is_hit = setting.counts[trial.count].kind == Kind::Miss;
             if is_hit && max_error.is_some_and(is_exceeded) {
                 add_to(&mut sums.exceeded[trial.count]);

@@ -8,11 +8,12 @@ use super::joint::{Costs, Grid, Joint};
 use super::knob::Knob;
 use super::limits::{Limit, limits};
 use super::proved::{Proved, proved};
-use super::trials::{Count, Kind, Setting, Trial};
+use super::trials::{Count, Kind, Margins, Setting, Trial, accepts};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
+use crate::case::Case;
 use crate::engine::{Merge, Observer};
-use crate::kernel::{Scalar, Verdict};
+use crate::kernel::{Scalar, Verdict, verdicts_of};
 
 /// A study's results.
 pub struct SceneStudy<F> {
@@ -92,7 +93,9 @@ pub fn study_scene<F: Scalar>(
     let at_proved =
         |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
     attempts.extend(proofs.iter().map(at_proved));
-    let differs = differs(setting, &attempts[0].epsilons)?;
+    let plain_ones: Vec<Vec<F>> =
+        attempts[..plain].iter().map(|attempt| attempt.epsilons.clone()).collect();
+    let differs = differs(setting, &plain_ones);
     let run = measure(setting, &attempts, plain, max_error, fresh, count, observer, differs);
     let Wrong { trials: mut wrong, of_hits, fault } = run;
     fault.map_or(Ok(()), Err)?;
@@ -131,7 +134,7 @@ pub fn study_scene<F: Scalar>(
         Some(followed) => {
             let found = limits(&relative, &followed, seed, count, observer);
             let attempt = [Attempt::new(followed.clone())];
-            let no_run = |_: &Trial<'_, F>| None;
+            let no_run = |_: &[Case<F>], _: &[Margins<F>]| None;
             let mut sums =
                 measure(&relative, &attempt, 1, max_error, fresh, count, observer, no_run);
             let vector = ("scale-free".to_owned(), followed);
@@ -269,7 +272,7 @@ impl Wrong {
         if setting.counts[trial.count].kind != Kind::Miss {
             return;
         }
-        let errors = errors_of(setting, &trial.cases[0]);
+        let errors = errors_of(trial);
         let attempts = attempts.iter().zip(&mut self.of_hits);
         for (_, sums) in attempts.filter(|(attempt, _)| trial.is_hit(&attempt.epsilons)) {
             let pairs = sums.errors[trial.count].iter_mut().zip(errors);
@@ -300,10 +303,10 @@ pub fn count_at<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Vec<Vec<Trials>> {
-    measure(setting, attempts, 0, None, seed, count, observer, |_| None).trials
+    measure(setting, attempts, 0, None, seed, count, observer, |_, _| None).trials
 }
 
-/// The same, and the errors of the hits of the first attempts; a check may find a fault in a trial.
+/// The same, and the errors of the hits of the first attempts; a check may find a fault in a chunk.
 #[expect(clippy::too_many_arguments)]
 fn measure<F: Scalar>(
     setting: &Setting<'_, F>,
@@ -313,40 +316,54 @@ fn measure<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-    check: impl Fn(&Trial<'_, F>) -> Option<String> + Sync,
+    check: impl Fn(&[Case<F>], &[Margins<F>]) -> Option<String> + Sync,
 ) -> Wrong {
     let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
     let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
-        sums.fault = sums.fault.take().or_else(|| check(&trial));
         sums.add(setting.counts, attempts, &trial);
         if 0 < with_errors {
             sums.add_errors(setting, attempts, max_error, &trial);
         }
     };
-    setting.sum(seed, count, observer, empty, add)
+    let look = |sums: &mut Wrong, cases: &[Case<F>], margins: &[Margins<F>]| {
+        sums.fault = sums.fault.take().or_else(|| check(cases, margins));
+    };
+    setting.sum_with(seed, count, observer, empty, add, look)
 }
 
-/// Runs the kernel at some epsilons on a trial; a fault if it does not do as its margins say.
+/// Runs the kernel at some epsilons on a chunk's cases; a fault if it does not do as their margins say.
 fn differs<F: Scalar>(
     setting: &Setting<'_, F>,
-    at: &[F],
-) -> Result<impl Fn(&Trial<'_, F>) -> Option<String> + Sync, String> {
-    let kernel = F::subject(setting.row.entry).ok_or("the kernel does not run in this scalar")?;
-    let mut epsilons = setting.row.epsilons::<F>();
-    let mut least_t = None;
-    for (knob, epsilon) in setting.knobs.iter().zip(at) {
-        match knob {
-            Knob::Gate(gate) => epsilons[*gate] = *epsilon,
-            Knob::LeastT => least_t = Some(*epsilon),
+    at: &[Vec<F>],
+) -> impl Fn(&[Case<F>], &[Margins<F>]) -> Option<String> + Sync {
+    let with_least_t = |at: &Vec<F>| {
+        let (mut epsilons, mut least_t) = (setting.row.epsilons::<F>(), -F::infinity());
+        for (knob, epsilon) in setting.knobs.iter().zip(at) {
+            match knob {
+                Knob::Gate(gate) => epsilons[*gate] = *epsilon,
+                Knob::LeastT => least_t = *epsilon,
+            }
         }
+        (at.clone(), epsilons, least_t)
+    };
+    let all: Vec<_> = at.iter().map(with_least_t).collect();
+    let has_least_t = setting.knobs.contains(&Knob::LeastT);
+    let subject = setting.subject;
+    move |cases, margins| {
+        all.iter().find_map(|(at, epsilons, least_t)| {
+            let mut verdicts = vec![Verdict::miss(None); cases.len()];
+            verdicts_of(subject, cases, epsilons, &mut verdicts);
+            let is_hit =
+                |verdict: &Verdict<F>| verdict.hit && (!has_least_t || *least_t <= verdict.t);
+            let pairs = cases.iter().zip(margins).zip(&verdicts);
+            let mut faults =
+                pairs.filter(|((_, margins), verdict)| is_hit(verdict) != accepts(margins, at));
+            let ((case, _), verdict) = faults.next()?;
+            let answer = if verdict.hit { "a hit" } else { "a miss" };
+            Some(format!(
+                "together at {at:?} it is {answer}, one by one it is not, on {}",
+                case.hex()
+            ))
+        })
     }
-    Ok(move |trial: &Trial<'_, F>| {
-        let mut verdicts = vec![Verdict::miss(None); trial.cases.len()];
-        kernel.run(trial.cases, &epsilons, &mut verdicts);
-        let is_hit =
-            verdicts.iter().any(|verdict| verdict.hit && least_t.is_none_or(|t| t <= verdict.t));
-        let case = &trial.cases[0];
-        (is_hit != trial.is_hit(at))
-            .then(|| format!("the margins and the run differ at {at:?} on {}", case.hex()))
-    })
 }

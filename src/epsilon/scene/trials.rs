@@ -9,7 +9,7 @@ use crate::contract::{Contract, Extent, Sides};
 use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::Stratum;
 use crate::judge::{GroupTruth, Obligation};
-use crate::kernel::{Gated, Scalar};
+use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
 use std::sync::Arc;
@@ -94,8 +94,8 @@ pub struct StudiedScene {
 pub struct Setting<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.
     pub row: &'a Row,
-    /// The kernel's gates.
-    pub gated: &'static dyn Gated<F>,
+    /// The same kernel in the scalar.
+    pub subject: &'static dyn Subject<F>,
     /// At most [`MOST_KNOBS`].
     pub knobs: &'a [Knob],
     /// What is counted.
@@ -116,6 +116,8 @@ pub struct Trial<'a, F: Float> {
     pub margins: &'a [Margins<F>],
     /// The triangles with their ray.
     pub cases: &'a [Case<F>],
+    /// What a hit of each would report.
+    pub values: &'a [Option<Hit<F>>],
 }
 
 impl<F: Float> Trial<'_, F> {
@@ -140,14 +142,32 @@ impl<F: Scalar> Setting<'_, F> {
         empty: impl Fn() -> S + Sync,
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
     ) -> S {
+        self.sum_with(seed, count, observer, empty, add, |_, _, _| {})
+    }
+
+    /// The same; `look` also sees each chunk's cases with their margins, those that are no trials included.
+    pub fn sum_with<S: Merge>(
+        &self,
+        seed: u64,
+        count: u64,
+        observer: &dyn Observer,
+        empty: impl Fn() -> S + Sync,
+        add: impl Fn(&mut S, Trial<'_, F>) + Sync,
+        look: impl Fn(&mut S, &[Case<F>], &[Margins<F>]) + Sync,
+    ) -> S {
         let mut total = empty();
         for stratum in Stratum::ALL {
             if !self.counts.iter().any(|count| count.stratum == stratum) {
                 continue;
             }
             let source = self.source(stratum, seed, count);
-            let add =
-                |sums: &mut S, indices| self.chunk(&source, stratum, indices, |t| add(sums, t));
+            let add = |sums: &mut S, indices| {
+                let mut summary = SourceSummary::new(0, F::NAME);
+                let chunk = Chunk::<F>::make(&source, indices, &Unobserved, &mut summary);
+                let (margins, values) = self.margins(&chunk.cases);
+                look(sums, &chunk.cases, &margins);
+                self.trials(&chunk, stratum, &margins, &values, |trial| add(sums, trial));
+            };
             let indices = 0..source.count::<F>();
             total.merge(engine::sum(indices, source.chunk(), observer, &empty, add));
         }
@@ -171,30 +191,28 @@ impl<F: Scalar> Setting<'_, F> {
         }
     }
 
-    fn chunk(
+    fn trials(
         &self,
-        source: &Source,
+        chunk: &Chunk<F>,
         stratum: Stratum,
-        indices: Range<u64>,
+        margins: &[Margins<F>],
+        values: &[Option<Hit<F>>],
         mut add: impl FnMut(Trial<'_, F>),
     ) {
-        let mut summary = SourceSummary::new(0, F::NAME);
-        let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
-        let margins = self.margins(&chunk.cases);
         let contract = &self.row.contract;
         let of =
             |kind: Kind| self.counts.iter().position(|count| *count == Count { stratum, kind });
+        let mut add_range = |count, range: Range<usize>| {
+            let (cases, values) = (&chunk.cases[range.clone()], &values[range.clone()]);
+            add(Trial { count, margins: &margins[range], cases, values });
+        };
         if let Some(count) = of(Kind::SelfHit) {
-            for (case, margins) in chunk.cases.iter().zip(&margins) {
-                let (margins, cases) = (std::slice::from_ref(margins), std::slice::from_ref(case));
-                add(Trial { count, margins, cases });
-            }
+            (0..chunk.cases.len()).for_each(|i| add_range(count, i..i + 1));
         } else if let Some(count) = of(Kind::Crack) {
             let groups = chunk.groups().zip(chunk.group_truths(contract));
             for ((_, range), truth) in groups {
                 if truth == GroupTruth::Crossing {
-                    let cases = &chunk.cases[range.clone()];
-                    add(Trial { count, margins: &margins[range], cases });
+                    add_range(count, range);
                 }
             }
         } else {
@@ -209,49 +227,48 @@ impl<F: Scalar> Setting<'_, F> {
                     Obligation::Free => None,
                 };
                 if let Some(count) = count {
-                    let (margins, cases) = (&margins[i..=i], &chunk.cases[i..=i]);
-                    add(Trial { count, margins, cases });
+                    add_range(count, i..i + 1);
                 }
             }
         }
     }
 
-    /// Each case's margins of the knobs; where another gate refuses, -inf.
-    fn margins(&self, cases: &[Case<F>]) -> Vec<Margins<F>> {
-        let gates = self.row.entry.info.gates;
+    /// Each case's margins of the knobs, -inf where another gate refuses; and what a hit would report.
+    fn margins(&self, cases: &[Case<F>]) -> (Vec<Margins<F>>, Vec<Option<Hit<F>>>) {
+        let info = self.row.entry.info;
+        let gates = info.gates;
         let epsilons = self.row.epsilons::<F>();
         let mut all = vec![F::zero(); cases.len() * gates.len()];
-        self.gated.margins(cases, &mut all);
+        let mut values = vec![None; cases.len()];
+        self.subject.margins(info, cases, &mut all, &mut values);
         let scales: Vec<Option<Scales<F>>> = self
             .knobs
             .iter()
             .map(|knob| self.relative.then(|| Scales::new(cases, knob.dimension(gates))))
             .collect();
         let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
-        let least_t = self.knobs.contains(&Knob::LeastT);
-        let rows = all.chunks_exact(gates.len().max(1)).zip(cases).enumerate();
-        let of_case = |(i, (row, case)): (usize, (&[F], &Case<F>))| {
+        let of_case = |i: usize| {
+            let row = &all[i * gates.len()..(i + 1) * gates.len()];
             let refused = (0..gates.len()).any(|g| is_fixed(g) && row[g] < epsilons[g]);
             let mut margins = [F::infinity(); MOST_KNOBS];
             if refused {
                 return [-F::infinity(); MOST_KNOBS];
             }
-            let t = least_t.then(|| self.t(case));
             for ((margin, knob), scales) in margins.iter_mut().zip(self.knobs).zip(&scales) {
                 let absolute = match knob {
                     Knob::Gate(gate) => row[*gate],
-                    Knob::LeastT => t.unwrap_or(F::infinity()),
+                    Knob::LeastT => t_of(values[i].as_ref()),
                 };
                 *margin = scales.as_ref().map_or(absolute, |s| s.relative(i, absolute));
             }
             margins
         };
-        rows.map(of_case).collect()
+        ((0..cases.len()).map(of_case).collect(), values)
     }
+}
 
-    /// The t that a hit would report; -inf if it is no number, for no comparison accepts that.
-    fn t(&self, case: &Case<F>) -> F {
-        let t = self.gated.measure(case).values.and_then(|hit| hit.t);
-        t.filter(|t| !t.is_nan()).unwrap_or(-F::infinity())
-    }
+/// The t that a hit would report; -inf if it is no number, for no comparison accepts that.
+fn t_of<F: Float>(values: Option<&Hit<F>>) -> F {
+    let t = values.and_then(|hit| hit.t);
+    t.filter(|t| !t.is_nan()).unwrap_or(-F::infinity())
 }

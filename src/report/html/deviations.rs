@@ -17,6 +17,14 @@ pub(super) fn section(record: &Record, room: &mut Room) -> Markup {
         section #deviations aria-labelledby="deviations-title" {
             h2 #deviations-title { "Deviations" }
             p { (how(conformance)) }
+            @if !conformance.unproved.is_empty() {
+                h3 { "Proofs missing (" (conformance.unproved.len()) ")" }
+                ul.cards.unexpected {
+                    @for unproved in &conformance.unproved {
+                        li { p { (unproved) } p.example { (code(&unproved.command)) } }
+                    }
+                }
+            }
             (list("Unexpected", "unexpected", conformance, conformance.unexpected.iter(), room))
             (list("Stale: what was wrong is less so, or gone", "stale", conformance, conformance.stale.iter(), room))
             (list("Known, with a reason", "known", conformance, told.into_iter(), room))

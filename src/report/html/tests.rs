@@ -1,7 +1,8 @@
 use super::*;
 use crate::report::record::*;
 use crate::report::{
-    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, Verdict,
+    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, Unproved,
+    Verdict,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -123,6 +124,14 @@ fn conformance(deviations: Vec<Deviation>) -> Conformance {
         expectations: Some(HOSTILE.to_owned()),
         note: Some(HOSTILE.to_owned()),
         change: NetChange::default(),
+        unproved: vec![Unproved {
+            kernel: HOSTILE.to_owned(),
+            scalar: HOSTILE.to_owned(),
+            gate: HOSTILE.to_owned(),
+            demanded: HOSTILE.to_owned(),
+            why: HOSTILE.to_owned(),
+            command: HOSTILE.to_owned(),
+        }],
         unexpected: deviations.clone(),
         stale: deviations.clone(),
         known: deviations,
@@ -333,6 +342,6 @@ fn the_verdict_is_one_line() {
     let checked = hostile();
     assert_eq!(
         verdict(&View::new(&checked)),
-        "Does not conform: 4 unexpected disagreements, 4 stale expectations, 4 known disagreements"
+        "Does not conform: 1 proof missing, 4 unexpected disagreements, 4 stale expectations, 4 known disagreements"
     );
 }

@@ -1,6 +1,8 @@
 //! Two records side by side: what got better, what got worse.
 
-use super::{
+use super::changed::{Change, UNSURE, changed_case};
+use crate::audit::Digest;
+use crate::report::{
     Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
     group_digits, rate_of,
 };
@@ -14,7 +16,7 @@ const ERROR: f64 = 0.05;
 /// What became of a class of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Change {
+pub enum Trend {
     /// It is more frequent.
     Worse,
     /// It is less frequent.
@@ -31,13 +33,16 @@ pub struct Difference {
     /// What it is: kernel, epsilons, scalar, family, finding and class in one line.
     pub what: String,
     /// What became of it.
-    pub change: Change,
+    pub change: Trend,
     /// How often it was.
     pub old: Rate,
     /// How often it is.
     pub new: Rate,
-    /// Shows the worst case of the record that has more of it.
+    /// Shows a case that is wrong in one of the records and not in the other, or the worst case of the record
+    /// that has more of it.
     pub command: Option<String>,
+    /// Whether that case is wrong in one of them only, in words.
+    pub shown: &'static str,
 }
 
 /// A kernel that the records judge by different contracts.
@@ -115,6 +120,7 @@ fn contract_changes(old: &ResultPart, new: &ResultPart) -> Vec<ContractChange> {
 
 /// One of the records.
 struct Side<'a> {
+    result: &'a ResultPart,
     found: BTreeMap<Key, Disagreement<'a>>,
     results: BTreeMap<[&'a str; 4], &'a KernelResult>,
     /// By family: the id of the set, and how many indices.
@@ -126,6 +132,7 @@ impl<'a> Side<'a> {
     fn of(result: &'a ResultPart) -> Side<'a> {
         let sources = result.plan.sources.iter();
         Side {
+            result,
             found: disagreements(result)
                 .into_iter()
                 .map(|found| (found.key.clone(), found))
@@ -153,18 +160,36 @@ struct Judge {
 impl Judge {
     fn difference(&self, key: &Key, old: &Side, new: &Side) -> Option<Difference> {
         let (old_rate, new_rate) = (old.rate(key)?, new.rate(key)?);
-        let digest = |side: &Side| side.found.get(key).map(|found| found.digest.to_owned());
-        let same_set = digest(old) == digest(new);
+        let digests = [old, new].map(|side| side.found.get(key).map(|found| found.digest));
+        let same_set = digests[0] == digests[1];
         if old_rate.count == new_rate.count && old_rate.of == new_rate.of && same_set {
             return None;
         }
-        let change = self.change(self.same_cases(key, old, new), &old_rate, &new_rate);
-        let side = if change == Change::Better { old } else { new };
-        let example = side.found.get(key).and_then(|found| found.example.as_ref());
+        let same_cases = self.same_cases(key, old, new);
+        let change = self.change(same_cases, &old_rate, &new_rate);
+        let which = if change == Trend::Better { Change::Right } else { Change::New };
+        let of_side =
+            |side: &&Side<'_>| side.found.get(key).and_then(|found| found.example.clone());
+        // What is right now is shown as the new record runs it, if it says how.
+        let example = [new, old].iter().find_map(of_side);
+        let changed = example.as_ref().filter(|_| same_cases).and_then(|example| {
+            let read = |digest: Option<&str>| match digest {
+                None => Some(Digest::default()),
+                Some(text) => Digest::try_from(text.to_owned()).ok(),
+            };
+            let (before, now) = (read(digests[0])?, read(digests[1])?);
+            changed_case(new.result, key, example, which.of(&before, &now))
+        });
+        let shown = match (&changed, same_cases) {
+            (Some(_), _) => which.note(),
+            (None, true) if example.is_some() && which == Change::New => UNSURE,
+            (None, _) => "",
+        };
         Some(Difference {
             what: key.to_string(),
             change,
-            command: example.map(|example| example.command.clone()),
+            command: changed.or(example).map(|example| example.command),
+            shown,
             old: old_rate,
             new: new_rate,
         })
@@ -176,22 +201,22 @@ impl Judge {
         self.same_parts && old.sources.get(family) == new.sources.get(family)
     }
 
-    fn change(&self, same_cases: bool, old: &Rate, new: &Rate) -> Change {
+    fn change(&self, same_cases: bool, old: &Rate, new: &Rate) -> Trend {
         let whole_sets = old.interval.is_none() && new.interval.is_none() && old.of == new.of;
         if same_cases || whole_sets {
             return match new.count.cmp(&old.count) {
-                std::cmp::Ordering::Greater => Change::Worse,
-                std::cmp::Ordering::Less => Change::Better,
-                std::cmp::Ordering::Equal => Change::Other,
+                std::cmp::Ordering::Greater => Trend::Worse,
+                std::cmp::Ordering::Less => Trend::Better,
+                std::cmp::Ordering::Equal => Trend::Other,
             };
         }
         let [old, new] = [old, new].map(|rate| rate.trials().interval_at(self.tail));
         if old.high < new.low {
-            Change::Worse
+            Trend::Worse
         } else if new.high < old.low {
-            Change::Better
+            Trend::Better
         } else {
-            Change::Insignificant
+            Trend::Insignificant
         }
     }
 }
@@ -217,9 +242,9 @@ impl Comparison {
             writeln!(out, "    before: {old}\n    now:    {new}")?;
         }
         for (title, change) in [
-            ("Worse", Change::Worse),
-            ("Better", Change::Better),
-            ("Other cases, as many", Change::Other),
+            ("Worse", Trend::Worse),
+            ("Better", Trend::Better),
+            ("Other cases, as many", Trend::Other),
         ] {
             let list: Vec<_> = self.differences.iter().filter(|d| d.change == change).collect();
             if !list.is_empty() {
@@ -230,7 +255,7 @@ impl Comparison {
                     format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
                 };
                 let (old, new) = (share(&difference.old), share(&difference.new));
-                writeln!(out, "{}: {old} before, {new} now", difference.what)?;
+                writeln!(out, "{}: {old} before, {new} now{}", difference.what, difference.shown)?;
                 if let Some(command) = &difference.command {
                     writeln!(out, "    {command}")?;
                 }
@@ -238,7 +263,7 @@ impl Comparison {
         }
         let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
         let [worse, better, other, same] =
-            [Change::Worse, Change::Better, Change::Other, Change::Insignificant]
+            [Trend::Worse, Trend::Better, Trend::Other, Trend::Insignificant]
                 .map(|change| group_digits(count(change)));
         writeln!(
             out,

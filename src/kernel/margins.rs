@@ -1,0 +1,108 @@
+//! The margins of a kernel that does not show its gates: by running it at many epsilons.
+
+use super::{Hit, KernelInfo, Tunable, Verdict};
+use crate::arith::Float;
+
+/// By gate, the epsilon that lets the most through: 0 where smaller ones mean the same, otherwise the
+/// smallest number.
+pub fn open_epsilons<F: Float>(info: &KernelInfo) -> Vec<F> {
+    let smallest = -F::infinity().offset_ulps(-1);
+    let open = |tunable| if tunable == Tunable::Signed { smallest } else { F::zero() };
+    info.gates.iter().map(|gate| open(gate.epsilon)).collect()
+}
+
+/// Each gate's margin on a case that the kernel hits at the epsilons that let the most through: the largest
+/// epsilon at which it still hits while the other gates stay open; +inf if it hits at the largest number.
+///
+/// So raising an epsilon must only refuse more, and gates must not look at each other's epsilons.
+pub fn by_running<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mut [F]) {
+    let mut epsilons = open.to_vec();
+    for (gate, margin) in margins.iter_mut().enumerate() {
+        let mut hits_at = |place| {
+            epsilons[gate] = F::from_place(place);
+            is_hit(&epsilons)
+        };
+        let (mut accepted, mut refused) = (open[gate].place(), F::infinity().place() - 1);
+        *margin = if hits_at(refused) {
+            F::infinity()
+        } else {
+            while accepted + 1 < refused {
+                let middle = accepted.midpoint(refused);
+                if hits_at(middle) { accepted = middle } else { refused = middle }
+            }
+            F::from_place(accepted)
+        };
+        epsilons[gate] = open[gate];
+    }
+}
+
+/// What a kernel would report of a hit.
+pub fn values_of<F: Float>(info: &KernelInfo, verdict: &Verdict<F>) -> Option<Hit<F>> {
+    let &Verdict { hit, facing, t, u, v, .. } = verdict;
+    let (t, uv) = (info.gives.t.then_some(t), info.gives.uv.then_some((u, v)));
+    hit.then_some(Hit { t, uv, facing })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Parameters;
+    use crate::family::FAMILIES;
+    use crate::kernel::{KERNELS, Scalar, Subject};
+
+    /// A kernel whose gates nobody sees.
+    struct Closed<F: 'static>(&'static dyn Subject<F>);
+
+    impl<F: Float> Subject<F> for Closed<F> {
+        fn run(&self, cases: &[crate::case::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+            self.0.run(cases, epsilons, verdicts);
+        }
+    }
+
+    fn margins_agree<F: Scalar>() {
+        for entry in KERNELS {
+            let (shown, info) = (F::subject(entry).unwrap(), entry.info);
+            let open = open_epsilons::<F>(info);
+            for family in FAMILIES {
+                for index in 0..3 {
+                    let made = family.make::<F>(&Parameters::default(), 5, index);
+                    let cases = made.cases();
+                    let width = info.gates.len();
+                    let mut by_gates = vec![F::zero(); cases.len() * width];
+                    let mut by_runs = by_gates.clone();
+                    let mut values = vec![None; cases.len()];
+                    shown.margins(info, cases, &mut by_gates, &mut []);
+                    Closed(shown).margins(info, cases, &mut by_runs, &mut values);
+                    let rows = by_gates.chunks(width).zip(by_runs.chunks(width));
+                    for ((by_gates, by_runs), values) in rows.zip(values) {
+                        let is_hit = by_gates.iter().zip(&open).all(|(margin, e)| e <= margin);
+                        let of_gates =
+                            by_gates.iter().map(|m| if is_hit { *m } else { -F::infinity() });
+                        let expected: Vec<F> = of_gates
+                            .zip(info.gates)
+                            .map(|(m, gate)| match gate.epsilon {
+                                Tunable::Fixed if is_hit => F::infinity(),
+                                // The largest number is the largest epsilon there is.
+                                _ if m.place() == F::infinity().place() - 1 => F::infinity(),
+                                _ => m,
+                            })
+                            .collect();
+                        assert!(
+                            by_runs == expected,
+                            "{} {} {index}: {by_runs:?}, {expected:?}",
+                            info.name,
+                            family.name
+                        );
+                        assert_eq!(values.is_some(), is_hit, "{} {}", info.name, family.name);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn runs_find_the_margins_that_the_gates_show() {
+        margins_agree::<f32>();
+        margins_agree::<f64>();
+    }
+}
