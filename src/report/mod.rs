@@ -30,6 +30,8 @@ mod record;
 mod row_view;
 mod sarif;
 pub mod scene;
+#[cfg(test)]
+mod schema;
 mod screen;
 mod shard;
 mod text;

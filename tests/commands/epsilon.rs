@@ -1,5 +1,6 @@
 //! `hairline epsilon` as a user runs it.
 
+use crate::json_schema;
 use hairline::internals::report::epsilon::{CurvePart, EpsilonRecord, GatePart};
 use std::process::{Command, Output};
 
@@ -207,10 +208,33 @@ fn formats_hold_what_they_promise() {
     let columns = lines.next().unwrap().split(',').count();
     assert!(lines.all(|line| line.split(',').count() == columns));
     assert!(csv.contains("\nmoller-trumbore,f32,parallel,grazing,"));
+    // The published schema, with every point of every curve or without, and a record that breaks it.
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/schema/epsilon.json");
+    let schema = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    for more in [&["-n", "100"][..], &["-n", "100", "--curves"]] {
+        let json = with(&[&["--format", "json"], more].concat());
+        let mut document: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(json_schema::errors(&schema, &document), [""; 0]);
+        document["result"]["gates"][0]["exact"] = 1.into();
+        assert_ne!(json_schema::errors(&schema, &document), [""; 0]);
+    }
     let svg = with(&["--format", "svg"]);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count());
     assert!(svg.contains("godot, three-mesh-bvh") && svg.len() < 400_000, "{}", svg.len());
+}
+
+#[test]
+fn the_guides_pictures_are_what_the_program_draws() {
+    let drawn = |words: &[&str]| told(&hairline(words));
+    let kept = |name: &str| {
+        std::fs::read_to_string(format!("{}/docs/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    };
+    let gates = ["epsilon", "--kernel", "plane-unit-normal", "--gate", "parallel,t,edge"];
+    let gates = drawn(&[&gates[..], &["--scalar", "f32", "-q", "--format", "svg"]].concat());
+    assert!(gates == kept("plane-unit-normal-f32.svg"));
+    let map = ["map", "--at", "vertex", "--kernel", "moller-trumbore", "-q", "--format", "svg"];
+    assert!(drawn(&map) == kept("map-moller-trumbore-f32.svg"));
 }
 
 #[test]

@@ -60,6 +60,15 @@ impl Checker<'_> {
                     }
                     true
                 }
+                "prefixItems" => {
+                    let items = document.as_array().map(Vec::as_slice).unwrap_or_default();
+                    for (i, (item, schema)) in
+                        items.iter().zip(value.as_array().unwrap()).enumerate()
+                    {
+                        self.check(schema, item, &format!("{path}/{i}"));
+                    }
+                    true
+                }
                 "properties" => {
                     for (name, schema) in value.as_object().unwrap() {
                         if let Some(inner) = document.get(name) {

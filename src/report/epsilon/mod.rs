@@ -76,3 +76,13 @@ fn brief(record: &EpsilonRecord, most: usize) -> EpsilonRecord {
         provenance: record.provenance.clone(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_schema_is_that_of_the_types() {
+        crate::report::schema::assert_committed::<EpsilonRecord>("epsilon");
+    }
+}

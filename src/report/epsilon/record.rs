@@ -9,6 +9,7 @@ pub const EPSILON_SCHEMA: &str = "hairline-epsilon/1";
 
 /// Everything that a study found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EpsilonRecord {
     /// [`EPSILON_SCHEMA`].
@@ -21,6 +22,7 @@ pub struct EpsilonRecord {
 
 /// What was found.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EpsilonResult {
     /// The sources of cases.
@@ -33,6 +35,7 @@ pub struct EpsilonResult {
 
 /// Where and how a record was made.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EpsilonProvenance {
     /// `hairline 0.1.0`.
@@ -47,6 +50,7 @@ pub struct EpsilonProvenance {
 
 /// One epsilon of one kernel in one scalar. Epsilons are shortest decimals of the scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GatePart {
     /// The kernel's name.
@@ -80,6 +84,7 @@ pub struct GatePart {
 
 /// An epsilon with a name.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MarkPart {
     /// A preset's name, or the row's own.
@@ -90,6 +95,7 @@ pub struct MarkPart {
 
 /// The response on one source.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CurvePart {
     /// The source's name in tables, or `all`.
@@ -108,6 +114,7 @@ pub struct CurvePart {
 
 /// What an epsilon trades.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TradePart {
     /// The lowest epsilon that the gate takes.
@@ -125,6 +132,7 @@ pub struct TradePart {
 
 /// The epsilons that are best for one count.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LimitPart {
     /// How many could be wrong.
@@ -139,6 +147,7 @@ pub struct LimitPart {
 
 /// What one epsilon costs.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PricePart {
     /// The epsilon.
@@ -167,6 +176,7 @@ pub struct PricePart {
 
 /// What one epsilon costs on one source.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FamilyPrice {
     /// The source's name in tables.
@@ -179,6 +189,7 @@ pub struct FamilyPrice {
 
 /// A false hit and how far outside it is.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FarthestPart {
     /// From the line to the triangle's boundary, or along the ray from the end, in longest edges.
@@ -191,6 +202,7 @@ pub struct FarthestPart {
 
 /// Two gates against each other.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MapPart {
     /// The kernel's name.

@@ -68,6 +68,9 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
 /// A form without a unit is the answer if it leaves less than this share of the cost.
 const DECISIVE: f64 = 0.5;
 
+/// From fewer rays of each kind the numbers depend on the seed: what is rare decides them.
+const FEW: u64 = 10_000;
+
 /// What was tried: the recommended epsilons, the form without a unit, the others.
 fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
     let (first, others) = part.tried.split_at(1);
@@ -102,6 +105,12 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
     let mut notes: Vec<String> = meanings.collect();
+    if record.count < FEW {
+        notes.push(format!(
+            "from {} rays of each kind only: another seed may name numbers ten times as large",
+            group_digits(record.count)
+        ));
+    }
     if !part.others.is_empty() {
         let others = part.others.iter().map(|(gate, e)| format!("{gate}={e}"));
         notes.push(format!("the others stay: {}", others.collect::<Vec<_>>().join(", ")));

@@ -45,13 +45,6 @@ mod tests {
 
     #[test]
     fn the_committed_schema_is_that_of_the_types() {
-        let committed = include_str!("../../../docs/schema/scene.json");
-        let derived =
-            serde_json::to_string_pretty(&schemars::schema_for!(SceneRecord)).unwrap() + "\n";
-        if committed != derived {
-            let path = std::env::temp_dir().join("hairline-scene.json");
-            std::fs::write(&path, derived).unwrap();
-            panic!("the record has changed: cp {} docs/schema/scene.json", path.display());
-        }
+        crate::report::schema::assert_committed::<SceneRecord>("scene");
     }
 }
