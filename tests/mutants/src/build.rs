@@ -51,15 +51,20 @@ impl Tree {
     }
 
     /// Changes with the package's code and data, but not with its documents.
-    pub fn digest(&self) -> Result<String, String> {
-        let mut files = self.files(&self.root)?;
-        files.retain(|file| [".rs", ".toml", ".lock", ".jsonl"].iter().any(|e| file.ends_with(e)));
-        Ok(format!("{:016x}", digest(&contents(&self.root, files)?)))
+    pub fn digest(&self) -> Result<u64, String> {
+        self.digest_of(&self.root)
     }
 
-    /// Changes with the copy's files, mutants included.
-    pub fn built(&self) -> Result<u64, String> {
-        Ok(digest(&contents(&self.copy, self.files(&self.root)?)?))
+    /// Changes with the copy's, mutants included.
+    pub fn digest_of_copy(&self) -> Result<u64, String> {
+        self.digest_of(&self.copy)
+    }
+
+    fn digest_of(&self, root: &Path) -> Result<u64, String> {
+        let mut files = self.files(&self.root)?;
+        files.retain(|file| [".rs", ".toml", ".lock", ".jsonl"].iter().any(|e| file.ends_with(e)));
+        files.retain(|file| root.join(file).is_file());
+        Ok(digest(&contents(root, files)?))
     }
 
     /// All mutants of some files.

@@ -264,7 +264,9 @@ impl<'a> Visit<'a> for Finder {
 
     fn visit_item_impl(&mut self, item: &'a syn::ItemImpl) {
         if !is_test(&item.attrs) {
-            self.path.push(last_name(&item.self_ty));
+            let name = last_name(&item.self_ty);
+            let name = if name.is_empty() { self.text_of(&item.self_ty).to_owned() } else { name };
+            self.path.push(name);
             visit::visit_item_impl(self, item);
             self.path.pop();
         }

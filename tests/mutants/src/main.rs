@@ -39,7 +39,7 @@ struct Arguments {
     #[arg(long, default_value = "target/mutants")]
     work: PathBuf,
 
-    /// Only the modules of these groups
+    /// Only the modules of these groups; other groups are built again, other files are not
     #[arg(long)]
     group: Vec<String>,
 
@@ -70,6 +70,10 @@ struct Arguments {
     /// Tries the equivalents too: one that is killed is none
     #[arg(long)]
     equivalents: bool,
+
+    /// Only tests with one of these words in their names
+    #[arg(long, value_name = "WORD")]
+    test: Vec<String>,
 
     /// Leaves out more tests: those that take longer, in seconds
     #[arg(long, value_name = "SECONDS")]
@@ -106,29 +110,25 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
     std::fs::create_dir_all(&work).map_err(|e| format!("{}: {e}", work.display()))?;
     let config = Config::read(&root.join(&arguments.config))?;
     let tree = Tree::new(&root, &work);
-    let files = tree.sources(|file| {
-        let of_group = |module: &&config::Module| {
-            arguments.group.is_empty() || arguments.group.contains(&module.group)
-        };
-        let chosen = |f: &String| f == file || f.ends_with('/') && file.starts_with(f.as_str());
-        let of_place = |place: &String| place.split(':').next() == Some(file);
-        config.modules.iter().filter(of_group).any(|module| module.has(file))
-            && (arguments.file.is_empty() || arguments.file.iter().any(chosen))
-            && arguments.mutant.as_ref().is_none_or(of_place)
-    })?;
-    if files.is_empty() {
-        return Err("no file of the configuration's modules is chosen".into());
-    }
+    let of_group = |module: &&config::Module| {
+        arguments.group.is_empty() || arguments.group.contains(&module.group)
+    };
+    let modules: Vec<_> = config.modules.iter().filter(of_group).collect();
+    let files = tree.sources(|file| modules.iter().any(|module| module.has(file)))?;
     let finder = tree.find(&files)?;
     config.check_equivalents(&finder.mutants, &files)?;
     let chosen = choose(arguments, &finder.mutants);
+    if chosen.is_empty() && arguments.sample != Some(0) {
+        return Err("no mutant is chosen".into());
+    }
     if arguments.list {
         chosen.iter().for_each(|mutant| println!("{}", mutant.describe()));
         return Ok(true);
     }
 
     let by = arguments.by.as_deref().unwrap_or("tests");
-    let mut results = Results::open(&work.join("results.jsonl"), by, &tree.digest()?)?;
+    let mut results =
+        Results::open(&work.join("results.jsonl"), by, &format!("{:016x}", tree.digest()?))?;
     let known = finder.mutants.iter().filter(|mutant| results.is_refused(mutant));
     let mut refused: HashSet<u32> = known.map(|mutant| mutant.id).collect();
     let binaries = tree.build(&finder, &mut refused, &config.tests)?;
@@ -144,6 +144,7 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
             Tests::of_program(&tree, program.ok_or(format!("no program '{name}'"))?)?
         }
     };
+    tests.keep(&arguments.test);
     tests.limit(arguments.slow.unwrap_or(f64::INFINITY));
     tests.left_out.iter().for_each(|line| eprintln!("left out: {line}"));
     let (count, seconds) = tests.count();
@@ -189,11 +190,13 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
 
 /// The mutants that the arguments choose, in the order of the files.
 fn choose<'m>(arguments: &Arguments, mutants: &'m [Mutant]) -> Vec<&'m Mutant> {
-    let at = |mutant: &&Mutant| {
+    let is_chosen = |mutant: &&Mutant| {
         let Mutant { file, line, column, .. } = mutant;
-        arguments.mutant.as_ref().is_none_or(|place| *place == format!("{file}:{line}:{column}"))
+        let has = |f: &String| f == file || f.ends_with('/') && file.starts_with(f.as_str());
+        (arguments.file.is_empty() || arguments.file.iter().any(has))
+            && arguments.mutant.as_ref().is_none_or(|at| *at == format!("{file}:{line}:{column}"))
     };
-    let mut chosen: Vec<&Mutant> = mutants.iter().filter(at).collect();
+    let mut chosen: Vec<&Mutant> = mutants.iter().filter(is_chosen).collect();
     if let Some(count) = arguments.sample {
         // Each mutant draws a number by itself, so that an edit elsewhere changes few choices.
         chosen.sort_by_cached_key(|mutant| build::digest(&(arguments.seed, mutant.key())));

@@ -85,7 +85,8 @@ impl Tests {
         commands: Vec<(String, Vec<String>)>,
         slow: f64,
     ) -> Result<Tests, String> {
-        let name = format!("{:016x}.json", digest(&(tree.built()?, &commands, slow.to_bits())));
+        let name =
+            format!("{:016x}.json", digest(&(tree.digest_of_copy()?, &commands, slow.to_bits())));
         let (log, path) = (tree.target.join("reached"), tree.target.join(name));
         if let Some(known) = fs::read(&path).ok().and_then(|b| serde_json::from_slice(&b).ok()) {
             return Ok(known);
@@ -109,6 +110,12 @@ impl Tests {
         let text = serde_json::to_string(&tests).map_err(|e| e.to_string())?;
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(tests)
+    }
+
+    /// Keeps the tests with one of some words in their names; all, if there are no words.
+    pub fn keep(&mut self, words: &[String]) {
+        let has = |test: &Test| words.iter().any(|word| test.name.contains(word));
+        self.tests.retain(|test| words.is_empty() || has(test));
     }
 
     /// Leaves out what takes more than so many seconds.
