@@ -87,6 +87,11 @@ impl Config {
         }
     }
 
+    /// Whether an entry says that no test can notice a mutant.
+    pub fn is_equivalent(&self, mutant: &Mutant) -> bool {
+        self.equivalents.iter().any(|entry| entry.matches(mutant))
+    }
+
     /// An error for entries that speak of no mutant of a file that was searched.
     pub fn check_equivalents(&self, mutants: &[Mutant], files: &[String]) -> Result<(), String> {
         let unknown: Vec<String> = self

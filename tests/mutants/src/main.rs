@@ -144,8 +144,7 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
             Tests::of_program(&tree, program.ok_or(format!("no program '{name}'"))?)?
         }
     };
-    tests.keep(&arguments.test);
-    tests.limit(arguments.slow.unwrap_or(f64::INFINITY));
+    tests.keep(&arguments.test, arguments.slow.unwrap_or(f64::INFINITY));
     tests.left_out.iter().for_each(|line| eprintln!("left out: {line}"));
     let (count, seconds) = tests.count();
     eprintln!("{count} tests, {seconds:.0} s together");
@@ -155,12 +154,11 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
 
     let chosen: Vec<&Mutant> = chosen.into_iter().filter(|m| !refused.contains(&m.id)).collect();
     let waits = |mutant: &&&Mutant| {
-        let is_equivalent = config.equivalents.iter().any(|entry| entry.matches(mutant));
         let is_known = match (arguments.lived, results.of(by, mutant, arguments.lived)) {
             (true, Some(line)) => line.outcome == "killed",
             (_, line) => line.is_some(),
         };
-        !is_known && (!is_equivalent || arguments.equivalents)
+        !is_known && (arguments.equivalents || !config.is_equivalent(mutant))
     };
     let waiting: Vec<&Mutant> = chosen.iter().filter(waits).copied().collect();
     let (next, results) = (AtomicUsize::new(0), Mutex::new(results));

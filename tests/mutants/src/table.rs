@@ -3,46 +3,37 @@
 use crate::config::Config;
 use crate::find::Mutant;
 use crate::results::Results;
-use std::fmt::Write;
 
 /// A line a module, and all together.
 pub fn table(config: &Config, results: &Results, chosen: &[&Mutant], refused: usize) -> String {
     let programs: Vec<&str> = config.programs.iter().map(|program| program.name.as_str()).collect();
-    let mut text = format!("{:<16}{:>9}{:>9}", "module", "mutants", "killed");
-    let wide = ["equivalent", "not reached", "lived", "share"];
-    for title in programs.iter().copied().chain(wide) {
-        write!(text, "{title:>13}").expect("to a string");
-    }
+    let others = ["equivalent", "not reached", "lived", "left over"];
+    let titles = ["mutants", "killed"].into_iter().chain(programs.iter().copied()).chain(others);
+    let mut text = format!("{:<12}", "module");
+    titles.for_each(|title| text += &format!("{title:>12}"));
     let modules = config.modules.iter().map(|module| (module.name.as_str(), Some(module)));
     for (name, module) in modules.chain([("all", None)]) {
         let of_module = |mutant: &&&Mutant| module.is_none_or(|module| module.has(&mutant.file));
-        let here: Vec<&Mutant> = chosen.iter().filter(of_module).copied().collect();
+        let (equivalent, others): (Vec<&Mutant>, Vec<&Mutant>) =
+            chosen.iter().filter(of_module).partition(|mutant| config.is_equivalent(mutant));
         let count = |by: &str, outcome: &str| {
-            let is = |mutant: &&&Mutant| {
-                results.of(by, mutant, true).is_some_and(|line| line.outcome == outcome)
-            };
-            here.iter().filter(is).count()
+            let last = others.iter().filter_map(|mutant| results.of(by, mutant, true));
+            last.filter(|line| line.outcome == outcome).count()
         };
-        let tried = here.iter().filter(|m| results.of("tests", m, true).is_some()).count();
-        let equivalent = here.iter().filter(|m| is_equivalent(config, m)).count();
-        let lived = |outcome: &str| {
-            let left = here.iter().filter(|m| !is_equivalent(config, m));
-            let is =
-                |m: &&&Mutant| results.of("tests", m, true).is_some_and(|l| l.outcome == outcome);
-            left.filter(is).count()
-        };
-        if here.is_empty() {
-            continue;
+        let all = equivalent.len() + others.len();
+        let [killed, not_reached, lived] =
+            ["killed", "not reached", "lived"].map(|outcome| count("tests", outcome));
+        let killed_by = programs.iter().map(|program| count(program, "killed"));
+        let counts = [all, killed].into_iter().chain(killed_by);
+        let tried = killed + not_reached + lived + equivalent.len();
+        if 0 < all {
+            text += &format!("\n{name:<12}");
+            counts
+                .chain([equivalent.len(), not_reached, lived])
+                .for_each(|n| text += &format!("{n:>12}"));
+            text +=
+                &format!("{:>10.1} %", 100.0 * (not_reached + lived) as f64 / tried.max(1) as f64);
         }
-        let (lived, not_reached) = (lived("lived"), lived("not reached"));
-        let share = 100.0 * (lived + not_reached) as f64 / tried.max(1) as f64;
-        write!(text, "\n{name:<16}{:>9}{:>9}", here.len(), count("tests", "killed"))
-            .expect("to a string");
-        for program in &programs {
-            write!(text, "{:>13}", count(program, "killed")).expect("to a string");
-        }
-        write!(text, "{equivalent:>13}{not_reached:>13}{lived:>13}{share:>11.1} %")
-            .expect("to a string");
     }
     text + &format!("\nnot counted: {refused} that do not compile")
 }
@@ -51,7 +42,7 @@ pub fn table(config: &Config, results: &Results, chosen: &[&Mutant], refused: us
 pub fn survivors(config: &Config, results: &Results, by: &str, chosen: &[&Mutant]) -> Vec<String> {
     let line = |mutant: &&&Mutant| {
         let line = results.of(by, mutant, true)?;
-        let note = match (is_equivalent(config, mutant), line.outcome.as_str()) {
+        let note = match (config.is_equivalent(mutant), line.outcome.as_str()) {
             (true, "killed") => format!(" (no equivalent: killed by {})", line.test),
             (true, _) | (false, "killed") => return None,
             (false, "not reached") => " (not reached)".to_owned(),
@@ -60,8 +51,4 @@ pub fn survivors(config: &Config, results: &Results, by: &str, chosen: &[&Mutant
         Some(mutant.describe() + &note)
     };
     chosen.iter().filter_map(|mutant| line(&mutant)).collect()
-}
-
-fn is_equivalent(config: &Config, mutant: &Mutant) -> bool {
-    config.equivalents.iter().any(|entry| entry.matches(mutant))
 }

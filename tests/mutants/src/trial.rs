@@ -112,17 +112,10 @@ impl Tests {
         Ok(tests)
     }
 
-    /// Keeps the tests with one of some words in their names; all, if there are no words.
-    pub fn keep(&mut self, words: &[String]) {
+    /// Keeps the tests with one of some words in their names, if there are words, that take at most so many seconds.
+    pub fn keep(&mut self, words: &[String], slow: f64) {
         let has = |test: &Test| words.iter().any(|word| test.name.contains(word));
-        self.tests.retain(|test| words.is_empty() || has(test));
-    }
-
-    /// Leaves out what takes more than so many seconds.
-    pub fn limit(&mut self, slow: f64) {
-        for test in self.tests.extract_if(.., |test| test.seconds > slow) {
-            self.left_out.push(format!("{}: takes more than {slow} s", test.name));
-        }
+        self.tests.retain(|test| (words.is_empty() || has(test)) && test.seconds <= slow);
     }
 
     /// How many tests there are, and how long they take together in seconds.
