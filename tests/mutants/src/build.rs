@@ -46,7 +46,9 @@ impl Tree {
     /// The package's sources that are chosen.
     pub fn sources(&self, choose: impl Fn(&str) -> bool) -> Result<Vec<String>, String> {
         let mut files = self.files(&self.root)?;
-        files.retain(|file| file.ends_with(".rs") && choose(file));
+        // What a `mod tests;` reads is no code to mutate.
+        let is_test = |file: &str| file.ends_with("/tests.rs") || file.contains("/tests/");
+        files.retain(|file| file.ends_with(".rs") && !is_test(file) && choose(file));
         Ok(files)
     }
 
