@@ -1,6 +1,6 @@
 //! brepkit-math 4.6.20: `watertight_ray_triangle_intersect`.
 
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use brepkit_math::ray_triangle::watertight_ray_triangle_intersect;
 use brepkit_math::vec::{Point3, Vec3};
 use hairline::internals::case::Case;
@@ -9,11 +9,20 @@ use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 
 pub const BREPKIT_MATH: Entrant = Entrant {
     name: INFO.name,
-    package: "brepkit-math 4.6.20",
+    package: "brepkit-math",
+    version: "4.6.20",
     function: "brepkit_math::ray_triangle::watertight_ray_triangle_intersect",
-    promise: "\"This algorithm guarantees watertight results on shared edges: a ray hitting a shared edge \
-        between two triangles will report exactly one intersection, with no cracks or double-hits.\"",
-    kernel: Some(entry),
+    claim: &[
+        "Tests whether a ray from `origin` in direction `dir` hits the triangle `(v0, v1, \
+            v2)`.",
+        "This algorithm guarantees watertight results on shared edges: a ray hitting a shared \
+            edge between two triangles will report exactly one intersection, with no cracks or \
+            double-hits.",
+    ],
+    page: "https://docs.rs/brepkit-math/4.6.20/brepkit_math/ray_triangle/fn.watertight_ray_triangle_intersect.html",
+    note: "",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

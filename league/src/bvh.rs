@@ -1,7 +1,7 @@
 //! bvh 0.13.0: `Ray::intersects_triangle`.
 
 use crate::model::{self, GATES_CULLING, MollerTrumbore, Style, T};
-use crate::{Entrant, PROMISE, UNIT};
+use crate::{ENTRANT, Entrant, PROMISE, Run, UNIT};
 use bvh::bounding_hierarchy::BHValue;
 use bvh::ray::Ray;
 use hairline::internals::case::Case;
@@ -12,12 +12,19 @@ use num_traits::{Float, One, Zero};
 
 pub const BVH: Entrant = Entrant {
     name: INFO.name,
-    package: "bvh 0.13.0",
+    package: "bvh",
+    version: "0.13.0",
     function: "bvh::ray::Ray::intersects_triangle",
-    promise: "\"Returns the distance to the intersection […] The distance is set to +INFINITY if the ray \
-        does not intersect the triangle, or hits it from behind.\" Ray::new: \"direction will be \
-        normalized\".",
-    kernel: Some(entry),
+    claim: &[
+        "Returns the distance to the intersection, as well as the u and v coordinates of the \
+            intersection.",
+        "The distance is set to +INFINITY if the ray does not intersect the triangle, or hits \
+            it from behind.",
+    ],
+    page: "https://docs.rs/bvh/0.13.0/bvh/ray/struct.Ray.html#method.intersects_triangle",
+    note: "It gets unit directions, because `Ray::new` normalizes.",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

@@ -1,4 +1,4 @@
-//! What takes part: a published function, what is promised for it, and how it is called.
+//! What takes part: a published function, what its documentation promises, and how it is called.
 
 use hairline::internals::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use hairline::internals::kernel::Entry;
@@ -8,15 +8,53 @@ use hairline::internals::kernel::Entry;
 pub struct Entrant {
     /// The kernel's name on the command line.
     pub name: &'static str,
-    /// The package and its version.
+    /// The package, as its registry calls it.
     pub package: &'static str,
+    pub version: &'static str,
     /// The function that is called.
     pub function: &'static str,
-    /// Where its contract comes from: what is documented, at that version.
-    pub promise: &'static str,
-    /// The kernel, if it is built into this program.
-    pub kernel: Option<fn() -> Entry>,
+    /// The sentences of its documentation that the contract is made of, word for word. Without one
+    /// nothing is promised, and the contract is the minimal one, [`PROMISE`].
+    pub claim: &'static [&'static str],
+    /// Where they stand, or what is documented instead.
+    pub page: &'static str,
+    /// What is to be known about the call or the contract.
+    pub note: &'static str,
+    pub run: Run,
+    /// Whether it asks for unit directions; of a kernel in this program its contract says so.
+    pub unit: bool,
+    /// Families that cannot be put to it as a question.
+    pub skip: &'static [&'static str],
+    /// Pages in findings/.
+    pub findings: &'static [&'static str],
 }
+
+/// Where a kernel runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Run {
+    /// In this program.
+    Here(fn() -> Entry),
+    /// In heavy/, which has the dependencies that take long to build.
+    Heavy,
+    /// In a process of its own, by these arguments of `league audit`, from the project's root. `needs` is
+    /// a file that is there if it is installed.
+    Process { arguments: &'static [&'static str], needs: &'static str },
+}
+
+/// What most entrants have in common.
+pub const ENTRANT: Entrant = Entrant {
+    name: "",
+    package: "",
+    version: "",
+    function: "",
+    claim: &[],
+    page: "",
+    note: "",
+    run: Run::Heavy,
+    unit: false,
+    skip: &[],
+    findings: &[],
+};
 
 /// What a ray–triangle test promises whose documentation says nothing but that: a hit where the ray
 /// passes through the inside of the triangle at t > 0, and a miss where the line misses the triangle or

@@ -1,7 +1,7 @@
 //! fyrox-math 1.0.1: `Ray::triangle_intersection`, which takes a ray for the segment o to o + d.
 
 use crate::segment::past_the_triangle;
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use fyrox_math::ray::Ray;
 use hairline::internals::case::Case;
 use hairline::internals::kernel::{Entry, Hit, KernelInfo};
@@ -9,11 +9,17 @@ use nalgebra_0_34::Vector3;
 
 pub const FYROX_MATH: Entrant = Entrant {
     name: INFO.name,
-    package: "fyrox-math 1.0.1",
+    package: "fyrox-math",
+    version: "1.0.1",
     function: "fyrox_math::ray::Ray::triangle_intersection",
-    promise: "Not documented; its test in the source accepts t in [0, 1]. The direction goes in times a \
-        power of two, so that the segment ends beyond the triangle: nothing is rounded by that.",
-    kernel: Some(entry),
+    claim: &[],
+    page: "https://docs.rs/fyrox-math/1.0.1/fyrox_math/ray/struct.Ray.html#method.triangle_intersection",
+    note: "Not documented; its test in the source accepts t in [0, 1]. The direction goes in \
+        times a power of two, so that the segment ends beyond the triangle: nothing is \
+        rounded by that.",
+    run: Run::Here(entry),
+    skip: &["range-ends"],
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

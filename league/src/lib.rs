@@ -3,6 +3,8 @@
 //!
 //! The program `league` is hairline with these kernels in it; `league-table` makes docs/league.md.
 
+pub mod edition;
+
 mod entrant;
 mod foreign;
 mod model;
@@ -13,14 +15,18 @@ mod brepkit_math;
 mod bvh;
 mod fyrox_math;
 mod manifold_rust;
+mod maths_rs;
 mod mesh_geometry;
 mod ncollide3d;
 mod obvhs;
+mod oxideav_mesh3d;
 mod parry3d;
 mod rayx;
+mod rustsim_geometry;
 mod tri_mesh;
+mod vek;
 
-pub use entrant::{Entrant, PROMISE, UNIT};
+pub use entrant::{ENTRANT, Entrant, PROMISE, Run, UNIT};
 
 /// Every entrant, those of other languages last.
 pub fn entrants() -> Vec<Entrant> {
@@ -30,11 +36,17 @@ pub fn entrants() -> Vec<Entrant> {
         vec![manifold_rust::MANIFOLD_RUST, brepkit_math::BREPKIT_MATH],
         vec![tri_mesh::TRI_MESH, mesh_geometry::MESH_GEOMETRY],
         vec![fyrox_math::FYROX_MATH, box3d_rust::BOX3D_RUST],
+        vec![oxideav_mesh3d::OXIDEAV, oxideav_mesh3d::OXIDEAV_WATERTIGHT],
+        vec![vek::VEK, maths_rs::MATHS_RS, rustsim_geometry::RUSTSIM_GEOMETRY],
     ];
     crates.concat().into_iter().chain(foreign::ENTRANTS.iter().copied()).collect()
 }
 
 /// The entrants that are built into this program, as kernels.
 pub fn kernels() -> Vec<hairline::internals::kernel::Entry> {
-    entrants().iter().filter_map(|entrant| entrant.kernel).map(|kernel| kernel()).collect()
+    let here = |entrant: &Entrant| match entrant.run {
+        Run::Here(entry) => Some(entry()),
+        _ => None,
+    };
+    entrants().iter().filter_map(here).collect()
 }

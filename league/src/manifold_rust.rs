@@ -1,7 +1,7 @@
 //! manifold-rust 0.19.2: `collider::ray_triangle_intersection`.
 
 use crate::model::{self, GATES, MollerTrumbore, Style, T};
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use hairline::internals::case::Case;
 use hairline::internals::kernel::{Entry, EpsilonSet, Hit, KernelInfo, Refuse};
 use manifold_rust::collider::ray_triangle_intersection;
@@ -9,11 +9,15 @@ use manifold_rust::linalg::Vec3;
 
 pub const MANIFOLD_RUST: Entrant = Entrant {
     name: INFO.name,
-    package: "manifold-rust 0.19.2",
+    package: "manifold-rust",
+    version: "0.19.2",
     function: "manifold_rust::collider::ray_triangle_intersection",
-    promise: "Public and not documented: fn(origin: Vec3, direction: Vec3, tri: [Vec3; 3]) -> \
-        Option<f64>. The crate's Manifold::ray_cast is another algorithm and is not judged here.",
-    kernel: Some(entry),
+    claim: &[],
+    page: "https://docs.rs/manifold-rust/0.19.2/manifold_rust/collider/fn.ray_triangle_intersection.html",
+    note: "Public and not documented. The crate's `Manifold::ray_cast` is another algorithm, \
+        not judged here.",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

@@ -1,7 +1,7 @@
 //! mesh-geometry 0.4.0: `queries::ray_intersects_triangle`.
 
 use crate::model::{self, GATES, MollerTrumbore, Style, T};
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use hairline::internals::case::Case;
 use hairline::internals::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
 use mesh_geometry::queries::{Ray, ray_intersects_triangle};
@@ -10,12 +10,17 @@ use num_traits::Float;
 
 pub const MESH_GEOMETRY: Entrant = Entrant {
     name: INFO.name,
-    package: "mesh-geometry 0.4.0",
+    package: "mesh-geometry",
+    version: "0.4.0",
     function: "mesh_geometry::queries::ray_intersects_triangle",
-    promise: "\"If the ray intersects the triangle (a,b,c), returns Some((t,u,v)) where intersection = \
-        origin + t·dir, and (u,v) are barycentric coords. Otherwise returns None.\" Ray::dir is \"not \
-        necessarily normalized\".",
-    kernel: Some(entry),
+    claim: &[
+        "If the ray intersects the triangle (a,b,c), returns `Some((t,u,v))` where intersection = \
+            origin + t·dir, and (u,v) are barycentric coords.",
+    ],
+    page: "https://docs.rs/mesh-geometry/0.4.0/mesh_geometry/queries/fn.ray_intersects_triangle.html",
+    note: "`Ray::dir` is \"not necessarily normalized\".",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

@@ -1,6 +1,6 @@
 //! ncollide3d 0.33.0, parry's predecessor: `query::ray_intersection_with_triangle`.
 
-use crate::{Entrant, PROMISE, UNIT};
+use crate::{ENTRANT, Entrant, PROMISE, Run, UNIT};
 use hairline::internals::case::Case;
 use hairline::internals::contract::Contract;
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo, Scalar};
@@ -9,12 +9,19 @@ use ncollide3d::query::{Ray, ray_intersection_with_triangle};
 
 pub const NCOLLIDE3D: Entrant = Entrant {
     name: INFO.name,
-    package: "ncollide3d 0.33.0",
+    package: "ncollide3d",
+    version: "0.33.0",
     function: "ncollide3d::query::ray_intersection_with_triangle",
-    promise: "\"Computes the intersection between a triangle and a ray. If an intersection is found, the \
-        time of impact, the normal and the barycentric coordinates of the intersection point are \
-        returned.\" Ray::new: \"dir must be normalized.\"",
-    kernel: Some(entry),
+    claim: &[
+        "Computes the intersection between a triangle and a ray.",
+        "If an intersection is found, the time of impact, the normal and the barycentric \
+            coordinates of the intersection point are returned.",
+        "`dir` must be normalized.",
+    ],
+    page: "https://docs.rs/ncollide3d/0.33.0/ncollide3d/query/fn.ray_intersection_with_triangle.html",
+    note: "The last sentence is of `Ray::new`: it gets unit directions.",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

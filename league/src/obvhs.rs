@@ -1,7 +1,7 @@
 //! obvhs 0.4.0: `Triangle::intersect` and `Triangle::intersect_embree`. `RtTriangle` has the same two
 //! formulas with the edges stored.
 
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use hairline::internals::case::Case;
 use hairline::internals::contract::{Contract, Extent};
 use hairline::internals::kernel::{Entry, Hit, KernelInfo};
@@ -10,21 +10,29 @@ use obvhs::triangle::Triangle;
 
 pub const OBVHS: Entrant = Entrant {
     name: INTERSECT.name,
-    package: "obvhs 0.4.0",
+    package: "obvhs",
+    version: "0.4.0",
     function: "obvhs::triangle::Triangle::intersect",
-    promise: "\"Find the distance (t) of the intersection of the Ray and this Triangle. Returns \
-        f32::INFINITY for miss.\" Ray::tmin and tmax: \"the minimum [maximum] t (distance) value for \
-        intersection tests\".",
-    kernel: Some(intersect),
+    claim: &[
+        "Find the distance (t) of the intersection of the `Ray` and this Triangle.",
+        "Returns f32::INFINITY for miss.",
+    ],
+    page: "https://docs.rs/obvhs/0.4.0/obvhs/triangle/struct.Triangle.html#method.intersect",
+    note: "The interval is the ray's tmin and tmax; the very ends are left to it.",
+    run: Run::Here(intersect),
+    ..ENTRANT
 };
 
 pub const OBVHS_EMBREE: Entrant = Entrant {
     name: INTERSECT_EMBREE.name,
-    package: "obvhs 0.4.0",
+    package: "obvhs",
+    version: "0.4.0",
     function: "obvhs::triangle::Triangle::intersect_embree",
-    promise: "Not documented; taken to return what Triangle::intersect does. Its edges \"not watertight \
-        from the front side?\" in a comment.",
-    kernel: Some(intersect_embree),
+    claim: &[],
+    page: "https://docs.rs/obvhs/0.4.0/obvhs/triangle/struct.Triangle.html#method.intersect_embree",
+    note: "Not documented; taken to return what `Triangle::intersect` does.",
+    run: Run::Here(intersect_embree),
+    ..ENTRANT
 };
 
 const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };

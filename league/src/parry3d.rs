@@ -1,23 +1,33 @@
 //! parry3d and parry3d-f64 0.31.1: `query::details`' triangle test.
 
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use hairline::internals::case::Case;
+use hairline::internals::contract::{Boundary, Contract};
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
 
 pub const PARRY3D: Entrant = Entrant {
     name: INFO.name,
-    package: "parry3d, parry3d-f64 0.31.1",
+    package: "parry3d, parry3d-f64",
+    version: "0.31.1",
     function: "parry3d::query::details::local_ray_intersection_with_triangle",
-    promise: "\"Computes the intersection between a triangle and a ray. If an intersection is found, the \
-        time of impact, the normal and the barycentric coordinates of the intersection point are \
-        returned.\" Ray::dir \"does NOT need to be normalized\"; points are \"origin + dir * t for t ≥ 0\".",
-    kernel: Some(entry),
+    claim: &[
+        "Computes the intersection between a triangle and a ray.",
+        "If an intersection is found, the time of impact, the normal and the barycentric \
+            coordinates of the intersection point are returned.",
+        "The direction vector (does NOT need to be normalized)",
+        "`origin + dir * t` for `t ≥ 0`.",
+    ],
+    page: "https://docs.rs/parry3d/0.31.1/parry3d/query/details/fn.local_ray_intersection_with_triangle.html",
+    note: "A ray has its start, t = 0, by the last sentence (on `Ray`), so a start on the \
+        triangle is a hit.",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {
     source: "parry3d, parry3d-f64 0.31.1, local_ray_intersection_with_triangle",
     gives: Gives { t: true, uv: true, facing: false },
-    ..KernelInfo::own("parry3d", PROMISE)
+    ..KernelInfo::own("parry3d", Contract { ends: Boundary::Closed, ..PROMISE })
 };
 
 fn entry() -> Entry {

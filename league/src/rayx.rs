@@ -1,7 +1,7 @@
 //! rayx 0.2.0: Baldwin and Weber's test on its precomputed triangle, and its Möller–Trumbore.
 
 use crate::model::{self, GATES_INTERVAL, MollerTrumbore, Style, T};
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use hairline::internals::case::Case;
 use hairline::internals::contract::{Contract, Extent};
 use hairline::internals::kernel::{Entry, EpsilonSet, Gives, Hit, KernelInfo, Refuse, Scalar};
@@ -12,20 +12,29 @@ use rayx::{Ray, Triangle};
 
 pub const RAYX: Entrant = Entrant {
     name: BALDWIN_WEBER.name,
-    package: "rayx 0.2.0",
+    package: "rayx",
+    version: "0.2.0",
     function: "rayx::Triangle::new, rayx::Triangle::intersect",
-    promise: "\"Returns Some(Hit) if the ray intersects within [t_min, t_max].\" \"A ray with parametric \
-        form o + t*d.\" The very ends are left to it. Triangle::new refuses \"zero surface area\"; a refused triangle is a miss here.",
-    kernel: Some(baldwin_weber),
+    claim: &[
+        "Returns `Some(Hit)` if the ray intersects within `[t_min, t_max]`.",
+        "A ray with parametric form `o + t*d`.",
+    ],
+    page: "https://docs.rs/rayx/0.2.0/rayx/struct.Triangle.html#method.intersect",
+    note: "The very ends are left to it. A triangle that `Triangle::new` refuses is a miss.",
+    run: Run::Here(baldwin_weber),
+    ..ENTRANT
 };
 
 pub const RAYX_MOLLER_TRUMBORE: Entrant = Entrant {
     name: MOLLER_TRUMBORE.name,
-    package: "rayx 0.2.0",
+    package: "rayx",
+    version: "0.2.0",
     function: "rayx::intersect::intersect_moller_trumbore",
-    promise: "\"Möller–Trumbore ray–triangle intersection algorithm\", with t_min and t_max as \
-        Triangle::intersect has them.",
-    kernel: Some(moller_trumbore),
+    claim: &["Möller–Trumbore ray–triangle intersection algorithm."],
+    page: "https://docs.rs/rayx/0.2.0/rayx/intersect/fn.intersect_moller_trumbore.html",
+    note: "The interval is as `Triangle::intersect` has it.",
+    run: Run::Here(moller_trumbore),
+    ..ENTRANT
 };
 
 const CONTRACT: Contract = Contract { extent: Extent::Interval, ..PROMISE };

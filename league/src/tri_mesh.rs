@@ -1,6 +1,6 @@
 //! tri-mesh 0.6.1: `Mesh::ray_intersection` on a mesh of one triangle.
 
-use crate::{Entrant, PROMISE};
+use crate::{ENTRANT, Entrant, PROMISE, Run};
 use cgmath::Vector3;
 use hairline::internals::case::Case;
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo};
@@ -9,12 +9,17 @@ use tri_mesh::Mesh;
 
 pub const TRI_MESH: Entrant = Entrant {
     name: INFO.name,
-    package: "tri-mesh 0.6.1",
+    package: "tri-mesh",
+    version: "0.6.1",
     function: "tri_mesh::Mesh::ray_intersection",
-    promise: "\"Find the Intersection between any face in the mesh and the given ray. […] If no faces are \
-        intersected, None is returned.\" Its tolerance about edges, 1e-7, is in its source and not in its \
-        documentation.",
-    kernel: Some(entry),
+    claim: &[
+        "Find the [Intersection] between any face in the mesh and the given ray.",
+        "If no faces are intersected, None is returned.",
+    ],
+    page: "https://docs.rs/tri-mesh/0.6.1/tri_mesh/struct.Mesh.html#method.ray_intersection",
+    note: "Its tolerance about edges, 1e-7, is in its source and not in its documentation.",
+    run: Run::Here(entry),
+    ..ENTRANT
 };
 
 const INFO: KernelInfo = KernelInfo {

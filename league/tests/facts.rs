@@ -41,33 +41,58 @@ fn obvhs_leaves_a_crack_along_an_edge_that_is_seen_from_the_back() {
     assert_eq!([hits("parry3d", 1.0), hits("parry3d", -1.0)], [2, 2]);
 }
 
-/// From a point of the triangle's plane, outside the triangle, away from the plane on its back.
-fn from_the_plane<F: Scalar>() -> Case<F> {
-    let [zero, one, four] = [0.0, 1.0, 4.0].map(F::from_f64);
+/// From (x, x, 0), a point of the plane of the triangle (0,0,0), (4,0,0), (0,4,0), along +z: away from the
+/// plane on its back.
+fn from_the_plane<F: Scalar>(x: f64) -> Case<F> {
+    let [zero, one, four, x] = [0.0, 1.0, 4.0, x].map(F::from_f64);
     let triangle = [[zero; 3], [four, zero, zero], [zero, four, zero]];
-    Case::new([-one, -one, zero], [zero, zero, one], triangle)
+    Case::new([x, x, zero], [zero, zero, one], triangle)
 }
 
 #[test]
-fn parry_and_ncollide_hit_a_triangle_mirrored_if_the_ray_starts_in_its_plane_and_leaves_by_its_front()
- {
+fn parry_and_ncollide_mirror_a_triangle_if_the_ray_starts_in_its_plane_and_leaves_by_its_front() {
     for name in ["parry3d", "ncollide3d"] {
         let entry = kernel(name);
-        let case = from_the_plane::<f32>();
-        // (-1, -1, 0) is 1.4 units off the triangle (0,0,0), (4,0,0), (0,4,0).
-        assert_eq!(oracle::truth(&case).to_string(), "transversal, back, t at_min, outside");
-        let shown = verdict(&entry, &case);
+        // (-1, -1, 0) is 1.4 units off the triangle.
+        let outside = from_the_plane::<f32>(-1.0);
+        assert_eq!(oracle::truth(&outside).to_string(), "transversal, back, t at_min, outside");
+        let shown = verdict(&entry, &outside);
         assert!(shown.hit, "{name}");
         // The weights are those of (1, 1, 0), on the other side of a.
         assert_eq!((shown.t, shown.u, shown.v), (0.0, 0.25, 0.25), "{name}");
-        assert!(verdict(&entry, &from_the_plane::<f64>()).hit, "{name}");
-        // One ulp off the plane it is right.
+        assert!(verdict(&entry, &from_the_plane::<f64>(-1.0)).hit, "{name}");
+        // (1, 1, 0) itself, inside the triangle, is missed.
+        let inside = from_the_plane::<f32>(1.0);
+        assert_eq!(oracle::truth(&inside).to_string(), "transversal, back, t at_min, interior");
+        assert!(!verdict(&entry, &inside).hit, "{name}");
+        assert!(!verdict(&entry, &from_the_plane::<f64>(1.0)).hit, "{name}");
+        // From the front both are right.
+        for (case, hit) in [(inside, true), (outside, false)] {
+            let mut down = case;
+            down.ray.direction.z = -1.0;
+            assert_eq!(verdict(&entry, &down).hit, hit, "{name}");
+        }
+        // One float off the plane both are right: a hit in front of the start, a miss behind it.
         for z in [f32::MIN_POSITIVE, -f32::MIN_POSITIVE] {
-            let mut off = case;
-            off.ray.origin.z = z;
-            assert!(!verdict(&entry, &off).hit, "{name}");
+            for (case, hit) in [(inside, z < 0.0), (outside, false)] {
+                let mut off = case;
+                off.ray.origin.z = z;
+                assert_eq!(verdict(&entry, &off).hit, hit, "{name}");
+            }
         }
     }
+}
+
+#[test]
+fn parrys_triangle_does_so_through_its_public_ray_cast_too() {
+    use parry3d::{math::Vector, query::Ray, query::RayCast, shape::Triangle};
+    let [a, b, c] = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(Vector::from);
+    let cast = |x: f32, z: f32| {
+        let ray = Ray::new(Vector::new(x, x, 0.0), Vector::new(0.0, 0.0, z));
+        Triangle::new(a, b, c).cast_local_ray(&ray, f32::MAX, true)
+    };
+    assert_eq!([cast(1.0, 1.0), cast(-1.0, 1.0)], [None, Some(0.0)]);
+    assert_eq!([cast(1.0, -1.0), cast(-1.0, -1.0)], [Some(0.0), None]);
 }
 
 #[test]

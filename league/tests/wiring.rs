@@ -7,7 +7,7 @@ use hairline::internals::contract::{Direction, Sides};
 use hairline::internals::judge::{Obligation, asked};
 use hairline::internals::kernel::{Entry, Scalar, Verdict};
 use hairline::internals::oracle;
-use hairline_league::{entrants, kernels};
+use hairline_league::{Run, entrants, kernels};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -157,11 +157,13 @@ fn entrants_have_names_of_their_own_and_say_where_their_contract_comes_from() {
     let entrants = entrants();
     for (i, entrant) in entrants.iter().enumerate() {
         assert!(entrants[..i].iter().all(|other| other.name != entrant.name));
-        assert!(!entrant.promise.is_empty() && !entrant.function.is_empty());
-        let version = entrant.package.rsplit(' ').next().unwrap_or("");
-        assert!(version.chars().all(|c| c.is_ascii_digit() || c == '.'), "{}", entrant.package);
-        if let Some(kernel) = entrant.kernel {
-            assert_eq!(kernel().info.name, entrant.name);
+        let name = entrant.name;
+        assert!(entrant.page.starts_with("https://") && !entrant.function.is_empty(), "{name}");
+        assert!(!entrant.claim.is_empty() || !entrant.note.is_empty(), "{name}");
+        let is_version = |c: char| c.is_ascii_digit() || c == '.';
+        assert!(entrant.version.chars().all(is_version), "{name}: {}", entrant.version);
+        if let Run::Here(kernel) = entrant.run {
+            assert_eq!(kernel().info.name, name);
         }
     }
 }

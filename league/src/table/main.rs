@@ -1,54 +1,96 @@
-//! `league-table DOCUMENT FOLDER RECORD.json …`: writes the tables of docs/league.md from records of
-//! audits, and the worst known cases to a folder. What stands between the document's markers is replaced.
+//! `league-table EDITION [KERNEL …]`: audits every entrant, or those named, and writes the files of
+//! league/editions/EDITION, the table in docs/league.md and the worst known cases in league/witnesses.
+//! `league-table --tables EDITION` makes the tables again from the entrants' files; `--freeze EDITION`
+//! writes the hashes, after which the edition is not written any more. Run it from the project's root.
 
-mod columns;
-mod details;
-mod precision;
-mod rows;
+mod run;
 mod witnesses;
 
-use hairline::internals::report::Record;
+use hairline_league::edition::{self, CAPTION, MANIFEST, Manifest};
 use std::fs;
+use std::path::Path;
 use std::process::ExitCode;
 
+const DOCUMENT: &str = "docs/league.md";
 const START: &str = "<!-- made by league/table -->";
 const END: &str = "<!-- end -->";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [document, folder, records @ ..] = &arguments[..] else {
-        return fail("usage: league-table DOCUMENT FOLDER RECORD.json …");
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match &words[..] {
+        ["--tables", name] => open(name).and_then(|()| write_tables(name)),
+        ["--freeze", name] => open(name).and_then(|()| freeze(name)),
+        [name, kernels @ ..] if !name.starts_with('-') => audit(name, kernels),
+        _ => Err("usage: league-table [--tables | --freeze] EDITION [KERNEL …]".to_owned()),
     };
-    match run(document, folder, records) {
+    match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(message) => fail(&message),
+        Err(message) => {
+            eprintln!("league-table: {message}");
+            ExitCode::from(2)
+        }
     }
 }
 
-fn fail(message: &str) -> ExitCode {
-    eprintln!("league-table: {message}");
-    ExitCode::from(2)
+fn folder(name: &str) -> String {
+    format!("league/editions/{name}")
 }
 
-fn run(document: &str, folder: &str, paths: &[String]) -> Result<(), String> {
-    let text = fs::read_to_string(document).map_err(|error| format!("{document}: {error}"))?;
-    let (before, rest) = text.split_once(START).ok_or(format!("{document}: no '{START}'"))?;
-    let (_, after) = rest.split_once(END).ok_or(format!("{document}: no '{END}'"))?;
-    let records: Vec<Record> = paths.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
-    let [all, off_the_boundary] = [rows::rows(&records, false)?, rows::rows(&records, true)?];
-    let mut made = rows::date(paths)?;
-    made.push_str(&columns::tables(&all, &off_the_boundary));
-    made.push_str(&columns::causes(&all));
-    made.push_str(&precision::table());
-    made.push_str(&details::sections(&all));
-    witnesses::write(folder, &all)?;
-    let new = format!("{before}{START}\n\n{made}\n{END}{after}");
-    let beside = format!("{document}.new");
-    fs::write(&beside, new).map_err(|error| format!("{beside}: {error}"))?;
-    fs::rename(&beside, document).map_err(|error| format!("{document}: {error}"))
+/// An error if the edition is frozen.
+fn open(name: &str) -> Result<(), String> {
+    match Manifest::stored(Path::new(&folder(name)))? {
+        Some(_) => Err(format!("{name} is frozen: a new run is a new edition")),
+        None => Ok(()),
+    }
 }
 
-fn read(path: &str) -> Result<Record, String> {
-    let text = fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
-    serde_json::from_str(&text).map_err(|error| format!("{path}: {error}"))
+fn audit(name: &str, kernels: &[&str]) -> Result<(), String> {
+    open(name)?;
+    let entrants = hairline_league::entrants();
+    if let Some(unknown) = kernels.iter().find(|k| entrants.iter().all(|e| e.name != **k)) {
+        return Err(format!("'{unknown}' is no entrant"));
+    }
+    let folder = folder(name);
+    fs::create_dir_all(format!("{folder}/entrants"))
+        .map_err(|error| format!("{folder}: {error}"))?;
+    for entrant in entrants.iter().filter(|e| kernels.is_empty() || kernels.contains(&e.name)) {
+        match run::audit(entrant) {
+            Ok(Some(result)) => {
+                let text = serde_json::to_string_pretty(&result).expect("numbers and strings");
+                write(&format!("{folder}/entrants/{}.json", entrant.name), &format!("{text}\n"))?;
+            }
+            Ok(None) => eprintln!("left out: {}: it is not installed", entrant.name),
+            Err(message) => eprintln!("left out: {}: {message}", entrant.name),
+        }
+    }
+    witnesses::write("league/witnesses", &edition::results(Path::new(&folder))?)?;
+    write_tables(name)
+}
+
+fn write_tables(name: &str) -> Result<(), String> {
+    let folder = folder(name);
+    let results = edition::results(Path::new(&folder))?;
+    let table = edition::markdown(&results);
+    write(&format!("{folder}/table.md"), &format!("# {name}\n\n{CAPTION}\n\n{table}"))?;
+    write(&format!("{folder}/table.html"), &edition::html(name, &results))?;
+    write(&format!("{folder}/table.tex"), &edition::latex(name, &results))?;
+    let text = fs::read_to_string(DOCUMENT).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    let (before, rest) = text.split_once(START).ok_or(format!("{DOCUMENT}: no '{START}'"))?;
+    let (_, after) = rest.split_once(END).ok_or(format!("{DOCUMENT}: no '{END}'"))?;
+    write(DOCUMENT, &format!("{before}{START}\n\n{CAPTION}\n\n{table}\n{END}{after}"))
+}
+
+fn freeze(name: &str) -> Result<(), String> {
+    let folder = folder(name);
+    let manifest = Manifest::of(Path::new(&folder))?;
+    let text = serde_json::to_string_pretty(&manifest).expect("strings");
+    write(&format!("{folder}/{MANIFEST}"), &format!("{text}\n"))
+}
+
+/// Writes a file beside its place and renames it.
+fn write(path: &str, text: &str) -> Result<(), String> {
+    let beside = format!("{path}.new");
+    fs::write(&beside, text).map_err(|error| format!("{beside}: {error}"))?;
+    fs::rename(&beside, path).map_err(|error| format!("{path}: {error}"))
 }

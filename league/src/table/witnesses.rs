@@ -1,50 +1,45 @@
 //! The worst known cases as corpus lines, one file a kernel, which tests/witnesses.rs runs again.
 
-use super::columns::worst;
-use super::rows::TableRow;
 use hairline::internals::arith::Float;
 use hairline::internals::audit::Row;
 use hairline::internals::case::Case;
 use hairline::internals::corpus::lines::{AnyCase, write_case};
 use hairline::internals::explore::campaign::Find;
 use hairline::internals::kernel::{find, register};
-use hairline::internals::report::Example;
+use hairline_league::edition::{Depth, EntrantResult};
 use hairline_league::kernels;
-use std::collections::BTreeMap;
 use std::fs;
 
-/// Writes the worst false miss and false hit of each built-in entrant and scalar. Files of entrants that
-/// the records do not have stay.
-pub fn write(folder: &str, rows: &[TableRow]) -> Result<(), String> {
+/// Writes the deepest false miss and false hit of each built-in entrant and scalar. Files of entrants that
+/// the edition does not have stay.
+pub fn write(folder: &str, results: &[EntrantResult]) -> Result<(), String> {
     for kernel in kernels().into_iter().filter(|kernel| find(kernel.info.name).is_none()) {
         register(kernel)?;
     }
-    let mut files: BTreeMap<&str, String> = BTreeMap::new();
-    for row in rows.iter().filter(|row| row.entrant.kernel.is_some()) {
-        for finding in ["false-miss", "false-hit"] {
-            if let Some((_, example)) = worst(row, finding) {
-                let line = line(row, example)?;
-                files.entry(row.entrant.name).or_default().push_str(&format!("{line}\n"));
+    for entrant in results.iter().filter(|entrant| find(&entrant.kernel).is_some()) {
+        let mut text = String::new();
+        for (scalar, result) in &entrant.scalars {
+            for depth in [&result.deepest_miss, &result.deepest_hit].into_iter().flatten() {
+                text.push_str(&line(&entrant.kernel, scalar, depth)?);
+                text.push('\n');
             }
         }
-    }
-    for (kernel, text) in files {
-        let path = format!("{folder}/{kernel}.jsonl");
+        let path = format!("{folder}/{}.jsonl", entrant.kernel);
         fs::write(&path, text).map_err(|error| format!("{path}: {error}"))?;
     }
     Ok(())
 }
 
 /// A line of a corpus file, with what the kernel shows on the case.
-fn line(row: &TableRow, example: &Example) -> Result<String, String> {
-    let wrong = |message: &str| format!("{} {}: {message}", row.entrant.name, example.case);
-    let case = match row.scalar {
-        "f32" => AnyCase::F32(case(&example.bits, |bits| f32::from_bits(bits as u32))),
-        _ => AnyCase::F64(case(&example.bits, f64::from_bits)),
+fn line(kernel: &str, scalar: &str, depth: &Depth) -> Result<String, String> {
+    let wrong = |message: &str| format!("{kernel} {}: {message}", depth.case);
+    let case = match scalar {
+        "f32" => AnyCase::F32(case(&depth.bits, |bits| f32::from_bits(bits as u32))),
+        _ => AnyCase::F64(case(&depth.bits, f64::from_bits)),
     };
-    let kernel = Row::named(row.entrant.name, None, "own").map_err(|error| wrong(&error.0))?;
-    let mut find = Find::of(&kernel, case).ok_or(wrong("it shows nothing"))?;
-    find.from = Some(example.case.clone());
+    let row = Row::named(kernel, None, "own").map_err(|error| wrong(&error.0))?;
+    let mut find = Find::of(&row, case).ok_or(wrong("it shows nothing"))?;
+    find.from = Some(depth.case.clone());
     Ok(write_case(&find.stored()))
 }
 
