@@ -22,6 +22,7 @@ pub const BREPKIT_MATH: Entrant = Entrant {
     page: "https://docs.rs/brepkit-math/4.6.20/brepkit_math/ray_triangle/fn.watertight_ray_triangle_intersect.html",
     note: "",
     run: Run::Here(entry),
+    findings: &["brepkit-math.md"],
     ..ENTRANT
 };
 

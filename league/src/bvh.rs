@@ -24,6 +24,7 @@ pub const BVH: Entrant = Entrant {
     page: "https://docs.rs/bvh/0.13.0/bvh/ray/struct.Ray.html#method.intersects_triangle",
     note: "It gets unit directions, because `Ray::new` normalizes.",
     run: Run::Here(entry),
+    findings: &["bvh.md"],
     ..ENTRANT
 };
 

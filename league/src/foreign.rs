@@ -16,6 +16,7 @@ pub const ENTRANTS: &[Entrant] = &[
         note: "A mesh of one triangle. Ray3d's direction is a Dir3, \"a normalized vector pointing in a \
             direction\"; the function normalizes it again, which is charged to it.",
         unit: true,
+        findings: &["bevy_picking.md"],
         ..ENTRANT
     },
     Entrant {
@@ -28,6 +29,20 @@ pub const ENTRANTS: &[Entrant] = &[
         ],
         page: "https://docs.rs/truck-meshalgo/0.4.0/truck_meshalgo/analyzers/trait.IncludingPointInDomain.html",
         note: "A mesh of one triangle.",
+        findings: &["truck-meshalgo.md"],
+        ..ENTRANT
+    },
+    Entrant {
+        name: "oxiphysics-geometry",
+        package: "oxiphysics-geometry",
+        version: "0.1.2",
+        function: "oxiphysics_geometry::boolean_ops::ray_triangle_intersect",
+        claim: &[
+            "Returns the parametric distance `t` along the ray if the ray intersects the triangle from \
+                the front, or `None` otherwise.",
+        ],
+        page: "https://docs.rs/oxiphysics-geometry/0.1.2/oxiphysics_geometry/boolean_ops/functions/fn.ray_triangle_intersect.html",
+        findings: &["oxiphysics-geometry.md"],
         ..ENTRANT
     },
     Entrant {
@@ -62,6 +77,297 @@ pub const ENTRANTS: &[Entrant] = &[
             needs: "examples/embree/libembree1.so",
         },
         skip: EMBREE,
+        ..ENTRANT
+    },
+    Entrant {
+        name: "three-js",
+        package: "three",
+        version: "0.187.0",
+        function: "Ray.intersectTriangle(a, b, c, false, target)",
+        claim: &[
+            "Intersects this ray with the given triangle, returning the intersection point or \
+        `null` if there is no intersection.",
+            "the shear makes a shared edge evaluate identically for both adjacent triangles, so \
+        the ray can never fall between them",
+        ],
+        page: "https://threejs.org/docs/#Ray.intersectTriangle",
+        note: "The second sentence is a comment in the source. The direction is documented as \
+        normalized.",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs three-js"],
+            needs: "league/javascript/node_modules/three",
+        },
+        unit: true,
+        ..ENTRANT
+    },
+    Entrant {
+        name: "three-mesh-bvh",
+        package: "three-mesh-bvh",
+        version: "0.9.17",
+        function: "MeshBVH.raycastFirst(ray, DoubleSide)",
+        claim: &["Returns the first raycast hit in the model."],
+        page: "https://github.com/gkjohnson/three-mesh-bvh/blob/v0.9.17/API.md",
+        note: "A mesh of one triangle, in a Float32Array. The ray is three.js' own, whose direction \
+        is normalized.",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs three-mesh-bvh"],
+            needs: "league/javascript/node_modules/three-mesh-bvh",
+        },
+        unit: true,
+        ..ENTRANT
+    },
+    Entrant {
+        name: "babylon",
+        package: "@babylonjs/core",
+        version: "9.34.0",
+        function: "Ray.intersectsTriangle",
+        claim: &["If the ray hits a triange"],
+        page: "https://doc.babylonjs.com/typedoc/classes/BABYLON.Ray#intersectstriangle",
+        note: "As it stands there, with \"@returns intersection information if hit\".",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs babylon"],
+            needs: "league/javascript/node_modules/@babylonjs/core",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "playcanvas",
+        package: "playcanvas",
+        version: "2.23.3",
+        function: "Tri.intersectsRay(ray)",
+        claim: &["Test if a ray intersects with the triangle."],
+        page: "https://api.playcanvas.com/engine/classes/Tri.html#intersectsray",
+        note: "The direction has to be normalized.",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs playcanvas"],
+            needs: "league/javascript/node_modules/playcanvas",
+        },
+        unit: true,
+        ..ENTRANT
+    },
+    Entrant {
+        name: "ray-triangle-intersection",
+        package: "ray-triangle-intersection",
+        version: "1.0.3",
+        function: "intersectTriangle(out, pt, dir, tri)",
+        claim: &["intersect a ray and triangle in 3 dimensions"],
+        page: "https://www.npmjs.com/package/ray-triangle-intersection/v/1.0.3",
+        note: "In the source back faces are a miss.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-cmd",
+                "node league/javascript/kernel.mjs ray-triangle-intersection",
+            ],
+            needs: "league/javascript/node_modules/ray-triangle-intersection",
+        },
+        findings: &["ray-triangle-intersection.md"],
+        ..ENTRANT
+    },
+    Entrant {
+        name: "claygl",
+        package: "claygl",
+        version: "1.3.0",
+        function: "Ray.intersectTriangle(a, b, c, false)",
+        claim: &["Calculate intersection point between ray and three triangle vertices"],
+        page: "https://www.npmjs.com/package/claygl/v/1.3.0",
+        note: "Its vectors are Float32Arrays.",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs claygl"],
+            needs: "league/javascript/node_modules/claygl",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "yuka",
+        package: "yuka",
+        version: "0.7.8",
+        function: "Ray.intersectTriangle(triangle, false, result)",
+        claim: &[
+            "Performs a ray/triangle intersection test and stores the intersection point to the \
+        given 3D vector. If no intersection is detected, *null* is returned.",
+        ],
+        page: "https://mugen87.github.io/yuka/docs/Ray.html#intersectTriangle",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs yuka"],
+            needs: "league/javascript/node_modules/yuka",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "ogl",
+        package: "ogl",
+        version: "1.0.11",
+        function: "Raycast.intersectTriangle(a, b, c, false, origin, direction), not 0",
+        page: "https://www.npmjs.com/package/ogl/v/1.0.11",
+        note: "Not documented.",
+        run: Run::Process {
+            arguments: &["--kernel-cmd", "node league/javascript/kernel.mjs ogl"],
+            needs: "league/javascript/node_modules/ogl",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "trimesh",
+        package: "trimesh",
+        version: "5.2.0",
+        function: "trimesh.ray.ray_triangle.ray_triangle_id",
+        claim: &["Find the intersections between a group of triangles and rays"],
+        page: "https://trimesh.org/trimesh.ray.ray_triangle.html",
+        note: "With a tree that proposes one triangle for each ray \
+        (examples/python/trimesh_kernel.py).",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python examples/python/trimesh_kernel.py",
+            ],
+            needs: "league/python/venv/installed/trimesh",
+        },
+        findings: &["trimesh.md"],
+        ..ENTRANT
+    },
+    Entrant {
+        name: "embreex",
+        package: "embreex",
+        version: "4.4.0.post1",
+        function: "EmbreeScene.run, a binding of Embree 4.4",
+        page: "https://github.com/trimesh/embreex",
+        note: "A scene of one triangle, no flags. Nothing is promised about edges or numbers.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py embreex",
+            ],
+            needs: "league/python/venv/installed/embreex",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "libigl",
+        package: "libigl",
+        version: "2.6.3",
+        function: "igl.ray_mesh_intersect",
+        claim: &["Shoot a ray against a mesh (V, F) and collect hits."],
+        page: "https://libigl.github.io/libigl-python-bindings/",
+        note: "A mesh of one triangle.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py libigl",
+            ],
+            needs: "league/python/venv/installed/libigl",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "cgal",
+        package: "cgal",
+        version: "6.0.1",
+        function: "CGAL_Kernel.do_intersect(Ray_3, Triangle_3), EPICK",
+        claim: &[
+            "Two objects obj1 and obj2 intersect if there is a point p that is part of both obj1 \
+        and obj2.",
+            "Note that for objects like triangles and polygons that enclose a bounded region, \
+        this region is part of the object.",
+        ],
+        page: "https://doc.cgal.org/6.0.1/Kernel_23/group__do__intersect__linear__grp.html",
+        note: "So edges, vertices and t = 0 are hits. The binding's Ray_3(point, vector) keeps a \
+        second point, point + vector, which is rounded: what that moves is charged to it.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py cgal",
+            ],
+            needs: "league/python/venv/installed/cgal",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "pyraymesh",
+        package: "pyraymesh",
+        version: "0.2.6",
+        function: "Mesh.occlusion, a binding of madmann91/bvh",
+        claim: &[
+            "Checks for occlusion along the rays with the BVH (Bounding Volume Hierarchy) of the \
+        mesh.",
+        ],
+        page: "https://pypi.org/project/pyraymesh/0.2.6/",
+        note: "A mesh of one triangle.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py pyraymesh",
+            ],
+            needs: "league/python/venv/installed/pyraymesh",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "meshlib",
+        package: "meshlib",
+        version: "3.1.4",
+        function: "mrmeshpy.rayMeshIntersect with a Line3f",
+        claim: &["Finds ray and mesh intersection in float-precision."],
+        page: "https://meshlib.io/documentation/group__AABBTreeGroup.html",
+        note: "A mesh of one triangle.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py meshlib",
+            ],
+            needs: "league/python/venv/installed/meshlib",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "mitsuba",
+        package: "mitsuba",
+        version: "3.9.1",
+        function: "Mesh.ray_intersect_triangle, scalar_rgb",
+        page: "https://mitsuba.readthedocs.io/en/v3.9.1/src/api_reference.html#mitsuba.Mesh.ray_intersect_triangle",
+        note: "Its signature is all that the reference has.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py mitsuba",
+            ],
+            needs: "league/python/venv/installed/mitsuba",
+        },
+        ..ENTRANT
+    },
+    Entrant {
+        name: "warp",
+        package: "warp-lang",
+        version: "1.19.0",
+        function: "warp.mesh_query_ray on the processor",
+        claim: &[
+            "Compute the closest ray hit on the :class:`warp.Mesh` with identifier ``id``.",
+            "``dir`` need not be normalized",
+        ],
+        page: "https://nvidia.github.io/warp/",
+        note: "A mesh of one triangle.",
+        run: Run::Process {
+            arguments: &[
+                "--kernel-timeout",
+                "300",
+                "--kernel-cmd",
+                "league/python/venv/bin/python league/python/kernel.py warp",
+            ],
+            needs: "league/python/venv/installed/warp-lang",
+        },
         ..ENTRANT
     },
 ];

@@ -19,6 +19,7 @@ pub const FYROX_MATH: Entrant = Entrant {
         rounded by that.",
     run: Run::Here(entry),
     skip: &["range-ends"],
+    findings: &["fyrox-math.md"],
     ..ENTRANT
 };
 

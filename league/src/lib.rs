@@ -6,6 +6,8 @@
 pub mod edition;
 
 mod entrant;
+#[cfg(doctest)]
+mod findings;
 mod foreign;
 mod model;
 mod segment;

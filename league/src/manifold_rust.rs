@@ -17,6 +17,7 @@ pub const MANIFOLD_RUST: Entrant = Entrant {
     note: "Public and not documented. The crate's `Manifold::ray_cast` is another algorithm, \
         not judged here.",
     run: Run::Here(entry),
+    findings: &["manifold-rust.md"],
     ..ENTRANT
 };
 

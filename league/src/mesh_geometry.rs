@@ -20,6 +20,7 @@ pub const MESH_GEOMETRY: Entrant = Entrant {
     page: "https://docs.rs/mesh-geometry/0.4.0/mesh_geometry/queries/fn.ray_intersects_triangle.html",
     note: "`Ray::dir` is \"not necessarily normalized\".",
     run: Run::Here(entry),
+    findings: &["mesh-geometry.md"],
     ..ENTRANT
 };
 

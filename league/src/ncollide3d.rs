@@ -21,6 +21,7 @@ pub const NCOLLIDE3D: Entrant = Entrant {
     page: "https://docs.rs/ncollide3d/0.33.0/ncollide3d/query/fn.ray_intersection_with_triangle.html",
     note: "The last sentence is of `Ray::new`: it gets unit directions.",
     run: Run::Here(entry),
+    findings: &["parry3d.md"],
     ..ENTRANT
 };
 

@@ -20,6 +20,7 @@ pub const OBVHS: Entrant = Entrant {
     page: "https://docs.rs/obvhs/0.4.0/obvhs/triangle/struct.Triangle.html#method.intersect",
     note: "The interval is the ray's tmin and tmax; the very ends are left to it.",
     run: Run::Here(intersect),
+    findings: &["obvhs.md"],
     ..ENTRANT
 };
 
@@ -32,6 +33,7 @@ pub const OBVHS_EMBREE: Entrant = Entrant {
     page: "https://docs.rs/obvhs/0.4.0/obvhs/triangle/struct.Triangle.html#method.intersect_embree",
     note: "Not documented; taken to return what `Triangle::intersect` does.",
     run: Run::Here(intersect_embree),
+    findings: &["obvhs-embree.md"],
     ..ENTRANT
 };
 

@@ -21,6 +21,7 @@ pub const PARRY3D: Entrant = Entrant {
     note: "A ray has its start, t = 0, by the last sentence (on `Ray`), so a start on the \
         triangle is a hit.",
     run: Run::Here(entry),
+    findings: &["parry3d.md"],
     ..ENTRANT
 };
 

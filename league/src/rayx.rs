@@ -22,6 +22,7 @@ pub const RAYX: Entrant = Entrant {
     page: "https://docs.rs/rayx/0.2.0/rayx/struct.Triangle.html#method.intersect",
     note: "The very ends are left to it. A triangle that `Triangle::new` refuses is a miss.",
     run: Run::Here(baldwin_weber),
+    findings: &["rayx.md"],
     ..ENTRANT
 };
 
@@ -34,6 +35,7 @@ pub const RAYX_MOLLER_TRUMBORE: Entrant = Entrant {
     page: "https://docs.rs/rayx/0.2.0/rayx/intersect/fn.intersect_moller_trumbore.html",
     note: "The interval is as `Triangle::intersect` has it.",
     run: Run::Here(moller_trumbore),
+    findings: &["rayx.md"],
     ..ENTRANT
 };
 

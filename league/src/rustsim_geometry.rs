@@ -16,6 +16,7 @@ pub const RUSTSIM_GEOMETRY: Entrant = Entrant {
     ],
     page: "https://docs.rs/rustsim-geometry/0.0.1/rustsim_geometry/triangle/struct.Triangle3.html#method.intersect_ray",
     run: Run::Here(entry),
+    findings: &["rustsim-geometry.md"],
     ..ENTRANT
 };
 

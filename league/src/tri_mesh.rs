@@ -19,6 +19,7 @@ pub const TRI_MESH: Entrant = Entrant {
     page: "https://docs.rs/tri-mesh/0.6.1/tri_mesh/struct.Mesh.html#method.ray_intersection",
     note: "Its tolerance about edges, 1e-7, is in its source and not in its documentation.",
     run: Run::Here(entry),
+    findings: &["tri-mesh.md"],
     ..ENTRANT
 };
 

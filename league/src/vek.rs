@@ -23,6 +23,7 @@ pub const VEK: Entrant = Entrant {
     page: "https://docs.rs/vek/0.17.2/vek/geom/repr_c/struct.Ray.html#method.triangle_intersection",
     note: "As documented, a value below EPSILON is taken for a miss here.",
     run: Run::Here(entry),
+    findings: &["vek.md"],
     ..ENTRANT
 };
 
