@@ -16,6 +16,8 @@ pub struct Entrant {
     /// The sentences of its documentation that the contract is made of, word for word. Without one
     /// nothing is promised, and the contract is the minimal one, [`PROMISE`].
     pub claim: &'static [&'static str],
+    /// Whether those sentences are about triangles that share an edge and nothing else.
+    pub only_shared: bool,
     /// Where they stand, or what is documented instead.
     pub page: &'static str,
     /// What is to be known about the call or the contract.
@@ -48,6 +50,7 @@ pub const ENTRANT: Entrant = Entrant {
     version: "",
     function: "",
     claim: &[],
+    only_shared: false,
     page: "",
     note: "",
     run: Run::Heavy,

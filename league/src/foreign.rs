@@ -69,6 +69,7 @@ pub const ENTRANTS: &[Entrant] = &[
             "This mode is typically used for avoiding artifacts caused by rays shooting through edges of \
                 neighboring primitives.",
         ],
+        only_shared: true,
         page: "https://github.com/RenderKit/embree/blob/v3.13.5/doc/src/api.md",
         note: "A scene of one triangle (examples/embree). Taken to mean that of triangles that share an \
             edge at least one is hit.",
@@ -287,6 +288,7 @@ pub const ENTRANTS: &[Entrant] = &[
             ],
             needs: "league/python/venv/installed/cgal",
         },
+        skip: &["direction-length"],
         ..ENTRANT
     },
     Entrant {

@@ -180,7 +180,9 @@ fn scalar_result(
     let half = if scalar == "f32" { 2f64.powi(12) } else { 2f64.powf(26.5) };
     let verdict = match () {
         () if entrant.claim.is_empty() => "none",
-        () if is_broken || ordinary > half => "refuted",
+        () if is_broken => "refuted",
+        () if entrant.only_shared => "held",
+        () if ordinary > half => "refuted",
         () if sized > half => "refuted by size",
         () if ordinary.max(sized) > HELD => "rounding",
         () => "held",
