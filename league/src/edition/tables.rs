@@ -85,7 +85,7 @@ fn percent(Share { count, of }: Share) -> String {
 
 fn short(x: f64) -> String {
     match x {
-        x if x == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         x if (0.01..1000.0).contains(&x) => format!("{x:.2}"),
         x => format!("{x:.0e}"),
     }
