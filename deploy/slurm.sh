@@ -17,9 +17,12 @@ mkdir -p "$folder"
 # As many parts as the records in the folder say, so that lost ones run again alone (sbatch --array=17 with the
 # same words); of an empty folder the array has them all.
 k=$SLURM_ARRAY_TASK_ID
-n=$(find "$folder" -name '*-of-*.json' | sed -n 's|.*/[0-9]*-of-\([0-9]*\)\.json$|\1|p' | sort -u)
-if [[ -z $n ]] && ((SLURM_ARRAY_TASK_MIN == 0 && SLURM_ARRAY_TASK_MAX == SLURM_ARRAY_TASK_COUNT - 1)); then
-    n=$SLURM_ARRAY_TASK_COUNT
+n=$(find "$folder" -maxdepth 1 -name '*-of-*.json' | sed -n 's|.*/[0-9]*-of-\([0-9]*\)\.json$|\1|p' | sort -u)
+count=$SLURM_ARRAY_TASK_COUNT
+if ((SLURM_ARRAY_TASK_MIN == 0 && SLURM_ARRAY_TASK_MAX == count - 1)) && ((count > 1 || ${n:-1} == 1)); then
+    # A whole array is not a part of another run.
+    n=${n:-$count}
+    [[ $n == "$count" ]] || n=none
 fi
 if ! [[ $n =~ ^[0-9]+$ ]] || ((k >= n)); then
     echo "the array must be 0-N, each index once, or parts of the one run whose records are in $folder" >&2

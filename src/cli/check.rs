@@ -241,8 +241,9 @@ fn read_expectations(
     let has_lock = Path::new(&lock).exists();
     if may_be_missing && !Path::new(file).exists() {
         if has_lock {
-            let message =
-                format!("{file}, whose cases these are, is missing: restore it, or remove both");
+            let message = format!(
+                "{file}, whose cases these are, is missing: restore it, or remove this file too"
+            );
             return Err(InputError::of(&lock, message).into());
         }
         return Ok(None);

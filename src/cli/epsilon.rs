@@ -5,6 +5,7 @@ mod scene;
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
+use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
@@ -12,7 +13,7 @@ use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::{FAMILIES, Family};
-use crate::kernel::{Entry, Gate, Scalar};
+use crate::kernel::{Entry, Gate, Scalar, Subject};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
 use crate::suggest::nearest_name;
@@ -143,7 +144,9 @@ fn run_study<F: Scalar>(
     sources: &[Source],
     progress: &Progress,
 ) -> StudyParts {
-    let study = study(plan, sources, progress).map_err(|error| fault(plan.row.entry, error))?;
+    let study = study(plan, sources, progress);
+    found_margins(plan.row.entry.info.name, plan.subject)?;
+    let study = study.map_err(|error| fault(plan.row.entry, error))?;
     Ok(parts(plan, sources, &study))
 }
 
@@ -267,6 +270,17 @@ fn tells_margins(entry: &Entry) -> Result<(), String> {
     ))
 }
 
+/// An error if a kernel failed on too many cases while its margins were looked for, or for good.
+fn found_margins<F: Scalar>(name: &str, subject: &dyn Subject<F>) -> Result<(), Failure> {
+    plugins::check()?;
+    match subject.margins_gave_up() {
+        None => Ok(()),
+        Some(message) => {
+            Err(Failure::Message(Status::BadInput, format!("kernel '{name}': {message}")))
+        }
+    }
+}
+
 /// A disagreement between margins and runs: a fault of this tool, or of a kernel whose gates nobody sees.
 fn fault(entry: &Entry, error: String) -> Failure {
     if entry.shows_gates() {
@@ -276,8 +290,8 @@ fn fault(entry: &Entry, error: String) -> Failure {
     Failure::Message(
         Status::BadInput,
         format!(
-            "kernel '{name}': its epsilons do not each act alone: {error}. Raising one must only refuse more, \
-             whatever the others are, and its answers must depend on the case and the epsilons alone"
+            "kernel '{name}': its epsilons do not each act alone, or its answers are not a function of the case and \
+             the epsilons: {error}. Raising an epsilon must only refuse more, whatever the others are"
         ),
     )
 }

@@ -229,16 +229,19 @@ fn write_epsilons<F: Scalar>(
     if tells {
         subject.margins(info, slice::from_ref(case), &mut margins, &mut []);
     }
+    if tells && margins.iter().any(|margin| *margin == -F::infinity()) {
+        writeln!(out, "    a miss whatever its epsilons are")?;
+    }
     for (i, gate) in info.gates.iter().enumerate().filter(|(_, g)| g.epsilon != Tunable::Fixed) {
         let (name, e) = (gate.name, epsilons[i]);
         let margin = margin_text(&Exact::from_f64(margins[i].to_f64()), e, false);
-        let found = match tells {
-            true if margins[i] == -F::infinity() => "refused at every e, ".to_owned(),
-            true if margins[i] == F::infinity() => "accepted at every e, ".to_owned(),
-            true => format!("accepted up to e = {margin}, "),
+        let found = match tells && !margins[i].is_nan() {
+            true if margins[i] == -F::infinity() => String::new(),
+            true if margins[i] == F::infinity() => "accepted at every e; ".to_owned(),
+            true => format!("accepted up to e = {margin}; "),
             false => String::new(),
         };
-        writeln!(out, "    {name:<10} {found}at e = {e}   [{}]", gate.refuses)?;
+        writeln!(out, "    {name:<10} {found}run at e = {e}   [{}]", gate.refuses)?;
     }
     writeln!(out, "    it does not show its gates: no exact margins, no run without rounding")
 }

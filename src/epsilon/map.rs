@@ -79,6 +79,9 @@ fn add<F: Scalar>(
             Obligation::MustMiss => &mut counts.must_miss,
             Obligation::Free => continue,
         };
+        if margins.iter().any(|margin| margin.is_nan()) {
+            continue;
+        }
         let mut others = (0..margins.len()).filter(|gate| !gates.contains(gate));
         let refused = others.any(|gate| margins[gate] < given[gate]);
         // The epsilons up to the margin accept.

@@ -182,6 +182,11 @@ impl<'a, F: Scalar> Pass<'a, F> {
         sums.effective.clear();
         let rows = margins.chunks_exact(self.gates.len());
         for (i, (margins, obligation)) in rows.zip(obligations).enumerate() {
+            // The kernel failed where its margins were looked for.
+            if margins.iter().any(|margin| margin.is_nan()) {
+                sums.effective.push(F::from_f64(f64::NAN));
+                continue;
+            }
             let refusing = (0..margins.len())
                 .find(|&other| other != gate && margins[other] < self.epsilons[other]);
             let margin = if refusing.is_some() { -F::infinity() } else { margins[gate] };
@@ -219,11 +224,12 @@ fn add_groups<F: Scalar>(
 ) {
     let [_, _, cracks, doubles, _, _] = &mut sums.lanes;
     for ((index, range), truth) in chunk.groups().zip(groups) {
-        if *truth != GroupTruth::Crossing {
+        let margins = &sums.effective[range];
+        if *truth != GroupTruth::Crossing || margins.iter().any(|margin| margin.is_nan()) {
             continue;
         }
         let (mut first, mut second) = (-F::infinity(), -F::infinity());
-        for margin in &sums.effective[range] {
+        for margin in margins {
             if first < *margin {
                 (first, second) = (*margin, first);
             } else if second < *margin {

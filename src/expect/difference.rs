@@ -170,8 +170,11 @@ impl Judge {
         let which = if change == Trend::Better { Change::Right } else { Change::New };
         let of_side =
             |side: &&Side<'_>| side.found.get(key).and_then(|found| found.example.clone());
-        // What is right now is shown as the new record runs it, if it says how.
-        let example = [new, old].iter().find_map(of_side);
+        // What is right now is shown as the new record runs it, if it says how; on other cases the record
+        // shows its own that has more.
+        let is_old = change == Trend::Better && !same_cases;
+        let sides = if is_old { [old, new] } else { [new, old] };
+        let example = sides.iter().find_map(of_side);
         let changed = example.as_ref().filter(|_| same_cases).and_then(|example| {
             let read = |digest: Option<&str>| match digest {
                 None => Some(Digest::default()),
@@ -185,10 +188,13 @@ impl Judge {
             (None, true) if example.is_some() && which == Change::New => UNSURE,
             (None, _) => "",
         };
+        // What may still be wrong shows nothing better.
+        let is_unsure = same_cases && which == Change::Right;
+        let example = changed.or(example.filter(|_| !is_unsure));
         Some(Difference {
             what: key.to_string(),
             change,
-            command: changed.or(example).map(|example| example.command),
+            command: example.map(|example| example.command),
             shown,
             old: old_rate,
             new: new_rate,

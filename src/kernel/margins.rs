@@ -36,6 +36,18 @@ pub fn by_running<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: 
     }
 }
 
+/// The same on a case that it misses there: no epsilon is accepted, unless it hits at a larger one, which no
+/// margin can say. Then every one is, and a run at any epsilons shows the contradiction.
+pub fn of_miss<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mut [F]) {
+    let largest = F::infinity().offset_ulps(-1);
+    let is_hit_above = (0..open.len()).any(|gate| {
+        let mut epsilons = open.to_vec();
+        epsilons[gate] = largest;
+        is_hit(&epsilons)
+    });
+    margins.fill(if is_hit_above { F::infinity() } else { -F::infinity() });
+}
+
 /// What a kernel would report of a hit.
 pub fn values_of<F: Float>(info: &KernelInfo, verdict: &Verdict<F>) -> Option<Hit<F>> {
     let &Verdict { hit, facing, t, u, v, .. } = verdict;

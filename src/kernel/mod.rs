@@ -34,7 +34,7 @@ mod woop_watertight;
 pub use gate::{
     Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
 };
-pub(crate) use margins::{by_running, open_epsilons, values_of};
+pub(crate) use margins::{by_running, of_miss, open_epsilons, values_of};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Compared, Path};

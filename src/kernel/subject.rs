@@ -1,7 +1,7 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
 use super::gate::Either;
-use super::margins::{by_running, open_epsilons, values_of};
+use super::margins::{by_running, of_miss, open_epsilons, values_of};
 use super::recording::{Path, paths};
 use super::variant::Variant;
 use super::{Deciding, Failure, Hit, Kernel, KernelInfo, Measuring, Verdict, Watching};
@@ -179,7 +179,7 @@ pub trait Subject<F: Float>: Sync {
     /// unless `values` is empty.
     ///
     /// Where gates are not shown the kernel runs at many epsilons. Then margins are -inf if it misses whatever
-    /// the epsilons are, or panics.
+    /// the epsilons are, and NaN if it fails at some.
     fn margins(
         &self,
         info: &KernelInfo,
@@ -188,7 +188,6 @@ pub trait Subject<F: Float>: Sync {
         values: &mut [Option<Hit<F>>],
     ) {
         let (width, open) = (info.gates.len(), open_epsilons(info));
-        margins.fill(-F::infinity());
         for (i, case) in cases.iter().enumerate() {
             let verdict = |epsilons: &[F]| {
                 let mut verdict = [Verdict::miss(None)];
@@ -196,18 +195,27 @@ pub trait Subject<F: Float>: Sync {
                 verdict[0]
             };
             let of_case = &mut margins[i * width..(i + 1) * width];
+            let is_hit = |epsilons: &[F]| verdict(epsilons).hit;
             let measured = catch_unwind(AssertUnwindSafe(|| {
-                let values = values_of(info, &verdict(&open))?;
-                by_running(&open, |epsilons| verdict(epsilons).hit, of_case);
-                Some(values)
+                let values = values_of(info, &verdict(&open));
+                match values {
+                    Some(_) => by_running(&open, is_hit, of_case),
+                    None => of_miss(&open, is_hit, of_case),
+                }
+                values
             }));
             if measured.is_err() {
-                of_case.fill(-F::infinity());
+                of_case.fill(F::from_f64(f64::NAN));
             }
             if let Some(place) = values.get_mut(i) {
                 *place = measured.ok().flatten();
             }
         }
+    }
+
+    /// Why no more margins are found, in one line.
+    fn margins_gave_up(&self) -> Option<String> {
+        None
     }
 
     /// What should be known beside its verdicts, which stand; each in one line.

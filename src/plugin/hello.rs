@@ -218,6 +218,11 @@ fn epsilon(text: &str) -> Result<Epsilon, String> {
         "non-negative" => Tunable::NonNegative,
         _ => return Err(shape()),
     };
+    if name == "t_min" {
+        return Err(
+            "epsilon t_min: the name is taken: it is the start of each ray's interval".to_owned()
+        );
+    }
     let finite = [number::parse::<f32>(value).map(f64::from), number::parse::<f64>(value)];
     let fits = |x: &f64| x.is_finite() && (tunable == Tunable::Signed || *x >= 0.0);
     if !finite.iter().all(|x| x.as_ref().is_ok_and(fits)) || value.contains(['x', 'X']) {

@@ -13,9 +13,10 @@ use super::binary::{
     ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, MARGINS, environment_head, float, push, verdict_bytes,
 };
 use crate::arith::{Float, FloatEnvironment};
-use crate::kernel::by_running;
+use crate::kernel::{by_running, of_miss};
 use guard::{Buffer, overrun_head, watch_guards};
 use libloading::os::unix;
+use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, c_char, c_void};
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -142,18 +143,18 @@ impl Protocol {
             test(cases.start().cast(), count, epsilons.start().cast(), verdicts.start().cast())
         };
         let margins = match (with_margins, size) {
-            (false, _) => Vec::new(),
-            (true, 4) => batch.margins::<f32>(&mut verdicts),
-            (true, _) => batch.margins::<f64>(&mut verdicts),
+            (false, _) => Some(Vec::new()),
+            (true, 4) => batch.margins::<f32>(&mut verdicts)?,
+            (true, _) => batch.margins::<f64>(&mut verdicts)?,
         };
         let before = std::mem::replace(floats, FloatEnvironment::now());
         if *floats != before {
             self.output.write_all(&environment_head(*floats))?;
         }
-        if !verdicts.is_untouched_before() {
+        let Some(margins) = margins.filter(|_| verdicts.is_untouched_before()) else {
             self.output.write_all(&overrun_head())?;
             return Err(io::Error::other("wrote before its output"));
-        }
+        };
         self.output.write_all(&ANSWER)?;
         self.output.write_all(&(count as u32).to_le_bytes())?;
         self.output.write_all(verdicts.bytes())?;
@@ -174,36 +175,67 @@ struct Batch {
 }
 
 impl Batch {
-    /// The bytes of each case's margins, one a gate; -inf where the verdict at this batch's epsilons, which let
-    /// the most through, is no hit.
-    fn margins<F: Float>(&self, verdicts: &mut Buffer) -> Vec<u8> {
+    /// The bytes of each case's margins, one a gate. An answer that is neither a hit nor a miss, at whatever
+    /// epsilons, becomes the case's verdict, which this program's parent refuses; none if it wrote before its
+    /// output.
+    fn margins<F: Float>(&self, verdicts: &mut Buffer) -> io::Result<Option<Vec<u8>>> {
         let open: Vec<F> =
             self.epsilons.as_bytes().chunks_exact(size_of::<F>()).map(float).collect();
+        let probe = RefCell::new(Probe {
+            epsilons: Buffer::new(1, size_of_val(&open[..]))?,
+            verdict: Buffer::new(2, verdict_bytes::<F>())?,
+        });
         let mut bytes = Vec::with_capacity(self.count * size_of_val(&open[..]));
-        for (i, verdict) in verdicts.bytes().chunks_exact(verdict_bytes::<F>()).enumerate() {
+        for (i, verdict) in verdicts.bytes().chunks_exact_mut(verdict_bytes::<F>()).enumerate() {
+            let is_wrong = Cell::new(false);
+            let is_hit = |epsilons: &[F]| {
+                let hit = probe.borrow_mut().ask(self, i, epsilons);
+                is_wrong.set(is_wrong.get() || (hit != HIT && hit != MISS));
+                hit == HIT
+            };
             let mut margins = vec![-F::infinity(); open.len()];
-            if verdict[..4] == HIT {
-                by_running(&open, |epsilons| self.is_hit(i, epsilons), &mut margins);
+            match verdict[..4] == HIT {
+                true => by_running(&open, is_hit, &mut margins),
+                false => of_miss(&open, is_hit, &mut margins),
+            }
+            if is_wrong.get() {
+                verdict[..4].copy_from_slice(&WRONG);
             }
             margins.into_iter().for_each(|margin| push(&mut bytes, margin));
         }
-        bytes
-    }
-
-    /// Whether the library hits one case at some epsilons.
-    fn is_hit<F: Float>(&self, i: usize, epsilons: &[F]) -> bool {
-        // Room for a verdict in either scalar, and as strictly aligned.
-        let mut verdict = [u64::MAX; 4];
-        // SAFETY: the i-th case is one of the batch, and the other pointers are as include/hairline.h promises.
-        unsafe {
-            let case = self.cases.start().add(i * CASE_NUMBERS * self.size);
-            (self.test)(case.cast(), 1, epsilons.as_ptr().cast(), verdict.as_mut_ptr().cast());
-        }
-        verdict[0].to_ne_bytes()[..4] == HIT
+        Ok(probe.into_inner().verdict.is_untouched_before().then_some(bytes))
     }
 }
 
-/// The first bytes of a verdict that is a hit.
+/// Room for one case's epsilons and its verdict, between guards like those of a batch.
+struct Probe {
+    epsilons: Buffer,
+    verdict: Buffer,
+}
+
+impl Probe {
+    /// What a library says of one case of a batch at some epsilons: the first bytes of its verdict.
+    fn ask<F: Float>(&mut self, batch: &Batch, i: usize, epsilons: &[F]) -> [u8; 4] {
+        let mut bytes = Vec::with_capacity(size_of_val(epsilons));
+        epsilons.iter().for_each(|epsilon| push(&mut bytes, *epsilon));
+        self.epsilons.bytes().copy_from_slice(&bytes);
+        self.verdict.bytes().fill(0xff);
+        // SAFETY: the i-th case is one of the batch, and all pointers are as include/hairline.h promises.
+        unsafe {
+            let case = batch.cases.start().add(i * CASE_NUMBERS * batch.size);
+            let (epsilons, verdict) = (self.epsilons.start(), self.verdict.start());
+            (batch.test)(case.cast(), 1, epsilons.cast(), verdict.cast());
+        }
+        let hit = &self.verdict.as_bytes()[..4];
+        [hit[0], hit[1], hit[2], hit[3]]
+    }
+}
+
+/// The first bytes of a verdict that is none, as an unanswered one has them.
+const WRONG: [u8; 4] = [0xff; 4];
+/// Of a miss.
+const MISS: [u8; 4] = [0; 4];
+/// Of a hit.
 const HIT: [u8; 4] = 1i32.to_ne_bytes();
 
 /// No core files, and no life without the program that started this one: a kernel that hangs does not

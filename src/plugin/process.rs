@@ -102,6 +102,12 @@ struct State {
     failures: u64,
     /// The first of them.
     first: Option<String>,
+    /// Cases on which one failed while it was asked for margins.
+    margin_failures: u64,
+    /// The first of them.
+    first_at_margins: Option<String>,
+    /// Why no more margins are asked for.
+    margins_gave_up: Option<String>,
     notes: Vec<String>,
     gave_up: Option<String>,
 }
@@ -242,14 +248,9 @@ impl Process {
     }
 
     /// Gets the verdict on one case.
-    fn ask_one<F: Float>(
-        &self,
-        case: &Case<F>,
-        epsilons: &[F],
-        margins: &mut [F],
-    ) -> Result<Verdict<F>, String> {
+    fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
-        match self.ask(std::slice::from_ref(case), epsilons, &mut verdict, margins) {
+        match self.ask(std::slice::from_ref(case), epsilons, &mut verdict, &mut []) {
             Ok(()) => Ok(verdict[0]),
             Err(Lost::Garbled(message)) => Err(message),
             Err(Lost::Failed(failure)) => self.pinned(failure, case),
@@ -277,15 +278,9 @@ impl Process {
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
-        margins: &mut [F],
     ) -> Result<(), String> {
-        let width = margins.len() / cases.len();
-        for (i, (case, verdict)) in cases.iter().zip(&mut *verdicts).enumerate() {
-            let margins = &mut margins[i * width..(i + 1) * width];
-            *verdict = self.ask_one(case, epsilons, margins)?;
-            if verdict.failure.is_some() {
-                margins.fill(-F::infinity());
-            }
+        for (case, verdict) in cases.iter().zip(&mut *verdicts) {
+            *verdict = self.ask_one(case, epsilons)?;
         }
         if verdicts.iter().all(|verdict| verdict.failure.is_none()) {
             self.note(format!(
@@ -298,7 +293,14 @@ impl Process {
 
 impl<F: Float> Subject<F> for Process {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
-        self.answer(cases, epsilons, verdicts, &mut []);
+        verdicts.fill(Verdict::miss(None));
+        let has_given_up = self.state().gave_up.is_some();
+        if has_given_up {
+            return;
+        }
+        if let Err(message) = self.try_run(cases, epsilons, verdicts) {
+            self.state().gave_up.get_or_insert(message);
+        }
     }
 
     fn tells_margins(&self) -> bool {
@@ -313,14 +315,34 @@ impl<F: Float> Subject<F> for Process {
         values: &mut [Option<Hit<F>>],
     ) {
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
-        margins.fill(-F::infinity());
-        self.answer(cases, &open_epsilons(info), &mut verdicts, margins);
+        if self.hello.has_epsilons() {
+            let (open, width) = (open_epsilons(info), info.gates.len());
+            let margins = margins.chunks_mut(MARGINS_AT_ONCE * width);
+            let verdicts = verdicts.chunks_mut(MARGINS_AT_ONCE);
+            for ((cases, verdicts), margins) in
+                cases.chunks(MARGINS_AT_ONCE).zip(verdicts).zip(margins)
+            {
+                self.find_margins(info, cases, &open, verdicts, margins);
+            }
+        } else {
+            Subject::run(self, cases, &[], &mut verdicts);
+        }
         let pairs = values.iter_mut().zip(&verdicts);
         pairs.for_each(|(place, verdict)| *place = values_of(info, verdict));
     }
 
+    fn margins_gave_up(&self) -> Option<String> {
+        self.state().margins_gave_up.clone()
+    }
+
     fn notes(&self) -> Vec<String> {
-        self.state().notes.clone()
+        let state = self.state();
+        let mut notes = state.notes.clone();
+        notes.extend(state.first_at_margins.as_ref().map(|first| {
+            let count = state.margin_failures;
+            format!("on {count} cases it fails at some epsilon, and they are left out; first: it {first}")
+        }));
+        notes
     }
 
     fn gave_up(&self) -> Option<String> {
@@ -329,42 +351,108 @@ impl<F: Float> Subject<F> for Process {
 }
 
 impl Process {
-    /// Misses, once it has given up.
-    fn answer<F: Float>(
+    fn try_run<F: Float>(
         &self,
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
-        margins: &mut [F],
-    ) {
-        verdicts.fill(Verdict::miss(None));
-        let has_given_up = self.state().gave_up.is_some();
-        if has_given_up {
-            return;
-        }
-        if let Err(message) = self.try_answer(cases, epsilons, verdicts, margins) {
-            self.state().gave_up.get_or_insert(message);
-        }
-    }
-
-    fn try_answer<F: Float>(
-        &self,
-        cases: &[Case<F>],
-        epsilons: &[F],
-        verdicts: &mut [Verdict<F>],
-        margins: &mut [F],
     ) -> Result<(), String> {
-        match (self.ask(cases, epsilons, verdicts, margins), cases) {
+        match (self.ask(cases, epsilons, verdicts, &mut []), cases) {
             (Ok(()), _) => Ok(()),
             (Err(Lost::Garbled(message)), _) => Err(message),
             (Err(Lost::Failed(failure)), [case]) => {
                 verdicts[0] = self.pinned(failure, case)?;
-                margins.fill(-F::infinity());
                 Ok(())
             }
-            (Err(Lost::Failed(failure)), _) => {
-                self.pin_all(failure, cases, epsilons, verdicts, margins)
+            (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts),
+        }
+    }
+
+    /// The margins of some cases, with their verdicts at the epsilons that let the most through; NaN where it
+    /// fails. Such failures are no findings, because nobody asked for these epsilons.
+    fn find_margins<F: Float>(
+        &self,
+        info: &KernelInfo,
+        cases: &[Case<F>],
+        open: &[F],
+        verdicts: &mut [Verdict<F>],
+        margins: &mut [F],
+    ) {
+        let state = self.state();
+        let has_given_up = state.gave_up.is_some() || state.margins_gave_up.is_some();
+        drop(state);
+        if has_given_up {
+            margins.fill(F::from_f64(f64::NAN));
+            return;
+        }
+        match self.ask(cases, open, verdicts, margins) {
+            Ok(()) => {
+                let checked = check_margins(info, open, verdicts, margins);
+                checked.unwrap_or_else(|message| {
+                    self.state().gave_up.get_or_insert(message);
+                });
+            }
+            Err(Lost::Garbled(message)) => {
+                self.state().gave_up.get_or_insert(message);
+            }
+            Err(Lost::Failed(failure)) if cases.len() == 1 => {
+                margins.fill(F::from_f64(f64::NAN));
+                verdicts[0] = Verdict::miss(None);
+                let mut state = self.state();
+                state.margin_failures += 1;
+                let count = state.margin_failures;
+                let first = || format!("{failure} on {}", cases[0].hex());
+                let first = state.first_at_margins.get_or_insert_with(first).clone();
+                if MOST_MARGIN_FAILURES < count {
+                    state.margins_gave_up = Some(format!(
+                        "it fails at some epsilons, from the smallest to the largest number, on more than \
+                         {MOST_MARGIN_FAILURES} cases; first: it {first}"
+                    ));
+                }
+            }
+            Err(Lost::Failed(_)) => {
+                let one_by_one = cases.chunks(1).zip(verdicts.chunks_mut(1));
+                for ((case, verdict), margins) in one_by_one.zip(margins.chunks_mut(open.len())) {
+                    self.find_margins(info, case, open, verdict, margins);
+                }
             }
         }
     }
+}
+
+/// So many cases are asked for margins at a time, because each is up to 65 runs a gate.
+const MARGINS_AT_ONCE: usize = 64;
+
+/// On how many cases a process may fail while it is asked for margins.
+const MOST_MARGIN_FAILURES: u64 = 100;
+
+/// An error if margins contradict the verdicts at the epsilons that let the most through.
+fn check_margins<F: Float>(
+    info: &KernelInfo,
+    open: &[F],
+    verdicts: &[Verdict<F>],
+    margins: &[F],
+) -> Result<(), String> {
+    let rows = margins.chunks(open.len()).zip(verdicts).enumerate();
+    for (case, (margins, verdict)) in rows {
+        let pairs = margins.iter().zip(open).zip(info.gates);
+        for ((margin, open), gate) in pairs {
+            let (fits, expected) = match verdict.hit {
+                true => {
+                    (open <= margin, "at least the epsilon of the batch, for its verdict is a hit")
+                }
+                false => (
+                    margin.to_f64().is_infinite(),
+                    "infinity or -infinity, for its verdict is a miss",
+                ),
+            };
+            if !fits {
+                let name = gate.name;
+                return Err(format!(
+                    "the margin {name} of case {case} is {margin:e}, expected {expected}"
+                ));
+            }
+        }
+    }
+    Ok(())
 }

@@ -87,6 +87,9 @@ fn responses<F: Scalar>(
     let Some(subject) = subject else { return Vec::new() };
     let sample = sources.iter().any(Source::is_sample);
     let sketches = sketch::<F>(row, subject, sources, axis, observer);
+    if subject.margins_gave_up().is_some() {
+        return Vec::new();
+    }
     sketches.iter().map(|sketch| response(row, sketch, sample)).collect()
 }
 

@@ -14,7 +14,7 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     // One more for each scalar, because the rays are few.
     assert!(lines.len() <= 66 + 2, "{} lines", lines.len());
     assert!(screen.contains(
-        "from 4,000 rays of each kind only: another seed may name numbers ten times as large"
+        "from 4,000 rays of each kind only: another seed may name others, up to tenfold"
     ));
     let long = lines.iter().find(|line| line.chars().count() > 92);
     assert!(long.is_none(), "{long:?}");

@@ -192,7 +192,10 @@ fn lost_parts_run_again_alone_on_slurm() {
     assert_eq!(task("17", "1", ["17", "17"]).0, Some(2));
     assert_eq!(task("0", "64", ["0", "63"]), (Some(0), "0/64".to_owned()));
     assert_eq!(task("17", "1", ["17", "17"]), (Some(0), "17/64".to_owned()));
-    assert_eq!(task("3", "4", ["0", "3"]), (Some(0), "3/64".to_owned()));
+    // The first alone is a part of the run, a whole array of others is not.
+    assert_eq!(task("0", "1", ["0", "0"]), (Some(0), "0/64".to_owned()));
+    assert_eq!(task("3", "4", ["0", "3"]).0, Some(2));
+    assert_eq!(task("5", "2", ["5", "9"]), (Some(0), "5/64".to_owned()));
     assert_eq!(task("64", "1", ["64", "64"]).0, Some(2));
 }
 

@@ -1,5 +1,6 @@
 /* A project's kernel over a year, for tests/commands/action.rs: Moller and Trumbore's test in float, and what
- * becomes of it with -DREFACTORED, -DEPSILON=..., -DWIDE and -DCRASH; with -DBACKWARDS its epsilon is none. */
+ * becomes of it with -DREFACTORED, -DEPSILON=..., -DWIDE and -DCRASH; with -DBACKWARDS its epsilon is none; with
+ * -DASSERTING it ends at a large one. */
 #include "hairline.h"
 #include <math.h>
 #include <stdlib.h>
@@ -63,6 +64,9 @@ void hairline_test_f32(const hairline_case_f32 *cases, size_t count, const float
         verdict->hit = 0;
 #ifdef CRASH
         if (c->a[0] > 0.995f && c->a[0] < 1) abort();
+#endif
+#ifdef ASSERTING
+        if (epsilons[0] > 1e30f) abort();
 #endif
 #ifdef BACKWARDS
         if (fabs(det) > epsilons[0]) continue;

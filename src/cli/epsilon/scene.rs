@@ -1,6 +1,6 @@
 //! `hairline epsilon` for a scene: which epsilons, all together, for a scene.
 
-use super::{EpsilonArguments, fault, tells_margins};
+use super::{EpsilonArguments, fault, found_margins, tells_margins};
 use crate::audit::Row;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
@@ -158,6 +158,7 @@ impl Run<'_> {
         }
         let Run { costs, max_error, seed, count, progress, .. } = *self;
         let study = study_scene(&setting, costs, max_error, &named, seed, count, progress);
+        found_margins(name, setting.subject)?;
         let study = study.map_err(|error| fault(row.entry, error))?;
         Ok(kernel_part(&setting, &study, max_error))
     }

@@ -8,7 +8,7 @@ use super::joint::{Costs, Grid, Joint};
 use super::knob::Knob;
 use super::limits::{Limit, limits};
 use super::proved::{Proved, proved};
-use super::trials::{Count, Kind, Margins, Setting, Trial, accepts};
+use super::trials::{Count, Kind, Margins, Setting, Trial, accepts, is_unknown};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
 use crate::case::Case;
@@ -355,13 +355,19 @@ fn differs<F: Scalar>(
             verdicts_of(subject, cases, epsilons, &mut verdicts);
             let is_hit =
                 |verdict: &Verdict<F>| verdict.hit && (!has_least_t || *least_t <= verdict.t);
-            let pairs = cases.iter().zip(margins).zip(&verdicts);
+            let known = cases.iter().zip(margins).zip(&verdicts);
+            let pairs = known.filter(|((_, margins), _)| !is_unknown(margins));
             let mut faults =
                 pairs.filter(|((_, margins), verdict)| is_hit(verdict) != accepts(margins, at));
             let ((case, _), verdict) = faults.next()?;
-            let answer = if verdict.hit { "a hit" } else { "a miss" };
+            let gates = setting.row.entry.info.gates;
+            let at = setting.knobs.iter().zip(at);
+            let at = at.map(|(knob, value)| format!("{}={value:e}", knob.name(gates)));
+            let (together, alone) =
+                if verdict.hit { ("hits", "misses") } else { ("misses", "hits") };
             Some(format!(
-                "together at {at:?} it is {answer}, one by one it is not, on {}",
+                "at {} it {together}, but with each of these alone it {alone}, on {}",
+                at.collect::<Vec<_>>().join(","),
                 case.hex()
             ))
         })

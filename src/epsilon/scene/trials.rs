@@ -127,6 +127,11 @@ impl<F: Float> Trial<'_, F> {
     }
 }
 
+/// Whether the kernel failed where margins were looked for.
+pub fn is_unknown<F: Float>(margins: &Margins<F>) -> bool {
+    margins[0].is_nan()
+}
+
 /// Whether margins accept epsilons.
 pub fn accepts<F: Float>(margins: &Margins<F>, epsilons: &[F]) -> bool {
     epsilons.iter().zip(margins).all(|(epsilon, margin)| epsilon <= margin)
@@ -203,6 +208,9 @@ impl<F: Scalar> Setting<'_, F> {
         let of =
             |kind: Kind| self.counts.iter().position(|count| *count == Count { stratum, kind });
         let mut add_range = |count, range: Range<usize>| {
+            if margins[range.clone()].iter().any(is_unknown) {
+                return;
+            }
             let (cases, values) = (&chunk.cases[range.clone()], &values[range.clone()]);
             add(Trial { count, margins: &margins[range], cases, values });
         };
@@ -233,7 +241,8 @@ impl<F: Scalar> Setting<'_, F> {
         }
     }
 
-    /// Each case's margins of the knobs, -inf where another gate refuses; and what a hit would report.
+    /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
+    /// hit would report.
     fn margins(&self, cases: &[Case<F>]) -> (Vec<Margins<F>>, Vec<Option<Hit<F>>>) {
         let info = self.row.entry.info;
         let gates = info.gates;
@@ -249,6 +258,9 @@ impl<F: Scalar> Setting<'_, F> {
         let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
         let of_case = |i: usize| {
             let row = &all[i * gates.len()..(i + 1) * gates.len()];
+            if row.iter().any(|margin| margin.is_nan()) {
+                return [F::from_f64(f64::NAN); MOST_KNOBS];
+            }
             let refused = (0..gates.len()).any(|g| is_fixed(g) && row[g] < epsilons[g]);
             let mut margins = [F::infinity(); MOST_KNOBS];
             if refused {

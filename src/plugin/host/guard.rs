@@ -21,8 +21,7 @@ pub(super) struct Buffer {
     map: *mut c_void,
     map_length: usize,
     page: usize,
-    /// In bytes.
-    pub length: usize,
+    length: usize,
 }
 
 impl Buffer {

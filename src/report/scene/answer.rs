@@ -107,7 +107,7 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let mut notes: Vec<String> = meanings.collect();
     if record.count < FEW {
         notes.push(format!(
-            "from {} rays of each kind only: another seed may name numbers ten times as large",
+            "from {} rays of each kind only: another seed may name others, up to tenfold",
             group_digits(record.count)
         ));
     }
