@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod integers;
+mod thresholds;
 
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw, Parameters};
@@ -162,11 +163,27 @@ pub fn whole_range<F: Float>(
     })
 }
 
+/// Cases at the thresholds of the oracle's layers, each also on an interval that ends at its crossing.
+pub fn thresholds(reference: Reference, seed: u64, indices: u64, observer: &dyn Observer) -> Check {
+    over(indices, observer, |index, check| {
+        compare_and_cut(reference, index, &thresholds::case(seed, index), check);
+    })
+}
+
 /// A case, and every fourth on an interval that ends at its crossing or contact.
 fn compare_cuts<F: Float>(reference: Reference, index: u64, case: &Case<F>, check: &mut Check) {
+    if index.is_multiple_of(4) {
+        compare_and_cut(reference, index, case, check);
+    } else {
+        check.compare(index, case, reference.truth(case).0);
+    }
+}
+
+/// A case, and the same on an interval that ends at its crossing or contact.
+fn compare_and_cut<F: Float>(reference: Reference, index: u64, case: &Case<F>, check: &mut Check) {
     let (expected, t) = reference.truth(case);
     check.compare(index, case, expected);
-    if let Some(t) = t.filter(|_| index.is_multiple_of(4)) {
+    if let Some(t) = t {
         let cut = cut_at(&mut Draw::new("interval", 0, index), case, F::from_f64(t));
         check.compare(index, &cut, reference.truth(&cut).0);
     }
@@ -200,6 +217,17 @@ pub fn lattice(observer: &dyn Observer) -> Check {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Unobserved;
+
+    #[test]
+    fn the_oracle_is_right_at_the_thresholds_of_its_layers() {
+        let (start, runs) = (std::time::Instant::now(), [(Reference::Definition, 400), (Reference::Integers, 40_000)]);
+        for (reference, indices) in runs {
+            let check = thresholds(reference, 1, indices, &Unobserved);
+            eprintln!("{reference:?} {:?} {} {:?}", start.elapsed(), check.cases, check.layers.named());
+            assert_eq!((check.differences, check.first), (0, None));
+        }
+    }
 
     #[test]
     fn a_wrong_truth_is_counted_and_the_first_is_kept() {
