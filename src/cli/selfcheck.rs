@@ -5,9 +5,12 @@ use super::output::write_result;
 use super::progress::Progress;
 use crate::family::{FAMILIES, LATTICE_SIZE};
 use crate::oracle::Layers;
-use crate::selfcheck::{Check, Reference, family, lattice, whole_range};
+use crate::selfcheck::{Check, Reference, family, lattice, thresholds, whole_range};
 use clap::Args;
 use std::io::{self, Write};
+
+/// How many times the indices of another set the cases at the layers' thresholds get.
+const THRESHOLDS: u64 = 10;
 
 /// How much to check.
 #[derive(Args)]
@@ -29,6 +32,11 @@ pub struct SelfcheckArguments {
     #[arg(long)]
     no_lattice: bool,
 
+    /// Check for seconds: 100 indices with the definition, 200,000 with integers, no lattice; enough to
+    /// notice a bound or a sign in the oracle that is wrong by much
+    #[arg(long, conflicts_with_all = ["cases", "integers", "no_lattice"])]
+    quick: bool,
+
     /// Print no progress
     #[arg(long, short)]
     quiet: bool,
@@ -36,9 +44,11 @@ pub struct SelfcheckArguments {
 
 /// Runs the command: a line a check, then which layer decided how often.
 pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
-    let &SelfcheckArguments { cases, integers, seed, no_lattice, quiet } = arguments;
+    let &SelfcheckArguments { cases, integers, seed, no_lattice, quick, quiet } = arguments;
+    let (cases, integers) = if quick { (100, 200_000) } else { (cases, integers) };
+    let no_lattice = no_lattice || quick;
     let lattice_size = if no_lattice { 0 } else { LATTICE_SIZE };
-    let sets = 2 * (FAMILIES.len() as u64 + 1);
+    let sets = 2 * (FAMILIES.len() as u64 + 1) + THRESHOLDS;
     let runs = [
         (Reference::Definition, "num-rational", cases),
         (Reference::Integers, "integers", integers.div_ceil(sets)),
@@ -59,6 +69,7 @@ pub fn run(arguments: &SelfcheckArguments) -> Result<Status, Failure> {
         if n != 0 {
             add("any finite f32", whole_range::<f32>(reference, seed, n, &progress));
             add("any finite f64", whole_range::<f64>(reference, seed, n, &progress));
+            add("thresholds f64", thresholds(reference, seed, THRESHOLDS * n, &progress));
         }
     }
     progress.finish();

@@ -246,4 +246,47 @@ mod tests {
             (Ordering::Greater, Layer::Monomials)
         );
     }
+
+    #[test]
+    fn double_doubles_decide_above_their_bound_and_not_at_it() {
+        // Weight 0 is d·(c×b): here d·x of c = (0, p, r) and b = (0, s, q), that is d (pq - rs).
+        let decides = |d: f64, [p, q, r, s]: [f64; 4]| {
+            let case = Case::new([0.0; 3], [d, 0.0, 0.0], [[0.0; 3], [0.0, s, q], [0.0, p, r]]);
+            double_double(Determinant::Weight(0), &case)
+        };
+        let unit = [1.0, 1.0, 0.0, 0.0];
+        // The allowance for underflow, 2^-700.
+        let least = scale_by_power_of_two(1.0, -700);
+        assert_eq!(decides(least, unit), None);
+        assert_eq!(decides(least.next_up(), unit), Some(Ordering::Greater));
+        // The largest coordinate, 2^300.
+        let most = scale_by_power_of_two(1.0, 300);
+        assert_eq!(decides(most, unit), Some(Ordering::Greater));
+        assert_eq!(decides(most.next_up(), unit), None);
+        // (1 + k·2^-52)(1 - k·2^-52) - 1 = -k²·2^-104 against 2^-100 of a permanent of 2.
+        let near_zero =
+            |k: f64| decides(1.0, [1.0 + k * f64::EPSILON, 1.0 - k * f64::EPSILON, 1.0, 1.0]);
+        assert_eq!(near_zero(5.0), None);
+        assert_eq!(near_zero(6.0), Some(Ordering::Less));
+    }
+
+    #[test]
+    fn robust_takes_zeros_and_needs_exact_differences_of_all_but_t() {
+        let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let case = Case::<f64>::new([0.0; 3], [1.0, 2.0, 4.0], unit);
+        let exact = Scaled::new(&case);
+        for determinant in ALL {
+            assert_eq!(
+                by_robust(determinant, &case),
+                Some(exact.sign(determinant)),
+                "{determinant:?}"
+            );
+        }
+        // 1 - 2^-60 is no float.
+        let far = Case::<f64>::new([scale_by_power_of_two(1.0, -60); 3], [1.0, 2.0, 4.0], unit);
+        for determinant in ALL {
+            let is_exact = matches!(determinant, Determinant::T | Determinant::D);
+            assert_eq!(by_robust(determinant, &far).is_some(), is_exact, "{determinant:?}");
+        }
+    }
 }

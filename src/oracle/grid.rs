@@ -229,7 +229,9 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_on_no_grid() {
-        assert!(on_grid([0.0, -0.0]).is_none(), "zeros have no exponent");
+        for zeros in [[0.0, -0.0], [0.0; 2], [-0.0; 2]] {
+            assert!(on_grid(zeros).is_none(), "zeros have no exponent");
+        }
         for wrong in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for i in 0..12 {
                 for others in [1.0, 0.0] {

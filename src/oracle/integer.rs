@@ -138,3 +138,33 @@ pub(crate) fn cross<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
         I::minor(&a[j], &b[k], &a[k], &b[j])
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fraction_is_compared_with_the_ends_of_an_interval() {
+        let case = Case::<f64>::new([0.0; 3], [1.0; 3], [[0.0; 3]; 3]);
+        // 3·2^exponent / -6 on [-4, -2].
+        let order = |exponent: i64| {
+            let interval = Interval::new(&case.on(-4.0, -2.0), exponent);
+            (interval.compare_start(&3i128, &-6), interval.compare_end(&3i128, &-6))
+        };
+        assert_eq!(order(1), (Ordering::Greater, Ordering::Greater));
+        assert_eq!(order(2), (Ordering::Greater, Ordering::Equal));
+        assert_eq!(order(3), (Ordering::Equal, Ordering::Less));
+        assert_eq!(order(4), (Ordering::Less, Ordering::Less));
+        let all = Interval::new(&case.on(f64::NEG_INFINITY, f64::INFINITY), 0);
+        assert_eq!(all.compare_start(&1i128, &-1), Ordering::Greater);
+        assert_eq!(all.compare_end(&1i128, &-1), Ordering::Less);
+        let kinds = |low: f64, high: f64| {
+            let interval = Interval::new(&case.on(low, high), 0);
+            (interval.is_default(), interval.is_point())
+        };
+        assert_eq!(kinds(0.0, f64::INFINITY), (true, false));
+        assert_eq!(kinds(0.0, 1.0), (false, false));
+        assert_eq!(kinds(1.0, f64::INFINITY), (false, false));
+        assert_eq!(kinds(1.0, 1.0), (false, true));
+    }
+}

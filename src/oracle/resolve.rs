@@ -84,3 +84,62 @@ fn exponent_of(x: f64) -> i32 {
     let field = (x.abs().to_bits() >> 52) as i32;
     if field == 0 { -1011 - x.abs().to_bits().leading_zeros() as i32 } else { field - 1023 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::decompose;
+    use crate::case::Draw;
+
+    /// The exponent of the largest number; none of zeros.
+    fn largest_exponent(numbers: &[f64]) -> Option<i64> {
+        let exponent = |x: &f64| {
+            let (digits, exponent) = decompose(*x);
+            (digits != 0).then(|| exponent + i64::from(63 - digits.unsigned_abs().leading_zeros()))
+        };
+        numbers.iter().filter_map(exponent).max()
+    }
+
+    #[test]
+    fn axes_are_scaled_to_where_their_largest_position_and_the_direction_are_near_one() {
+        for index in 0..500 {
+            let mut draw = Draw::new("axes", 1, index);
+            // Down to subnormal numbers; zeros, and powers of two, one among them.
+            let sizes = [0; 4].map(|_| draw.pick(&[0, draw.clone().integer(-1074, 900) as i32]));
+            let number = |draw: &mut Draw, size: i32| match draw.below(4) {
+                0 => 0.0,
+                1 => scale_by_power_of_two(1.0, size),
+                _ => draw.with_exponent::<f64>(size + draw.clone().integer(0, 40) as i32),
+            };
+            let mut vector = |i: usize| match i {
+                1 => [0; 3].map(|_| number(&mut draw, sizes[3])),
+                _ => [0, 1, 2].map(|axis| number(&mut draw, sizes[axis])),
+            };
+            let [o, d, a, b, c] = std::array::from_fn(&mut vector);
+            let case = Case::new(o, d, [a, b, c]);
+            let near_one = scaled_axes(&case);
+            let mut of_axis = [0; 3];
+            for axis in 0..3 {
+                let column = |case: &Case<f64>| case.vectors().map(|v| v[axis]);
+                let positions = |[o, _, a, b, c]: [f64; 5]| [o, a, b, c];
+                let (was, is) = (positions(column(&case)), positions(column(&near_one)));
+                let Some(exponent) = largest_exponent(&was) else {
+                    assert_eq!(is, was);
+                    continue;
+                };
+                of_axis[axis] = exponent;
+                assert_eq!(largest_exponent(&is), Some(0), "axis {axis} of {}", case.hex());
+                let expected = was.map(|x| scale_by_power_of_two(x, -exponent as i32));
+                assert_eq!(is, expected, "axis {axis} of {}", case.hex());
+            }
+            // The direction's exponents move with the axes, and then together.
+            let moved = |i: usize| largest_exponent(&[d[i]]).map(|e| e - of_axis[i]);
+            if let Some(longest) = (0..3).filter_map(moved).max() {
+                let [_, direction, ..] = near_one.vectors();
+                let power = |i: usize| (-of_axis[i] - longest) as i32;
+                let expected = [0, 1, 2].map(|i| scale_by_power_of_two(d[i], power(i)));
+                assert_eq!(direction, expected, "{}", case.hex());
+            }
+        }
+    }
+}

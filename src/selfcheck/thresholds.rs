@@ -28,7 +28,12 @@ fn number(draw: &mut Draw, exponent: i64) -> f64 {
 
 /// A case of whose determinants one has these rows (a point stands for its difference from a base), the
 /// rest being random: one of the weights, T or D.
-fn with_rows(draw: &mut Draw, [x, y, z]: [Vector; 3], base: Vector, other: [Vector; 2]) -> Case<f64> {
+fn with_rows(
+    draw: &mut Draw,
+    [x, y, z]: [Vector; 3],
+    base: Vector,
+    other: [Vector; 2],
+) -> Case<f64> {
     let at = |v: Vector| -> Vector { [0, 1, 2].map(|i| base[i] + v[i]) };
     match draw.below(5) {
         0 => Case::new(base, x, [other[0], at(y), at(z)]),
@@ -126,7 +131,7 @@ fn underflowing(draw: &mut Draw) -> Case<f64> {
 fn last_bits(draw: &mut Draw) -> Case<f64> {
     let largest = draw.pick(&[1i64 << 29, 1 << 30, 1 << 31]);
     let [position, direction] = [0; 2].map(|_| match draw.below(4) {
-        0 => draw.integer(-1074, -1000),
+        0 => draw.integer(-1074, -960),
         1 => draw.integer(955, 992),
         2 => draw.integer(-30, 30),
         _ => 0,

@@ -1,7 +1,7 @@
 //! The bounds of the filter, against their proof in integers, and what lies exactly on a bound.
 
 use super::*;
-use crate::arith::{decompose, scale_by_power_of_two};
+use crate::arith::decompose;
 use crate::case::Draw;
 use crate::oracle::determinants::{ALL, rows};
 use crate::oracle::{Layer, Layers, define, truth_counted};
