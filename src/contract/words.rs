@@ -176,6 +176,11 @@ mod tests {
             "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
              exactly-one across triangles, unit directions within 4 ulps, no self-hit"
         );
+        let banded = |band: &str| Contract { band: band.parse().ok(), ..Contract::CLOSED_RAY };
+        let ends =
+            |band| banded(band).describe().split_once(", free within ").map(|x| x.1.to_owned());
+        assert_eq!(ends("4ulps").as_deref(), Some("4ulps of the boundary"));
+        assert_eq!(ends("0.25").as_deref(), Some("2.5e-1 longest edges of the boundary"));
         for named in NAMED {
             let own = Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open);
             let banded = Contract { band: "4ulps".parse().ok(), ..named.contract };

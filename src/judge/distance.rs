@@ -5,6 +5,8 @@
 //! bounds, integers. What the truth knows to be zero is zero.
 
 mod integers;
+#[cfg(test)]
+mod tests;
 
 use crate::arith::{
     Bounded, Exact, Float, Real, Triple, Vector, bounded, scale_by_power_of_two as scaled,
@@ -26,6 +28,16 @@ pub struct Distances {
     pub along: [f64; 3],
     /// The longest edge in ulps of the largest coordinate of the case's points.
     pub edge_in_ulps: f64,
+}
+
+/// What found distances.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Step {
+    Floats,
+    /// Of the case moved near 1.
+    FloatsNearOne,
+    DoubleDoubles,
+    Integers,
 }
 
 /// Squares of lengths of a case.
@@ -100,6 +112,11 @@ pub fn ulp_of_points<F: Float>(case: &Case<F>) -> F {
 impl Distances {
     /// Of a valid case with its truth.
     pub fn of<F: Float>(case: &Case<F>, truth: &Truth) -> Distances {
+        Distances::and_step(case, truth).0
+    }
+
+    /// And the step that was certain.
+    fn and_step<F: Float>(case: &Case<F>, truth: &Truth) -> (Distances, Step) {
         let zeros = Zeros::of(truth);
         let ulp = ulp_of_points(case).to_f64();
         let wide = case.widen();
@@ -107,13 +124,18 @@ impl Distances {
         if F::MAX_EXPONENT < 128
             && let Some(found) = quick(&wide, 0, ulp, &zeros).and_then(Quick::certain)
         {
-            return found;
+            return (found, Step::Floats);
         }
         let near = NearOne::of(&wide);
         let found = quick(&near.case, near.size, scaled(ulp, -near.size), &zeros);
-        let certain = found.and_then(Quick::certain);
+        if let Some(found) = found.and_then(Quick::certain) {
+            return (found, Step::FloatsNearOne);
+        }
         let by_bounds = || by_bounds(&near, &found?, &zeros).filter(|_| near.is_exact(&wide));
-        certain.or_else(by_bounds).unwrap_or_else(|| integers::distances(&wide, ulp, &zeros))
+        match by_bounds() {
+            Some(found) => (found, Step::DoubleDoubles),
+            None => (integers::distances(&wide, ulp, &zeros), Step::Integers),
+        }
     }
 
     /// How far from where the obligation would be another, lengths being infinite from an infinite end.
@@ -357,14 +379,17 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     let mut along_in_doubt = false;
     if let Some(at) = zeros.along {
         let n = (b - a).cross(c - a);
-        let t = n.dot(a - o) / n.dot(d);
-        // Off by the permanents' rounding over n·d.
-        let terms = longest * longest * ((a - o).length() + t.abs() * length);
-        let error = scaled(terms, -48) / n.dot(d).abs();
+        let (plane, speed) = (n.dot(a - o), n.dot(d));
+        let t = plane / speed;
+        // n is off by 8u times the square of the longest edge, products with it and their sums by 4u more:
+        // in all by less than 2^-48. The error of t is known only if that of n·d is small.
+        let of_normal = scaled(longest * longest, -48);
+        let is_sharp = 1024.0 * of_normal * length < speed.abs();
+        let error = of_normal * ((a - o).length() + t.abs() * length) / speed.abs();
         let ends = [0.0, case.ray.t_min, case.ray.t_max];
         for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
             let gap = (t - end).abs();
-            let certain = gap > 1024.0 * error + scaled(end.abs() + t.abs(), -40);
+            let certain = is_sharp && gap > 1024.0 * error;
             along_in_doubt |= !is_at && end.is_finite() && !certain;
             *along = if is_at { 0.0 } else { gap * length / unit };
         }

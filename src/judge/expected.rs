@@ -147,7 +147,6 @@ fn collect<F: Float, const T: bool, const UV: bool, const FACING: bool>(
     verdicts: &[Verdict<F>],
     found: &mut Vec<usize>,
 ) {
-    found.clear();
     found.resize(expected.len().min(verdicts.len()), 0);
     let mut count = 0;
     for (i, (expected, verdict)) in expected.iter().zip(verdicts).enumerate() {

@@ -135,7 +135,7 @@ fn is_off_the_rim<'a>(
     let hits = met.clone().count();
     met.clone().any(|crossing| crossing.feature == Feature::Interior)
         || (hits >= 2 && met.all(|crossing| crossing.feature.is_edge()))
-        || (grouping == Grouping::Fan && hits > 0 && hits == triangles)
+        || (grouping == Grouping::Fan && hits == triangles)
 }
 
 /// What a contract demands on a planar convex polygon as a whole, given as its fan: nothing if it

@@ -35,7 +35,10 @@ fn contracts_differ_on_edges_sides_and_extents() {
     assert_eq!(ask(&start_outside, free_ends), MustMiss);
     let at_both = down_at(1.0, 0.0, 0.0);
     assert_eq!(ask(&at_both, Contract { boundary: Boundary::Open, ..free_ends }), MustMiss);
-    assert_eq!(obligation(&start, &Contract { no_self_hit: true, ..closed }, true), MustMiss);
+    let no_self_hit = Contract { no_self_hit: true, ..closed };
+    assert_eq!(obligation(&start, &no_self_hit, true), MustMiss);
+    assert_eq!(obligation(&start, &no_self_hit, false), MustHit);
+    assert_eq!(obligation(&start, &closed, true), MustHit);
     assert_eq!(ask(&down_at(3.0, 3.0, 1.0), closed), MustMiss);
     let back = Case::<f64>::new(
         [1.0, 1.0, -1.0],
@@ -55,6 +58,112 @@ fn unit_directions_are_measured_exactly() {
     assert!(!promises_direction(unit, [1.0f32 + 2.0 * f32::EPSILON, 0.0, 0.0]));
     assert!(!promises_direction(unit, [f32::NAN, 0.0, 0.0]));
     assert!(promises_direction(Direction::Any, [7.0f64, 0.0, 0.0]));
+    for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+        let length = |d: [f64; 3]| promises_direction(unit, axes.map(|i| d[i]));
+        // Quadruples of integers: 2² + 3² + 6² = 7², 1² + 4² + 8² = 9².
+        assert!(length([2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0]));
+        assert!(length([1.0 / 9.0, 4.0 / 9.0, -8.0 / 9.0]));
+        assert!(!length([1.0, 1.0, 1.0]));
+        assert!(!length([1.0, 0.0, 1.0]));
+    }
+}
+
+#[test]
+fn nothing_is_asked_for_a_direction_without_a_promise_or_within_the_band() {
+    let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let ask = |length: f64, contract: Contract| {
+        let case = Case::<f64>::new([1.0, 1.0, 2.0], [0.0, 0.0, -length], triangle);
+        asked(&case, &truth(&case), &contract, false)
+    };
+    let unit = Contract { direction: Direction::Unit { ulps: 1 }, ..Contract::CLOSED_RAY };
+    assert_eq!(ask(1.0, unit), Obligation::MustHit);
+    assert_eq!(ask(2.0, unit), Obligation::Free);
+    assert_eq!(ask(2.0, Contract::CLOSED_RAY), Obligation::MustHit);
+    // 1 from the edges, of which the longest is √32.
+    let band = |size: &str| Contract { band: size.parse().ok(), ..Contract::CLOSED_RAY };
+    assert_eq!(ask(1.0, band("0.1767")), Obligation::MustHit);
+    assert_eq!(ask(1.0, band("0.1769")), Obligation::Free);
+}
+
+/// All truths that there are, and some that cannot be.
+fn all_truths() -> Vec<Truth> {
+    let mut all = vec![Truth::Parallel, Truth::Invalid];
+    for feature in Feature::ALL {
+        for facing in [Facing::Front, Facing::Back] {
+            for place in Place::ALL {
+                for t_sign in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
+                    all.push(Truth::Transversal(Crossing { facing, place, t_sign, feature }));
+                }
+            }
+        }
+    }
+    for kind in [ContactKind::None, ContactKind::Segment, ContactKind::Point(Feature::EdgeBc)] {
+        for (meets_ray, meets_line) in [(false, false), (false, true), (true, true)] {
+            let contact = Contact { kind, meets_ray, meets_line };
+            all.extend([Truth::Coplanar(contact), Truth::Degenerate(contact)]);
+        }
+    }
+    all
+}
+
+#[test]
+fn truths_of_one_kind_owe_the_same_under_every_contract() {
+    let boundaries = [Boundary::Closed, Boundary::Open, Boundary::Free];
+    let demands = [Demand::Miss, Demand::Hit, Demand::Free];
+    let mut contracts = Vec::new();
+    for extent in [Extent::Line, Extent::Ray, Extent::Interval] {
+        for sides in [Sides::Both, Sides::Front] {
+            for (boundary, demand) in boundaries.into_iter().zip(demands) {
+                for (ends, other) in boundaries.into_iter().zip(demands) {
+                    contracts.push(Contract {
+                        ends,
+                        invalid: other,
+                        ..Contract::of_kernel(extent, sides, boundary).with_flat(demand, other)
+                    });
+                }
+            }
+        }
+    }
+    let truths = all_truths();
+    for contract in contracts {
+        let mut of_kind = [None; Kind::COUNT];
+        for truth in &truths {
+            let kind = Kind::of(truth);
+            assert_eq!(kind.class(), Class::of(truth), "{truth:?}");
+            assert_eq!(
+                kind.facing(),
+                truth.crossing().map(|crossing| crossing.facing),
+                "{truth:?}"
+            );
+            let owed = obligation(truth, &contract, false);
+            let known = of_kind[kind.number()].get_or_insert((truth, owed));
+            assert_eq!(known.1, owed, "{truth:?} and {:?}, {contract:?}", known.0);
+        }
+    }
+}
+
+#[test]
+fn a_contact_is_met_on_the_part_of_the_line_that_counts() {
+    let contact = |hits: bool, meets_ray, meets_line| {
+        let kind = if hits { ContactKind::Segment } else { ContactKind::None };
+        Contact { kind, meets_ray, meets_line }
+    };
+    // On [2, 3]: met there, met before, met behind the ray, not met.
+    let contacts = [
+        contact(true, true, true),
+        contact(false, true, true),
+        contact(false, false, true),
+        contact(false, false, false),
+    ];
+    for (extent, met) in [(Extent::Interval, 1), (Extent::Ray, 2), (Extent::Line, 3)] {
+        let hit = Contract { extent, ..Contract::CLOSED_RAY.with_flat(Demand::Hit, Demand::Hit) };
+        for (i, contact) in contacts.into_iter().enumerate() {
+            let owed = if i < met { Obligation::MustHit } else { Obligation::MustMiss };
+            for truth in [Truth::Coplanar(contact), Truth::Degenerate(contact)] {
+                assert_eq!(obligation(&truth, &hit, false), owed, "{extent:?} {contact:?}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -64,6 +173,16 @@ fn class_names_are_unique_and_numbered() {
     assert_eq!(Class::of(&down_at(1.0, 0.0, 1.0)).name(), "edge/front/within");
     assert_eq!(Class::of(&down_at(1.0, 1.0, -1.0)).name(), "interior/front/before");
     assert_eq!(Class::of(&Truth::Invalid).name(), "invalid");
+    for truth in all_truths() {
+        let class = Class::of(&truth);
+        assert_eq!(class.is_invalid(), truth == Truth::Invalid, "{truth:?}");
+        let crossing = truth.crossing();
+        assert_eq!(class.is_flat(), crossing.is_none() && !class.is_invalid(), "{truth:?}");
+        let is_back = crossing.is_some_and(|crossing| crossing.facing == Facing::Back);
+        assert_eq!(class.is_back(), is_back, "{truth:?}");
+        let is_off = crossing.is_some_and(|crossing| !is_in_extent(crossing, Extent::Interval));
+        assert_eq!(class.is_off_the_interval(), is_off, "{truth:?}");
+    }
 }
 
 #[test]
@@ -132,6 +251,49 @@ fn a_fold_asks_for_the_parity_of_the_exact_line() {
     assert_eq!(asked(0.5, 3.0), GroupTruth::Fold { odd: true }, "inside the first alone");
     assert_eq!(asked(1.0, 1.5), GroupTruth::Free, "on a rim of the second");
     assert_eq!(asked(-1.0, 1.0), GroupTruth::Free, "outside");
+    let front = Contract { sides: Sides::Front, ..Contract::CLOSED_RAY };
+    let culled = group_truth(&pair(1.0, 0.5), &front, Grouping::SharedEdge);
+    assert_eq!(culled, GroupTruth::Free, "the second does not count");
+}
+
+#[test]
+fn of_a_group_seen_from_behind_a_contract_for_fronts_demands_nothing() {
+    let from = |z: f64| -> Vec<Truth> {
+        let [a, b, c, d] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, -4.0, 0.0]];
+        let case = |t| truth(&Case::<f64>::new([1.0, 1.0, z], [0.0, 0.0, -z], t));
+        vec![case([a, b, c]), case([b, a, d])]
+    };
+    let front = Contract { sides: Sides::Front, ..Contract::CLOSED_RAY };
+    let asked = |z, contract| group_truth(&from(z), contract, Grouping::SharedEdge);
+    assert_eq!(asked(1.0, &front), GroupTruth::Crossing);
+    assert_eq!(asked(-1.0, &front), GroupTruth::Free);
+    assert_eq!(asked(-1.0, &Contract::CLOSED_RAY), GroupTruth::Crossing);
+}
+
+#[test]
+fn groups_are_owed_alike_by_contracts_that_differ_in_what_no_group_depends_on() {
+    let closed = Contract::CLOSED_RAY;
+    let is_alike = |other: Contract| {
+        assert_eq!(owes_groups_alike(&closed, &other), owes_groups_alike(&other, &closed));
+        owes_groups_alike(&closed, &other)
+    };
+    assert!(is_alike(Contract { boundary: Boundary::Open, ends: Boundary::Free, ..closed }));
+    assert!(is_alike(closed.with_flat(Demand::Hit, Demand::Free)));
+    assert!(!is_alike(Contract { extent: Extent::Line, ..closed }));
+    assert!(!is_alike(Contract { sides: Sides::Front, ..closed }));
+    assert!(!is_alike(Contract { direction: Direction::Unit { ulps: 1 }, ..closed }));
+    assert!(!is_alike(Contract { band: "4ulps".parse().ok(), ..closed }));
+}
+
+#[test]
+fn cases_that_are_all_free_are_all_listed() {
+    let case = Case::<f64>::new([f64::NAN; 3], [1.0; 3], [[0.0; 3]; 3]);
+    let (cases, truths) = ([case; 5], [Truth::Invalid; 5]);
+    let free = Contract { invalid: Demand::Free, ..Contract::CLOSED_RAY };
+    for (contract, listed) in [(free, vec![0, 1, 2, 3, 4]), (Contract::CLOSED_RAY, vec![])] {
+        let all = ask_all(&cases, &truths, &Kinds::new(&truths), &contract, false);
+        assert_eq!(all.free, listed);
+    }
 }
 
 #[test]

@@ -105,11 +105,18 @@ mod tests {
         for index in 0..500 {
             let mut draw = Draw::new("axes", 1, index);
             // Down to subnormal numbers; zeros, and powers of two, one among them.
-            let sizes = [0; 4].map(|_| draw.pick(&[0, draw.clone().integer(-1074, 900) as i32]));
+            let sizes = [0; 4].map(|_| {
+                let [any, subnormal] =
+                    [(-1074, 900), (-1074, -1060)].map(|(low, high)| draw.integer(low, high));
+                draw.pick(&[0, any, subnormal]) as i32
+            });
             let number = |draw: &mut Draw, size: i32| match draw.below(4) {
                 0 => 0.0,
                 1 => scale_by_power_of_two(1.0, size),
-                _ => draw.with_exponent::<f64>(size + draw.clone().integer(0, 40) as i32),
+                _ => {
+                    let exponent = size + draw.integer(0, 40) as i32;
+                    draw.with_exponent::<f64>(exponent)
+                }
             };
             let mut vector = |i: usize| match i {
                 1 => [0; 3].map(|_| number(&mut draw, sizes[3])),

@@ -91,7 +91,8 @@ fn scaled(draw: &mut Draw, case: &Case<f64>) -> Case<f64> {
         4 => [0; 3].map(|_| draw.integer(-330, 330) as i32),
         _ => [0; 3].map(|_| draw.integer(-1000, 900) as i32),
     };
-    let direction = draw.pick(&[0, 0, draw.clone().integer(-300, 300) as i32]);
+    let direction = draw.integer(-300, 300) as i32;
+    let direction = draw.pick(&[0, 0, direction]);
     let [o, d, vertices @ ..] = case.vectors();
     let position = |v: Vector| [0, 1, 2].map(|i| scale_by_power_of_two(v[i], by[i]));
     let d = position(d).map(|x| scale_by_power_of_two(x, direction));
