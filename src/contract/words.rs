@@ -176,6 +176,10 @@ mod tests {
             "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
              exactly-one across triangles, unit directions within 4 ulps, no self-hit"
         );
+        assert_eq!(
+            Contract::CLOSED_RAY.describe(),
+            "ray, both sides, closed, coplanar miss, degenerate miss, invalid miss"
+        );
         let banded = |band: &str| Contract { band: band.parse().ok(), ..Contract::CLOSED_RAY };
         let ends =
             |band| banded(band).describe().split_once(", free within ").map(|x| x.1.to_owned());

@@ -382,14 +382,14 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
         let (plane, speed) = (n.dot(a - o), n.dot(d));
         let t = plane / speed;
         // n is off by 8u times the square of the longest edge, products with it and their sums by 4u more:
-        // in all by less than 2^-48. The error of t is known only if that of n·d is small.
+        // in all by less than 2^-48. That holds for t where n·d is certain, and only then 0, which is an end
+        // always, is far enough from t.
         let of_normal = scaled(longest * longest, -48);
-        let is_sharp = 1024.0 * of_normal * length < speed.abs();
         let error = of_normal * ((a - o).length() + t.abs() * length) / speed.abs();
         let ends = [0.0, case.ray.t_min, case.ray.t_max];
         for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
             let gap = (t - end).abs();
-            let certain = is_sharp && gap > 1024.0 * error;
+            let certain = gap > 1024.0 * error;
             along_in_doubt |= !is_at && end.is_finite() && !certain;
             *along = if is_at { 0.0 } else { gap * length / unit };
         }

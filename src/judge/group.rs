@@ -175,3 +175,6 @@ pub fn polygon_truth(truths: &[Truth]) -> Truth {
         Some(first) => Truth::Transversal(*first),
     }
 }
+
+#[cfg(test)]
+mod tests;

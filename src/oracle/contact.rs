@@ -64,7 +64,8 @@ pub(super) fn decide<I: Integer>(
     }
     let start = |touch: &Touch<I>| interval.compare_start(&touch.numerator, &touch.denominator);
     let end = |touch: &Touch<I>| interval.compare_end(&touch.numerator, &touch.denominator);
-    let one_point = std::ptr::eq(first, last) || first.compare(last) == Ordering::Equal;
+    // Both moved only to what lies strictly beyond them.
+    let one_point = std::ptr::eq(first, last);
     // first ≤ last, and t_min ≤ t_max.
     let kind = match (end(first), start(last), one_point) {
         (Ordering::Greater, ..) | (_, Ordering::Less, _) => ContactKind::None,

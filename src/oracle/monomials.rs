@@ -134,13 +134,13 @@ mod tests {
 
     #[test]
     fn a_sum_at_the_bound_is_handed_on_and_no_products_at_all_are_zero() {
-        // Weight 0 is d·(c×b), here (1 + e)·1 - 1·1: e against 2^-48 of 2 + e.
+        // Weight 0 is d·(c×b), here (1 + e) - (1 - e): 2e against 2^-48 of 2.
         let sign_of = |e: f64| {
-            let vertices = [[0.0; 3], [0.0, 1.0, 1.0], [0.0, 1.0 + e, 1.0]];
+            let vertices = [[0.0; 3], [0.0, 1.0 - e, 1.0], [0.0, 1.0 + e, 1.0]];
             sign(Determinant::Weight(0), &Case::new([0.0; 3], [1.0, 0.0, 0.0], vertices))
         };
-        assert_eq!(sign_of(2f64.powi(-47)), None);
-        assert_eq!(sign_of(2f64.powi(-47) + f64::EPSILON), Some(Ordering::Greater));
+        assert_eq!(sign_of(2f64.powi(-48)), None);
+        assert_eq!(sign_of(2f64.powi(-48) + f64::EPSILON), Some(Ordering::Greater));
         // Every product has a factor of zero, however large the other two.
         let zero =
             Case::<f64>::new([0.0; 3], [1.0; 3], [[0.0; 3], [1e300; 3], [-1e300, 1e300, 1e300]]);

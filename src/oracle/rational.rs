@@ -103,17 +103,10 @@ fn line_in_plane(
     });
     let solve = |mut low: End, mut high: End| {
         for (constant, slope) in &edges {
-            let bound = End::At(
-                -constant
-                    / if slope.is_zero() {
-                        Rational::from_integer(1.into())
-                    } else {
-                        slope.clone()
-                    },
-            );
+            let bound = || End::At(-constant / slope);
             match slope.cmp(&Rational::zero()) {
-                Ordering::Greater if low < bound => low = bound,
-                Ordering::Less if bound < high => high = bound,
+                Ordering::Greater if low < bound() => low = bound(),
+                Ordering::Less if bound() < high => high = bound(),
                 Ordering::Equal if constant.is_negative() => return None,
                 _ => {}
             }
@@ -242,4 +235,74 @@ fn cross(a: &Point, b: &Point) -> Point {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         &a[j] * &b[k] - &a[k] * &b[j]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+    use crate::oracle::truth;
+
+    #[test]
+    fn an_interval_out_of_order_or_no_direction_is_invalid() {
+        let triangle = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let down = |z: f64| Case::<f64>::new([0.25, 0.25, 1.0], [0.0, 0.0, z], triangle);
+        let (nan, infinity) = (f64::NAN, f64::INFINITY);
+        for (t_min, t_max, valid) in [
+            (1.0, 1.0, true),
+            (-infinity, infinity, true),
+            (-infinity, -infinity, true),
+            (infinity, infinity, true),
+            (1.0, 0.5, false),
+            (infinity, -infinity, false),
+            (nan, 1.0, false),
+            (0.0, nan, false),
+        ] {
+            for case in [down(-1.0), down(-0.1)].map(|case| case.on(t_min, t_max)) {
+                assert_eq!(define(&case).truth != Truth::Invalid, valid, "{t_min} {t_max}");
+                assert_eq!(truth(&case), define(&case).truth, "{t_min} {t_max}");
+            }
+        }
+        for zero in [0.0, -0.0] {
+            let still = Case::new([0.1; 3], [zero; 3], triangle);
+            assert_eq!((define(&still).truth, truth(&still)), (Truth::Invalid, Truth::Invalid));
+        }
+    }
+
+    #[test]
+    fn values_are_those_of_the_crossing_and_contacts_those_of_the_oracle() {
+        let (mut crossings, mut contacts) = (0, 0);
+        for index in 0..6000 {
+            let mut draw = Draw::new("definition", 1, index);
+            let [o, d, a, b, mut c] =
+                std::array::from_fn(|_| draw.lattice_point(2).map(|x| x as f64));
+            if draw.coin() {
+                let k = draw.integer(-1, 2) as f64;
+                c = [0, 1, 2].map(|i| a[i] + k * (b[i] - a[i]));
+            }
+            let ends = [
+                (0.0, f64::INFINITY),
+                (f64::NEG_INFINITY, f64::INFINITY),
+                (-1.0, 0.5),
+                (0.5, 0.5),
+                (1.0, 1.0),
+            ];
+            let (t_min, t_max) = draw.pick(&ends);
+            let case = Case::<f64>::new(o, d, [a, b, c]).on(t_min, t_max);
+            let Definition { truth: defined, exact } = define(&case);
+            assert_eq!(truth(&case), defined, "{}", case.hex());
+            contacts += u32::from(matches!(defined, Truth::Coplanar(_) | Truth::Degenerate(_)));
+            // o + t d = a + u (b-a) + v (c-a).
+            if let (Some(t), Some(u), Some(v)) = (exact.t, exact.u, exact.v) {
+                let [o, d, a, b, c] =
+                    case.vectors().map(|x| x.map(|x| Rational::from_float(x).unwrap()));
+                assert_eq!(
+                    along(&o, &d, &t),
+                    along(&along(&a, &minus(&b, &a), &u), &minus(&c, &a), &v)
+                );
+                crossings += 1;
+            }
+        }
+        assert!(crossings > 1000 && contacts > 1000, "{crossings} {contacts}");
+    }
 }

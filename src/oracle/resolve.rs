@@ -73,9 +73,8 @@ fn scaled_axes(case: &Case<f64>) -> Case<f64> {
     let axis = [0, 1, 2].map(|i| [o[i], a[i], b[i], c[i]].into_iter().filter_map(exponent).max());
     let shift = axis.map(|largest| -largest.unwrap_or(0));
     let longest = (0..3).filter_map(|i| exponent(d[i]).map(|e| e + shift[i])).max().unwrap_or(0);
-    let by = |x: f64, power: i32| if x == 0.0 { x } else { scale_by_power_of_two(x, power) };
-    let position = |p: [f64; 3]| [0, 1, 2].map(|i| by(p[i], shift[i]));
-    let direction = [0, 1, 2].map(|i| by(d[i], shift[i] - longest));
+    let position = |p: [f64; 3]| [0, 1, 2].map(|i| scale_by_power_of_two(p[i], shift[i]));
+    let direction = [0, 1, 2].map(|i| scale_by_power_of_two(d[i], shift[i] - longest));
     Case::new(position(o), direction, [position(a), position(b), position(c)])
 }
 
