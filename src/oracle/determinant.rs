@@ -168,9 +168,10 @@ fn by_robust(determinant: Determinant, case: &Case<f64>) -> Option<Ordering> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arith::{Float, scale_by_power_of_two};
+    use crate::arith::{Float, decompose, scale_by_power_of_two};
     use crate::case::Draw;
     use crate::oracle::determinants::ALL;
+    use num_bigint::BigInt;
 
     /// Cases with exact zeros and near ones among their determinants.
     fn case(index: u64, scale: i32) -> Case<f64> {
@@ -287,6 +288,23 @@ mod tests {
         for determinant in ALL {
             let is_exact = matches!(determinant, Determinant::T | Determinant::D);
             assert_eq!(by_robust(determinant, &far).is_some(), is_exact, "{determinant:?}");
+        }
+    }
+
+    #[test]
+    fn a_product_and_a_sum_are_the_sums_of_their_parts() {
+        // As multiples of 2^-200.
+        let whole = |x: f64| {
+            let (digits, exponent) = decompose(x);
+            BigInt::from(digits) << (if digits == 0 { 0 } else { exponent + 200 })
+        };
+        for index in 0..1000 {
+            let mut draw = Draw::new("parts", 1, index);
+            let exponent = draw.integer(-20, 20) as i32;
+            let (a, b) = (draw.with_exponent::<f64>(exponent), draw.with_exponent::<f64>(0));
+            let parts = |double: Double| whole(double.high) + whole(double.low);
+            assert_eq!(parts(two_sum(a, b)), whole(a) + whole(b), "{a:e} {b:e}");
+            assert_eq!(parts(two_product(a, b)) << 200, whole(a) * whole(b), "{a:e} {b:e}");
         }
     }
 }

@@ -119,7 +119,8 @@ fn a_value_at_its_bound_is_handed_on_and_one_above_it_is_not() {
     let d = |e: f64| Case::new([0.0; 3], [0.5 + e, e - 1.0, 0.5], unit);
     // 8u·2 = 2e, or 16u·2 = 2e.
     let (weights, others) = (2f64.powi(-50), 2f64.powi(-49));
-    let cases: [(Determinant, f64, &dyn Fn(f64) -> Case<f64>); 5] = [
+    type Make<'a> = &'a dyn Fn(f64) -> Case<f64>;
+    let cases: [(Determinant, f64, Make); 5] = [
         (Determinant::Weight(0), weights, &|e| weight(0, e)),
         (Determinant::Weight(1), weights, &|e| weight(1, e)),
         (Determinant::Weight(2), weights, &|e| weight(2, e)),
