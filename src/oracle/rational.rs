@@ -161,8 +161,6 @@ fn line_and_segment(
             (inside && on_line(&point)).then(|| [parameter(&point), parameter(&point)])
         })
     };
-    // A segment that is a point: slope is zero everywhere, and p = q.
-    let whole = whole.or_else(|| (p == q && on_line(p)).then(|| [parameter(p), parameter(p)]));
 
     let cut = |low: &End, high: &End| {
         let [s, t] = whole.clone()?;

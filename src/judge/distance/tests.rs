@@ -187,3 +187,14 @@ fn a_line_that_does_not_cross_the_plane_has_no_distance_along_it() {
     assert_eq!(nearest_on_segment(0.0, 0.0), 0.0);
     assert_eq!([-1.0, 1.0, 3.0].map(|x| nearest_on_segment(x, 2.0)), [0.0, 0.5, 1.0]);
 }
+
+#[test]
+fn floats_are_certain_of_distances_above_a_share_of_the_largest_coordinate() {
+    // 3/4 and 5/4 of 2^-36 from an edge, 1 being the largest coordinate.
+    for (share, step) in [(3.0, Step::DoubleDoubles), (5.0, Step::FloatsNearOne)] {
+        let triangle = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let case = Case::<f64>::new([0.25, scaled(share, -38), 1.0], [0.0, 0.0, -1.0], triangle);
+        let (found, by) = Distances::and_step(&case, &truth(&case));
+        assert_eq!((found.in_space, by), (scaled(share, -38) / 2f64.sqrt(), step));
+    }
+}

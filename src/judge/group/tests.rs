@@ -55,6 +55,11 @@ fn of_a_group_seen_from_behind_a_contract_for_fronts_demands_nothing() {
     let flat = [from(1.0), vec![Truth::Parallel]].concat();
     let closed = Contract::CLOSED_RAY;
     assert_eq!(group_truth(&flat, &closed, Grouping::Polygon), GroupTruth::Free, "one is parallel");
+    let on_edge = [[0.0, 1.0, 0.0], [4.0, 1.0, 0.0], [0.0, 5.0, 0.0]];
+    let on_edge = truth(&Case::<f64>::new([1.0; 3], [0.0, 0.0, -1.0], on_edge));
+    let overlap = [from(1.0)[0], on_edge];
+    let owed = group_truth(&overlap, &closed, Grouping::SharedEdge);
+    assert_eq!(owed, GroupTruth::Free, "inside one, on an edge of the other");
 }
 
 #[test]
