@@ -5,7 +5,7 @@ use crate::arith::Float;
 use crate::truth::Facing;
 use std::fmt;
 
-/// A kernel's answer. Values that the kernel does not give are NaN ([`KernelInfo::gives`]).
+/// A kernel's answer. Values that the kernel does not give are NaN ([`KernelInfo::gives`](super::KernelInfo::gives)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict<F> {
     /// Hit or miss.
