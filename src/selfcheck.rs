@@ -251,6 +251,8 @@ mod tests {
         left.merge(right);
         let sum = left;
         assert_eq!((sum.cases, sum.differences), (3, 2));
+        let decided: u64 = sum.layers.named().iter().map(|(_, count)| count).sum();
+        assert_eq!(decided, 3, "counted by layers too");
         assert_eq!(sum.first.as_ref().map(|(index, _)| *index), Some(4));
         assert!(sum.first.unwrap().1.contains("should say 'parallel'"));
     }

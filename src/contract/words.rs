@@ -180,6 +180,9 @@ mod tests {
             Contract::CLOSED_RAY.describe(),
             "ray, both sides, closed, coplanar miss, degenerate miss, invalid miss"
         );
+        for band in ["0", "0ulps", "-1", "inf", "NaN"] {
+            assert!(band.parse::<crate::contract::Band>().is_err(), "{band}");
+        }
         let banded = |band: &str| Contract { band: band.parse().ok(), ..Contract::CLOSED_RAY };
         let ends =
             |band| banded(band).describe().split_once(", free within ").map(|x| x.1.to_owned());

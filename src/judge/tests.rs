@@ -44,7 +44,8 @@ fn contracts_differ_on_edges_sides_and_extents() {
         [0.0, 0.0, 1.0],
         [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
     );
-    assert_eq!(ask(&truth(&back), Contract { sides: Sides::Front, ..closed }), MustMiss);
+    let front = Contract { sides: Sides::Front, ..closed };
+    assert_eq!([truth(&back), edge].map(|truth| ask(&truth, front)), [MustMiss, MustHit]);
     assert_eq!(ask(&Truth::Invalid, closed), MustMiss);
     assert_eq!(ask(&Truth::Invalid, Contract { invalid: Demand::Free, ..closed }), Free);
 }
@@ -179,6 +180,7 @@ fn class_names_are_unique_and_numbered() {
     assert_eq!(Class::of(&down_at(1.0, 0.0, 1.0)).name(), "edge/front/within");
     assert_eq!(Class::of(&down_at(1.0, 1.0, -1.0)).name(), "interior/front/before");
     assert_eq!(Class::of(&Truth::Invalid).name(), "invalid");
+    assert!(Class::try_from(Class::COUNT as u8).is_err());
     for truth in all_truths() {
         let class = Class::of(&truth);
         assert_eq!(class.is_invalid(), truth == Truth::Invalid, "{truth:?}");
@@ -188,6 +190,12 @@ fn class_names_are_unique_and_numbered() {
         assert_eq!(class.is_back(), is_back, "{truth:?}");
         let is_off = crossing.is_some_and(|crossing| !is_in_extent(crossing, Extent::Interval));
         assert_eq!(class.is_off_the_interval(), is_off, "{truth:?}");
+        assert_eq!(Class::try_from(u8::from(class)), Ok(class));
+        if let Some(Crossing { feature, facing, place, .. }) = crossing {
+            let part = feature.name().split('_').next().unwrap();
+            let place = if is_off { place.name() } else { "within" };
+            assert_eq!(class.name(), format!("{part}/{}/{place}", facing.name()));
+        }
     }
 }
 

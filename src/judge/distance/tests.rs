@@ -189,12 +189,66 @@ fn a_line_that_does_not_cross_the_plane_has_no_distance_along_it() {
 }
 
 #[test]
-fn floats_are_certain_of_distances_above_a_share_of_the_largest_coordinate() {
-    // 3/4 and 5/4 of 2^-36 from an edge, 1 being the largest coordinate.
-    for (share, step) in [(3.0, Step::DoubleDoubles), (5.0, Step::FloatsNearOne)] {
-        let triangle = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let case = Case::<f64>::new([0.25, scaled(share, -38), 1.0], [0.0, 0.0, -1.0], triangle);
-        let (found, by) = Distances::and_step(&case, &truth(&case));
-        assert_eq!((found.in_space, by), (scaled(share, -38) / 2f64.sqrt(), step));
+fn a_line_through_the_middle_of_an_edge_is_at_zero_although_floats_round() {
+    for index in 0..40 {
+        let mut draw = Draw::new("middle", 1, index);
+        let [o, a, b, c] =
+            [(); 4].map(|()| draw.lattice_point(1 << 45).map(|x| x as f64 / (1i64 << 45) as f64));
+        // o + d/2 is the middle of ab.
+        let d = [0, 1, 2].map(|i| a[i] + b[i] - 2.0 * o[i]);
+        let case = Case::<f64>::new(o, d, [a, b, c]);
+        let (end, above) = (0.5, 0.5f64.next_up());
+        for (case, along, step) in [
+            (case.on(end, f64::INFINITY), 1, Step::FloatsNearOne),
+            (case.on(0.0, end), 2, Step::FloatsNearOne),
+            (case.on(end, above), 1, Step::DoubleDoubles),
+        ] {
+            let (found, by) = Distances::and_step(&case, &truth(&case));
+            assert_eq!(
+                (found.in_space, found.along[along], by),
+                (0.0, 0.0, step),
+                "{}",
+                case.hex()
+            );
+        }
     }
+}
+
+#[test]
+fn floats_are_certain_of_distances_above_a_share_of_the_largest_coordinate() {
+    // 3/4 and 5/4 of 2^-36 times the largest coordinate, 4, from edge ab.
+    for (share, step) in [(3.0, Step::DoubleDoubles), (5.0, Step::FloatsNearOne)] {
+        let beside = scaled(share, -36);
+        let of = |origin: f64, [a, b, c]: [f64; 3]| {
+            let triangle = [[-a, 0.0, 0.0], [b, 0.0, 0.0], [0.0, c, 0.0]];
+            Case::<f64>::new([0.25, beside, origin], [0.0, 0.0, -1.75], triangle)
+        };
+        for case in [
+            of(4.0, [1.0, 1.0, 1.0]),
+            of(1.0, [4.0, 1.0, 1.0]),
+            of(1.0, [1.0, 4.0, 1.0]),
+            of(1.0, [1.0, 1.0, 4.0]),
+        ] {
+            let (_, by) = Distances::and_step(&case, &truth(&case));
+            assert_eq!(by, step, "{}", case.hex());
+            compare(&case, &mut [0; 4]);
+        }
+    }
+}
+
+#[test]
+fn edges_whose_squares_could_underflow_are_left_to_integers_but_points_are_not() {
+    let step = |edges: [f64; 2]| {
+        let [x, y] = edges;
+        let triangle = [[0.0; 3], [x, 0.0, 0.0], [0.0, y, 0.0]];
+        let case = Case::<f64>::new([0.25, 0.5, 1.0], [0.0, 0.0, -1.0], triangle);
+        compare(&case, &mut [0; 4]);
+        Distances::and_step(&case, &truth(&case)).1
+    };
+    let edge = |exponent: i32| scaled(1.5, exponent);
+    // The longest edge is √2·1.5 times as long, against 2^-400.
+    assert_eq!(step([edge(-401); 2]), Step::FloatsNearOne);
+    assert_eq!(step([edge(-402); 2]), Step::Integers);
+    assert_eq!(step([0.0, edge(-450)]), Step::Integers);
+    assert_eq!(step([0.0; 2]), Step::FloatsNearOne);
 }

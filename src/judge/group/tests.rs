@@ -112,6 +112,22 @@ fn a_group_that_covers_itself_at_the_ray_is_free() {
     let ask = |truths: &[Truth]| group_truth(truths, &Contract::CLOSED_RAY, Grouping::Fan);
     assert_eq!(ask(&truths(&once)), GroupTruth::Crossing);
     assert_eq!(ask(&truths(&twice)), GroupTruth::Free);
+    // At the centre all triangles of either are met on a vertex.
+    let at_centre = |rings: &[[f64; 2]], grouping, contract: &Contract| {
+        let at = |[x, y]: [f64; 2]| [x, y, 0.0];
+        let triangle = |i: usize| [[0.0; 3], at(rings[i]), at(rings[(i + 1) % rings.len()])];
+        let case =
+            |i| Case::<f64>::new([0.0, 0.0, 1.0], [0.0, 0.0, -1.0], triangle(i)).on(0.0, 2.0);
+        let cases: Vec<_> = (0..rings.len()).map(case).collect();
+        let truths: Vec<_> = cases.iter().map(truth).collect();
+        group_obligation(&cases, &truths, contract, grouping)
+    };
+    let closed = Contract::CLOSED_RAY;
+    assert_eq!(at_centre(&once, Grouping::Fan, &closed), GroupTruth::Crossing);
+    assert_eq!(at_centre(&twice, Grouping::Fan, &closed), GroupTruth::Free);
+    assert_eq!(at_centre(&once, Grouping::Polygon, &closed), GroupTruth::Free, "no fan");
+    let interval = Contract { extent: Extent::Interval, ..closed };
+    assert_eq!(at_centre(&once, Grouping::Fan, &interval), GroupTruth::Crossing, "within it");
 }
 
 /// A square of side 4 as its fan, a ray onto it from above, and the truths.
