@@ -250,7 +250,7 @@ fn cases_that_are_all_free_are_all_listed() {
 }
 
 /// Cases that are not suspects met their obligation, whatever the verdict; without values, every suspect
-/// shows a finding.
+/// shows a finding, and so does every suspect on a crossing.
 fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
     let mut found = Vec::new();
@@ -269,6 +269,8 @@ fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
         });
         let findings: Vec<usize> = findings.map(|(i, _)| i).collect();
         assert!(findings.iter().all(|i| found.binary_search(i).is_ok()), "{gives:?} {verdict:?}");
+        let crosses = |i: &&usize| truths[**i].crossing().is_some();
+        assert!(found.iter().filter(crosses).all(|i| findings.binary_search(i).is_ok()));
         if !(gives.t || gives.uv || gives.facing) {
             assert_eq!(found, findings, "{verdict:?}");
         }

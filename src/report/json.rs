@@ -19,6 +19,6 @@ mod tests {
 
     #[test]
     fn the_committed_schema_is_that_of_the_types() {
-        crate::report::schema::assert_committed::<Record>("record");
+        crate::report::tests::schema::assert_committed::<Record>("record");
     }
 }

@@ -30,11 +30,13 @@ mod record;
 mod row_view;
 mod sarif;
 pub mod scene;
-#[cfg(test)]
-mod schema;
 mod screen;
 mod shard;
 mod text;
+#[cfg(test)]
+mod tests {
+    pub mod schema;
+}
 mod verdict;
 mod why;
 mod worst;

@@ -47,11 +47,8 @@ impl Wide {
         Wide::new(self.float * other.float, self.exponent + other.exponent)
     }
 
-    /// Infinite by zero.
+    /// By a number that is not zero.
     fn over(self, other: Wide) -> Wide {
-        if other == Wide::ZERO {
-            return Wide::INFINITE;
-        }
         Wide::new(self.float / other.float, self.exponent - other.exponent)
     }
 

@@ -214,24 +214,34 @@ fn a_line_through_the_middle_of_an_edge_is_at_zero_although_floats_round() {
     }
 }
 
+/// The steps for a distance of a share of 2^-38 times the largest coordinate, 4, which is that of one point
+/// after the other; the points and the direction are multiplied by powers of two.
+fn steps_at<F: Float>(share: f64, [size, length]: [i32; 2]) -> [Step; 4] {
+    let at = |x: f64| F::from_f64(scaled(x, size));
+    let step = |origin: f64, [a, b, c]: [f64; 3]| {
+        let triangle = [[-a, 0.0, 0.0], [b, 0.0, 0.0], [0.0, c, 0.0]].map(|v| v.map(at));
+        let origin = [0.25, scaled(share, -36), origin].map(at);
+        let d = [0.0, 0.0, -1.75].map(|x| F::from_f64(scaled(x, length)));
+        let case = Case::<F>::new(origin, d, triangle);
+        compare(&case, &mut [0; 4]);
+        Distances::and_step(&case, &truth(&case)).1
+    };
+    [
+        step(4.0, [1.0, 1.0, 1.0]),
+        step(1.0, [4.0, 1.0, 1.0]),
+        step(1.0, [1.0, 4.0, 1.0]),
+        step(1.0, [1.0, 1.0, 4.0]),
+    ]
+}
+
 #[test]
-fn floats_are_certain_of_distances_above_a_share_of_the_largest_coordinate() {
-    // 3/4 and 5/4 of 2^-36 times the largest coordinate, 4, from edge ab.
-    for (share, step) in [(3.0, Step::DoubleDoubles), (5.0, Step::FloatsNearOne)] {
-        let beside = scaled(share, -36);
-        let of = |origin: f64, [a, b, c]: [f64; 3]| {
-            let triangle = [[-a, 0.0, 0.0], [b, 0.0, 0.0], [0.0, c, 0.0]];
-            Case::<f64>::new([0.25, beside, origin], [0.0, 0.0, -1.75], triangle)
-        };
-        for case in [
-            of(4.0, [1.0, 1.0, 1.0]),
-            of(1.0, [4.0, 1.0, 1.0]),
-            of(1.0, [1.0, 4.0, 1.0]),
-            of(1.0, [1.0, 1.0, 4.0]),
-        ] {
-            let (_, by) = Distances::and_step(&case, &truth(&case));
-            assert_eq!(by, step, "{}", case.hex());
-            compare(&case, &mut [0; 4]);
+fn floats_are_certain_of_distances_from_a_share_of_the_largest_coordinate_on() {
+    for powers in [[0, 0], [40, 20], [-40, 0]] {
+        assert_eq!(steps_at::<f32>(3.0, powers), [Step::DoubleDoubles; 4]);
+        assert_eq!(steps_at::<f64>(3.0, powers), [Step::DoubleDoubles; 4]);
+        for share in [4.0, 5.0] {
+            assert_eq!(steps_at::<f32>(share, powers), [Step::Floats; 4]);
+            assert_eq!(steps_at::<f64>(share, powers), [Step::FloatsNearOne; 4]);
         }
     }
 }
@@ -249,6 +259,7 @@ fn edges_whose_squares_could_underflow_are_left_to_integers_but_points_are_not()
     // The longest edge is √2·1.5 times as long, against 2^-400.
     assert_eq!(step([edge(-401); 2]), Step::FloatsNearOne);
     assert_eq!(step([edge(-402); 2]), Step::Integers);
+    assert_eq!(step([scaled(1.0, -400), 0.0]), Step::FloatsNearOne);
     assert_eq!(step([0.0, edge(-450)]), Step::Integers);
     assert_eq!(step([0.0; 2]), Step::FloatsNearOne);
 }

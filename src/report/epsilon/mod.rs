@@ -83,6 +83,6 @@ mod tests {
 
     #[test]
     fn the_committed_schema_is_that_of_the_types() {
-        crate::report::schema::assert_committed::<EpsilonRecord>("epsilon");
+        crate::report::tests::schema::assert_committed::<EpsilonRecord>("epsilon");
     }
 }

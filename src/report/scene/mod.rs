@@ -45,6 +45,6 @@ mod tests {
 
     #[test]
     fn the_committed_schema_is_that_of_the_types() {
-        crate::report::schema::assert_committed::<SceneRecord>("scene");
+        crate::report::tests::schema::assert_committed::<SceneRecord>("scene");
     }
 }
