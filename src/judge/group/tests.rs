@@ -155,6 +155,10 @@ fn a_band_frees_a_polygon_by_its_outline_and_a_group_by_its_triangles() {
     assert_eq!(polygon((2.0, 2.0), 2.01), Obligation::Free);
     assert_eq!(polygon((2.0, 3.5), 0.49), Obligation::MustHit);
     assert_eq!(polygon((2.0, 3.5), 0.51), Obligation::Free);
+    for (x, y) in [(0.25, 2.0), (2.0, 0.25), (3.75, 2.0), (2.0, 3.75)] {
+        assert_eq!(polygon((x, y), 0.24), Obligation::MustHit);
+        assert_eq!(polygon((x, y), 0.26), Obligation::Free);
+    }
     assert_eq!(polygon((2.0, 7.0), 2.99), Obligation::MustMiss);
     assert_eq!(polygon((2.0, 7.0), 3.01), Obligation::Free);
     // In ulps of the largest coordinate, 8: 2^-49.
