@@ -2,6 +2,7 @@
 
 use super::{Hit, KernelInfo, Tunable, Verdict};
 use crate::arith::Float;
+use crate::case::Case;
 
 /// By gate, the epsilon that lets the most through: 0 where smaller ones mean the same, otherwise the
 /// smallest number.
@@ -48,6 +49,24 @@ pub fn of_miss<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mu
     margins.fill(if is_hit_above { F::infinity() } else { -F::infinity() });
 }
 
+/// Measures case by case: margins into one entry a gate for each case in turn, and what a hit would report into
+/// `values`, unless that is empty.
+pub fn each_case<F: Float>(
+    info: &KernelInfo,
+    cases: &[Case<F>],
+    margins: &mut [F],
+    values: &mut [Option<Hit<F>>],
+    mut measure: impl FnMut(&Case<F>, &mut [F]) -> Option<Hit<F>>,
+) {
+    let width = info.gates.len();
+    for (i, case) in cases.iter().enumerate() {
+        let hit = measure(case, &mut margins[i * width..(i + 1) * width]);
+        if let Some(place) = values.get_mut(i) {
+            *place = hit;
+        }
+    }
+}
+
 /// What a kernel would report of a hit.
 pub fn values_of<F: Float>(info: &KernelInfo, verdict: &Verdict<F>) -> Option<Hit<F>> {
     let &Verdict { hit, facing, t, u, v, .. } = verdict;
@@ -66,7 +85,7 @@ mod tests {
     struct Closed<F: 'static>(&'static dyn Subject<F>);
 
     impl<F: Float> Subject<F> for Closed<F> {
-        fn run(&self, cases: &[crate::case::Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
             self.0.run(cases, epsilons, verdicts);
         }
     }

@@ -1,7 +1,7 @@
 //! Kernels behind one object-safe interface: what the audit and users' own kernels go through.
 
 use super::gate::Either;
-use super::margins::{by_running, of_miss, open_epsilons, values_of};
+use super::margins::{by_running, each_case, of_miss, open_epsilons, values_of};
 use super::recording::{Path, paths};
 use super::variant::Variant;
 use super::{Deciding, Failure, Hit, Kernel, KernelInfo, Measuring, Verdict, Watching};
@@ -187,30 +187,27 @@ pub trait Subject<F: Float>: Sync {
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
-        let (width, open) = (info.gates.len(), open_epsilons(info));
-        for (i, case) in cases.iter().enumerate() {
+        let open = open_epsilons(info);
+        each_case(info, cases, margins, values, |case, margins| {
             let verdict = |epsilons: &[F]| {
                 let mut verdict = [Verdict::miss(None)];
                 self.run(slice::from_ref(case), epsilons, &mut verdict);
                 verdict[0]
             };
-            let of_case = &mut margins[i * width..(i + 1) * width];
             let is_hit = |epsilons: &[F]| verdict(epsilons).hit;
             let measured = catch_unwind(AssertUnwindSafe(|| {
                 let values = values_of(info, &verdict(&open));
                 match values {
-                    Some(_) => by_running(&open, is_hit, of_case),
-                    None => of_miss(&open, is_hit, of_case),
+                    Some(_) => by_running(&open, is_hit, margins),
+                    None => of_miss(&open, is_hit, margins),
                 }
                 values
             }));
-            if measured.is_err() {
-                of_case.fill(F::from_f64(f64::NAN));
-            }
-            if let Some(place) = values.get_mut(i) {
-                *place = measured.ok().flatten();
-            }
-        }
+            measured.unwrap_or_else(|_| {
+                margins.fill(F::from_f64(f64::NAN));
+                None
+            })
+        });
     }
 
     /// Why no more margins are found, in one line.
@@ -320,13 +317,9 @@ impl<F: Float, K: Kernel> Subject<F> for Generic<K> {
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
-        let rows = margins.chunks_exact_mut(info.gates.len());
-        for (i, (case, margins)) in cases.iter().zip(rows).enumerate() {
-            let hit = measure_into::<K, F::Vector>(&case.ray, &case.triangle, margins);
-            if let Some(place) = values.get_mut(i) {
-                *place = hit;
-            }
-        }
+        each_case(info, cases, margins, values, |case, margins| {
+            measure_into::<K, F::Vector>(&case.ray, &case.triangle, margins)
+        });
     }
 
     fn in_arithmetic(

@@ -1,6 +1,7 @@
 //! A kernel in another arithmetic than IEEE 754's: the same source on another machine.
 
 use super::gate::Either;
+use super::margins::each_case;
 use super::recording::{Path, paths};
 use super::{
     Deciding, ExactRun, Gated, Generic, Hit, Kernel, KernelInfo, Measured, Measuring, Subject,
@@ -107,13 +108,9 @@ impl<F: Float, K: Kernel> Subject<F> for Variant<K> {
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
-        let rows = margins.chunks_exact_mut(info.gates.len());
-        for (i, (case, margins)) in cases.iter().zip(rows).enumerate() {
-            let hit = self.measure_into(case, margins);
-            if let Some(place) = values.get_mut(i) {
-                *place = hit.map(|hit| hit.map(|x| x.value()));
-            }
-        }
+        each_case(info, cases, margins, values, |case, margins| {
+            self.measure_into(case, margins).map(|hit| hit.map(|x| x.value()))
+        });
     }
 }
 

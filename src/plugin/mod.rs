@@ -11,6 +11,7 @@ mod binary;
 mod hello;
 #[cfg(unix)]
 mod host;
+mod margins;
 mod process;
 mod running;
 pub mod text;

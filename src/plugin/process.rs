@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 use super::hello::{Hello, Start, shown};
+use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
 use super::running::{Lost, Program, Running};
 use super::{binary, text};
 use crate::arith::{Float, FloatEnvironment};
@@ -102,14 +103,15 @@ struct State {
     failures: u64,
     /// The first of them.
     first: Option<String>,
-    /// Cases on which one failed while it was asked for margins.
-    margin_failures: u64,
-    /// The first of them.
-    first_at_margins: Option<String>,
-    /// Why no more margins are asked for.
-    margins_gave_up: Option<String>,
+    margins: MarginFailures,
     notes: Vec<String>,
     gave_up: Option<String>,
+}
+
+impl State {
+    fn asks_no_margins(&self) -> bool {
+        self.gave_up.is_some() || self.margins.gave_up.is_some()
+    }
 }
 
 impl Process {
@@ -317,12 +319,21 @@ impl<F: Float> Subject<F> for Process {
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         if self.hello.has_epsilons() {
             let (open, width) = (open_epsilons(info), info.gates.len());
+            let ask = |cases: &[Case<F>], verdicts: &mut [Verdict<F>], margins: &mut [F]| {
+                self.ask(cases, &open, verdicts, margins)
+            };
+            let failed = |failure, case: &Case<F>| self.state().margins.add(failure, case);
             let margins = margins.chunks_mut(MARGINS_AT_ONCE * width);
-            let verdicts = verdicts.chunks_mut(MARGINS_AT_ONCE);
-            for ((cases, verdicts), margins) in
-                cases.chunks(MARGINS_AT_ONCE).zip(verdicts).zip(margins)
-            {
-                self.find_margins(info, cases, &open, verdicts, margins);
+            let parts = cases.chunks(MARGINS_AT_ONCE).zip(verdicts.chunks_mut(MARGINS_AT_ONCE));
+            for ((cases, verdicts), margins) in parts.zip(margins) {
+                if self.state().asks_no_margins() {
+                    margins.fill(F::from_f64(f64::NAN));
+                    continue;
+                }
+                let found = margins::find((info, &open), cases, verdicts, margins, &ask, &failed);
+                if let Err(message) = found {
+                    self.state().gave_up.get_or_insert(message);
+                }
             }
         } else {
             Subject::run(self, cases, &[], &mut verdicts);
@@ -332,16 +343,13 @@ impl<F: Float> Subject<F> for Process {
     }
 
     fn margins_gave_up(&self) -> Option<String> {
-        self.state().margins_gave_up.clone()
+        self.state().margins.gave_up.clone()
     }
 
     fn notes(&self) -> Vec<String> {
         let state = self.state();
         let mut notes = state.notes.clone();
-        notes.extend(state.first_at_margins.as_ref().map(|first| {
-            let count = state.margin_failures;
-            format!("on {count} cases it fails at some epsilon, and they are left out; first: it {first}")
-        }));
+        notes.extend(state.margins.note());
         notes
     }
 
@@ -367,92 +375,4 @@ impl Process {
             (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts),
         }
     }
-
-    /// The margins of some cases, with their verdicts at the epsilons that let the most through; NaN where it
-    /// fails. Such failures are no findings, because nobody asked for these epsilons.
-    fn find_margins<F: Float>(
-        &self,
-        info: &KernelInfo,
-        cases: &[Case<F>],
-        open: &[F],
-        verdicts: &mut [Verdict<F>],
-        margins: &mut [F],
-    ) {
-        let state = self.state();
-        let has_given_up = state.gave_up.is_some() || state.margins_gave_up.is_some();
-        drop(state);
-        if has_given_up {
-            margins.fill(F::from_f64(f64::NAN));
-            return;
-        }
-        match self.ask(cases, open, verdicts, margins) {
-            Ok(()) => {
-                let checked = check_margins(info, open, verdicts, margins);
-                checked.unwrap_or_else(|message| {
-                    self.state().gave_up.get_or_insert(message);
-                });
-            }
-            Err(Lost::Garbled(message)) => {
-                self.state().gave_up.get_or_insert(message);
-            }
-            Err(Lost::Failed(failure)) if cases.len() == 1 => {
-                margins.fill(F::from_f64(f64::NAN));
-                verdicts[0] = Verdict::miss(None);
-                let mut state = self.state();
-                state.margin_failures += 1;
-                let count = state.margin_failures;
-                let first = || format!("{failure} on {}", cases[0].hex());
-                let first = state.first_at_margins.get_or_insert_with(first).clone();
-                if MOST_MARGIN_FAILURES < count {
-                    state.margins_gave_up = Some(format!(
-                        "it fails at some epsilons, from the smallest to the largest number, on more than \
-                         {MOST_MARGIN_FAILURES} cases; first: it {first}"
-                    ));
-                }
-            }
-            Err(Lost::Failed(_)) => {
-                let one_by_one = cases.chunks(1).zip(verdicts.chunks_mut(1));
-                for ((case, verdict), margins) in one_by_one.zip(margins.chunks_mut(open.len())) {
-                    self.find_margins(info, case, open, verdict, margins);
-                }
-            }
-        }
-    }
-}
-
-/// So many cases are asked for margins at a time, because each is up to 65 runs a gate.
-const MARGINS_AT_ONCE: usize = 64;
-
-/// On how many cases a process may fail while it is asked for margins.
-const MOST_MARGIN_FAILURES: u64 = 100;
-
-/// An error if margins contradict the verdicts at the epsilons that let the most through.
-fn check_margins<F: Float>(
-    info: &KernelInfo,
-    open: &[F],
-    verdicts: &[Verdict<F>],
-    margins: &[F],
-) -> Result<(), String> {
-    let rows = margins.chunks(open.len()).zip(verdicts).enumerate();
-    for (case, (margins, verdict)) in rows {
-        let pairs = margins.iter().zip(open).zip(info.gates);
-        for ((margin, open), gate) in pairs {
-            let (fits, expected) = match verdict.hit {
-                true => {
-                    (open <= margin, "at least the epsilon of the batch, for its verdict is a hit")
-                }
-                false => (
-                    margin.to_f64().is_infinite(),
-                    "infinity or -infinity, for its verdict is a miss",
-                ),
-            };
-            if !fits {
-                let name = gate.name;
-                return Err(format!(
-                    "the margin {name} of case {case} is {margin:e}, expected {expected}"
-                ));
-            }
-        }
-    }
-    Ok(())
 }
