@@ -1,5 +1,5 @@
-//! The whole program with kernels of one's own in it: `cargo run --example own_kernel -- audit
-//! --kernel mine,bounding-box`. One is a closure, one a small trait, in one scalar each.
+//! The whole program with kernels of one's own in it: `cargo run --example own_kernel -- audit`. One is
+//! a closure, one a small trait, in one scalar each.
 
 use hairline::{Case, Contract, Entry, EpsilonSet, Gate, Hit, KernelInfo, Role, Test};
 

@@ -2,8 +2,8 @@
  *
  * Build it as  cc -O2 -shared -fPIC -o libmine.so mine.c  and define the three or four functions at
  * the end of this file, with C linkage. hairline loads the library in a process of its own. There a
- * crash, a call of exit, an endless loop or an access outside the buffers is a finding about the case
- * at hand, and the run goes on. What the library prints goes to standard error.
+ * crash, a C++ exception, a call of exit, an endless loop or an access outside the buffers is a finding
+ * about the case at hand, and the run goes on. What the library prints goes to standard error.
  *
  * Everything that hairline passes belongs to hairline and is valid during the call only; everything
  * that the library returns from hairline_describe belongs to the library and must stay valid.

@@ -274,7 +274,9 @@ fn failed(failure: Failure) -> Finding {
     match failure {
         Failure::Panic => Finding::Panic,
         Failure::Timeout => Finding::Timeout,
-        Failure::Signal(_) | Failure::Exit(_) | Failure::Overrun => Finding::Crash,
+        Failure::Signal(_) | Failure::Exit(_) | Failure::Overrun | Failure::Exception => {
+            Finding::Crash
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 """
 
 import sys
+import time
 
 try:
     import numpy
@@ -73,10 +74,14 @@ def answer_all(cases, epsilon):
 
 def main():
     print(HELLO, flush=True)
-    epsilon, ids, cases = EPSILON, [], []
+    epsilon, ids, cases, took = EPSILON, [], [], 0
 
     def flush():
-        for name, verdict in zip(ids, answer_all(cases, epsilon) if cases else []):
+        nonlocal took
+        start = time.perf_counter_ns()
+        verdicts = answer_all(cases, epsilon) if cases else []
+        took += time.perf_counter_ns() - start
+        for name, verdict in zip(ids, verdicts):
             print(name, verdict)
         ids.clear()
         cases.clear()
@@ -92,7 +97,8 @@ def main():
             epsilon = float(words[2])
         elif words[0] == "end":
             flush()
-            print(line, end="", flush=True)
+            print(line.rstrip(), f"took={took}", flush=True)
+            took = 0
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ use super::source::Source;
 use crate::case::Parameters;
 use crate::contract::Across;
 use crate::engine::{self, Merge, Observer};
-use crate::kernel::{Scalar, Verdict, verdicts_of};
+use crate::kernel::{Scalar, Verdict};
 use crate::mesh::{Aim, Part, Surface};
 use crate::oracle::Layers;
 use crate::truth::Truth;
@@ -187,9 +187,7 @@ impl<F: Scalar> Run<'_, F> {
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         for (number, (row, (tally, time))) in self.rows.each.iter().zip(&mut sums.rows).enumerate()
         {
-            let start = self.observer.now();
-            verdicts_of(row.subject, &chunk.cases, &row.epsilons, &mut verdicts);
-            *time += self.observer.now() - start;
+            *time += row.run(&chunk.cases, &mut verdicts, self.observer);
             let asked = (&contracts[row.contract], &truths[row.contract][..]);
             for judged in row.judge_groups(&self.source, &chunk, asked, &verdicts) {
                 let group = match judged {

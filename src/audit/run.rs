@@ -13,7 +13,7 @@ use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
 use crate::judge::{self, Class, Expectations, Finding, GroupTruth, owes_groups_alike};
-use crate::kernel::{Scalar, Verdict, verdicts_of};
+use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -238,9 +238,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let mut known = vec![None; chunk.cases.len()];
         let mut suspects = Vec::new();
         for (row, (tally, time)) in self.rows.each.iter().zip(&mut sums.rows) {
-            let start = self.observer.now();
-            verdicts_of(row.subject, &chunk.cases, &row.epsilons, &mut verdicts);
-            *time += self.observer.now() - start;
+            *time += row.run(&chunk.cases, &mut verdicts, self.observer);
             let contract = &self.rows.contracts[row.contract];
             let asked = &asked[row.contract];
             judge::suspects(&asked.expectations.of, row.info.gives, &verdicts, &mut suspects);

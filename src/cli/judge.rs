@@ -74,9 +74,9 @@ pub fn run(arguments: &JudgeArguments) -> Result<Status, Failure> {
         let Some(text) = line else { break false };
         match text::answer::<f64>(&text).map_err(|message| lines.error(message))? {
             text::Answer::Verdict(id, verdict) => sets.take(id, verdict, &lines)?,
-            text::Answer::End(told) if told == count => break true,
-            text::Answer::End(told) => {
-                let message = format!("'end {told}' after {count} verdicts");
+            text::Answer::End { cases, .. } if cases == count => break true,
+            text::Answer::End { cases, .. } => {
+                let message = format!("'end {cases}' after {count} verdicts");
                 return Err(lines.error(message).into());
             }
         }

@@ -133,7 +133,7 @@ fn host_of(path: &str) -> Result<Program, Failure> {
     let words = words.map(|word| word.to_str().map(str::to_owned));
     let words = words.into_iter().collect::<Option<Vec<String>>>();
     words
-        .map(Program::new)
+        .map(Program::host)
         .ok_or_else(|| Failure::usage(format!("--kernel-lib {path}: a path that is not UTF-8")))
 }
 

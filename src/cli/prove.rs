@@ -217,7 +217,12 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
 impl ProveArguments {
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         if self.kernel.is_empty() {
-            return Ok(kernel::all().into_iter().filter(|entry| entry.shows_gates()).collect());
+            let shown = [kernel::unnamed(), kernel::all()].map(|mut entries| {
+                entries.retain(|entry| entry.shows_gates());
+                entries
+            });
+            let [own, all] = shown;
+            return Ok(if own.is_empty() { all } else { own });
         }
         let find = |name: &String| {
             let names = || kernel::all().into_iter().map(|entry| entry.info.name);

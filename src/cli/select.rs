@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KernelArguments {
-    /// A kernel, or several separated by commas [default: all built-in ones, or only your own if you bring
+    /// A kernel, or several separated by commas [default: all built-in ones, or only your own if there are
     /// some]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     kernel: Vec<String>,
@@ -147,10 +147,10 @@ impl KernelArguments {
 
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         let mut chosen = self.plugins.entries()?;
-        let all = kernel::all();
         if self.kernel.is_empty() && chosen.is_empty() {
-            return Ok(all);
+            return Ok(kernel::unnamed());
         }
+        let all = kernel::all();
         for name in &self.kernel {
             let names = all.iter().map(|entry| entry.info.name);
             let entry = kernel::find(name)

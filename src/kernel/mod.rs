@@ -39,7 +39,7 @@ pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Compared, Path};
 pub(crate) use registry::kept;
-pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register};
+pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register, unnamed};
 pub(crate) use subject::verdicts_of;
 pub use subject::{ExactRun, Gated, Generic, Measured, Subject, TrackedRun};
 pub use verdict::{Failure, Verdict};

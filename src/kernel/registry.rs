@@ -133,10 +133,20 @@ pub static KERNELS: &[Entry] = &[
 /// What programs added to the built-in kernels.
 static ADDED: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
 
-/// Every kernel: the built-in ones in the order of reports, then the added ones.
+/// Every kernel: the added ones, then the built-in ones in the order of reports.
 pub fn all() -> Vec<&'static Entry> {
     let added = ADDED.read().unwrap_or_else(PoisonError::into_inner);
-    KERNELS.iter().chain(added.iter().copied()).collect()
+    added.iter().copied().chain(KERNELS).collect()
+}
+
+/// The kernels of a run that names none: those of the program's author, if it has some, or else all.
+pub fn unnamed() -> Vec<&'static Entry> {
+    let mut all = all();
+    let is_own = |entry: &&Entry| entry.flag.is_none() && !entry.is_built_in();
+    if all.iter().any(is_own) {
+        all.retain(is_own);
+    }
+    all
 }
 
 /// The kernels in other arithmetics that have been requested by name so far.

@@ -145,6 +145,18 @@ pub trait Subject<F: Float>: Sync {
     /// The verdict on each case; `epsilons` has one entry a gate, `verdicts` one a case.
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]);
 
+    /// The same, and the nanoseconds that went by in the kernel, if it measures them itself: what runs in a
+    /// process of its own does.
+    fn run_timed(
+        &self,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Option<u64> {
+        self.run(cases, epsilons, verdicts);
+        None
+    }
+
     /// The verdict on a planar convex polygon; a miss if the kernel takes none.
     fn run_polygon(
         &self,
@@ -226,18 +238,19 @@ pub trait Subject<F: Float>: Sync {
     }
 }
 
-/// Runs a kernel on all cases; a panic is the verdict on the case at which it happens.
+/// Runs a kernel on all cases; a panic is the verdict on the case at which it happens. Returns the
+/// nanoseconds in it, if it measures them itself.
 pub(crate) fn verdicts_of<F: Float>(
     subject: &dyn Subject<F>,
     cases: &[Case<F>],
     epsilons: &[F],
     verdicts: &mut [Verdict<F>],
-) {
+) -> Option<u64> {
     let run = |cases: &[Case<F>], verdicts: &mut [Verdict<F>]| {
-        catch_unwind(AssertUnwindSafe(|| subject.run(cases, epsilons, verdicts)))
+        catch_unwind(AssertUnwindSafe(|| subject.run_timed(cases, epsilons, verdicts)))
     };
-    if run(cases, verdicts).is_ok() {
-        return;
+    if let Ok(took) = run(cases, verdicts) {
+        return took;
     }
     // Once more, one by one, to pin the cases at which it panicked.
     for i in 0..cases.len() {
@@ -245,6 +258,7 @@ pub(crate) fn verdicts_of<F: Float>(
             verdicts[i] = Verdict::failed(Failure::Panic);
         }
     }
+    None
 }
 
 /// A kernel that shows its gates: each one's margin, and its formula without rounding.

@@ -35,6 +35,8 @@ pub enum Failure {
     Exit(i32),
     /// It wrote to its input, or touched what lies beside its buffers.
     Overrun,
+    /// It threw a C++ exception that nothing caught.
+    Exception,
     /// It gave no answer in time.
     Timeout,
 }
@@ -49,6 +51,7 @@ impl fmt::Display for Failure {
             },
             Failure::Exit(code) => write!(f, "ended its process with exit code {code}"),
             Failure::Overrun => f.write_str("touched memory outside its buffers"),
+            Failure::Exception => f.write_str("threw a C++ exception"),
             Failure::Timeout => f.write_str("gave no answer in time"),
         }
     }

@@ -5,7 +5,7 @@
 
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
-use crate::kernel::Verdict;
+use crate::kernel::{Failure, Verdict};
 use crate::truth::Facing;
 
 /// The first four bytes of a batch.
@@ -15,10 +15,14 @@ pub(super) const MARGINS: [u8; 4] = *b"HLM1";
 /// The first four bytes of the answer to either.
 pub(super) const ANSWER: [u8; 4] = *b"HLA1";
 /// Instead of an answer, from the host of a library: the kernel touched memory outside its buffers.
-pub(super) const OVERRUN: [u8; 4] = *b"HLX1";
+const OVERRUN: [u8; 4] = *b"HLX1";
 
+/// Instead of an answer, from the host of a library: the kernel threw a C++ exception.
+const EXCEPTION: [u8; 4] = *b"HLC1";
 /// In front of an answer: the process's arithmetic has changed, and its bits follow.
-pub(super) const ENVIRONMENT: [u8; 4] = *b"HLE1";
+const ENVIRONMENT: [u8; 4] = *b"HLE1";
+/// In front of an answer: how long the kernel took, in nanoseconds.
+const TOOK: [u8; 4] = *b"HLT1";
 
 /// Bytes of a batch's head: [`BATCH`], bits of the scalar, number of cases, number of epsilons.
 pub(super) const BATCH_HEAD: usize = 16;
@@ -44,32 +48,69 @@ pub(super) fn float<F: Float>(bytes: &[u8]) -> F {
     F::from_bits(u64::from_le_bytes(bits))
 }
 
-/// A batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the cases.
-pub(super) fn batch<F: Float>(kind: [u8; 4], cases: &[Case<F>], epsilons: &[F]) -> Vec<u8> {
-    let numbers = epsilons.len() + CASE_NUMBERS * cases.len();
-    let mut bytes = Vec::with_capacity(BATCH_HEAD + numbers * size_of::<F>());
+/// Writes a batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the cases.
+pub(super) fn write_batch<F: Float>(
+    kind: [u8; 4],
+    cases: &[Case<F>],
+    epsilons: &[F],
+    bytes: &mut Vec<u8>,
+) {
+    bytes.clear();
     bytes.extend(kind);
     for count in [8 * size_of::<F>(), cases.len(), epsilons.len()] {
         bytes.extend((count as u32).to_le_bytes());
     }
-    epsilons.iter().for_each(|epsilon| push(&mut bytes, *epsilon));
-    for case in cases {
-        case.vectors().as_flattened().iter().for_each(|x| push(&mut bytes, *x));
-        push(&mut bytes, case.ray.t_min);
-        push(&mut bytes, case.ray.t_max);
+    epsilons.iter().for_each(|epsilon| push(bytes, *epsilon));
+    let start = bytes.len();
+    let size = size_of::<F>();
+    bytes.resize(start + cases.len() * CASE_NUMBERS * size, 0);
+    for (record, case) in bytes[start..].chunks_exact_mut(CASE_NUMBERS * size).zip(cases) {
+        let vectors = case.vectors();
+        let numbers = vectors.as_flattened().iter().chain([&case.ray.t_min, &case.ray.t_max]);
+        for (place, number) in record.chunks_exact_mut(size).zip(numbers) {
+            place.copy_from_slice(&number.to_bits().to_le_bytes()[..size]);
+        }
     }
-    bytes
 }
 
-/// The head that says how the arithmetic of a process has changed.
-pub(super) fn environment_head(floats: FloatEnvironment) -> Vec<u8> {
-    [ENVIRONMENT, floats.bits().to_le_bytes()].concat()
+/// What a process may say before its answer, or instead of it.
+#[derive(Debug, PartialEq)]
+pub(super) enum Before {
+    /// Its arithmetic has changed to this.
+    Floats(FloatEnvironment),
+    /// So many nanoseconds went by in the kernel.
+    Took(u64),
+    /// There is no answer.
+    Failure(Failure),
 }
 
-/// What such a head says.
-pub(super) fn environment(head: &[u8]) -> Option<FloatEnvironment> {
-    let bits = head.strip_prefix(&ENVIRONMENT)?.try_into().ok()?;
-    FloatEnvironment::from_bits(u32::from_le_bytes(bits))
+impl Before {
+    /// The head that says it.
+    pub fn head(&self) -> [u8; ANSWER_HEAD] {
+        let (kind, number) = match *self {
+            Before::Floats(floats) => (ENVIRONMENT, floats.bits()),
+            Before::Took(time) => (TOOK, time.try_into().unwrap_or(u32::MAX)),
+            Before::Failure(Failure::Exception) => (EXCEPTION, 0),
+            Before::Failure(_) => (OVERRUN, 0),
+        };
+        let mut head = [0; ANSWER_HEAD];
+        head[..4].copy_from_slice(&kind);
+        head[4..].copy_from_slice(&number.to_le_bytes());
+        head
+    }
+}
+
+/// What a head says that is not the answer's.
+pub(super) fn before_answer(head: &[u8]) -> Option<Before> {
+    let (kind, number) = head.split_first_chunk()?;
+    let number = u32::from_le_bytes(number.try_into().ok()?);
+    match *kind {
+        ENVIRONMENT => FloatEnvironment::from_bits(number).map(Before::Floats),
+        TOOK => Some(Before::Took(number.into())),
+        EXCEPTION => Some(Before::Failure(Failure::Exception)),
+        OVERRUN => Some(Before::Failure(Failure::Overrun)),
+        _ => None,
+    }
 }
 
 /// A verdict from its bytes; an error says what was expected.
@@ -99,15 +140,33 @@ mod tests {
     #[test]
     fn records_have_the_layout_of_the_header() {
         let case = Case::<f32>::new([1.0; 3], [0.0, 0.0, -1.0], [[0.0; 3]; 3]).on(-1.0, 2.0);
-        let bytes = batch(BATCH, &[case], &[0.5]);
+        let mut bytes = b"what was in it".to_vec();
+        write_batch(BATCH, &[case], &[0.5], &mut bytes);
         assert_eq!(bytes.len(), 16 + 4 + 68);
         assert_eq!(bytes[..20], *b"HLB1\x20\0\0\0\x01\0\0\0\x01\0\0\0\0\0\0\x3f");
         assert_eq!(bytes[20..24], 1f32.to_le_bytes());
         assert_eq!(bytes[80..], *b"\0\0\x80\xbf\0\0\0\x40");
         assert_eq!((verdict_bytes::<f32>(), verdict_bytes::<f64>()), (20, 32));
-        let wide = batch(MARGINS, &[case.widen()], &[]);
+        let mut wide = Vec::new();
+        write_batch(MARGINS, &[case.widen()], &[], &mut wide);
         assert_eq!((wide.len(), wide[..5].to_vec()), (16 + 136, b"HLM1\x40".to_vec()));
         assert_eq!(wide[16..24], 1f64.to_le_bytes());
+    }
+
+    #[test]
+    fn what_comes_before_an_answer_is_read_back() {
+        for (before, head) in [
+            (Before::Floats(FloatEnvironment::from_bits(3).unwrap()), b"HLE1\x03\0\0\0"),
+            (Before::Took(0x0201), b"HLT1\x01\x02\0\0"),
+            (Before::Took(u32::MAX.into()), b"HLT1\xff\xff\xff\xff"),
+            (Before::Failure(Failure::Overrun), b"HLX1\0\0\0\0"),
+            (Before::Failure(Failure::Exception), b"HLC1\0\0\0\0"),
+        ] {
+            assert_eq!(before.head(), *head);
+            assert_eq!(before_answer(head), Some(before));
+        }
+        assert_eq!(Before::Took(u64::MAX).head(), *b"HLT1\xff\xff\xff\xff");
+        assert_eq!(before_answer(b"HLA1\x01\0\0\0"), None);
     }
 
     #[test]

@@ -10,11 +10,11 @@ mod guard;
 
 use super::PROTOCOL;
 use super::binary::{
-    ANSWER, BATCH, BATCH_HEAD, CASE_NUMBERS, MARGINS, environment_head, float, push, verdict_bytes,
+    ANSWER, BATCH, BATCH_HEAD, Before, CASE_NUMBERS, MARGINS, float, push, verdict_bytes,
 };
 use crate::arith::{Float, FloatEnvironment};
-use crate::kernel::{by_running, of_miss};
-use guard::{Buffer, overrun_head, watch_guards};
+use crate::kernel::{Failure, by_running, of_miss};
+use guard::{Buffer, CurrentException, watch};
 use libloading::os::unix;
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, c_char, c_void};
@@ -25,7 +25,7 @@ use std::os::fd::{AsFd, AsRawFd};
 use std::os::unix::process::parent_id;
 use std::path::Path;
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The version of include/hairline.h.
 const ABI: u32 = 1;
@@ -54,10 +54,47 @@ struct Kernel {
 }
 
 /// `hairline_test_f32` and `hairline_test_f64`: cases, count, epsilons, verdicts.
-type Test = unsafe extern "C" fn(*const c_void, usize, *const c_void, *mut c_void);
+type Test = unsafe extern "C-unwind" fn(*const c_void, usize, *const c_void, *mut c_void);
 
 /// Loads a library and answers batches from standard input until it ends; returns the exit code.
 pub fn serve(path: &Path) -> u8 {
+    let mut job = Job { path, code: 1 };
+    // A thread, but none of Rust's: at the end of such a one stands a handler for all exceptions, and a C++
+    // runtime that finds a handler does not say what was thrown. For the same reason `on_thread` may unwind;
+    // nothing ever does that far.
+    //
+    // SAFETY: the two kinds of functions are called alike, and the job lives until the thread is joined.
+    let is_done = unsafe {
+        let run = std::mem::transmute::<UnwindingStart, Start>(on_thread as UnwindingStart);
+        let mut thread = std::mem::zeroed();
+        let job = (&raw mut job).cast();
+        libc::pthread_create(&mut thread, std::ptr::null(), run, job) == 0
+            && libc::pthread_join(thread, std::ptr::null_mut()) == 0
+    };
+    if !is_done {
+        eprintln!("hairline: no thread for the library: {}", io::Error::last_os_error());
+    }
+    job.code
+}
+
+/// What the thread of a library does.
+struct Job<'a> {
+    path: &'a Path,
+    code: u8,
+}
+
+/// What a thread runs, as the C library has it, and the same with leave to unwind.
+type Start = extern "C" fn(*mut c_void) -> *mut c_void;
+type UnwindingStart = extern "C-unwind" fn(*mut c_void) -> *mut c_void;
+
+extern "C-unwind" fn on_thread(job: *mut c_void) -> *mut c_void {
+    // SAFETY: `serve` passes its job, and waits.
+    let job = unsafe { &mut *job.cast::<Job>() };
+    job.code = serve_here(job.path);
+    std::ptr::null_mut()
+}
+
+fn serve_here(path: &Path) -> u8 {
     match Protocol::take() {
         Err(error) => {
             eprintln!("hairline: {error}");
@@ -99,15 +136,16 @@ impl Protocol {
         let hello = format!("{hello}floats {}\nmargins\nready\n", floats.bits());
         let failed = |error: io::Error| error.to_string();
         self.output.write_all(hello.as_bytes()).map_err(failed)?;
-        watch_guards(self.output.as_raw_fd());
-        while let Some(batch) = self.batch(&library).map_err(failed)? {
-            self.answer(&batch, &mut floats).map_err(failed)?;
+        watch(self.output.as_raw_fd(), library.current_exception());
+        let mut room = Room::new().map_err(failed)?;
+        while let Some(batch) = self.batch(&library, &mut room).map_err(failed)? {
+            self.answer(&batch, &mut room, &mut floats).map_err(failed)?;
         }
         Ok(())
     }
 
     /// A batch; none at the end of the input.
-    fn batch(&mut self, library: &Library) -> io::Result<Option<Batch>> {
+    fn batch(&mut self, library: &Library, room: &mut Room) -> io::Result<Option<Batch>> {
         let mut head = [0; BATCH_HEAD];
         if self.input.read(&mut head[..1])? == 0 {
             return Ok(None);
@@ -122,43 +160,70 @@ impl Protocol {
             return Err(io::Error::other("not a batch"));
         };
         let (size, count) = (word(4) / 8, word(8));
-        let mut epsilons = Buffer::new(1, word(12) * size)?;
-        self.input.read_exact(epsilons.bytes())?;
-        let mut cases = Buffer::new(0, count * CASE_NUMBERS * size)?;
-        self.input.read_exact(cases.bytes())?;
-        cases.make_read_only()?;
-        epsilons.make_read_only()?;
-        Ok(Some(Batch { test, size, count, cases, epsilons, with_margins }))
+        let lengths = [word(12) * size, count * CASE_NUMBERS * size];
+        for (buffer, length) in [&mut room.epsilons, &mut room.cases].into_iter().zip(lengths) {
+            buffer.fit(length)?;
+            self.input.read_exact(buffer.bytes())?;
+            buffer.make_read_only()?;
+        }
+        Ok(Some(Batch { test, size, count, with_margins }))
     }
 
-    fn answer(&mut self, batch: &Batch, floats: &mut FloatEnvironment) -> io::Result<()> {
-        let &Batch { test, size, count, ref cases, ref epsilons, with_margins } = batch;
+    fn answer(
+        &mut self,
+        batch: &Batch,
+        room: &mut Room,
+        floats: &mut FloatEnvironment,
+    ) -> io::Result<()> {
+        let &Batch { test, size, count, with_margins } = batch;
         let record = if size == 4 { verdict_bytes::<f32>() } else { verdict_bytes::<f64>() };
-        let mut verdicts = Buffer::new(2, count * record)?;
+        room.verdicts.fit(count * record)?;
         // No verdict has a hit of -1: what stays so was not answered.
-        verdicts.bytes().fill(0xff);
+        room.verdicts.bytes().fill(0xff);
+        let [cases, epsilons, verdicts] = [&room.cases, &room.epsilons, &room.verdicts]
+            .map(|buffer| buffer.start().cast::<c_void>());
+        let start = Instant::now();
         // SAFETY: the pointers are valid for what include/hairline.h promises the library; whether
         // the library keeps to it is what this process is for.
-        unsafe {
-            test(cases.start().cast(), count, epsilons.start().cast(), verdicts.start().cast())
-        };
+        unsafe { test(cases, count, epsilons, verdicts) };
+        let took = Before::Took(start.elapsed().as_nanos() as u64);
         let margins = match (with_margins, size) {
             (false, _) => Some(Vec::new()),
-            (true, 4) => batch.margins::<f32>(&mut verdicts)?,
-            (true, _) => batch.margins::<f64>(&mut verdicts)?,
+            (true, 4) => batch.margins::<f32>(room)?,
+            (true, _) => batch.margins::<f64>(room)?,
         };
         let before = std::mem::replace(floats, FloatEnvironment::now());
         if *floats != before {
-            self.output.write_all(&environment_head(*floats))?;
+            self.output.write_all(&Before::Floats(*floats).head())?;
         }
-        let Some(margins) = margins.filter(|_| verdicts.is_untouched_before()) else {
-            self.output.write_all(&overrun_head())?;
+        let Some(margins) = margins.filter(|_| room.verdicts.is_untouched_before()) else {
+            self.output.write_all(&Before::Failure(Failure::Overrun).head())?;
             return Err(io::Error::other("wrote before its output"));
         };
-        self.output.write_all(&ANSWER)?;
-        self.output.write_all(&(count as u32).to_le_bytes())?;
-        self.output.write_all(verdicts.bytes())?;
-        self.output.write_all(&margins)
+        let mut answer = Vec::with_capacity(16 + room.verdicts.as_bytes().len() + margins.len());
+        answer.extend(took.head());
+        answer.extend(ANSWER);
+        answer.extend((count as u32).to_le_bytes());
+        answer.extend(room.verdicts.as_bytes());
+        answer.extend(margins);
+        self.output.write_all(&answer)
+    }
+}
+
+/// The memory that a library sees.
+struct Room {
+    cases: Buffer,
+    epsilons: Buffer,
+    verdicts: Buffer,
+    /// One case's epsilons and its verdict, while margins are looked for.
+    one_epsilons: Buffer,
+    one_verdict: Buffer,
+}
+
+impl Room {
+    fn new() -> io::Result<Room> {
+        let [cases, epsilons, verdicts, one_epsilons, one_verdict] = Buffer::all()?;
+        Ok(Room { cases, epsilons, verdicts, one_epsilons, one_verdict })
     }
 }
 
@@ -169,8 +234,6 @@ struct Batch {
     size: usize,
     /// Of cases.
     count: usize,
-    cases: Buffer,
-    epsilons: Buffer,
     with_margins: bool,
 }
 
@@ -178,18 +241,18 @@ impl Batch {
     /// The bytes of each case's margins, one a gate. An answer that is neither a hit nor a miss, at whatever
     /// epsilons, becomes the case's verdict, which this program's parent refuses; none if it wrote before its
     /// output.
-    fn margins<F: Float>(&self, verdicts: &mut Buffer) -> io::Result<Option<Vec<u8>>> {
+    fn margins<F: Float>(&self, room: &mut Room) -> io::Result<Option<Vec<u8>>> {
         let open: Vec<F> =
-            self.epsilons.as_bytes().chunks_exact(size_of::<F>()).map(float).collect();
-        let probe = RefCell::new(Probe {
-            epsilons: Buffer::new(1, size_of_val(&open[..]))?,
-            verdict: Buffer::new(2, verdict_bytes::<F>())?,
-        });
+            room.epsilons.as_bytes().chunks_exact(size_of::<F>()).map(float).collect();
+        room.one_epsilons.fit(size_of_val(&open[..]))?;
+        room.one_verdict.fit(verdict_bytes::<F>())?;
+        let (cases, verdicts) = (&room.cases, &mut room.verdicts);
+        let one = RefCell::new([&mut room.one_epsilons, &mut room.one_verdict]);
         let mut bytes = Vec::with_capacity(self.count * size_of_val(&open[..]));
         for (i, verdict) in verdicts.bytes().chunks_exact_mut(verdict_bytes::<F>()).enumerate() {
             let is_wrong = Cell::new(false);
             let is_hit = |epsilons: &[F]| {
-                let hit = probe.borrow_mut().ask(self, i, epsilons);
+                let hit = self.ask_one(i, cases, epsilons, &mut one.borrow_mut());
                 is_wrong.set(is_wrong.get() || (hit != HIT && hit != MISS));
                 hit == HIT
             };
@@ -203,30 +266,28 @@ impl Batch {
             }
             margins.into_iter().for_each(|margin| push(&mut bytes, margin));
         }
-        Ok(probe.into_inner().verdict.is_untouched_before().then_some(bytes))
+        Ok(room.one_verdict.is_untouched_before().then_some(bytes))
     }
-}
 
-/// Room for one case's epsilons and its verdict, between guards like those of a batch.
-struct Probe {
-    epsilons: Buffer,
-    verdict: Buffer,
-}
-
-impl Probe {
-    /// What a library says of one case of a batch at some epsilons: the first bytes of its verdict.
-    fn ask<F: Float>(&mut self, batch: &Batch, i: usize, epsilons: &[F]) -> [u8; 4] {
+    /// What the library says of one case of the batch at some epsilons: the first bytes of its verdict. These
+    /// epsilons and the verdict have their own room.
+    fn ask_one<F: Float>(
+        &self,
+        i: usize,
+        cases: &Buffer,
+        epsilons: &[F],
+        [room, verdict]: &mut [&mut Buffer; 2],
+    ) -> [u8; 4] {
         let mut bytes = Vec::with_capacity(size_of_val(epsilons));
         epsilons.iter().for_each(|epsilon| push(&mut bytes, *epsilon));
-        self.epsilons.bytes().copy_from_slice(&bytes);
-        self.verdict.bytes().fill(0xff);
+        room.bytes().copy_from_slice(&bytes);
+        verdict.bytes().fill(0xff);
         // SAFETY: the i-th case is one of the batch, and all pointers are as include/hairline.h promises.
         unsafe {
-            let case = batch.cases.start().add(i * CASE_NUMBERS * batch.size);
-            let (epsilons, verdict) = (self.epsilons.start(), self.verdict.start());
-            (batch.test)(case.cast(), 1, epsilons.cast(), verdict.cast());
+            let case = cases.start().add(i * CASE_NUMBERS * self.size);
+            (self.test)(case.cast(), 1, room.start().cast(), verdict.start().cast());
         }
-        let hit = &self.verdict.as_bytes()[..4];
+        let hit = &verdict.as_bytes()[..4];
         [hit[0], hit[1], hit[2], hit[3]]
     }
 }
@@ -297,6 +358,12 @@ impl Library {
             return Err("it has neither hairline_test_f32 nor hairline_test_f64".to_owned());
         }
         Ok(library)
+    }
+
+    /// How to ask the library's C++ runtime for the exception that is being handled, if it has one.
+    fn current_exception(&self) -> Option<CurrentException> {
+        // SAFETY: by the Itanium C++ ABI (2.5.4) this symbol has this type.
+        unsafe { self.symbol::<CurrentException>("__cxa_current_exception_type") }
     }
 
     /// A function of the library.

@@ -3,10 +3,11 @@
 
 #![forbid(unsafe_code)]
 
+use super::binary::{self, Before};
 use super::hello::{Hello, Start, shown};
 use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
 use super::running::{Lost, Program, Running};
-use super::{binary, text};
+use super::text;
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
@@ -25,6 +26,9 @@ pub struct Limits {
     pub require_ieee: bool,
 }
 
+/// After how many cases a process that has never answered is given up.
+const NEVER_ANSWERED: u64 = 3;
+
 /// Why a kernel's process cannot be used.
 #[derive(Debug)]
 pub enum LoadError {
@@ -37,8 +41,8 @@ pub enum LoadError {
 /// Starts a kernel's process and reads its hello. The entry lives as long as this process; `flag`
 /// chooses it on a command line.
 pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, LoadError> {
-    let running = program.start().map_err(LoadError::Start)?;
-    let (hello, running) = greet(running, limits).map_err(|lost| {
+    let running = program.start(limits.silence).map_err(LoadError::Start)?;
+    let (hello, running) = greet(running).map_err(|lost| {
         LoadError::Hello(match lost {
             Lost::Garbled(message) => message,
             Lost::Failed(Failure::Timeout) => {
@@ -78,10 +82,10 @@ fn loaded_with(floats: FloatEnvironment) -> String {
 }
 
 /// Reads a process's hello.
-fn greet(mut running: Running, limits: Limits) -> Result<(Hello, Running), Lost> {
+fn greet(mut running: Running) -> Result<(Hello, Running), Lost> {
     let mut start = Start::default();
     loop {
-        let line = running.line(limits.silence)?;
+        let line = running.line()?;
         if let Some(hello) = start.take(&line).map_err(Lost::Garbled)? {
             return Ok((hello, running));
         }
@@ -99,6 +103,8 @@ struct Process {
 struct State {
     /// Processes that are idle at the moment.
     idle: Vec<Running>,
+    /// Whether any batch was answered.
+    has_answered: bool,
     /// Cases that killed a process.
     failures: u64,
     /// The first of them.
@@ -120,34 +126,36 @@ impl Process {
     }
 
     /// Gets the verdicts on a batch from a process, which goes back to the idle ones if it answered; the
-    /// margins too, if there is room for them.
+    /// margins too, if there is room for them. Returns the nanoseconds in the kernel, if the process says.
     fn ask<F: Float>(
         &self,
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
         margins: &mut [F],
-    ) -> Result<(), Lost> {
+    ) -> Result<Option<u64>, Lost> {
         let idle = self.state().idle.pop();
         let mut running = match idle {
             Some(running) => running,
             None => self.another()?,
         };
-        if self.hello.binary {
-            self.ask_in_binary(&mut running, cases, epsilons, verdicts, margins)?;
+        let took = if self.hello.binary {
+            self.ask_in_binary(&mut running, cases, epsilons, verdicts, margins)?
         } else {
-            self.ask_in_text(&mut running, cases, epsilons, verdicts)?;
-        }
+            self.ask_in_text(&mut running, cases, epsilons, verdicts)?
+        };
         if running.has_unread() {
             return Err(Lost::Garbled("it wrote more than was asked for".to_owned()));
         }
-        self.state().idle.push(running);
-        Ok(())
+        let mut state = self.state();
+        state.idle.push(running);
+        state.has_answered = true;
+        Ok(took)
     }
 
     fn another(&self) -> Result<Running, Lost> {
         let cannot = |error| Lost::Garbled(format!("it cannot be started again: {error}"));
-        let (hello, running) = greet(self.program.start().map_err(cannot)?, self.limits)?;
+        let (hello, running) = greet(self.program.start(self.limits.silence).map_err(cannot)?)?;
         if hello != self.hello {
             let message = "started again, it announced itself differently".to_owned();
             return Err(Lost::Garbled(message));
@@ -161,7 +169,7 @@ impl Process {
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
-    ) -> Result<(), Lost> {
+    ) -> Result<Option<u64>, Lost> {
         let mut lines = String::new();
         if !epsilons.is_empty() {
             lines.push_str(&text::epsilons_line(epsilons));
@@ -173,7 +181,7 @@ impl Process {
         lines.push_str(&text::end_line(count));
         running.send(lines.into_bytes());
         for (id, place) in verdicts.iter_mut().enumerate() {
-            let line = running.line(self.limits.silence)?;
+            let line = running.line()?;
             match text::answer::<F>(&line).map_err(Lost::Garbled)? {
                 text::Answer::Verdict(name, verdict) if name.parse() == Ok(id) => *place = verdict,
                 _ => {
@@ -184,13 +192,14 @@ impl Process {
                 }
             }
         }
-        let line = running.line(self.limits.silence)?;
-        if text::answer::<F>(&line) != Ok(text::Answer::End(count)) {
-            let message =
-                format!("after {count} verdicts expected 'end {count}', found '{}'", shown(&line));
-            return Err(Lost::Garbled(message));
+        let line = running.line()?;
+        match text::answer::<F>(&line) {
+            Ok(text::Answer::End { cases, took }) if cases == count => Ok(took),
+            _ => Err(Lost::Garbled(format!(
+                "after {count} verdicts expected 'end {count}', found '{}'",
+                shown(&line)
+            ))),
         }
-        Ok(())
     }
 
     fn ask_in_binary<F: Float>(
@@ -200,36 +209,46 @@ impl Process {
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
         margins: &mut [F],
-    ) -> Result<(), Lost> {
+    ) -> Result<Option<u64>, Lost> {
         let kind = if margins.is_empty() { binary::BATCH } else { binary::MARGINS };
-        running.send(binary::batch(kind, cases, epsilons));
-        let mut head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
-        if let Some(floats) = binary::environment(&head) {
-            self.has_changed_to(floats)?;
-            head = running.bytes(binary::ANSWER_HEAD, self.limits.silence)?;
-        }
-        if head[..4] == binary::OVERRUN {
-            return Err(Lost::Failed(Failure::Overrun));
+        let mut bytes = running.spare();
+        binary::write_batch(kind, cases, epsilons, &mut bytes);
+        running.send(bytes);
+        let (mut head, mut took) = (running.bytes(binary::ANSWER_HEAD)?, None);
+        while let Some(before) = binary::before_answer(&head) {
+            match before {
+                Before::Floats(floats) => self.has_changed_to(floats)?,
+                Before::Took(time) => took = Some(time),
+                Before::Failure(failure) => return Err(Lost::Failed(failure)),
+            }
+            head = running.bytes(binary::ANSWER_HEAD)?;
         }
         let mut expected = binary::ANSWER.to_vec();
         expected.extend((cases.len() as u32).to_le_bytes());
         if head != expected {
+            // A verdict in text, or the end of a batch.
+            let is_text = head.iter().all(|byte| matches!(byte, b' '..=b'~' | b'\n'));
             let [head, expected] = [&head, &expected].map(|bytes| bytes.escape_ascii());
-            let message = format!("its answer begins with '{head}', expected '{expected}'");
+            let why = if is_text {
+                "its hello says 'encoding binary', and it answers in text: "
+            } else {
+                ""
+            };
+            let message = format!("{why}its answer begins with '{head}', expected '{expected}'");
             return Err(Lost::Garbled(message));
         }
         let size = binary::verdict_bytes::<F>();
-        let bytes = running.bytes(size * cases.len(), self.limits.silence)?;
+        let bytes = running.bytes(size * cases.len())?;
         for (id, (record, place)) in bytes.chunks_exact(size).zip(verdicts).enumerate() {
             let of = cases.len();
             *place = binary::verdict(record)
                 .map_err(|message| Lost::Garbled(format!("verdict {id} of {of}: {message}")))?;
         }
-        let bytes = running.bytes(size_of_val(margins), self.limits.silence)?;
+        let bytes = running.bytes(size_of_val(margins))?;
         for (bytes, margin) in bytes.chunks_exact(size_of::<F>()).zip(margins) {
             *margin = binary::float(bytes);
         }
-        Ok(())
+        Ok(took)
     }
 
     /// Notes that the arithmetic of a process changed while it answered; an error if that is not allowed.
@@ -253,7 +272,7 @@ impl Process {
     fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
         match self.ask(std::slice::from_ref(case), epsilons, &mut verdict, &mut []) {
-            Ok(()) => Ok(verdict[0]),
+            Ok(_) => Ok(verdict[0]),
             Err(Lost::Garbled(message)) => Err(message),
             Err(Lost::Failed(failure)) => self.pinned(failure, case),
         }
@@ -264,6 +283,13 @@ impl Process {
         let mut state = self.state();
         state.failures += 1;
         let (failures, most) = (state.failures, self.limits.failures);
+        if failure == Failure::Timeout && !state.has_answered && failures >= NEVER_ANSWERED {
+            return Err(format!(
+                "it has answered none of {failures} cases, each within {} s: does it flush its output after a \
+                 batch, and speak the encoding that its hello announces?",
+                self.limits.silence.as_secs_f64()
+            ));
+        }
         let first = state.first.get_or_insert_with(|| format!("{failure} on {}", case.hex()));
         if failures > most {
             return Err(format!(
@@ -295,14 +321,24 @@ impl Process {
 
 impl<F: Float> Subject<F> for Process {
     fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        self.run_timed(cases, epsilons, verdicts);
+    }
+
+    fn run_timed(
+        &self,
+        cases: &[Case<F>],
+        epsilons: &[F],
+        verdicts: &mut [Verdict<F>],
+    ) -> Option<u64> {
         verdicts.fill(Verdict::miss(None));
         let has_given_up = self.state().gave_up.is_some();
         if has_given_up {
-            return;
+            return None;
         }
-        if let Err(message) = self.try_run(cases, epsilons, verdicts) {
+        self.try_run(cases, epsilons, verdicts).unwrap_or_else(|message| {
             self.state().gave_up.get_or_insert(message);
-        }
+            None
+        })
     }
 
     fn tells_margins(&self) -> bool {
@@ -320,7 +356,7 @@ impl<F: Float> Subject<F> for Process {
         if self.hello.has_epsilons() {
             let (open, width) = (open_epsilons(info), info.gates.len());
             let ask = |cases: &[Case<F>], verdicts: &mut [Verdict<F>], margins: &mut [F]| {
-                self.ask(cases, &open, verdicts, margins)
+                self.ask(cases, &open, verdicts, margins).map(|_| ())
             };
             let failed = |failure, case: &Case<F>| self.state().margins.add(failure, case);
             let margins = margins.chunks_mut(MARGINS_AT_ONCE * width);
@@ -364,15 +400,13 @@ impl Process {
         cases: &[Case<F>],
         epsilons: &[F],
         verdicts: &mut [Verdict<F>],
-    ) -> Result<(), String> {
+    ) -> Result<Option<u64>, String> {
         match (self.ask(cases, epsilons, verdicts, &mut []), cases) {
-            (Ok(()), _) => Ok(()),
-            (Err(Lost::Garbled(message)), _) => Err(message),
-            (Err(Lost::Failed(failure)), [case]) => {
-                verdicts[0] = self.pinned(failure, case)?;
-                Ok(())
-            }
-            (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts),
+            (Ok(took), _) => return Ok(took),
+            (Err(Lost::Garbled(message)), _) => return Err(message),
+            (Err(Lost::Failed(failure)), [case]) => verdicts[0] = self.pinned(failure, case)?,
+            (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts)?,
         }
+        Ok(None)
     }
 }

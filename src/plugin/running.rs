@@ -1,10 +1,13 @@
-//! A running process: what goes in and comes out, each with its own thread, so that neither side's
-//! full pipe nor its silence stops this program.
+//! A running process, and what goes in and comes out. A command has a pipe each way, each with a thread of
+//! its own, so that neither side's full pipe nor its silence stops this program. The host of a library reads
+//! a batch whole before it answers, so one socket serves both ways, which is several times as fast.
 
 #![forbid(unsafe_code)]
 
 use crate::kernel::Failure;
-use std::io::{self, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
+#[cfg(unix)]
+use std::os::unix::net::UnixStream;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
 use std::thread;
@@ -14,12 +17,14 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Debug)]
 pub struct Program {
     words: Vec<String>,
+    /// Whether it is this program as the host of a library.
+    is_host: bool,
 }
 
 impl Program {
-    /// From its words, the program first.
-    pub fn new(words: Vec<String>) -> Program {
-        Program { words }
+    /// This program as the host of a library: its words, the program first.
+    pub fn host(words: Vec<String>) -> Program {
+        Program { words, is_host: true }
     }
 
     /// From a line, split as a shell splits it. No shell runs it: variables, pipes and && need
@@ -27,49 +32,90 @@ impl Program {
     pub fn parse(line: &str) -> Result<Program, String> {
         let words =
             shlex::split(line).ok_or("a quotation mark or a backslash in it is not closed")?;
-        if words.is_empty() { Err("it is empty".to_owned()) } else { Ok(Program { words }) }
+        if words.is_empty() {
+            Err("it is empty".to_owned())
+        } else {
+            Ok(Program { words, is_host: false })
+        }
     }
 
-    /// Starts it; its standard error is this program's.
-    pub(super) fn start(&self) -> io::Result<Running> {
+    /// Starts it; its standard error is this program's. It is lost when it is silent for this long.
+    pub(super) fn start(&self, silence: Duration) -> io::Result<Running> {
         let mut command = Command::new(&self.words[0]);
         command.args(&self.words[1..]);
         // A group of its own, to be killed with all that it starts.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
-        let (input, output) = (child.stdin.take(), child.stdout.take());
-        let (to, outgoing) = channel::<Vec<u8>>();
-        let (arrived, from) = sync_channel::<Vec<u8>>(16);
-        let missing = || io::Error::other("no pipe to it");
-        let (mut input, mut output) = (input.ok_or_else(missing)?, output.ok_or_else(missing)?);
-        // Both end when the process does, or when this side is dropped; nobody waits for them.
-        thread::spawn(move || {
-            while let Ok(bytes) = outgoing.recv() {
-                if input.write_all(&bytes).and_then(|()| input.flush()).is_err() {
-                    break;
-                }
-            }
-        });
-        thread::spawn(move || {
-            let mut buffer = vec![0; 1 << 16];
-            while let Ok(count @ 1..) = output.read(&mut buffer) {
-                if arrived.send(buffer[..count].to_vec()).is_err() {
-                    break;
-                }
-            }
-        });
-        Ok(Running { child, to: Some(to), from, unread: Vec::new() })
+        let (child, link) = match self.is_host {
+            #[cfg(unix)]
+            true => socket(command, silence)?,
+            _ => pipes(command)?,
+        };
+        Ok(Running { child, link: Some(link), silence, unread: Vec::new(), spare: Vec::new() })
     }
+}
+
+/// Starts a process with one socket as its standard input and output.
+#[cfg(unix)]
+fn socket(mut command: Command, silence: Duration) -> io::Result<(Child, Link)> {
+    let (ours, its) = UnixStream::pair()?;
+    ours.set_read_timeout(Some(silence))?;
+    ours.set_write_timeout(Some(silence))?;
+    let ends = [its.try_clone()?, its].map(|end| Stdio::from(std::os::fd::OwnedFd::from(end)));
+    let [input, output] = ends;
+    Ok((command.stdin(input).stdout(output).spawn()?, Link::Socket(ours)))
+}
+
+/// Starts a process with a pipe each way.
+fn pipes(mut command: Command) -> io::Result<(Child, Link)> {
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+    let (input, output) = (child.stdin.take(), child.stdout.take());
+    let (to, outgoing) = channel::<Vec<u8>>();
+    let (arrived, from) = sync_channel::<Vec<u8>>(16);
+    let missing = || io::Error::other("no pipe to it");
+    let (mut input, mut output) = (input.ok_or_else(missing)?, output.ok_or_else(missing)?);
+    // Both end when the process does, or when this side is dropped; nobody waits for them.
+    thread::spawn(move || {
+        while let Ok(bytes) = outgoing.recv() {
+            if input.write_all(&bytes).and_then(|()| input.flush()).is_err() {
+                break;
+            }
+        }
+    });
+    thread::spawn(move || {
+        let mut buffer = vec![0; ROOM];
+        while let Ok(count @ 1..) = output.read(&mut buffer) {
+            if arrived.send(buffer[..count].to_vec()).is_err() {
+                break;
+            }
+        }
+    });
+    Ok((child, Link::Pipes { to, from }))
+}
+
+/// The way to a process and back.
+enum Link {
+    Pipes {
+        to: Sender<Vec<u8>>,
+        from: Receiver<Vec<u8>>,
+    },
+    #[cfg(unix)]
+    Socket(UnixStream),
 }
 
 /// A process that was started; dropping it kills it and what it started.
 pub(super) struct Running {
     child: Child,
-    to: Option<Sender<Vec<u8>>>,
-    from: Receiver<Vec<u8>>,
+    /// None once its output is closed.
+    link: Option<Link>,
+    silence: Duration,
     unread: Vec<u8>,
+    /// Memory for what is sent next.
+    spare: Vec<u8>,
 }
+
+/// The most bytes that are read at once.
+const ROOM: usize = 1 << 16;
 
 /// The most bytes of a line.
 const LONGEST_LINE: usize = 1 << 16;
@@ -87,37 +133,51 @@ pub(super) enum Lost {
 }
 
 impl Running {
+    /// Memory to write into what is sent next: new memory for each batch costs more than the batch.
+    pub fn spare(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.spare)
+    }
+
     /// Hands bytes over to be written; what is left of a dead process shows when reading.
-    pub fn send(&self, bytes: Vec<u8>) {
-        if let Some(to) = &self.to {
-            let _ = to.send(bytes);
+    pub fn send(&mut self, bytes: Vec<u8>) {
+        match &mut self.link {
+            Some(Link::Pipes { to, .. }) => {
+                let _ = to.send(bytes);
+            }
+            #[cfg(unix)]
+            Some(Link::Socket(socket)) => {
+                let _ = socket.write_all(&bytes);
+                self.spare = bytes;
+            }
+            None => {}
         }
     }
 
     /// The next line, without its end.
-    pub fn line(&mut self, silence: Duration) -> Result<String, Lost> {
+    pub fn line(&mut self) -> Result<String, Lost> {
         let mut searched = 0;
         loop {
             if let Some(end) = self.unread[searched..].iter().position(|byte| *byte == b'\n') {
                 let rest = self.unread.split_off(searched + end + 1);
                 let mut line = std::mem::replace(&mut self.unread, rest);
                 line.truncate(searched + end);
-                return String::from_utf8(line)
-                    .map_err(|_| Lost::Garbled("it wrote a line that is not UTF-8".to_owned()));
+                let not_text = "it wrote a line that is not UTF-8 (if it answers in the binary encoding, its \
+                                hello must say 'encoding binary')";
+                return String::from_utf8(line).map_err(|_| Lost::Garbled(not_text.to_owned()));
             }
             searched = self.unread.len();
             if searched > LONGEST_LINE {
                 let message = format!("it wrote more than {LONGEST_LINE} bytes without a newline");
                 return Err(Lost::Garbled(message));
             }
-            self.receive(silence)?;
+            self.receive()?;
         }
     }
 
     /// The next bytes, this many.
-    pub fn bytes(&mut self, count: usize, silence: Duration) -> Result<Vec<u8>, Lost> {
+    pub fn bytes(&mut self, count: usize) -> Result<Vec<u8>, Lost> {
         while self.unread.len() < count {
-            self.receive(silence)?;
+            self.receive()?;
         }
         let rest = self.unread.split_off(count);
         Ok(std::mem::replace(&mut self.unread, rest))
@@ -125,26 +185,46 @@ impl Running {
 
     /// Whether unexpected output came.
     pub fn has_unread(&mut self) -> bool {
-        while let Ok(more) = self.from.try_recv() {
-            self.unread.extend(more);
+        match &mut self.link {
+            Some(Link::Pipes { from, .. }) => self.unread.extend(from.try_iter().flatten()),
+            #[cfg(unix)]
+            Some(Link::Socket(socket)) => {
+                // An answer that is asked for comes later, so nothing more than one read is needed.
+                let _ =
+                    socket.set_nonblocking(true).and_then(|()| read_some(socket, &mut self.unread));
+                let _ = socket.set_nonblocking(false);
+            }
+            None => {}
         }
         !self.unread.is_empty()
     }
 
-    fn receive(&mut self, silence: Duration) -> Result<(), Lost> {
-        match self.from.recv_timeout(silence) {
-            Ok(more) => {
-                self.unread.extend(more);
-                Ok(())
+    fn receive(&mut self) -> Result<(), Lost> {
+        let received = match &mut self.link {
+            Some(Link::Pipes { from, .. }) => match from.recv_timeout(self.silence) {
+                Ok(more) => {
+                    self.unread.extend(more);
+                    return Ok(());
+                }
+                Err(RecvTimeoutError::Timeout) => Err(ErrorKind::TimedOut),
+                Err(RecvTimeoutError::Disconnected) => Ok(0),
+            },
+            #[cfg(unix)]
+            Some(Link::Socket(socket)) => {
+                read_some(socket, &mut self.unread).map_err(|error| error.kind())
             }
-            Err(RecvTimeoutError::Timeout) => Err(Lost::Failed(Failure::Timeout)),
-            Err(RecvTimeoutError::Disconnected) => Err(Lost::Failed(self.end())),
+            None => Ok(0),
+        };
+        match received {
+            Ok(1..) | Err(ErrorKind::Interrupted) => Ok(()),
+            Err(ErrorKind::TimedOut | ErrorKind::WouldBlock) => Err(Lost::Failed(Failure::Timeout)),
+            Ok(0) | Err(_) => Err(Lost::Failed(self.end())),
         }
     }
 
     /// How a process ended whose output is closed.
     fn end(&mut self) -> Failure {
-        self.to = None;
+        self.link = None;
         let start = Instant::now();
         while start.elapsed() < LAST_WORDS {
             match self.child.try_wait() {
@@ -155,6 +235,16 @@ impl Running {
         }
         Failure::Timeout
     }
+}
+
+/// Appends what one read gives; how many bytes.
+#[cfg(unix)]
+fn read_some(from: &mut impl Read, bytes: &mut Vec<u8>) -> io::Result<usize> {
+    let start = bytes.len();
+    bytes.resize(start + ROOM, 0);
+    let read = from.read(&mut bytes[start..]);
+    bytes.truncate(start + *read.as_ref().unwrap_or(&0));
+    read
 }
 
 impl Drop for Running {

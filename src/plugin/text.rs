@@ -42,14 +42,23 @@ pub(super) fn epsilons_line<F: Float>(epsilons: &[F]) -> String {
 pub enum Answer<'a, F> {
     /// The verdict on a case.
     Verdict(&'a str, Verdict<F>),
-    /// `end N`.
-    End(u64),
+    /// `end N [took=NANOSECONDS]`.
+    End {
+        /// How many cases are answered.
+        cases: u64,
+        /// The nanoseconds in the kernel, if it says.
+        took: Option<u64>,
+    },
 }
 
 /// `ID miss`, `ID hit [t=T] [u=U] [v=V] [facing=front|back]` or `end N`; an error says what was
 /// expected.
 pub fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
     let shape = || {
+        if line.starts_with("HLA1") {
+            return "it answers in the binary encoding, and its hello does not say 'encoding binary'"
+                .to_owned();
+        }
         format!(
             "expected 'ID miss', 'ID hit t=… u=… v=… facing=front' or 'end N', found '{}'",
             shown(line)
@@ -58,9 +67,18 @@ pub fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
     let mut words = line.split_ascii_whitespace();
     let (first, second) = (words.next().ok_or_else(shape)?, words.next().ok_or_else(shape)?);
     let verdict = match (first, second) {
-        ("end", count) => {
-            let count = count.parse().map_err(|_| shape())?;
-            return if words.next().is_none() { Ok(Answer::End(count)) } else { Err(shape()) };
+        ("end", cases) => {
+            let cases = cases.parse().map_err(|_| shape())?;
+            let took = words.next().map(|word| {
+                let time = word.strip_prefix("took=").and_then(|time| time.parse().ok());
+                time.ok_or_else(shape)
+            });
+            let took = took.transpose()?;
+            return if words.next().is_none() {
+                Ok(Answer::End { cases, took })
+            } else {
+                Err(shape())
+            };
         }
         (_, "miss") => Verdict::miss(None),
         (_, "hit") => Verdict { hit: true, ..Verdict::miss(None) },
@@ -115,7 +133,7 @@ mod tests {
     fn verdict(line: &str) -> Result<(String, Verdict<f32>), String> {
         match answer::<f32>(line)? {
             Answer::Verdict(id, verdict) => Ok((id.to_owned(), verdict)),
-            Answer::End(_) => Err("end".to_owned()),
+            Answer::End { .. } => Err("end".to_owned()),
         }
     }
 
@@ -129,7 +147,11 @@ mod tests {
         assert!(read.t == f32::NEG_INFINITY && read.u.is_nan() && read.facing.is_none());
         let (id, read) = verdict("fan@1/f32/-/1/5.2 miss\r").unwrap();
         assert_eq!((id.as_str(), read.hit), ("fan@1/f32/-/1/5.2", false));
-        assert_eq!(answer::<f64>("end 12"), Ok(Answer::End(12)));
+        assert_eq!(answer::<f64>("end 12"), Ok(Answer::End { cases: 12, took: None }));
+        assert_eq!(answer::<f64>("end 12 took=5"), Ok(Answer::End { cases: 12, took: Some(5) }));
+        for line in ["end 12 5", "end 12 took=", "end 12 took=-1", "end 12 took=5 6"] {
+            assert!(answer::<f64>(line).is_err(), "{line}");
+        }
     }
 
     #[test]

@@ -285,7 +285,13 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
         (output.status.code(), text(&output.stdout), text(&output.stderr))
     };
     let (_, listed, _) = run(&["list", "kernels"]);
-    assert!(listed.contains("\nmine\n") && listed.contains("moller-trumbore\n"), "{listed}");
+    assert!(listed.starts_with("mine\n") && listed.contains("\nmoller-trumbore\n"), "{listed}");
+    // Who names no kernel means these.
+    let (_, rows, error) = run(&["audit", "-n", "20", "--family", "interior", "--format", "json"]);
+    let rows: serde_json::Value = serde_json::from_str(&rows).expect(&error);
+    let names = rows["result"]["plan"]["rows"].as_array().unwrap().iter();
+    let names: Vec<&str> = names.map(|row| row["kernel"].as_str().unwrap()).collect();
+    assert_eq!(names, ["mine", "bounding-box"]);
     let (code, _, error) = run(&["audit", "--kernel", "bounding-bx"]);
     assert!(code == Some(2) && error.contains("did you mean 'bounding-box'?"), "{error}");
     let kernels = "mine,bounding-box,cramer";

@@ -30,16 +30,17 @@ fn has(program: &str) -> bool {
     found
 }
 
-/// A library built by `cc`; none if there is no `cc`.
+/// A library built by `cc`, or by `c++` if the flags say that it is C++; none if there is no such compiler.
 fn library(source: &Path, name: &str, flags: &[&str]) -> Option<String> {
-    if !has("cc") {
+    let compiler = if flags.contains(&"-xc++") { "c++" } else { "cc" };
+    if !has(compiler) {
         return None;
     }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("libraries");
     fs::create_dir_all(&folder).unwrap();
     let path = folder.join(format!("lib{name}.so"));
     let include = format!("-I{HERE}/include");
-    let built = Command::new("cc")
+    let built = Command::new(compiler)
         .args(["-O1", "-ffp-contract=off", "-shared", "-fPIC", &include])
         .args(flags)
         .arg("-o")
@@ -53,7 +54,10 @@ fn library(source: &Path, name: &str, flags: &[&str]) -> Option<String> {
 
 fn misbehaving(fault: &str) -> Option<String> {
     let source = PathBuf::from(HERE).join("tests/kernels/misbehave.c");
-    library(&source, &fault.to_lowercase(), &[&format!("-DFAULT={fault}")])
+    let fault_flag = format!("-DFAULT={fault}");
+    let flags = [&fault_flag, "-xc++", "-std=c++20"];
+    let flags = if fault == "THROW" { &flags[..] } else { &flags[..1] };
+    library(&source, &fault.to_lowercase(), flags)
 }
 
 /// An audit's record, and what it wrote to standard error.
@@ -107,6 +111,7 @@ fn a_library_that_crashes_exits_or_writes_where_it_must_not_is_a_finding_case_by
         ("WRITE_BEFORE", "touched memory outside its buffers"),
         ("WRITE_INPUT", "touched memory outside its buffers"),
         ("READ_PAST", "touched memory outside its buffers"),
+        ("THROW", "threw a C++ exception"),
     ] {
         let Some(library) = misbehaving(fault) else { return };
         let flags = [&["--kernel-lib", &library][..], &FLAGS].concat();
@@ -546,6 +551,8 @@ fn answers_that_are_none_end_the_run_and_never_hang_it() {
             "more",
         ),
         ("printf '\\377\\n'; cat >/dev/null", "it wrote a line that is not UTF-8"),
+        ("read -r line; echo HLA1", "it answers in the binary encoding"),
+        ("read -r line; echo 0 miss; echo end 1 took=soon", "expected 'ID miss', 'ID hit "),
     ] {
         let command = shell(body);
         let mut more =
@@ -599,6 +606,32 @@ fn a_command_that_dies_or_is_silent_on_a_case_is_a_finding() {
         "{shown}"
     );
     assert!(start.elapsed() < Duration::from_secs(50));
+}
+
+#[test]
+fn a_kernel_that_says_how_long_it_took_is_believed() {
+    // 7 ns a case, whatever it really is.
+    let seven = MISSES.replace("echo end $id", "echo end $id took=$((7 * id))");
+    let command = shell(&seven);
+    let (record, _) = record(&[&["--kernel-cmd", &command][..], &FLAGS].concat());
+    let times = record.pointer("/provenance/kernel_nanoseconds/f64").unwrap();
+    assert_eq!(times, &serde_json::json!({ "sh (own)": 7.0 }));
+    assert_eq!(count(&record, "false_misses/count"), COUNT);
+}
+
+#[test]
+fn an_encoding_that_was_not_announced_is_explained() {
+    let text_in_binary = shell(MISSES).replace("ready", "encoding binary\\nready");
+    let talks = text_in_binary.replace("while read", "echo 0 miss; echo 1 miss; while read");
+    let error = refused(&[&["audit", "--kernel-cmd", &talks][..], &FLAGS].concat(), 65);
+    assert!(error.contains("its hello says 'encoding binary', and it answers in text"), "{error}");
+    // Who never answers is not asked a thousand times.
+    let start = Instant::now();
+    let flags = ["audit", "--kernel-timeout", "0.3", "--kernel-cmd"];
+    let deaf = shell("cat >/dev/null");
+    let error = refused(&[&flags[..], &[&deaf], &FLAGS].concat(), 65);
+    assert!(error.contains("it has answered none of 3 cases, each within 0.3 s: "), "{error}");
+    assert!(start.elapsed() < Duration::from_secs(30));
 }
 
 /// What a command that prints before it fails says on standard error; exit code 65.

@@ -1,5 +1,5 @@
 /* A kernel that misbehaves on one case in 64, in the way that -DFAULT=... says: for tests/plugin.rs,
- * which knows the same rule. Everywhere else it misses. */
+ * which knows the same rule. Everywhere else it misses. With THROW it is C++. */
 #include "hairline.h"
 #include <fenv.h>
 #include <math.h>
@@ -29,6 +29,11 @@
 #define CLOSE_PIPES 18
 #define FLUSH_AT_LOAD 19
 #define ROUND_UP 20
+#define THROW 21
+
+#if FAULT == THROW
+#include <stdexcept>
+#endif
 
 #if FAULT == FLUSH_AT_LOAD
 /* What gcc links into a library that is built with -ffast-math. */
@@ -73,6 +78,9 @@ void hairline_test_f64(const hairline_case_f64 *cases, size_t count, const doubl
         case RETURN_NAN: verdicts[i].hit = 1; verdicts[i].t = NAN; break;
         case NO_ANSWER: verdicts[i].hit = -1; break;
         case WRONG_ANSWER: verdicts[i].hit = 7; break;
+#if FAULT == THROW
+        case THROW: throw std::out_of_range("beyond the scene");
+#endif
         case CLOSE_PIPES: for (int fd = 0; fd < 256; fd++) close(fd); for (;;) sleep(1);
         default: break;
         }

@@ -1,6 +1,7 @@
-//! Memory between guard pages: who touches what lies beside it is caught.
+//! Memory between guard pages: who touches what lies beside it is caught. So is who throws.
 
-use super::super::binary::OVERRUN;
+use super::super::binary::Before;
+use crate::kernel::Failure;
 use std::ffi::{c_int, c_void};
 use std::io;
 use std::ptr;
@@ -11,13 +12,20 @@ const GUARD_PAGES: usize = 16;
 /// What stands between the guard in front of a buffer and the buffer.
 const SLACK: u8 = 0xa5;
 
-/// Where each of the three buffers begins and ends, guards included: what the handler looks at.
-static RANGES: [[AtomicUsize; 2]; 3] = [const { [const { AtomicUsize::new(0) }; 2] }; 3];
+/// How many buffers there are.
+const BUFFERS: usize = 5;
+/// Where each of them begins and ends, guards included: what the handler looks at.
+static RANGES: [[AtomicUsize; 2]; BUFFERS] =
+    [const { [const { AtomicUsize::new(0) }; 2] }; BUFFERS];
 /// Where the handler writes.
 static OUTPUT: AtomicI32 = AtomicI32::new(-1);
+/// The [`CurrentException`] of the library's C++ runtime; 0 if it has none.
+static CURRENT_EXCEPTION: AtomicUsize = AtomicUsize::new(0);
 
 /// Memory that ends where a guard begins: the first byte past it is a fault.
 pub(super) struct Buffer {
+    /// Its number among those that the handler knows.
+    place: usize,
     map: *mut c_void,
     map_length: usize,
     page: usize,
@@ -25,20 +33,40 @@ pub(super) struct Buffer {
 }
 
 impl Buffer {
-    /// A buffer in one of the three places that the handler knows.
-    pub fn new(place: usize, length: usize) -> io::Result<Buffer> {
+    /// All of them, empty.
+    pub fn all() -> io::Result<[Buffer; BUFFERS]> {
         // SAFETY: a plain question.
         let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) }.max(1) as usize;
-        let guard = GUARD_PAGES * page;
-        let data = length.max(1).next_multiple_of(page);
-        let map_length = data + 2 * guard;
+        let buffers: Vec<Buffer> =
+            (0..BUFFERS).map(|place| Buffer::new(place, page, 0)).collect::<io::Result<_>>()?;
+        buffers.try_into().map_err(|_| io::Error::other("as many as there are places"))
+    }
+
+    /// Makes it this long, and writable. What was in it is lost.
+    pub fn fit(&mut self, length: usize) -> io::Result<()> {
+        if Buffer::map_length(self.page, length) == self.map_length {
+            self.length = length;
+            self.protect(libc::PROT_READ | libc::PROT_WRITE)?;
+            self.slack().fill(SLACK);
+        } else {
+            *self = Buffer::new(self.place, self.page, length)?;
+        }
+        Ok(())
+    }
+
+    fn map_length(page: usize, length: usize) -> usize {
+        length.max(1).next_multiple_of(page) + 2 * GUARD_PAGES * page
+    }
+
+    fn new(place: usize, page: usize, length: usize) -> io::Result<Buffer> {
+        let map_length = Buffer::map_length(page, length);
         let flags = libc::MAP_PRIVATE | libc::MAP_ANON;
         // SAFETY: a new mapping, which nothing else knows.
         let map = unsafe { libc::mmap(ptr::null_mut(), map_length, libc::PROT_NONE, flags, -1, 0) };
         if map == libc::MAP_FAILED {
             return Err(io::Error::last_os_error());
         }
-        let mut buffer = Buffer { map, map_length, page, length };
+        let mut buffer = Buffer { place, map, map_length, page, length };
         buffer.protect(libc::PROT_READ | libc::PROT_WRITE)?;
         buffer.slack().fill(SLACK);
         RANGES[place][0].store(map as usize, Ordering::SeqCst);
@@ -99,36 +127,45 @@ impl Drop for Buffer {
     }
 }
 
-pub(super) fn overrun_head() -> [u8; 8] {
-    let [a, b, c, d] = OVERRUN;
-    [a, b, c, d, 0, 0, 0, 0]
-}
+/// What is known of an exception that is being handled: its type; null if there is none.
+pub(super) type CurrentException = unsafe extern "C" fn() -> *const c_void;
 
-/// From now on a fault in or beside a buffer is reported as such; any other kills the process as usual.
-pub(super) fn watch_guards(output: c_int) {
+/// From now on a fault in or beside a buffer, and an abort because of an exception, are reported as such;
+/// any other kills the process as usual.
+pub(super) fn watch(output: c_int, exception: Option<CurrentException>) {
     OUTPUT.store(output, Ordering::SeqCst);
+    CURRENT_EXCEPTION.store(exception.map_or(0, |current| current as usize), Ordering::SeqCst);
     // SAFETY: the handler calls only what may be called in one.
     unsafe {
         let mut action: libc::sigaction = std::mem::zeroed();
-        let handler: extern "C" fn(c_int, *mut libc::siginfo_t, *mut c_void) = on_fault;
+        let handler: extern "C" fn(c_int, *mut libc::siginfo_t, *mut c_void) = on_signal;
         action.sa_sigaction = handler as usize;
         action.sa_flags = libc::SA_SIGINFO | libc::SA_ONSTACK;
         libc::sigemptyset(&mut action.sa_mask);
-        libc::sigaction(libc::SIGSEGV, &action, ptr::null_mut());
-        libc::sigaction(libc::SIGBUS, &action, ptr::null_mut());
+        for signal in [libc::SIGSEGV, libc::SIGBUS, libc::SIGABRT] {
+            libc::sigaction(signal, &action, ptr::null_mut());
+        }
     }
 }
 
-extern "C" fn on_fault(signal: c_int, info: *mut libc::siginfo_t, _: *mut c_void) {
+extern "C" fn on_signal(signal: c_int, info: *mut libc::siginfo_t, _: *mut c_void) {
     // SAFETY: with SA_SIGINFO the system passes a valid siginfo; write, _exit and signal may be
-    // called in a handler.
+    // called in a handler, and so may CURRENT_EXCEPTION's function, since abort was called and did not
+    // interrupt anything.
     unsafe {
-        let address = (*info).si_addr() as usize;
-        let is_ours = RANGES.iter().any(|[start, end]| {
-            (start.load(Ordering::SeqCst)..end.load(Ordering::SeqCst)).contains(&address)
-        });
-        if is_ours {
-            let head = overrun_head();
+        let failure = if signal == libc::SIGABRT {
+            let current = CURRENT_EXCEPTION.load(Ordering::SeqCst);
+            let current = std::mem::transmute::<usize, Option<CurrentException>>(current);
+            current.is_some_and(|current| !current().is_null()).then_some(Failure::Exception)
+        } else {
+            let address = (*info).si_addr() as usize;
+            let is_ours = RANGES.iter().any(|[start, end]| {
+                (start.load(Ordering::SeqCst)..end.load(Ordering::SeqCst)).contains(&address)
+            });
+            is_ours.then_some(Failure::Overrun)
+        };
+        if let Some(failure) = failure {
+            let head = Before::Failure(failure).head();
             libc::write(OUTPUT.load(Ordering::SeqCst), head.as_ptr().cast(), head.len());
             libc::_exit(1);
         }
