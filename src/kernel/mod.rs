@@ -11,11 +11,13 @@
 #![forbid(unsafe_code)]
 
 pub mod gate;
+mod generic;
 mod margins;
 mod own;
 mod preset;
 mod recording;
 mod registry;
+mod runs;
 mod subject;
 mod variant;
 mod verdict;
@@ -34,14 +36,16 @@ mod woop_watertight;
 pub use gate::{
     Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
 };
+pub use generic::Generic;
 pub(crate) use margins::{by_running, of_miss, open_epsilons, values_of};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
 pub use recording::{Compared, Path};
 pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register, unnamed};
+pub use runs::{ExactRun, Measured, TrackedRun};
 pub(crate) use subject::verdicts_of;
-pub use subject::{ExactRun, Gated, Generic, Measured, Subject, TrackedRun};
+pub use subject::{Gated, Subject};
 pub use verdict::{Failure, Verdict};
 
 use crate::arith::{Real, Vector};
