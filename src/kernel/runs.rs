@@ -1,0 +1,87 @@
+//! What comes out of a run that shows more than a verdict: margins, a run without rounding, a run with its
+//! exceptions.
+
+use super::{Deciding, Hit, Kernel, Verdict};
+use crate::arith::{Arithmetic, Exceptions, Float, Real, Tracked, Triple, tracked};
+use crate::case::{Case, Ray, Triangle};
+use crate::truth::Facing;
+
+/// The margins of one case, and the values computed along the way.
+#[derive(Clone, Debug)]
+pub struct Measured<R> {
+    /// One margin a gate; +inf if the kernel never compared.
+    pub margins: Vec<R>,
+    /// What a hit would report.
+    pub values: Option<Hit<R>>,
+}
+
+/// A kernel's run without rounding, by the comparisons of its source.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExactRun {
+    /// Whether each gate passes.
+    pub passed: Vec<bool>,
+    /// Whether the values that a hit would report are numbers.
+    pub finite: bool,
+    /// The side that a hit would report.
+    pub facing: Option<Facing>,
+}
+
+impl ExactRun {
+    /// Whether it is a hit.
+    pub fn hit(&self) -> bool {
+        self.passed.iter().all(|passes| *passes)
+    }
+
+    pub(super) fn of<R: Real>(passed: Vec<bool>, values: Option<Hit<R>>) -> ExactRun {
+        let finite = values.as_ref().is_some_and(|Hit { t, uv, .. }| {
+            t.iter().chain(uv.iter().flat_map(|(u, v)| [u, v])).all(R::is_finite)
+        });
+        ExactRun { passed, finite, facing: values.and_then(|hit| hit.facing) }
+    }
+}
+
+/// A kernel's float run, with the exceptions that it met.
+#[derive(Clone, Copy, Debug)]
+pub struct TrackedRun<F> {
+    /// The verdict.
+    pub verdict: Verdict<F>,
+    /// Of the numbers behind its decisions.
+    pub decision: Exceptions,
+    /// Of the values of a hit.
+    pub values: Exceptions,
+}
+
+impl<F: Float> TrackedRun<F> {
+    /// The run of a kernel in some arithmetic.
+    pub(super) fn of<K: Kernel>(
+        case: &Case<F>,
+        epsilons: &[F],
+        arithmetic: Arithmetic,
+    ) -> TrackedRun<F> {
+        let (ray, triangle, epsilons) = TrackedRun::lift(case, epsilons, arithmetic);
+        let mut sink = Deciding::new(&epsilons);
+        let (hit, decision) = tracked(|| K::test(&K::prepare(&triangle), &ray, &mut sink));
+        TrackedRun::new(hit, decision, sink.refused_by)
+    }
+
+    fn lift(case: &Case<F>, epsilons: &[F], arithmetic: Arithmetic) -> TrackedInput<F> {
+        let number = |x: F| Tracked::new(x, arithmetic);
+        let (ray, triangle) = case.lift(number);
+        (ray, triangle, epsilons.iter().map(|e| number(*e)).collect())
+    }
+
+    fn new(
+        hit: Option<Hit<Tracked<F>>>,
+        decision: Exceptions,
+        refused_by: Option<usize>,
+    ) -> TrackedRun<F> {
+        let values = hit.as_ref().map_or(Exceptions::default(), |Hit { t, uv, .. }| {
+            let uv = uv.iter().flat_map(|(u, v)| [u, v]);
+            t.iter().chain(uv).fold(Exceptions::default(), |sum, x| sum | x.raised())
+        });
+        let verdict = Verdict::of(hit.map(|hit| hit.map(|x| x.value())), refused_by);
+        TrackedRun { verdict, decision, values }
+    }
+}
+
+type TrackedInput<F> = (Ray<Triple<Tracked<F>>>, Triangle<Triple<Tracked<F>>>, Vec<Tracked<F>>);
