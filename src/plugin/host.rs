@@ -7,54 +7,24 @@
 #![allow(unsafe_code)]
 
 mod guard;
+mod library;
 
-use super::PROTOCOL;
 use super::binary::{
     ANSWER, BATCH, BATCH_HEAD, Before, CASE_NUMBERS, MARGINS, float, push, verdict_bytes,
 };
 use crate::arith::{Float, FloatEnvironment};
 use crate::kernel::{Failure, by_running, of_miss};
-use guard::{Buffer, CurrentException, watch};
-use libloading::os::unix;
+use guard::{Buffer, watch};
+use library::{Library, Test, one_line};
 use std::cell::{Cell, RefCell};
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::c_void;
 use std::fs::File;
 use std::io::{self, Read, Write};
-use std::mem::ManuallyDrop;
 use std::os::fd::{AsFd, AsRawFd};
 use std::os::unix::process::parent_id;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
-
-/// The version of include/hairline.h.
-const ABI: u32 = 1;
-
-/// `hairline_epsilon`.
-#[repr(C)]
-struct Epsilon {
-    name: *const c_char,
-    value: *const c_char,
-    refuses: *const c_char,
-    length: i32,
-    direction: i32,
-    non_negative: i32,
-    reserved: i32,
-}
-
-/// `hairline_kernel`.
-#[repr(C)]
-struct Kernel {
-    name: *const c_char,
-    source: *const c_char,
-    contract: *const c_char,
-    gives: u32,
-    epsilon_count: u32,
-    epsilons: *const Epsilon,
-}
-
-/// `hairline_test_f32` and `hairline_test_f64`: cases, count, epsilons, verdicts.
-type Test = unsafe extern "C-unwind" fn(*const c_void, usize, *const c_void, *mut c_void);
 
 /// Loads a library and answers batches from standard input until it ends; returns the exit code.
 pub fn serve(path: &Path) -> u8 {
@@ -318,121 +288,4 @@ fn limit_damage() {
 pub(super) fn kill_group(leader: u32) {
     // SAFETY: a plain system call; an id that no group has is an error, which is none here.
     unsafe { libc::kill(-(leader as libc::pid_t), libc::SIGKILL) };
-}
-
-/// A loaded library; it stays loaded until the process ends.
-struct Library {
-    library: ManuallyDrop<unix::Library>,
-    f32: Option<Test>,
-    f64: Option<Test>,
-}
-
-impl Library {
-    fn open(path: &Path) -> Result<Library, String> {
-        // SAFETY: what the library's constructors do is what this process is for.
-        let opened = unsafe { unix::Library::open(Some(path), unix::RTLD_NOW | unix::RTLD_LOCAL) };
-        let library = ManuallyDrop::new(opened.map_err(|error| {
-            // What the loader says stands in the source of the error.
-            let reason = std::error::Error::source(&error).map(ToString::to_string);
-            one_line(&reason.unwrap_or_else(|| error.to_string()))
-        })?);
-        let mut library = Library { library, f32: None, f64: None };
-        // SAFETY: by include/hairline.h this symbol has this type.
-        let abi = unsafe { library.symbol::<unsafe extern "C" fn() -> u32>("hairline_abi") };
-        let abi = abi.ok_or(
-            "it has no function hairline_abi: build it with include/hairline.h (extern \"C\" in C++)",
-        )?;
-        // SAFETY: it takes nothing.
-        let abi = unsafe { abi() };
-        if abi != ABI {
-            return Err(format!(
-                "it was built with version {abi} of hairline.h, this program has version {ABI}"
-            ));
-        }
-        // SAFETY: by include/hairline.h these symbols have this type.
-        unsafe {
-            library.f32 = library.symbol::<Test>("hairline_test_f32");
-            library.f64 = library.symbol::<Test>("hairline_test_f64");
-        }
-        if library.f32.is_none() && library.f64.is_none() {
-            return Err("it has neither hairline_test_f32 nor hairline_test_f64".to_owned());
-        }
-        Ok(library)
-    }
-
-    /// How to ask the library's C++ runtime for the exception that is being handled, if it has one.
-    fn current_exception(&self) -> Option<CurrentException> {
-        // SAFETY: by the Itanium C++ ABI (2.5.4) this symbol has this type.
-        unsafe { self.symbol::<CurrentException>("__cxa_current_exception_type") }
-    }
-
-    /// A function of the library.
-    ///
-    /// # Safety
-    /// The symbol is a function of type `T`, if there is one.
-    unsafe fn symbol<T: Copy>(&self, name: &str) -> Option<T> {
-        // SAFETY: the caller's promise.
-        let symbol = unsafe { self.library.get::<T>(name.as_bytes()) };
-        symbol.ok().map(|symbol| *symbol)
-    }
-
-    /// What the library says of itself, as the lines of a hello.
-    fn hello(&self) -> Result<String, String> {
-        // SAFETY: by include/hairline.h the symbol has this type, and what it returns stays valid.
-        let kernel = unsafe {
-            let describe =
-                self.symbol::<unsafe extern "C" fn() -> *const Kernel>("hairline_describe");
-            let describe = describe.ok_or("it has no function hairline_describe")?;
-            describe().as_ref().ok_or("hairline_describe returned NULL")?
-        };
-        // SAFETY: strings by include/hairline.h.
-        let [name, source, contract] =
-            unsafe { [kernel.name, kernel.source, kernel.contract].map(|text| text_of(text)) };
-        let mut hello = format!("hairline-kernel {PROTOCOL}\nencoding binary\n");
-        hello += &format!("name {}\n", name.ok_or("its name is NULL")?);
-        hello += &format!("contract {}\n", contract.ok_or("its contract is NULL")?);
-        hello += &source.map_or_else(String::new, |source| format!("source {source}\n"));
-        let words = |words: &[(bool, &str)]| -> String {
-            words.iter().filter(|(given, _)| *given).map(|(_, word)| format!(" {word}")).collect()
-        };
-        let gives =
-            [(1, "t"), (2, "uv"), (4, "facing")].map(|(bit, w)| (kernel.gives & bit != 0, w));
-        hello += &format!("gives{}\n", words(&gives));
-        let scalars = [(self.f32.is_some(), "f32"), (self.f64.is_some(), "f64")];
-        hello += &format!("scalars{}\n", words(&scalars));
-        if kernel.epsilon_count > 0 && kernel.epsilons.is_null() {
-            return Err("its epsilons are NULL, and epsilon_count is not 0".to_owned());
-        }
-        for i in 0..kernel.epsilon_count as usize {
-            // SAFETY: epsilon_count elements by include/hairline.h.
-            hello += &epsilon_line(unsafe { &*kernel.epsilons.add(i) })?;
-        }
-        Ok(hello)
-    }
-}
-
-fn epsilon_line(epsilon: &Epsilon) -> Result<String, String> {
-    // SAFETY: strings by include/hairline.h.
-    let [name, value, refuses] =
-        unsafe { [epsilon.name, epsilon.value, epsilon.refuses].map(|text| text_of(text)) };
-    let name = name.ok_or("an epsilon's name is NULL")?;
-    let value = value.ok_or_else(|| format!("the value of epsilon {name} is NULL"))?;
-    let sign = if epsilon.non_negative != 0 { "non-negative" } else { "signed" };
-    let (length, direction) = (epsilon.length, epsilon.direction);
-    let refuses = refuses.unwrap_or_default();
-    Ok(format!("epsilon {name} {value} {length} {direction} {sign} {refuses}\n"))
-}
-
-/// A C string on one line; none for NULL.
-///
-/// # Safety
-/// `text` is NULL or a valid C string.
-unsafe fn text_of(text: *const c_char) -> Option<String> {
-    // SAFETY: the caller's promise.
-    let text = (!text.is_null()).then(|| unsafe { CStr::from_ptr(text) })?;
-    Some(one_line(&text.to_string_lossy()))
-}
-
-fn one_line(text: &str) -> String {
-    text.replace(['\n', '\r'], " ")
 }

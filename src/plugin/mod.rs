@@ -8,6 +8,7 @@
 #![deny(unsafe_code)]
 
 mod binary;
+mod exchange;
 mod hello;
 #[cfg(unix)]
 mod host;

@@ -3,11 +3,10 @@
 
 #![forbid(unsafe_code)]
 
-use super::binary::{self, Before};
-use super::hello::{Hello, Start, shown};
+use super::exchange;
+use super::hello::{Hello, Start};
 use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
 use super::running::{Lost, Program, Running};
-use super::text;
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
@@ -139,18 +138,21 @@ impl Process {
             Some(running) => running,
             None => self.another()?,
         };
-        let took = if self.hello.binary {
-            self.ask_in_binary(&mut running, cases, epsilons, verdicts, margins)?
+        let said = if self.hello.binary {
+            exchange::in_binary(&mut running, cases, epsilons, verdicts, margins)?
         } else {
-            self.ask_in_text(&mut running, cases, epsilons, verdicts)?
+            exchange::in_text(&mut running, cases, epsilons, verdicts)?
         };
+        if let Some(floats) = said.floats {
+            self.has_changed_to(floats)?;
+        }
         if running.has_unread() {
             return Err(Lost::Garbled("it wrote more than was asked for".to_owned()));
         }
         let mut state = self.state();
         state.idle.push(running);
         state.has_answered = true;
-        Ok(took)
+        Ok(said.took)
     }
 
     fn another(&self) -> Result<Running, Lost> {
@@ -161,94 +163,6 @@ impl Process {
             return Err(Lost::Garbled(message));
         }
         Ok(running)
-    }
-
-    fn ask_in_text<F: Float>(
-        &self,
-        running: &mut Running,
-        cases: &[Case<F>],
-        epsilons: &[F],
-        verdicts: &mut [Verdict<F>],
-    ) -> Result<Option<u64>, Lost> {
-        let mut lines = String::new();
-        if !epsilons.is_empty() {
-            lines.push_str(&text::epsilons_line(epsilons));
-        }
-        for (id, case) in cases.iter().enumerate() {
-            lines.push_str(&text::case_line(id, case));
-        }
-        let count = cases.len() as u64;
-        lines.push_str(&text::end_line(count));
-        running.send(lines.into_bytes());
-        for (id, place) in verdicts.iter_mut().enumerate() {
-            let line = running.line()?;
-            match text::answer::<F>(&line).map_err(Lost::Garbled)? {
-                text::Answer::Verdict(name, verdict) if name.parse() == Ok(id) => *place = verdict,
-                _ => {
-                    let line = shown(&line);
-                    let message =
-                        format!("expected the verdict on case {id} of {count}, found '{line}'");
-                    return Err(Lost::Garbled(message));
-                }
-            }
-        }
-        let line = running.line()?;
-        match text::answer::<F>(&line) {
-            Ok(text::Answer::End { cases, took }) if cases == count => Ok(took),
-            _ => Err(Lost::Garbled(format!(
-                "after {count} verdicts expected 'end {count}', found '{}'",
-                shown(&line)
-            ))),
-        }
-    }
-
-    fn ask_in_binary<F: Float>(
-        &self,
-        running: &mut Running,
-        cases: &[Case<F>],
-        epsilons: &[F],
-        verdicts: &mut [Verdict<F>],
-        margins: &mut [F],
-    ) -> Result<Option<u64>, Lost> {
-        let kind = if margins.is_empty() { binary::BATCH } else { binary::MARGINS };
-        let mut bytes = running.spare();
-        binary::write_batch(kind, cases, epsilons, &mut bytes);
-        running.send(bytes);
-        let (mut head, mut took) = (running.bytes(binary::ANSWER_HEAD)?, None);
-        while let Some(before) = binary::before_answer(&head) {
-            match before {
-                Before::Floats(floats) => self.has_changed_to(floats)?,
-                Before::Took(time) => took = Some(time),
-                Before::Failure(failure) => return Err(Lost::Failed(failure)),
-            }
-            head = running.bytes(binary::ANSWER_HEAD)?;
-        }
-        let mut expected = binary::ANSWER.to_vec();
-        expected.extend((cases.len() as u32).to_le_bytes());
-        if head != expected {
-            // A verdict in text, or the end of a batch.
-            let is_text = head.iter().all(|byte| matches!(byte, b' '..=b'~' | b'\n'));
-            let [head, expected] = [&head, &expected].map(|bytes| bytes.escape_ascii());
-            let why = if is_text {
-                "its hello says 'encoding binary', and it answers in text: "
-            } else {
-                ""
-            };
-            let message = format!("{why}its answer begins with '{head}', expected '{expected}'");
-            return Err(Lost::Garbled(message));
-        }
-        let size = binary::verdict_bytes::<F>();
-        let bytes = running.bytes(size * cases.len())?;
-        for (id, (record, place)) in bytes.chunks_exact(size).zip(verdicts).enumerate() {
-            let of = cases.len();
-            *place = binary::verdict(record)
-                .map_err(|message| Lost::Garbled(format!("verdict {id} of {of}: {message}")))?;
-        }
-        let bytes = running.bytes(size_of_val(margins))?;
-        for (bytes, margin) in bytes.chunks_exact(size_of::<F>()).zip(margins) {
-            *margin = binary::float(bytes);
-        }
-        Ok(took)
     }
 
     /// Notes that the arithmetic of a process changed while it answered; an error if that is not allowed.

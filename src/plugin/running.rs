@@ -51,7 +51,8 @@ impl Program {
             true => socket(command, silence)?,
             _ => pipes(command)?,
         };
-        Ok(Running { child, link: Some(link), silence, unread: Vec::new(), spare: Vec::new() })
+        let (received, spare) = (Vec::new(), Vec::new());
+        Ok(Running { child, link: Some(link), silence, received, taken: 0, spare })
     }
 }
 
@@ -109,7 +110,9 @@ pub(super) struct Running {
     /// None once its output is closed.
     link: Option<Link>,
     silence: Duration,
-    unread: Vec<u8>,
+    /// What came, of which this much is taken.
+    received: Vec<u8>,
+    taken: usize,
     /// Memory for what is sent next.
     spare: Vec<u8>,
 }
@@ -157,15 +160,15 @@ impl Running {
     pub fn line(&mut self) -> Result<String, Lost> {
         let mut searched = 0;
         loop {
-            if let Some(end) = self.unread[searched..].iter().position(|byte| *byte == b'\n') {
-                let rest = self.unread.split_off(searched + end + 1);
-                let mut line = std::mem::replace(&mut self.unread, rest);
-                line.truncate(searched + end);
+            let unread = &self.received[self.taken..];
+            if let Some(end) = unread[searched..].iter().position(|byte| *byte == b'\n') {
+                let line = unread[..searched + end].to_vec();
+                self.taken += line.len() + 1;
                 let not_text = "it wrote a line that is not UTF-8 (if it answers in the binary encoding, its \
                                 hello must say 'encoding binary')";
                 return String::from_utf8(line).map_err(|_| Lost::Garbled(not_text.to_owned()));
             }
-            searched = self.unread.len();
+            searched = unread.len();
             if searched > LONGEST_LINE {
                 let message = format!("it wrote more than {LONGEST_LINE} bytes without a newline");
                 return Err(Lost::Garbled(message));
@@ -175,35 +178,39 @@ impl Running {
     }
 
     /// The next bytes, this many.
-    pub fn bytes(&mut self, count: usize) -> Result<Vec<u8>, Lost> {
-        while self.unread.len() < count {
+    pub fn bytes(&mut self, count: usize) -> Result<&[u8], Lost> {
+        while self.received.len() - self.taken < count {
             self.receive()?;
         }
-        let rest = self.unread.split_off(count);
-        Ok(std::mem::replace(&mut self.unread, rest))
+        let start = self.taken;
+        self.taken += count;
+        Ok(&self.received[start..self.taken])
     }
 
     /// Whether unexpected output came.
     pub fn has_unread(&mut self) -> bool {
         match &mut self.link {
-            Some(Link::Pipes { from, .. }) => self.unread.extend(from.try_iter().flatten()),
+            Some(Link::Pipes { from, .. }) => self.received.extend(from.try_iter().flatten()),
             #[cfg(unix)]
             Some(Link::Socket(socket)) => {
                 // An answer that is asked for comes later, so nothing more than one read is needed.
-                let _ =
-                    socket.set_nonblocking(true).and_then(|()| read_some(socket, &mut self.unread));
+                let _ = socket
+                    .set_nonblocking(true)
+                    .and_then(|()| read_some(socket, &mut self.received));
                 let _ = socket.set_nonblocking(false);
             }
             None => {}
         }
-        !self.unread.is_empty()
+        self.taken < self.received.len()
     }
 
     fn receive(&mut self) -> Result<(), Lost> {
+        self.received.drain(..self.taken);
+        self.taken = 0;
         let received = match &mut self.link {
             Some(Link::Pipes { from, .. }) => match from.recv_timeout(self.silence) {
                 Ok(more) => {
-                    self.unread.extend(more);
+                    self.received.extend(more);
                     return Ok(());
                 }
                 Err(RecvTimeoutError::Timeout) => Err(ErrorKind::TimedOut),
@@ -211,7 +218,7 @@ impl Running {
             },
             #[cfg(unix)]
             Some(Link::Socket(socket)) => {
-                read_some(socket, &mut self.unread).map_err(|error| error.kind())
+                read_some(socket, &mut self.received).map_err(|error| error.kind())
             }
             None => Ok(0),
         };
