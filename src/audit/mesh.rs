@@ -3,6 +3,8 @@
 
 use super::chunk::{Chunk, SourceSummary};
 use super::group_count::{GroupCount, Outcome};
+use super::places::Places;
+pub use super::places::{Seen, Wrong};
 use super::row::Row;
 use super::rows::Rows;
 use super::source::Source;
@@ -29,6 +31,8 @@ pub struct Plan {
     pub unit_direction: bool,
     /// How many examples of each class and kind to keep, by index.
     pub examples: usize,
+    /// How many places of each row, part and scalar to keep for a drawing.
+    pub places: usize,
 }
 
 impl Plan {
@@ -88,6 +92,8 @@ pub struct Tally {
     pub failures: u64,
     /// The first of them, by index.
     pub first_failures: Vec<u64>,
+    /// Where it went wrong, up to [`Plan::places`].
+    pub places: Places,
 }
 
 /// An edge or vertex with a crack of some row, whatever its contract, or with a double or a wrong fold
@@ -147,20 +153,23 @@ struct Run<'a, F: 'static> {
 struct Sums {
     summary: SourceSummary,
     rows: Vec<(Tally, u64)>,
-    examples: usize,
+    /// Of examples, and of places.
+    limits: [usize; 2],
 }
 
 impl Merge for Sums {
     fn merge(&mut self, other: Sums) {
         self.summary.merge(&other.summary);
+        let [examples, places] = self.limits;
         for ((tally, time), (more, more_time)) in self.rows.iter_mut().zip(other.rows) {
             for (groups, more) in tally.classes.iter_mut().zip(more.classes) {
-                groups.merge(more, self.examples);
+                groups.merge(more, examples);
             }
             tally.failures += more.failures;
             tally.first_failures.extend(more.first_failures);
             tally.first_failures.sort_unstable();
-            tally.first_failures.truncate(self.examples);
+            tally.first_failures.truncate(examples);
+            tally.places.merge(more.places, places);
             *time += more_time;
         }
     }
@@ -171,7 +180,7 @@ impl<F: Scalar> Run<'_, F> {
         let empty = || Sums {
             summary: SourceSummary::new(0, F::NAME),
             rows: vec![Default::default(); self.rows.each.len()],
-            examples: self.plan.examples,
+            limits: [self.plan.examples, self.plan.places],
         };
         let add = |sums: &mut Sums, indices| self.add_chunk(indices, &marks, sums);
         let indices = 0..self.source.count::<F>();
@@ -205,7 +214,10 @@ impl<F: Scalar> Run<'_, F> {
                 let near = !is_on_target(self.part, &chunk.truths[group.cases.clone()]);
                 let class = &mut tally.classes[2 * usize::from(near) + usize::from(aim.grazing)];
                 let outcome = class.add(&group, limit);
-                marks.note(number, target as usize, outcome, asked.0.across);
+                if let Some(wrong) = wrong_by(outcome, asked.0.across) {
+                    marks.note(number, target as usize, wrong);
+                    tally.places.add(wrong, target as u32, group.index, self.plan.places);
+                }
             }
         }
     }
@@ -219,6 +231,18 @@ fn is_on_target(part: Part, truths: &[Truth]) -> bool {
             Part::Vertices => crossing.feature.is_vertex(),
         })
     })
+}
+
+/// What is wrong with an outcome: a crack whatever the contract, the others where it promises exactly one hit.
+fn wrong_by(outcome: Outcome, across: Across) -> Option<Wrong> {
+    match outcome {
+        Outcome::Right | Outcome::Elsewhere => None,
+        Outcome::Crack => Some(Wrong::Crack),
+        // Who does not promise it is not blamed for it.
+        _ if across != Across::ExactlyOne => None,
+        Outcome::Double => Some(Wrong::Double),
+        Outcome::OddFold => Some(Wrong::OddFold),
+    }
 }
 
 /// Which targets have what: shared by all threads. Additions and unions commute.
@@ -237,19 +261,11 @@ impl Marks {
         }
     }
 
-    fn note(&self, row: usize, target: usize, outcome: Outcome, across: Across) {
-        let kind = match outcome {
-            Outcome::Right | Outcome::Elsewhere => return,
-            Outcome::Crack => {
-                self.cracked[row][target / 64].fetch_or(1 << (target % 64), Ordering::Relaxed);
-                0
-            }
-            // Who does not promise it is not blamed for it.
-            _ if across != Across::ExactlyOne => return,
-            Outcome::Double => 1,
-            Outcome::OddFold => 2,
-        };
-        self.targets[target][kind].fetch_add(1, Ordering::Relaxed);
+    fn note(&self, row: usize, target: usize, wrong: Wrong) {
+        if wrong == Wrong::Crack {
+            self.cracked[row][target / 64].fetch_or(1 << (target % 64), Ordering::Relaxed);
+        }
+        self.targets[target][wrong as usize].fetch_add(1, Ordering::Relaxed);
     }
 
     fn cracked(&self, row: usize) -> u64 {

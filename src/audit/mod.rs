@@ -22,6 +22,7 @@ mod histogram;
 mod interval;
 mod judging;
 pub mod mesh;
+mod places;
 mod plan;
 mod row;
 mod rows;

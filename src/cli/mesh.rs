@@ -12,8 +12,8 @@ use crate::audit::mesh::{self, Found, Plan};
 use crate::family::MeshFamily;
 use crate::kernel::Scalar;
 use crate::mesh::{Part, Surface};
-use crate::report::mesh::{MESH_FORMATS, build};
-use crate::report::{Context, Style, number_of};
+use crate::report::mesh::{MESH_FORMATS, build, places};
+use crate::report::{Context, HTML, Style, number_of};
 use clap::Args;
 use std::sync::Arc;
 
@@ -52,8 +52,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// text, json, ply or obj, or several separated by commas; ply and obj mark the edges and vertices
-    /// where rays slip through
+    /// text, json, html, ply or obj, or several separated by commas; html draws the mesh with the edges and
+    /// vertices where rays slip through, ply and obj hold them for a viewer
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
     format: Vec<String>,
 
@@ -78,10 +78,13 @@ pub struct MeshArguments {
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let mut outputs =
         paired_outputs(MESH_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
-    let plan = arguments.plan()?;
+    let mut plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
     let family = MeshFamily::new(read_mesh(&arguments.file, arguments.quiet)?, &arguments.file);
+    if outputs.iter().any(|(format, _)| format.name == HTML) {
+        plan.places = places(family.mesh());
+    }
     let surface = Arc::new(Surface::new(Arc::new(family), scalars));
     let progress = Progress::new(0, "rays", arguments.quiet);
     let mut found = Vec::new();
@@ -119,7 +122,7 @@ impl MeshArguments {
         let unit_direction = self.direction.is_some();
         let MeshArguments { directions, seed, examples, .. } = *self;
         let rows = self.kernels.rows_without_band("every ray goes to an edge or a vertex")?;
-        Ok(Plan { rows, directions, seed, unit_direction, examples })
+        Ok(Plan { rows, directions, seed, unit_direction, examples, places: 0 })
     }
 
     fn run_scalar<F: Scalar>(

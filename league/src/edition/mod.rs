@@ -5,7 +5,7 @@ mod audit;
 mod tables;
 
 pub use audit::{Depth, EntrantResult, ScalarResult, Share};
-pub use tables::{CAPTION, html, latex, markdown};
+pub use tables::{CAPTION, Order, html, latex, markdown};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};

@@ -1,6 +1,7 @@
 //! The table of an edition, for a page, for the web and for a paper: the same cells.
 
-use super::audit::{EntrantResult, ScalarResult, Share};
+use super::audit::{Depth, EntrantResult, ScalarResult, Share};
+use std::cmp::Ordering;
 use std::fmt::Write;
 
 const HEAD: [&str; 10] = [
@@ -25,33 +26,70 @@ pub const CAPTION: &str = "False misses / false hits in % of the cases that must
     4 ulps of the input), rounding (within half of the digits), refuted, size (refuted for triangles or \
     directions that are small, large or far only), and - where nothing is claimed.";
 
-/// One row an entrant and scalar.
-fn rows(results: &[EntrantResult]) -> Vec<[String; 10]> {
-    let mut rows = Vec::new();
-    for entrant in results {
-        for (scalar, result) in &entrant.scalars {
-            let group = |name: &str| match result.groups.get(name) {
-                Some(shares) => shares.map(percent).join(" / "),
-                None => String::new(),
-            };
-            let deepest = [&result.deepest_miss, &result.deepest_hit];
-            let deepest =
-                deepest.map(|depth| depth.as_ref().map_or("0".into(), |d| short(d.edges)));
-            rows.push([
-                entrant.kernel.clone(),
-                entrant.version.clone(),
-                scalar.clone(),
-                claim(result).to_owned(),
-                group("edges"),
-                group("vertices"),
-                group("parallel"),
-                format!("{}, {}", percent(result.cracks), percent(result.doubles)),
-                deepest.join(" / "),
-                time(entrant, result),
-            ]);
-        }
+/// In which order the rows of a table stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// As in [`crate::entrants`].
+    Entrants,
+    /// By what became of the documentation's promises: held, rounding, size, refuted; then those that promise
+    /// nothing. Within each by the deepest false verdict. No rate counts, because a rate depends on our mix of cases.
+    Promises,
+}
+
+impl Order {
+    /// Of an edition's own tables: the first was frozen in the other order.
+    pub fn of(edition: &str) -> Order {
+        if edition == "league-2026.1" { Order::Entrants } else { Order::Promises }
     }
-    rows
+}
+
+/// One row an entrant and scalar.
+fn rows(results: &[EntrantResult], order: Order) -> Vec<[String; 10]> {
+    let mut all: Vec<(&EntrantResult, &String, &ScalarResult)> = Vec::new();
+    for entrant in results {
+        all.extend(entrant.scalars.iter().map(|(scalar, result)| (entrant, scalar, result)));
+    }
+    if order == Order::Promises {
+        all.sort_by(|(_, _, a), (_, _, b)| by_promises(a, b));
+    }
+    all.into_iter().map(|(entrant, scalar, result)| row(entrant, scalar, result)).collect()
+}
+
+/// Who keeps what its documentation promises comes first. Equal ones stay in their order.
+fn by_promises(a: &ScalarResult, b: &ScalarResult) -> Ordering {
+    const VERDICTS: [&str; 5] = ["held", "rounding", "refuted by size", "refuted", "none"];
+    let rank = |result: &ScalarResult| VERDICTS.iter().position(|word| *word == result.verdict);
+    let deepest = |result: &ScalarResult| match result.verdict.as_str() {
+        // A false verdict breaks no promise here.
+        "none" => 0.0,
+        _ => [&result.deepest_miss, &result.deepest_hit].map(edges).into_iter().fold(0.0, f64::max),
+    };
+    rank(a).cmp(&rank(b)).then(deepest(a).total_cmp(&deepest(b)))
+}
+
+/// 0 without a false verdict.
+fn edges(depth: &Option<Depth>) -> f64 {
+    depth.as_ref().map_or(0.0, |depth| depth.edges)
+}
+
+fn row(entrant: &EntrantResult, scalar: &str, result: &ScalarResult) -> [String; 10] {
+    let group = |name: &str| match result.groups.get(name) {
+        Some(shares) => shares.map(percent).join(" / "),
+        None => String::new(),
+    };
+    let deepest = [&result.deepest_miss, &result.deepest_hit].map(|depth| short(edges(depth)));
+    [
+        entrant.kernel.clone(),
+        entrant.version.clone(),
+        scalar.to_owned(),
+        claim(result).to_owned(),
+        group("edges"),
+        group("vertices"),
+        group("parallel"),
+        format!("{}, {}", percent(result.cracks), percent(result.doubles)),
+        deepest.join(" / "),
+        time(entrant, result),
+    ]
 }
 
 fn claim(result: &ScalarResult) -> &str {
@@ -92,9 +130,9 @@ fn short(x: f64) -> String {
 }
 
 /// The table for a page, without its caption.
-pub fn markdown(results: &[EntrantResult]) -> String {
+pub fn markdown(results: &[EntrantResult], order: Order) -> String {
     let mut text = format!("| {} |\n|{}\n", HEAD.join(" | "), "---|".repeat(HEAD.len()));
-    for row in rows(results) {
+    for row in rows(results, order) {
         writeln!(text, "| {} |", row.map(|cell| cell.replace('*', "\\*")).join(" | ")).unwrap();
     }
     text
@@ -107,7 +145,8 @@ pub fn html(edition: &str, results: &[EntrantResult]) -> String {
         let cells = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escape(cell)));
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
-    let body: String = rows(results).iter().map(|row| line("td", row)).collect();
+    let body: String =
+        rows(results, Order::of(edition)).iter().map(|row| line("td", row)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{edition}</title>\n<style>\n\
         body {{ font: 14px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 80em; padding: 0 1em }}\n\
@@ -127,7 +166,7 @@ pub fn latex(edition: &str, results: &[EntrantResult]) -> String {
         let cells: Vec<String> = cells.iter().map(|cell| escape(cell)).collect();
         format!("{} \\\\\n", cells.join(" & "))
     };
-    let body: String = rows(results).iter().map(|row| line(row)).collect();
+    let body: String = rows(results, Order::of(edition)).iter().map(|row| line(row)).collect();
     format!(
         "% {edition}: \\usepackage{{booktabs,longtable}}\n\\begin{{longtable}}{{lll l{}}}\n\
         \\caption{{{}}} \\\\\n\\toprule\n{}\\midrule\n\\endhead\n{body}\\bottomrule\n\\end{{longtable}}\n",

@@ -132,7 +132,7 @@ fn cell(kind: Kind, rate: Option<&Rate>, sum: Option<&Pool>) -> Markup {
 }
 
 /// From 0 for nothing to 5.
-pub(super) fn shade(share: f64) -> usize {
+pub(in crate::report) fn shade(share: f64) -> usize {
     if share == 0.0 { 0 } else { 1 + SHADES.iter().filter(|start| **start <= share).count() }
 }
 

@@ -11,13 +11,14 @@ mod heat;
 mod kernel;
 mod pictures;
 mod questions;
-mod room;
+pub(super) mod room;
 mod view;
-mod words;
+pub(super) mod words;
 
 use super::{Record, Style, number_of};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+pub(super) use heat::shade;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use room::Room;
 use sha2::{Digest, Sha256};
@@ -29,7 +30,9 @@ use words::{code, shortened};
 const LIMIT: usize = 9_800_000;
 
 pub(super) const STYLE: &str = include_str!("style.css");
-const SCRIPT: &str = include_str!("script.js");
+/// Makes tables sortable.
+pub(super) const SORT: &str = include_str!("sort.js");
+const SCRIPT: &str = concat!(include_str!("sort.js"), include_str!("script.js"));
 
 /// Writes the record.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -50,7 +53,7 @@ fn within(record: &Record, limit: usize) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            (head_of(&title, &policy(), STYLE))
+            (head_of(&title, &policy(STYLE, SCRIPT), STYLE))
             body {
                 a.skip href="#main" { "Skip to the report" }
                 (head(&view, &title))
@@ -84,12 +87,12 @@ pub(super) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
 }
 
 /// Nothing from elsewhere, no script and no style but the page's own, pictures from the page itself.
-fn policy() -> String {
+pub(super) fn policy(style: &str, script: &str) -> String {
     let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
     format!(
         "default-src 'none'; img-src data:; style-src 'sha256-{}'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'",
-        digest(STYLE),
-        digest(SCRIPT)
+        digest(style),
+        digest(script)
     )
 }
 

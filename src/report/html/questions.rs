@@ -30,13 +30,13 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
             }
             (legend())
             div.scroll role="group" aria-label="The table" tabindex="0" {
-                table.heat.few[view.columns.len() < 12] {
+                table.heat.few[view.columns.len() < 12] #questions-table {
                     thead { tr {
                         th scope="col" { "kernel (epsilons)" }
                         @if has_groups {
-                            th.text scope="col" { "promised" } th scope="col" { "cracks" } th scope="col" { "doubles" }
+                            th.text scope="col" data-sort="" { "promised" } th scope="col" data-sort="" { "cracks" } th scope="col" data-sort="" { "doubles" }
                         }
-                        @for column in &view.columns { th scope="col" { (column.label()) } }
+                        @for column in &view.columns { th scope="col" data-sort="" { (column.label()) } }
                     } }
                     tbody { (PreEscaped(body)) }
                 }
@@ -86,7 +86,7 @@ fn share_of(column: Column, cell: &Cell) -> Markup {
     let ends = cell.wrong.interval();
     let [count, of] = [cell.wrong.count, cell.wrong.of].map(group_digits);
     html! {
-        td class={ "m" (shade(share)) } {
+        td class={ "m" (shade(share)) } data-v=(format!("{share:.3e}")) {
             (percent(share)) (star)
             small { @match column.complete {
                 true => { (count) " of " (of) },
@@ -102,11 +102,11 @@ fn across(across: Option<&Across>) -> Markup {
     let rate = |[count, of]: [u64; 2], hue: &str| {
         let share = count as f64 / of.max(1) as f64;
         let class = if hue.is_empty() { String::new() } else { format!("{hue}{}", shade(share)) };
-        html! { td class=(class) { (percent(share)) small { (group_digits(count)) " of " (group_digits(of)) } } }
+        html! { td class=(class) data-v=(format!("{share:.3e}")) { (percent(share)) small { (group_digits(count)) " of " (group_digits(of)) } } }
     };
     let [no_crack, no_double] = across.rules_out();
     html! {
-        td class={ "text " (promise_class(across)) } { (across.words()) }
+        td class={ "text " (promise_class(across)) } data-v=(promise_rank(across)) { (across.words()) }
         (rate(across.cracks, if no_crack { "m" } else { "h" }))
         (rate(across.doubles, if no_double { "m" } else { "" }))
     }
@@ -118,6 +118,15 @@ fn promise_class(across: &Across) -> &'static str {
         (false, _) => "set",
         (true, true) => "broken",
         (true, false) => "kept",
+    }
+}
+
+/// Broken promises stand before kept ones, and those before none.
+fn promise_rank(across: &Across) -> u8 {
+    match (across.rules_out()[0], across.is_broken()) {
+        (false, _) => 0,
+        (true, false) => 1,
+        (true, true) => 2,
     }
 }
 

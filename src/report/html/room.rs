@@ -1,7 +1,7 @@
 //! The space that a report has left: it stays below its limit whatever the record holds.
 
 /// A number of bytes that is left.
-pub(super) struct Room {
+pub(in crate::report) struct Room {
     left: usize,
     /// What did not fit.
     pub left_out: u64,

@@ -1,11 +1,11 @@
-// Sorting and filtering of the heat table. Everything is there without it.
-"use strict";
+// Sorting of the tables, and filtering of the heat table. Everything is there without it.
 (() => {
+  const questions = document.getElementById("questions-table");
+  if (questions) sortable(questions);
   const table = document.getElementById("heat-table");
   const form = document.getElementById("filters");
   if (!table || !form) return;
-  const body = table.tBodies[0];
-  const rows = [...body.rows];
+  const rows = [...table.tBodies[0].rows];
   const count = document.getElementById("filter-count");
   const [kernel, scalar, finding] = ["kernel", "scalar", "finding"].map((name) =>
     document.getElementById("filter-" + name));
@@ -27,48 +27,16 @@
     tell();
   };
 
-  const value = (row, column) => {
-    const text = row.cells[column].dataset.v;
-    return text === undefined ? -1 : Number(text);
-  };
-
-  const heads = [...table.tHead.rows[0].cells].filter((head) => "sort" in head.dataset);
-  const unsorted = () => {
-    for (const head of heads) head.removeAttribute("aria-sort");
-    body.append(...rows);
-    order = "";
-  };
-  for (const head of heads) {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.append(...head.childNodes);
-    head.append(button);
-    const name = button.textContent;
-    button.addEventListener("click", () => {
-      const before = head.getAttribute("aria-sort");
-      unsorted();
-      if (before !== "ascending") {
-        const down = before === null;
-        const column = head.cellIndex;
-        const sorted = [...rows].sort((a, b) => {
-          const [x, y] = [value(a, column), value(b, column)];
-          // What has no share stands last either way.
-          if (x < 0 || y < 0) return y - x;
-          return down ? y - x : x - y;
-        });
-        body.append(...sorted);
-        head.setAttribute("aria-sort", down ? "descending" : "ascending");
-        order = `, by ${name}, ${down ? "largest" : "smallest"} first`;
-      }
-      tell();
-    });
-  }
+  const unsort = sortable(table, (said) => {
+    order = said;
+    tell();
+  });
 
   form.hidden = false;
   form.addEventListener("input", filter);
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("reset", () => setTimeout(() => {
-    unsorted();
+    unsort();
     filter();
   }));
   tell();

@@ -6,19 +6,19 @@ use crate::report::{group_digits, rate};
 use maud::{Markup, html};
 
 /// `15.8 %`.
-pub(super) fn percent(share: f64) -> String {
+pub(in crate::report) fn percent(share: f64) -> String {
     let number = rate::percent(share);
     format!("{}\u{a0}%", number.trim_end_matches('%'))
 }
 
 /// `15.1–16.6`, in percent.
-pub(super) fn interval([low, high]: [f64; 2]) -> String {
+pub(in crate::report) fn interval([low, high]: [f64; 2]) -> String {
     let number = |share: f64| rate::percent(share).trim_end_matches('%').to_owned();
     format!("{}–{}", number(low), number(high))
 }
 
 /// `15.8 % [15.1–16.6]`, or what there is of it.
-pub(super) fn share(rate: &Rate) -> String {
+pub(in crate::report) fn share(rate: &Rate) -> String {
     match (rate.rate, rate.interval) {
         (None, _) => "–".to_owned(),
         (Some(share), None) => percent(share),
@@ -31,17 +31,17 @@ pub(super) fn share(rate: &Rate) -> String {
 }
 
 /// `1,597 of 10,092`.
-pub(super) fn counts(rate: &Rate) -> String {
+pub(in crate::report) fn counts(rate: &Rate) -> String {
     format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
 }
 
 /// `; stored cases 3 of 57`, where a sum holds a sample and whole sets.
-pub(super) fn apart(sum: &Pool) -> String {
+pub(in crate::report) fn apart(sum: &Pool) -> String {
     sum.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"))
 }
 
 /// Text that people wrote, as a link if it is an address of the web.
-pub(super) fn link(url: &str) -> Markup {
+pub(in crate::report) fn link(url: &str) -> Markup {
     let is_scheme = |scheme: &str| {
         url.get(..scheme.len()).is_some_and(|start| start.eq_ignore_ascii_case(scheme))
     };
@@ -57,12 +57,12 @@ pub(super) fn link(url: &str) -> Markup {
 }
 
 /// A command or bits, to be selected with one click.
-pub(super) fn code(text: &str) -> Markup {
+pub(in crate::report) fn code(text: &str) -> Markup {
     html! { code { (text) } }
 }
 
 /// At most so many characters.
-pub(super) fn shortened(text: &str, most: usize) -> String {
+pub(in crate::report) fn shortened(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),

@@ -1,5 +1,6 @@
 //! From the sums of a mesh audit to its record.
 
+use super::drawing::{self, Drawing, DrawnRow};
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
@@ -16,15 +17,15 @@ const VERTICES: [&str; 4] = ["closed_fan", "open_fan", "several_fans", "irregula
 
 /// Makes the report of a mesh audit.
 pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context) -> MeshReport {
-    let (mut scalars, mut offenders) = (Vec::new(), Vec::new());
+    let mut parts = Parts::default();
     let mesh = surface.mesh();
     let mut provenance = provenance_of(context);
     provenance.kernel_notes = kernel_notes(&plan.rows);
     for found in found {
         if found.scalar == f32::NAME {
-            add_scalar::<f32>(surface, plan, found, &mut scalars, &mut offenders);
+            add_scalar::<f32>(surface, plan, found, &mut parts);
         } else {
-            add_scalar::<f64>(surface, plan, found, &mut scalars, &mut offenders);
+            add_scalar::<f64>(surface, plan, found, &mut parts);
         }
         let layers = found.layers.named().map(|(name, count)| (name.to_owned(), count));
         provenance.oracle_layers.insert(found.scalar.to_owned(), BTreeMap::from(layers));
@@ -47,18 +48,24 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
         directions: plan.directions,
         seed: plan.seed,
         unit_directions: plan.unit_direction,
-        scalars,
+        scalars: parts.scalars,
     };
-    MeshReport { record: MeshRecord { schema: MESH_SCHEMA, result, provenance }, offenders }
+    MeshReport {
+        record: MeshRecord { schema: MESH_SCHEMA, result, provenance },
+        offenders: parts.offenders,
+        drawing: (0 < plan.places).then(|| Drawing::new(mesh, parts.rows)),
+    }
 }
 
-fn add_scalar<F: Float>(
-    surface: &Surface,
-    plan: &Plan,
-    found: &Found,
-    scalars: &mut Vec<ScalarPart>,
-    offenders: &mut Vec<Offender>,
-) {
+/// What every scalar adds to.
+#[derive(Default)]
+struct Parts {
+    scalars: Vec<ScalarPart>,
+    offenders: Vec<Offender>,
+    rows: Vec<DrawnRow>,
+}
+
+fn add_scalar<F: Float>(surface: &Surface, plan: &Plan, found: &Found, parts: &mut Parts) {
     let parameters = plan.parameters();
     let (Some(targets), Some(topology)) =
         (surface.targets::<F>(&parameters, plan.seed), surface.topology::<F>())
@@ -66,7 +73,9 @@ fn add_scalar<F: Float>(
         return;
     };
     let builder = Builder::<F> { surface, plan, targets: &targets, scalar: PhantomData };
-    scalars.push(ScalarPart {
+    let draw = |row| drawing::row::<F>(surface, &targets, topology, plan, row);
+    parts.rows.extend(found.rows.iter().map(draw));
+    parts.scalars.push(ScalarPart {
         scalar: F::NAME,
         topology: builder.topology(topology),
         rays: Part::ALL.map(|part| targets.count(part) * plan.directions),
@@ -74,7 +83,7 @@ fn add_scalar<F: Float>(
         offenders: found.offences.len() as u64,
         results: found.rows.iter().map(|row| builder.row(&plan.rows[row.row], row)).collect(),
     });
-    offenders.extend(found.offences.iter().map(|offence| Offender {
+    parts.offenders.extend(found.offences.iter().map(|offence| Offender {
         scalar: F::NAME,
         points: builder.points(&targets.points(offence.part, offence.target as usize)),
         cracks: offence.cracks,

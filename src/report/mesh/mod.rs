@@ -1,14 +1,22 @@
-//! The record of a mesh audit, and its formats: text, JSON, and the offending edges and vertices as PLY
-//! and OBJ for a viewer.
+//! The record of a mesh audit, and its formats: text, JSON, a page that draws the mesh, and the offending edges
+//! and vertices as PLY and OBJ for a viewer.
 
 mod build;
+mod drawing;
 mod geometry;
+#[cfg(feature = "cli")]
+mod page;
+#[cfg(feature = "cli")]
+mod picture;
 mod record;
 mod text;
 
 pub use build::build;
+pub use drawing::places;
 pub use record::*;
 
+#[cfg(feature = "cli")]
+use super::HTML;
 use super::Style;
 use std::io::{self, Write};
 
@@ -24,6 +32,8 @@ pub struct MeshFormat {
 pub const MESH_FORMATS: &[MeshFormat] = &[
     MeshFormat { name: "text", write: text::write },
     MeshFormat { name: "json", write: json },
+    #[cfg(feature = "cli")]
+    MeshFormat { name: HTML, write: page::write },
     MeshFormat { name: "ply", write: geometry::write_ply },
     MeshFormat { name: "obj", write: geometry::write_obj },
 ];

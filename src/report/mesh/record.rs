@@ -1,5 +1,6 @@
 //! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
 
+use super::drawing::Drawing;
 use crate::report::{Provenance, Rate, RowPart};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -13,6 +14,8 @@ pub struct MeshReport {
     pub record: MeshRecord,
     /// Every edge and vertex that some row's contract does not want so.
     pub offenders: Vec<Offender>,
+    /// What a page draws, if the plan keeps places.
+    pub drawing: Option<Drawing>,
 }
 
 /// Everything that a mesh audit found, but for the whole list of edges and vertices.

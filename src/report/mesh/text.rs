@@ -40,9 +40,11 @@ fn write_scalar(
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     let topology = &part.topology;
     writeln!(out, "\n{bold}{}{plain}, {} points", part.scalar, group_digits(topology.points))?;
-    write_topology(topology, out)?;
+    for (name, line) in topology_lines(topology) {
+        writeln!(out, "  {name:<10} {line}")?;
+    }
     let [edges, vertices] = part.rays.map(group_digits);
-    writeln!(out, "  asked      {edges} rays at edges, {vertices} at vertices")?;
+    writeln!(out, "  aimed      {edges} rays at edges, {vertices} at vertices")?;
     if part.rays == [0, 0] {
         return Ok(());
     }
@@ -84,17 +86,19 @@ fn write_scalar(
             short_count(row.vertices.cracked),
         )?;
     }
+    writeln!(out, "\n{SHARES}")?;
     write_failures(part, out)?;
     write_examples(part, style, out)
 }
 
-/// What the mesh is, and where it first is not what rays can be asked about.
-fn write_topology(topology: &TopologyPart, out: &mut dyn Write) -> io::Result<()> {
+/// What the mesh is, and where it first is not what rays can be asked about: lines with their heads.
+pub(super) fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
     let kinds = [
         ("faces", &topology.faces, FACE_WORDS),
         ("edges", &topology.edges, EDGE_WORDS),
         ("vertices", &topology.vertices, VERTEX_WORDS),
     ];
+    let mut lines = Vec::new();
     for (name, kinds, words) in kinds {
         let count = |key: &&(&str, &str)| kinds.get(key.0).is_some_and(|noted| noted.count > 0);
         let mut parts: Vec<String> = Vec::new();
@@ -107,18 +111,22 @@ fn write_topology(topology: &TopologyPart, out: &mut dyn Write) -> io::Result<()
             };
             parts.push(format!("{} {word}{first}", group_digits(noted.count)));
         }
-        let none = "none".to_owned();
-        writeln!(out, "  {name:<10} {}", if parts.is_empty() { none } else { parts.join(", ") })?;
+        lines.push((name, if parts.is_empty() { "none".to_owned() } else { parts.join(", ") }));
     }
     if topology.duplicated_places > 0 {
         let places = group_digits(topology.duplicated_places);
-        writeln!(out, "  {:<10} the duplicated faces lie in {places} places", "")?;
+        lines.push(("", format!("the duplicated faces lie in {places} places")));
     }
     if topology.closed_manifold {
-        writeln!(out, "  {:<10} a closed surface, wound consistently", "")?;
+        lines.push(("", "a closed surface, wound consistently".to_owned()));
     }
-    Ok(())
+    lines
 }
+
+/// What the shares in the table are shares of.
+const SHARES: &str = "\
+cracks: % of rays aimed at edges, and of rays aimed at vertices, that cross the surface there; doubles, and wrong at
+folds: of both together. Rays at the whole mesh rarely come so near an edge. edges, vertices: how many leak.";
 
 const FACE_WORDS: &[(&str, &str)] = &[
     ("sound", "sound"),
@@ -141,7 +149,7 @@ const VERTEX_WORDS: &[(&str, &str)] = &[
     ("irregular", "at edges or faces not asked about"),
 ];
 
-fn label(row: &MeshRowResult) -> String {
+pub(super) fn label(row: &MeshRowResult) -> String {
     format!("{} ({})", row.kernel, row.set)
 }
 

@@ -1,0 +1,40 @@
+"use strict";
+// Makes a table's columns sortable by a button in each head that has data-sort. `changed` is told the order in words.
+// Returns what puts the rows back into their own order.
+const sortable = (table, changed = () => {}) => {
+  const body = table.tBodies[0];
+  const rows = [...body.rows];
+  const heads = [...table.tHead.rows[0].cells].filter((head) => "sort" in head.dataset);
+  const value = (row, column) => {
+    const text = row.cells[column].dataset.v;
+    return text === undefined ? -1 : Number(text);
+  };
+  const unsort = () => {
+    for (const head of heads) head.removeAttribute("aria-sort");
+    body.append(...rows);
+    changed("");
+  };
+  for (const head of heads) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.append(...head.childNodes);
+    head.append(button);
+    const name = button.textContent;
+    button.addEventListener("click", () => {
+      const before = head.getAttribute("aria-sort");
+      unsort();
+      if (before === "ascending") return;
+      const down = before === null;
+      const column = head.cellIndex;
+      body.append(...[...rows].sort((a, b) => {
+        const [x, y] = [value(a, column), value(b, column)];
+        // What has no share stands last either way.
+        if (x < 0 || y < 0) return y - x;
+        return down ? y - x : x - y;
+      }));
+      head.setAttribute("aria-sort", down ? "descending" : "ascending");
+      changed(`, by ${name}, ${down ? "largest" : "smallest"} first`);
+    });
+  }
+  return unsort;
+};

@@ -1,0 +1,191 @@
+//! What a page draws: a small mesh whole, of a large one the triangles around the places where rows go wrong;
+//! and those places, each with the ray that shows it.
+
+use crate::arith::Float;
+use crate::audit::mesh::{Plan, RowFound, Wrong};
+use crate::audit::quoted;
+use crate::corpus::mesh::Mesh;
+use crate::mesh::{Part, Surface, Targets, Topology};
+use std::collections::{BTreeSet, HashMap};
+
+/// A mesh of at most so many triangles is drawn whole, with every place.
+const WHOLE: usize = 5_000;
+/// Places of one row in one scalar, of a larger mesh.
+pub(super) const PLACES: usize = 300;
+/// Triangles around one place.
+pub(super) const AROUND: usize = 64;
+/// All triangles around places.
+const TRIANGLES: usize = 20_000;
+
+/// How many places of a row to keep for the drawing of a mesh.
+pub fn places(mesh: &Mesh) -> usize {
+    if mesh.triangles.len() <= WHOLE { usize::MAX } else { PLACES }
+}
+
+/// What is drawn.
+#[derive(Debug, Default)]
+pub struct Drawing {
+    /// Whether it is the whole mesh.
+    pub whole: bool,
+    /// The numbers of its vertices in the file, from 1, and where they are drawn: the longest side of the box
+    /// around all of them goes from -[`UNIT`] to `UNIT`.
+    pub points: Vec<(u32, [i32; 3])>,
+    /// Its triangles, by three of the points.
+    pub triangles: Vec<[u32; 3]>,
+    /// Each row in each scalar, as in the record.
+    pub rows: Vec<DrawnRow>,
+}
+
+/// Half of a drawing's longest side.
+pub const UNIT: f64 = 1e6;
+
+/// The places of a row in a scalar.
+#[derive(Debug)]
+pub struct DrawnRow {
+    /// By [`Part::ALL`]: what stands in a command before and after a ray's index.
+    pub commands: [[String; 2]; 2],
+    /// Cracks first; otherwise in no order, so that the first are spread over the mesh.
+    pub marks: Vec<Mark>,
+}
+
+/// A place where a row goes wrong.
+#[derive(Debug)]
+pub struct Mark {
+    /// What is wrong.
+    pub wrong: Wrong,
+    /// At an edge or a vertex.
+    pub part: Part,
+    /// Its two ends, or its vertex twice: vertices of the mesh at first, then points of the drawing.
+    pub ends: [u32; 2],
+    /// The lines of the faces around it.
+    pub lines: Vec<u32>,
+    /// How many rays show it.
+    pub rays: u32,
+    /// The index of the first of them.
+    pub index: u64,
+    /// The triangles around it, if they alone are drawn.
+    around: Vec<u32>,
+}
+
+/// The places of a row, of both parts.
+pub(super) fn row<F: Float>(
+    surface: &Surface,
+    targets: &Targets,
+    topology: &Topology,
+    plan: &Plan,
+    found: &RowFound,
+) -> DrawnRow {
+    let mesh = surface.mesh();
+    let mut marks = Vec::new();
+    for part in Part::ALL {
+        for (order, target, seen) in found.tallies[part as usize].places.iter() {
+            let (faces, points) =
+                (targets.faces(part, target as usize), targets.points(part, target as usize));
+            let mut lines: Vec<u32> = faces.iter().map(|face| mesh.lines[*face as usize]).collect();
+            lines.dedup();
+            let mut around = Vec::new();
+            if mesh.triangles.len() > WHOLE {
+                let at = points.iter().flat_map(|point| topology.incidence.at(*point as usize));
+                around.extend(faces.iter().chain(at).copied().take(AROUND));
+            }
+            let ends = [points[0], points[points.len() - 1]];
+            let (wrong, rays, index) = (order.0, seen.rays, seen.first);
+            marks.push((order, Mark { wrong, part, ends, lines, rays, index, around }));
+        }
+    }
+    marks.sort_by_key(|(order, _)| *order);
+    marks.truncate(plan.places);
+    let command = |part: Part| {
+        let id = surface.id::<F>(part, &plan.parameters(), plan.seed, 0).to_string();
+        let arguments = format!("{} --mesh {}", quoted(&id), quoted(surface.path()));
+        let command = plan.rows[found.row].explain_command(&arguments);
+        // The id ends with the index, 0.
+        let (before, after) = command.split_once(&id).expect("the command holds the id");
+        [format!("{before}{}", &id[..id.len() - 1]), after.to_owned()]
+    };
+    DrawnRow {
+        commands: Part::ALL.map(command),
+        marks: marks.into_iter().map(|(_, mark)| mark).collect(),
+    }
+}
+
+impl Drawing {
+    /// Of the rows' places on a mesh. Places whose triangles would be too many are left out, the last of every
+    /// row first.
+    pub(super) fn new(mesh: &Mesh, mut rows: Vec<DrawnRow>) -> Drawing {
+        let whole = mesh.triangles.len() <= WHOLE;
+        let faces: Vec<u32> = match whole {
+            true => (0..mesh.triangles.len() as u32).collect(),
+            false => faces_around(&mut rows),
+        };
+        let mut places: HashMap<u32, u32> = HashMap::new();
+        let mut vertices = Vec::new();
+        let mut place = |vertex: u32| {
+            *places.entry(vertex).or_insert_with(|| {
+                vertices.push(vertex);
+                vertices.len() as u32 - 1
+            })
+        };
+        let triangles =
+            faces.iter().map(|face| mesh.triangles[*face as usize].map(&mut place)).collect();
+        for mark in rows.iter_mut().flat_map(|row| &mut row.marks) {
+            mark.ends = mark.ends.map(&mut place);
+        }
+        let positions: Vec<[f64; 3]> =
+            vertices.iter().map(|vertex| mesh.positions_f64[*vertex as usize]).collect();
+        let numbers = vertices.iter().map(|vertex| vertex + 1);
+        Drawing { whole, points: numbers.zip(drawn(&positions)).collect(), triangles, rows }
+    }
+}
+
+/// The faces around the rows' places, row by row in turn; places beyond the limit are dropped.
+fn faces_around(rows: &mut [DrawnRow]) -> Vec<u32> {
+    let mut faces = BTreeSet::new();
+    let most = rows.iter().map(|row| row.marks.len()).max().unwrap_or(0);
+    for turn in 0..most {
+        for mark in rows.iter_mut().filter_map(|row| row.marks.get(turn)) {
+            faces.extend(mark.around.iter().copied());
+        }
+        if TRIANGLES < faces.len() {
+            rows.iter_mut().for_each(|row| row.marks.truncate(turn + 1));
+            break;
+        }
+    }
+    faces.into_iter().collect()
+}
+
+/// Where points are drawn. The largest finite numbers do not overflow.
+fn drawn(positions: &[[f64; 3]]) -> Vec<[i32; 3]> {
+    let largest = positions.as_flattened().iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let size = if largest == 0.0 { 1.0 } else { largest };
+    let (mut low, mut high) = ([1.0f64; 3], [-1.0f64; 3]);
+    for position in positions {
+        low = std::array::from_fn(|i| low[i].min(position[i] / size));
+        high = std::array::from_fn(|i| high[i].max(position[i] / size));
+    }
+    let half = (0..3).fold(0.0, |m: f64, i| m.max((high[i] - low[i]) / 2.0));
+    let half = if half == 0.0 { 1.0 } else { half };
+    let place = |position: &[f64; 3]| {
+        std::array::from_fn(|i| {
+            ((position[i] / size - (low[i] + high[i]) / 2.0) / half * UNIT).round() as i32
+        })
+    };
+    positions.iter().map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_side_fills_the_drawing_whatever_the_size() {
+        for scale in [1.0, 1e308, 5e-324, 1e-300] {
+            let far = drawn(&[[scale, 0.0, 0.0], [-scale, 0.0, scale], [0.0; 3]]);
+            assert_eq!(far[0], [1_000_000, 0, -500_000], "{scale}");
+            assert_eq!(far[1], [-1_000_000, 0, 500_000], "{scale}");
+        }
+        assert_eq!(drawn(&[[0.0; 3]; 2]), [[0; 3]; 2]);
+        assert_eq!(drawn(&[[7.0, 8.0, 9.0]]), [[0; 3]]);
+        assert!(drawn(&[]).is_empty());
+    }
+}

@@ -1,0 +1,403 @@
+//! A mesh audit as one HTML file that needs nothing else, with the mesh drawn and its leaks marked. A script
+//! turns the mesh; without it a picture stands still, and tables hold the first places of each row.
+
+use super::drawing::{AROUND, Drawing, DrawnRow, Mark, PLACES};
+use super::picture;
+use super::record::*;
+use super::text::{label, topology_lines};
+use crate::mesh::Part;
+use crate::report::html::room::Room;
+use crate::report::html::words::{code, counts, interval, percent, shortened};
+use crate::report::html::{SORT, STYLE, head_of, policy, shade};
+use crate::report::{Rate, Style, group_digits, number_of};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::io::{self, Write};
+
+/// What only this page has.
+const OWN_STYLE: &str = include_str!("view.css");
+const OWN_SCRIPT: &str = include_str!("view.js");
+
+/// Bytes for all marks. A row that leaves some of its share leaves them to the next.
+const MARKS: usize = 2_500_000;
+/// Places of a row that stand in its table.
+const LISTED: usize = 20;
+/// What is wrong, as [`crate::audit::mesh::Wrong`] counts.
+const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
+
+/// A row in a scalar.
+struct Shown<'a> {
+    scalar: &'static str,
+    result: &'a MeshRowResult,
+    nanoseconds: Option<f64>,
+    drawn: &'a DrawnRow,
+    /// Its marks as the script reads them, and how many there are.
+    marks: String,
+    marked: usize,
+}
+
+impl Shown<'_> {
+    fn leaks(&self) -> u64 {
+        self.result.edges.cracked + self.result.vertices.cracked
+    }
+
+    fn failures(&self) -> u64 {
+        self.result.edges.failures + self.result.vertices.failures
+    }
+
+    /// Of edges and vertices together.
+    fn both(&self, rate: fn(&AcrossRates) -> &Rate) -> Rate {
+        Rate::sum([&self.result.edges.total, &self.result.vertices.total].map(rate))
+    }
+
+    /// How many hits are promised, and whether that was kept; none if nothing is promised.
+    fn promise(&self) -> Option<(&'static str, bool)> {
+        let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
+        let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
+        match self.result.promised {
+            "at-least-one" => Some((">= 1", 0 == self.leaks())),
+            "exactly-one" => Some(("= 1", 0 == self.leaks() && !more)),
+            _ => None,
+        }
+    }
+}
+
+/// Writes a report that has a drawing.
+pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::Result<()> {
+    let Some(drawing) = &report.drawing else { return Ok(()) };
+    let (style, script) = (format!("{STYLE}{OWN_STYLE}"), format!("{SORT}{OWN_SCRIPT}"));
+    let result = &report.record.result;
+    let rows = shown(&report.record, drawing);
+    let (class, title) = verdict(result, &rows);
+    let mark = [("good", "✓ "), ("bad", "✕ ")].into_iter().find(|(name, _)| *name == class);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            (head_of(&title, &policy(&style, &script), &style))
+            body {
+                a.skip href="#main" { "Skip to the report" }
+                header class={ "top " (class) } {
+                    p.mark { "hairline" span { " mesh" } }
+                    h1 { (mark.map_or("", |(_, mark)| mark)) (title) }
+                    p.lede {
+                        (number_of(result.mesh.triangles, "triangle", "triangles")) ", "
+                        (number_of(result.mesh.vertices, "vertex", "vertices")) ", digest " (result.mesh.digest) "; "
+                        (number_of(result.directions, "ray", "rays")) " aimed at each edge of two faces and at each vertex inside a closed fan"
+                        @if result.unit_directions { ", with unit directions" } ", seed " (result.seed) "."
+                    }
+                    @for note in &result.mesh.notes { p.lede { (shortened(note, 400)) } }
+                    nav aria-label="Report" {
+                        a href="#rates" { "How often" } a href="#where" { "Where" } a href="#rows" { "Row by row" }
+                        a href="#guide" { "How to read" } a href="#about" { "About this run" }
+                    }
+                }
+                main #main {
+                    (rates(&rows))
+                    (stage(result, drawing, &rows))
+                    section #rows aria-labelledby="rows-title" {
+                        h2 #rows-title { "Row by row" }
+                        p {
+                            "The first places of each row, with the first ray that shows each. Vertices have their numbers in the "
+                            "file (those with equal coordinates the number of the first), faces the lines of the file."
+                        }
+                        @for (i, row) in rows.iter().enumerate() { (places(i, drawing, row)) }
+                    }
+                    (guide())
+                }
+                (foot(&report.record))
+                script { (PreEscaped(script)) }
+            }
+        }
+    };
+    out.write_all(page.into_string().as_bytes())
+}
+
+/// The rows with as many marks as fit.
+fn shown<'a>(record: &'a MeshRecord, drawing: &'a Drawing) -> Vec<Shown<'a>> {
+    let parts = &record.result.scalars;
+    let results = parts.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
+    let mut room = Room::new(MARKS);
+    let mut rows = Vec::new();
+    for (i, ((part, result), drawn)) in results.zip(&drawing.rows).enumerate() {
+        let mut own = room.part(room.left() / (drawing.rows.len() - i));
+        let marks = own.fill(drawn.marks.iter(), mark_text);
+        let marked = drawn.marks.len() - own.left_out as usize;
+        room.take_back(own);
+        let times = record.provenance.kernel_nanoseconds.get(part.scalar);
+        let nanoseconds = times.and_then(|times| times.get(&label(result))).copied();
+        rows.push(Shown { scalar: part.scalar, result, nanoseconds, drawn, marks, marked });
+    }
+    rows
+}
+
+/// `what a b rays index line,line;`
+fn mark_text(mark: &Mark) -> String {
+    let Mark { wrong, ends: [a, b], rays, index, .. } = mark;
+    format!("{} {a} {b} {rays} {index} {};", *wrong as usize, lines(mark, ","))
+}
+
+/// The lines of the faces around, the first eight.
+fn lines(mark: &Mark, comma: &str) -> String {
+    let more = if mark.lines.len() > 8 { &["…".to_owned()][..] } else { &[] };
+    let first = mark.lines.iter().take(8).map(u32::to_string);
+    first.chain(more.iter().cloned()).collect::<Vec<_>>().join(comma)
+}
+
+/// How it went, as a class, and in one line.
+fn verdict(result: &MeshResult, rows: &[Shown]) -> (&'static str, String) {
+    let file = shortened(&result.mesh.file, 120);
+    let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
+    let is_broken = rows.iter().any(|row| row.promise().is_some_and(|(_, kept)| !kept));
+    let failed = rows.iter().any(|row| 0 < row.failures());
+    let class = match (is_broken, leaking) {
+        (true, _) => "bad",
+        (false, 0) if !failed => "good",
+        _ => "plain",
+    };
+    let title = match (leaking, rows.len()) {
+        (0, 1) => format!("No ray slips through {file}"),
+        (0, n) => format!("No ray slips through {file} with {n} kernel rows"),
+        (1, 1) => format!("Rays slip through {file}"),
+        (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
+    };
+    (class, title)
+}
+
+fn rates(rows: &[Shown]) -> Markup {
+    html! {
+        section #rates aria-labelledby="rates-title" {
+            h2 #rates-title { "How often" }
+            p {
+                "Shares of rays aimed at edges, and of rays aimed at vertices, that cross the surface there. Half of them meet "
+                "their edge or vertex exactly, where floats allow it; rays at the whole mesh rarely come so near. Orange: what "
+                "the contract rules out; blue: cracks where it promises nothing."
+            }
+            div.scroll role="group" aria-label="The table" tabindex="0" {
+                table.heat.few #rates-table {
+                    thead { tr {
+                        th scope="col" { "kernel (epsilons)" }
+                        th.text scope="col" data-sort="" { "promised" }
+                        th scope="col" data-sort="" { "cracks, of rays aimed at edges" }
+                        th scope="col" data-sort="" { "cracks, of rays aimed at vertices" }
+                        th scope="col" data-sort="" { "doubles, of both" }
+                        th scope="col" data-sort="" { "wrong at folds, of both" }
+                        th scope="col" data-sort="" { "perhaps elsewhere" }
+                        th scope="col" data-sort="" { "edges that leak" }
+                        th scope="col" data-sort="" { "vertices that leak" }
+                        th scope="col" data-sort="" { "no verdict" }
+                        th scope="col" data-sort="" { "ns a ray" }
+                    } }
+                    tbody { @for (i, row) in rows.iter().enumerate() { (rate_row(i, row)) } }
+                }
+            }
+        }
+    }
+}
+
+fn rate_row(number: usize, row: &Shown) -> Markup {
+    let MeshRowResult { edges, vertices, promised, .. } = row.result;
+    let hue = if *promised == "nothing" { "h" } else { "m" };
+    let exact = if *promised == "exactly-one" { "m" } else { "" };
+    let count = |n: u64| html! { td data-v=(n) { (group_digits(n)) } };
+    let of = |part: &MeshPartResult| {
+        html! { td data-v=(part.cracked) { (group_digits(part.cracked)) small { "of " (group_digits(part.of)) } } }
+    };
+    html! {
+        tr {
+            th scope="row" {
+                a href={ "#r" (number) } { (row.result.kernel) } " " span.set { "(" (row.result.set) ")" } " "
+                span.what { (row.scalar) }
+            }
+            @match row.promise() {
+                None => { td.text.set data-v="0" { "nothing" } },
+                Some((hits, true)) => { td.text.kept data-v="1" { (hits) ": kept" } },
+                Some((hits, false)) => { td.text.broken data-v="2" { (hits) ": BROKEN" } },
+            }
+            (share(&edges.total.cracks, hue))
+            (share(&vertices.total.cracks, hue))
+            (share(&row.both(|rates| &rates.doubles), exact))
+            (share(&row.both(|rates| &rates.odd_folds), exact))
+            (count(edges.total.elsewhere.count + vertices.total.elsewhere.count))
+            (of(edges)) (of(vertices))
+            (count(row.failures()))
+            @match row.nanoseconds {
+                Some(time) => { td data-v=(format!("{time:.3e}")) { (format!("{time:.1}")) } },
+                None => { td { "–" } },
+            }
+        }
+    }
+}
+
+fn share(rate: &Rate, hue: &str) -> Markup {
+    let Some(share) = rate.rate else { return html! { td { "–" } } };
+    let class = if hue.is_empty() { String::new() } else { format!("{hue}{}", shade(share)) };
+    html! {
+        td class=(class) data-v=(format!("{share:.3e}")) title=(counts(rate)) {
+            (percent(share)) small { @if let Some(ends) = rate.interval { (interval(ends)) } }
+        }
+    }
+}
+
+/// The drawing: a canvas for the script, and a picture without it.
+fn stage(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
+    let numbers = |values: &mut dyn Iterator<Item = i64>| {
+        values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
+    };
+    let points = numbers(&mut drawing.points.iter().flat_map(|(_, at)| at.map(i64::from)));
+    let vertices = numbers(&mut drawing.points.iter().map(|(number, _)| i64::from(*number)));
+    let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
+    let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
+    // The row that leaks most is drawn first, or alone.
+    let worst = (0..rows.len()).rev().max_by_key(|i| (rows[*i].leaks(), rows[*i].marked));
+    let worst = worst.unwrap_or(0);
+    html! {
+        section #where aria-labelledby="where-title" {
+            h2 #where-title { "Where" }
+            @if drawing.triangles.is_empty() {
+                p { "No row has a place to mark, and the mesh is too large to be drawn whole." }
+            } @else {
+                p {
+                    @if drawing.whole { "The whole mesh" } @else {
+                        "Of " (number_of(result.mesh.triangles, "triangle", "triangles")) " only those around marked places, "
+                        (group_digits(drawing.triangles.len() as u64)) " in all: at most " (AROUND) " around each of at most "
+                        (PLACES) " places of a row, which are spread over the mesh"
+                    }
+                    ". Marked are cracks, and doubles and wrong folds of rows that promise exactly one hit."
+                }
+                form.filters #stage-controls hidden aria-label="The drawing" {
+                    label { "Kernel row "
+                        select #row autocomplete="off" {
+                            @for (i, row) in rows.iter().enumerate() {
+                                option value=(i) selected[i == worst] { (shortened(&label(row.result), 80)) " " (row.scalar) }
+                            }
+                        }
+                    }
+                    @if 1 < kinds.len() {
+                        fieldset {
+                            @for kind in &kinds { label { input type="checkbox" id={ "kind-" (kind) } checked autocomplete="off"; span class={ "w" (kind) } { (WRONG[*kind]) } } }
+                        }
+                    }
+                    fieldset { label { input #through type="checkbox" autocomplete="off"; "see through" } }
+                    button #in type="button" { "Zoom in" }
+                    button #out type="button" { "Zoom out" }
+                    button #reset type="button" { "Reset" }
+                    button #previous type="button" { "Previous place" }
+                    button #next type="button" { "Next place" }
+                    output #sum for="row" aria-live="polite" {}
+                }
+                div.stage {
+                    canvas #view hidden tabindex="0" role="application" aria-describedby="keys"
+                        aria-label="The mesh, with the places where the chosen kernel row goes wrong"
+                        data-points=(points) data-vertices=(vertices) data-triangles=(triangles)
+                        data-directions=(result.directions) data-file=(shortened(&result.mesh.file, 120)) {}
+                    (picture::still(drawing, &rows[worst].drawn.marks[..rows[worst].marked]))
+                }
+                div #place hidden {
+                    div aria-live="polite" { p #what {} p { code #command {} } }
+                    p.note #keys {
+                        "Drag or use the arrow keys to turn; pinch, + and - to zoom, or the wheel once the drawing has the focus; 0 to "
+                        "reset; n and p for the next and the previous place."
+                    }
+                }
+                noscript { p.note { "Drawn are the places of " (shortened(&label(rows[worst].result), 80)) " " (rows[worst].scalar) ". With scripts every row is drawn, and the mesh can be turned." } }
+            }
+        }
+    }
+}
+
+fn has_kind(rows: &[Shown], kind: usize) -> bool {
+    let mut marks = rows.iter().flat_map(|row| &row.drawn.marks);
+    marks.any(|mark| mark.wrong as usize == kind)
+}
+
+/// A row's first places, with its marks for the script.
+fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
+    let [edges, vertices] = &row.drawn.commands;
+    let MeshRowResult { edges: at_edges, vertices: at_vertices, .. } = row.result;
+    let number = |mark: &Mark, end: usize| drawing.points[mark.ends[end] as usize].0;
+    let index = |part: Part| &row.drawn.commands[part as usize];
+    html! {
+        details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
+            summary {
+                b { (label(row.result)) " " (row.scalar) } ": "
+                span.sum {
+                    (number_of(at_edges.cracked, "edge leaks", "edges leak")) ", "
+                    (number_of(at_vertices.cracked, "vertex leaks", "vertices leak")) "; "
+                    (number_of(row.marked as u64, "place is marked", "places are marked"))
+                }
+            }
+            @if 0 < row.marked {
+                div.scroll role="group" aria-label={ "Places of " (label(row.result)) } tabindex="0" {
+                    table {
+                        thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { "faces at lines" } th.text scope="col" { "the first ray again" } } }
+                        tbody {
+                            @for mark in row.drawn.marks.iter().take(row.marked.min(LISTED)) {
+                                tr {
+                                    th scope="row" { @match mark.part {
+                                        Part::Edges => { "edge " (number(mark, 0)) "–" (number(mark, 1)) },
+                                        Part::Vertices => { "vertex " (number(mark, 0)) },
+                                    } }
+                                    td.text { span class={ "w" (mark.wrong as usize) } { (WRONG[mark.wrong as usize]) } }
+                                    td { (mark.rays) }
+                                    td.text { (lines(mark, ", ")) }
+                                    td.text.command { (code(&index(mark.part).join(&mark.index.to_string()))) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn guide() -> Markup {
+    html! {
+        section #guide aria-labelledby="guide-title" {
+            h2 #guide-title { "How to read" }
+            dl.guide {
+                dt { "Crack" }
+                dd { "All triangles around the edge or vertex face the ray alike, the exact line passes through their union, and none of them reports a hit, nor does a neighbour that may have received it." }
+                dt { "Double" }
+                dd { "Two triangles or more around the edge or vertex report such a ray." }
+                dt { "Wrong at a fold" }
+                dd { "Two triangles that do not face the ray alike: there the parity of the number of hits is judged." }
+                dt { "Perhaps elsewhere" }
+                dd { "A crossing that is not called a crack, because rounding may have moved its hit to a neighbour." }
+                dt { "Promised" }
+                dd { "How many triangles of a surface report a ray that crosses it. " em { ">= 1" } ": no ray slips through. " em { "= 1" } ": none is reported twice either. A contract that promises nothing has its cracks counted and marked, and breaks no promise." }
+                dt { "95 % interval" }
+                dd { "Clopper–Pearson, of a random sample. 0 of 2,175 is a rate below 0.17 %, not a rate of 0." }
+            }
+        }
+    }
+}
+
+fn foot(record: &MeshRecord) -> Markup {
+    let provenance = &record.provenance;
+    html! {
+        footer #about {
+            h2 { "About this run" }
+            dl.about {
+                dt { "Tool" } dd { (shortened(&provenance.tool, 200)) }
+                dt { "Mesh" } dd { code { (record.result.mesh.file) } }
+                @for part in &record.result.scalars {
+                    dt { (part.scalar) }
+                    dd {
+                        (group_digits(part.topology.points)) " points; "
+                        (group_digits(part.rays[0])) " rays aimed at edges, " (group_digits(part.rays[1])) " at vertices"
+                        @for (name, line) in topology_lines(&part.topology) { br; (name) " " (line) }
+                    }
+                }
+                dt { "Target" } dd { (shortened(&provenance.target, 200)) }
+                dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
+                @for (kernel, notes) in &provenance.kernel_notes {
+                    @for note in notes { dt { "Note" } dd { (shortened(kernel, 200)) ": " (shortened(note, 400)) } }
+                }
+            }
+            p {
+                "Every number of this page is in the JSON record, and every place where a row goes wrong in the PLY file: add "
+                code { "--format html,json,ply -o mesh.html -o mesh.json -o mesh.ply" } " to the command."
+            }
+        }
+    }
+}
