@@ -36,8 +36,10 @@ fn the_table_says_what_the_mesh_is_and_where_rays_slip_through() {
         "  edges      3,456 between two faces",
         "  vertices   1,152 inside a closed fan",
         "             a closed surface, wound consistently",
-        "  asked      27,648 rays at edges, 9,216 at vertices",
+        "  aimed      27,648 rays at edges, 9,216 at vertices",
         "woop-watertight (source): nowhere",
+        "cracks: % of rays aimed at edges, and of rays aimed at vertices, that cross the surface there; \
+         doubles, and wrong at",
     ] {
         assert!(out.lines().any(|other| other == line), "{line}\n{out}");
     }

@@ -30,9 +30,9 @@ use words::{code, shortened};
 const LIMIT: usize = 9_800_000;
 
 pub(super) const STYLE: &str = include_str!("style.css");
-/// Makes tables sortable.
-pub(super) const SORT: &str = include_str!("sort.js");
-const SCRIPT: &str = concat!(include_str!("sort.js"), include_str!("script.js"));
+/// Makes tables sortable, and opens what a link leads to.
+pub(super) const SHARED: &str = include_str!("shared.js");
+const SCRIPT: &str = concat!(include_str!("shared.js"), include_str!("script.js"));
 
 /// Writes the record.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {

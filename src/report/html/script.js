@@ -41,13 +41,6 @@
   }));
   tell();
 
-  // A link into a closed part opens it.
-  const open = () => {
-    const target = location.hash && document.getElementById(location.hash.slice(1));
-    if (target && target.tagName === "DETAILS") target.open = true;
-  };
-  addEventListener("hashchange", open);
-  open();
   // On paper the kernels stand open.
   const closed = [];
   addEventListener("beforeprint", () => {

@@ -9,6 +9,8 @@ mod page;
 #[cfg(feature = "cli")]
 mod picture;
 mod record;
+#[cfg(feature = "cli")]
+mod stage;
 mod text;
 
 pub use build::build;

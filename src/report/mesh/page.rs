@@ -1,14 +1,13 @@
 //! A mesh audit as one HTML file that needs nothing else, with the mesh drawn and its leaks marked. A script
 //! turns the mesh; without it a picture stands still, and tables hold the first places of each row.
 
-use super::drawing::{AROUND, Drawing, DrawnRow, Mark, PLACES};
-use super::picture;
+use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
+use super::stage;
 use super::text::{label, topology_lines};
-use crate::mesh::Part;
 use crate::report::html::room::Room;
-use crate::report::html::words::{code, counts, interval, percent, shortened};
-use crate::report::html::{SORT, STYLE, head_of, policy, shade};
+use crate::report::html::words::{counts, interval, percent, shortened};
+use crate::report::html::{SHARED, STYLE, head_of, policy, shade};
 use crate::report::{Rate, Style, group_digits, number_of};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
@@ -18,21 +17,17 @@ const OWN_STYLE: &str = include_str!("view.css");
 const OWN_SCRIPT: &str = include_str!("view.js");
 
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
-const MARKS: usize = 2_500_000;
-/// Places of a row that stand in its table.
-const LISTED: usize = 20;
-/// What is wrong, as [`crate::audit::mesh::Wrong`] counts.
-const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
+const MARKS: usize = 3_500_000;
 
 /// A row in a scalar.
-struct Shown<'a> {
-    scalar: &'static str,
-    result: &'a MeshRowResult,
+pub(super) struct Shown<'a> {
+    pub scalar: &'static str,
+    pub result: &'a MeshRowResult,
     nanoseconds: Option<f64>,
-    drawn: &'a DrawnRow,
+    pub drawn: &'a DrawnRow,
     /// Its marks as the script reads them, and how many there are.
-    marks: String,
-    marked: usize,
+    pub marks: String,
+    pub marked: usize,
 }
 
 impl Shown<'_> {
@@ -50,7 +45,7 @@ impl Shown<'_> {
     }
 
     /// How many hits are promised, and whether that was kept; none if nothing is promised.
-    fn promise(&self) -> Option<(&'static str, bool)> {
+    pub fn promise(&self) -> Option<(&'static str, bool)> {
         let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
         let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
         match self.result.promised {
@@ -64,7 +59,7 @@ impl Shown<'_> {
 /// Writes a report that has a drawing.
 pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::Result<()> {
     let Some(drawing) = &report.drawing else { return Ok(()) };
-    let (style, script) = (format!("{STYLE}{OWN_STYLE}"), format!("{SORT}{OWN_SCRIPT}"));
+    let (style, script) = (format!("{STYLE}{OWN_STYLE}"), format!("{SHARED}{OWN_SCRIPT}"));
     let result = &report.record.result;
     let rows = shown(&report.record, drawing);
     let (class, title) = verdict(result, &rows);
@@ -92,14 +87,14 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
                 }
                 main #main {
                     (rates(&rows))
-                    (stage(result, drawing, &rows))
+                    (stage::drawing(result, drawing, &rows))
                     section #rows aria-labelledby="rows-title" {
                         h2 #rows-title { "Row by row" }
                         p {
                             "The first places of each row, with the first ray that shows each. Vertices have their numbers in the "
                             "file (those with equal coordinates the number of the first), faces the lines of the file."
                         }
-                        @for (i, row) in rows.iter().enumerate() { (places(i, drawing, row)) }
+                        @for (i, row) in rows.iter().enumerate() { (stage::places(i, drawing, row)) }
                     }
                     (guide())
                 }
@@ -136,7 +131,7 @@ fn mark_text(mark: &Mark) -> String {
 }
 
 /// The lines of the faces around, the first eight.
-fn lines(mark: &Mark, comma: &str) -> String {
+pub(super) fn lines(mark: &Mark, comma: &str) -> String {
     let more = if mark.lines.len() > 8 { &["…".to_owned()][..] } else { &[] };
     let first = mark.lines.iter().take(8).map(u32::to_string);
     first.chain(more.iter().cloned()).collect::<Vec<_>>().join(comma)
@@ -144,7 +139,8 @@ fn lines(mark: &Mark, comma: &str) -> String {
 
 /// How it went, as a class, and in one line.
 fn verdict(result: &MeshResult, rows: &[Shown]) -> (&'static str, String) {
-    let file = shortened(&result.mesh.file, 120);
+    let name = result.mesh.file.rsplit(['/', '\\']).next().unwrap_or(&result.mesh.file);
+    let file = shortened(name, 120);
     let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
     let is_broken = rows.iter().any(|row| row.promise().is_some_and(|(_, kept)| !kept));
     let failed = rows.iter().any(|row| 0 < row.failures());
@@ -233,119 +229,6 @@ fn share(rate: &Rate, hue: &str) -> Markup {
     html! {
         td class=(class) data-v=(format!("{share:.3e}")) title=(counts(rate)) {
             (percent(share)) small { @if let Some(ends) = rate.interval { (interval(ends)) } }
-        }
-    }
-}
-
-/// The drawing: a canvas for the script, and a picture without it.
-fn stage(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
-    let numbers = |values: &mut dyn Iterator<Item = i64>| {
-        values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
-    };
-    let points = numbers(&mut drawing.points.iter().flat_map(|(_, at)| at.map(i64::from)));
-    let vertices = numbers(&mut drawing.points.iter().map(|(number, _)| i64::from(*number)));
-    let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
-    let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
-    // The row that leaks most is drawn first, or alone.
-    let worst = (0..rows.len()).rev().max_by_key(|i| (rows[*i].leaks(), rows[*i].marked));
-    let worst = worst.unwrap_or(0);
-    html! {
-        section #where aria-labelledby="where-title" {
-            h2 #where-title { "Where" }
-            @if drawing.triangles.is_empty() {
-                p { "No row has a place to mark, and the mesh is too large to be drawn whole." }
-            } @else {
-                p {
-                    @if drawing.whole { "The whole mesh" } @else {
-                        "Of " (number_of(result.mesh.triangles, "triangle", "triangles")) " only those around marked places, "
-                        (group_digits(drawing.triangles.len() as u64)) " in all: at most " (AROUND) " around each of at most "
-                        (PLACES) " places of a row, which are spread over the mesh"
-                    }
-                    ". Marked are cracks, and doubles and wrong folds of rows that promise exactly one hit."
-                }
-                form.filters #stage-controls hidden aria-label="The drawing" {
-                    label { "Kernel row "
-                        select #row autocomplete="off" {
-                            @for (i, row) in rows.iter().enumerate() {
-                                option value=(i) selected[i == worst] { (shortened(&label(row.result), 80)) " " (row.scalar) }
-                            }
-                        }
-                    }
-                    @if 1 < kinds.len() {
-                        fieldset {
-                            @for kind in &kinds { label { input type="checkbox" id={ "kind-" (kind) } checked autocomplete="off"; span class={ "w" (kind) } { (WRONG[*kind]) } } }
-                        }
-                    }
-                    fieldset { label { input #through type="checkbox" autocomplete="off"; "see through" } }
-                    button #in type="button" { "Zoom in" }
-                    button #out type="button" { "Zoom out" }
-                    button #reset type="button" { "Reset" }
-                    button #previous type="button" { "Previous place" }
-                    button #next type="button" { "Next place" }
-                    output #sum for="row" aria-live="polite" {}
-                }
-                div.stage {
-                    canvas #view hidden tabindex="0" role="application" aria-describedby="keys"
-                        aria-label="The mesh, with the places where the chosen kernel row goes wrong"
-                        data-points=(points) data-vertices=(vertices) data-triangles=(triangles)
-                        data-directions=(result.directions) data-file=(shortened(&result.mesh.file, 120)) {}
-                    (picture::still(drawing, &rows[worst].drawn.marks[..rows[worst].marked]))
-                }
-                div #place hidden {
-                    div aria-live="polite" { p #what {} p { code #command {} } }
-                    p.note #keys {
-                        "Drag or use the arrow keys to turn; pinch, + and - to zoom, or the wheel once the drawing has the focus; 0 to "
-                        "reset; n and p for the next and the previous place."
-                    }
-                }
-                noscript { p.note { "Drawn are the places of " (shortened(&label(rows[worst].result), 80)) " " (rows[worst].scalar) ". With scripts every row is drawn, and the mesh can be turned." } }
-            }
-        }
-    }
-}
-
-fn has_kind(rows: &[Shown], kind: usize) -> bool {
-    let mut marks = rows.iter().flat_map(|row| &row.drawn.marks);
-    marks.any(|mark| mark.wrong as usize == kind)
-}
-
-/// A row's first places, with its marks for the script.
-fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
-    let [edges, vertices] = &row.drawn.commands;
-    let MeshRowResult { edges: at_edges, vertices: at_vertices, .. } = row.result;
-    let number = |mark: &Mark, end: usize| drawing.points[mark.ends[end] as usize].0;
-    let index = |part: Part| &row.drawn.commands[part as usize];
-    html! {
-        details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
-            summary {
-                b { (label(row.result)) " " (row.scalar) } ": "
-                span.sum {
-                    (number_of(at_edges.cracked, "edge leaks", "edges leak")) ", "
-                    (number_of(at_vertices.cracked, "vertex leaks", "vertices leak")) "; "
-                    (number_of(row.marked as u64, "place is marked", "places are marked"))
-                }
-            }
-            @if 0 < row.marked {
-                div.scroll role="group" aria-label={ "Places of " (label(row.result)) } tabindex="0" {
-                    table {
-                        thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { "faces at lines" } th.text scope="col" { "the first ray again" } } }
-                        tbody {
-                            @for mark in row.drawn.marks.iter().take(row.marked.min(LISTED)) {
-                                tr {
-                                    th scope="row" { @match mark.part {
-                                        Part::Edges => { "edge " (number(mark, 0)) "–" (number(mark, 1)) },
-                                        Part::Vertices => { "vertex " (number(mark, 0)) },
-                                    } }
-                                    td.text { span class={ "w" (mark.wrong as usize) } { (WRONG[mark.wrong as usize]) } }
-                                    td { (mark.rays) }
-                                    td.text { (lines(mark, ", ")) }
-                                    td.text.command { (code(&index(mark.part).join(&mark.index.to_string()))) }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
         }
     }
 }

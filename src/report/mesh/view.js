@@ -15,12 +15,13 @@
   const corner = (p) => [points[3 * p], points[3 * p + 1], points[3 * p + 2]];
   const minus = (u, v) => u.map((x, i) => x - v[i]);
   const middle = ({ a, b }) => corner(a).map((x, i) => (x + corner(b)[i]) / 2);
+  const face = (i) => triangles.slice(3 * i, 3 * i + 3);
   // A triangle's normal, of length 1 or 0.
   const normals = [];
   let radius = 1, edges = 0;
   for (let p = 0; p < count; p++) radius = Math.max(radius, Math.hypot(...corner(p)));
   for (let i = 0; i < triangles.length; i += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => corner(triangles[i + k]));
+    const [a, b, c] = face(i / 3).map(corner);
     const [u, v] = [minus(b, a), minus(c, a)];
     const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     const length = Math.hypot(...n) || 1;
@@ -32,53 +33,61 @@
   const START = { yaw: -0.6, pitch: 0.45, zoom: 1, centre: [0, 0, 0] };
   let eye = { ...START }, marks = [], chosen = -1, waiting = false;
   const [x, y, z] = [0, 0, 0].map(() => new Float32Array(count));
-  let size = [0, 0];
 
-  const shown = (mark) => {
-    const box = get("kind-" + mark.wrong);
-    return !box || box.checked;
-  };
+  const shown = ({ wrong }) => get("kind-" + wrong)?.checked ?? true;
   const turn = (v) => {
     const [sy, cy, sp, cp] = [Math.sin(eye.yaw), Math.cos(eye.yaw), Math.sin(eye.pitch), Math.cos(eye.pitch)];
     const forth = -v[0] * sy + v[2] * cy;
     return [v[0] * cy + v[2] * sy, v[1] * cp - forth * sp, v[1] * sp + forth * cp];
+  };
+  const path = (...ends) => {
+    brush.beginPath();
+    ends.forEach((p) => brush.lineTo(x[p], y[p]));
+  };
+  const draw_mark = ({ a, b, wrong }, colour) => {
+    brush.strokeStyle = brush.fillStyle = colour;
+    if (a !== b) {
+      brush.lineWidth = 2.6;
+      brush.setLineDash([[], [7, 4], [2, 4]][wrong]);
+      path(a, b);
+      brush.stroke();
+      brush.setLineDash([]);
+      return;
+    }
+    brush.beginPath();
+    if (wrong === 0) brush.arc(x[a], y[a], 4, 0, 7);
+    else if (wrong === 1) brush.rect(x[a] - 4, y[a] - 4, 8, 8);
+    else [[0, -5], [5, 4], [-5, 4]].forEach(([dx, dy]) => brush.lineTo(x[a] + dx, y[a] + dy));
+    brush.fill();
   };
   const draw = () => {
     waiting = false;
     const style = getComputedStyle(canvas);
     const colour = (name) => style.getPropertyValue("--" + name).trim();
     const [lit, dim] = [numbers(colour("lit")), numbers(colour("dim"))];
-    const marked = ["crack", "double", "fold"].map(colour);
-    const wire = colour("wire");
+    const [wire, ink, ...marked] = ["wire", "ink", "crack", "double", "fold"].map(colour);
+    const through = get("through").checked;
     const sharp = devicePixelRatio || 1;
-    size = [canvas.clientWidth, canvas.clientHeight];
+    const size = [canvas.clientWidth, canvas.clientHeight];
     [canvas.width, canvas.height] = size.map((side) => Math.round(side * sharp));
     brush.scale(sharp, sharp);
     brush.lineJoin = brush.lineCap = "round";
     const scale = 0.47 * Math.min(...size) * eye.zoom / radius;
-    for (let p = 0; p < count; p++) {
-      const at = turn(minus(corner(p), eye.centre));
-      [x[p], y[p], z[p]] = [size[0] / 2 + at[0] * scale, size[1] / 2 - at[1] * scale, at[2]];
-    }
-    const through = get("through").checked;
-    const faces = triangles.length / 3;
+    const place = (point) => {
+      const at = turn(minus(point, eye.centre));
+      return [size[0] / 2 + at[0] * scale, size[1] / 2 - at[1] * scale, at[2]];
+    };
+    for (let p = 0; p < count; p++) [x[p], y[p], z[p]] = place(corner(p));
+    const faces = normals.length;
     const depth = new Float32Array(faces + marks.length);
-    for (let i = 0; i < faces; i++) {
-      depth[i] = (z[triangles[3 * i]] + z[triangles[3 * i + 1]] + z[triangles[3 * i + 2]]) / 3;
-    }
+    for (let i = 0; i < faces; i++) depth[i] = face(i).reduce((sum, p) => sum + z[p], 0) / 3;
     marks.forEach(({ a, b }, i) => { depth[faces + i] = through ? 1e9 : (z[a] + z[b]) / 2 + lift; });
-    brush.lineWidth = through ? 0.4 : 0.6;
     for (const item of Uint32Array.from(depth.keys()).sort((i, j) => depth[i] - depth[j])) {
       if (item >= faces) {
-        draw_mark(marks[item - faces], marked);
-        brush.lineWidth = through ? 0.4 : 0.6;
+        if (shown(marks[item - faces])) draw_mark(marks[item - faces], marked[marks[item - faces].wrong]);
         continue;
       }
-      const [a, b, c] = [triangles[3 * item], triangles[3 * item + 1], triangles[3 * item + 2]];
-      brush.beginPath();
-      brush.moveTo(x[a], y[a]);
-      brush.lineTo(x[b], y[b]);
-      brush.lineTo(x[c], y[c]);
+      path(...face(item));
       brush.closePath();
       if (!through) {
         const light = Math.abs(turn(normals[item])[2]);
@@ -86,42 +95,24 @@
         brush.fill();
       }
       brush.strokeStyle = wire;
+      brush.lineWidth = through ? 0.4 : 0.6;
       brush.stroke();
     }
     if (marks[chosen]) {
-      const [px, py] = turn(minus(middle(marks[chosen]), eye.centre));
-      brush.strokeStyle = colour("ink");
+      const [px, py] = place(middle(marks[chosen]));
+      brush.strokeStyle = ink;
       brush.lineWidth = 2;
       brush.beginPath();
-      brush.arc(size[0] / 2 + px * scale, size[1] / 2 - py * scale, 13, 0, 7);
+      brush.arc(px, py, 13, 0, 7);
       brush.stroke();
     }
-  };
-  const draw_mark = (mark, marked) => {
-    if (!shown(mark)) return;
-    const { a, b, wrong } = mark;
-    brush.strokeStyle = brush.fillStyle = marked[wrong];
-    brush.beginPath();
-    if (a !== b) {
-      brush.lineWidth = 2.6;
-      brush.setLineDash([[], [7, 4], [2, 4]][wrong]);
-      brush.moveTo(x[a], y[a]);
-      brush.lineTo(x[b], y[b]);
-      brush.stroke();
-      brush.setLineDash([]);
-      return;
-    }
-    if (wrong === 0) brush.arc(x[a], y[a], 4, 0, 7);
-    else if (wrong === 1) brush.rect(x[a] - 4, y[a] - 4, 8, 8);
-    else [[0, -5], [5, 4], [-5, 4]].forEach(([dx, dy]) => brush.lineTo(x[a] + dx, y[a] + dy));
-    brush.fill();
   };
   const redraw = () => {
     if (!waiting) requestAnimationFrame(draw);
     waiting = true;
   };
 
-  const choose = (number, look) => {
+  const choose = (number, near) => {
     chosen = number;
     const mark = marks[number];
     const { dataset } = rows[get("row").value];
@@ -136,11 +127,13 @@
       get("what").textContent = marks.length ? "Click a mark, or step from place to place." : "No place of this row is marked.";
       get("command").textContent = "";
     }
-    if (mark && look) {
+    if (mark && near) {
       const n = [0, 0, 0];
       normals.forEach((normal, i) => {
-        if (triangles.slice(3 * i, 3 * i + 3).includes(mark.a)) normal.forEach((part, k) => { n[k] += part; });
+        if (face(i).includes(mark.a)) normal.forEach((part, k) => { n[k] += part; });
       });
+      // Of a large mesh only what is around the place is there to be seen.
+      if (!("whole" in canvas.dataset)) eye.zoom = Math.max(eye.zoom, radius / (8 * lift));
       eye = { ...eye, centre: middle(mark), yaw: Math.atan2(-n[0], n[2]), pitch: Math.atan2(n[1], Math.hypot(n[0], n[2])) };
     }
     redraw();
@@ -164,27 +157,22 @@
   // The nearest mark under a pointer, of several the one in front.
   const pick = (px, py) => {
     let [best, most] = [-1, 13];
-    marks.forEach(({ a, b, wrong }, i) => {
+    marks.forEach((mark, i) => {
+      const { a, b } = mark;
       const [dx, dy] = [x[b] - x[a], y[b] - y[a]];
       const s = Math.max(0, Math.min(1, ((px - x[a]) * dx + (py - y[a]) * dy) / (dx * dx + dy * dy || 1)));
       const off = Math.max(0, Math.hypot(px - x[a] - s * dx, py - y[a] - s * dy) - 4) - 6 * (z[a] + z[b]) / (2 * radius);
-      if (off < most && shown({ wrong })) [best, most] = [i, off];
+      if (off < most && shown(mark)) [best, most] = [i, off];
     });
     return best;
   };
-  const zoom = (by) => {
-    eye.zoom = Math.max(0.2, Math.min(5000, eye.zoom * by));
+  const look = (change) => {
+    eye = { ...eye, ...change };
     redraw();
   };
-  const rotate = (right, down) => {
-    eye.yaw += right;
-    eye.pitch = Math.max(-1.57, Math.min(1.57, eye.pitch + down));
-    redraw();
-  };
-  const reset = () => {
-    eye = { ...START };
-    redraw();
-  };
+  const zoom = (by) => look({ zoom: Math.max(0.2, Math.min(5000, eye.zoom * by)) });
+  const rotate = (right, down) => look({ yaw: eye.yaw + right, pitch: Math.max(-1.57, Math.min(1.57, eye.pitch + down)) });
+  const reset = () => look(START);
 
   const down = new Map();
   let moved = 0;

@@ -1,3 +1,4 @@
+// What the pages share.
 "use strict";
 // Makes a table's columns sortable by a button in each head that has data-sort. `changed` is told the order in words.
 // Returns what puts the rows back into their own order.
@@ -38,3 +39,10 @@ const sortable = (table, changed = () => {}) => {
   }
   return unsort;
 };
+// A link into a closed part opens it.
+const open_target = () => {
+  const target = location.hash && document.getElementById(location.hash.slice(1));
+  if (target && target.tagName === "DETAILS") target.open = true;
+};
+addEventListener("hashchange", open_target);
+open_target();

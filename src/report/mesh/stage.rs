@@ -1,0 +1,130 @@
+//! The part of a page that shows where: the drawing with its controls, and the first places of each row.
+
+use super::drawing::{AROUND, Drawing, Mark, PLACES};
+use super::page::{Shown, lines};
+use super::picture;
+use super::record::*;
+use super::text::label;
+use crate::mesh::Part;
+use crate::report::html::words::{code, shortened};
+use crate::report::{group_digits, number_of};
+use maud::{Markup, html};
+
+/// Places of a row that stand in its table.
+const LISTED: usize = 20;
+/// What is wrong, as [`crate::audit::mesh::Wrong`] counts.
+const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
+
+/// The drawing: a canvas for the script, and a picture without it.
+pub(super) fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
+    let numbers = |values: &mut dyn Iterator<Item = i64>| {
+        values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
+    };
+    let points = numbers(&mut drawing.points.iter().flat_map(|(_, at)| at.map(i64::from)));
+    let vertices = numbers(&mut drawing.points.iter().map(|(number, _)| i64::from(*number)));
+    let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
+    let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
+    // Drawn first, or alone: what breaks its promise, otherwise what leaks most.
+    let badness = |row: &Shown| (row.promise().is_some_and(|(_, kept)| !kept), row.marked);
+    let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
+    html! {
+        section #where aria-labelledby="where-title" {
+            h2 #where-title { "Where" }
+            @if drawing.triangles.is_empty() {
+                p { "No row has a place to mark, and the mesh is too large to be drawn whole." }
+            } @else {
+                p {
+                    @if drawing.whole { "The whole mesh" } @else {
+                        "Of " (number_of(result.mesh.triangles, "triangle", "triangles")) " only those around marked places, "
+                        (group_digits(drawing.triangles.len() as u64)) " in all: at most " (AROUND) " around each of at most "
+                        (PLACES) " places of a row, which are spread over the mesh"
+                    }
+                    ". Marked are cracks, and doubles and wrong folds of rows that promise exactly one hit."
+                }
+                form.filters #stage-controls hidden aria-label="The drawing" {
+                    label { "Kernel row "
+                        select #row autocomplete="off" {
+                            @for (i, row) in rows.iter().enumerate() {
+                                option value=(i) selected[i == worst] { (shortened(&label(row.result), 80)) " " (row.scalar) }
+                            }
+                        }
+                    }
+                    @if 1 < kinds.len() {
+                        fieldset {
+                            @for kind in &kinds { label { input type="checkbox" id={ "kind-" (kind) } checked autocomplete="off"; span class={ "w" (kind) } { (WRONG[*kind]) } } }
+                        }
+                    }
+                    fieldset { label { input #through type="checkbox" autocomplete="off"; "see through" } }
+                    button #in type="button" { "Zoom in" }
+                    button #out type="button" { "Zoom out" }
+                    button #reset type="button" { "Reset" }
+                    button #previous type="button" { "Previous place" }
+                    button #next type="button" { "Next place" }
+                    output #sum for="row" aria-live="polite" {}
+                }
+                div.stage {
+                    canvas #view hidden tabindex="0" role="application" aria-describedby="keys"
+                        aria-label="The mesh, with the places where the chosen kernel row goes wrong"
+                        data-points=(points) data-vertices=(vertices) data-triangles=(triangles)
+                        data-whole[drawing.whole] data-directions=(result.directions) data-file=(shortened(&result.mesh.file, 120)) {}
+                    (picture::still(drawing, &rows[worst].drawn.marks[..rows[worst].marked]))
+                }
+                div #place hidden {
+                    div aria-live="polite" { p #what {} p { code #command {} } }
+                    p.note #keys {
+                        "Drag or use the arrow keys to turn; pinch, + and - to zoom, or the wheel once the drawing has the focus; 0 to "
+                        "reset; n and p for the next and the previous place."
+                    }
+                }
+                noscript { p.note { "Drawn are the places of " (shortened(&label(rows[worst].result), 80)) " " (rows[worst].scalar) ". With scripts every row is drawn, and the mesh can be turned." } }
+            }
+        }
+    }
+}
+
+fn has_kind(rows: &[Shown], kind: usize) -> bool {
+    let mut marks = rows.iter().flat_map(|row| &row.drawn.marks);
+    marks.any(|mark| mark.wrong as usize == kind)
+}
+
+/// A row's first places, with its marks for the script.
+pub(super) fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
+    let [edges, vertices] = &row.drawn.commands;
+    let MeshRowResult { edges: at_edges, vertices: at_vertices, .. } = row.result;
+    let number = |mark: &Mark, end: usize| drawing.points[mark.ends[end] as usize].0;
+    let index = |part: Part| &row.drawn.commands[part as usize];
+    html! {
+        details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
+            summary {
+                b { (label(row.result)) " " (row.scalar) } ": "
+                span.sum {
+                    (number_of(at_edges.cracked, "edge leaks", "edges leak")) ", "
+                    (number_of(at_vertices.cracked, "vertex leaks", "vertices leak")) "; "
+                    @if row.marked < row.drawn.marks.len() { (group_digits(row.marked as u64)) " of " (group_digits(row.drawn.marks.len() as u64)) " places are marked" }
+                    @else { (number_of(row.marked as u64, "place is marked", "places are marked")) }
+                }
+            }
+            @if 0 < row.marked {
+                div.scroll role="group" aria-label={ "Places of " (label(row.result)) } tabindex="0" {
+                    table {
+                        thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { "faces at lines" } th.text scope="col" { "the first ray again" } } }
+                        tbody {
+                            @for mark in row.drawn.marks.iter().take(row.marked.min(LISTED)) {
+                                tr {
+                                    th scope="row" { @match mark.part {
+                                        Part::Edges => { "edge " (number(mark, 0)) "–" (number(mark, 1)) },
+                                        Part::Vertices => { "vertex " (number(mark, 0)) },
+                                    } }
+                                    td.text { span class={ "w" (mark.wrong as usize) } { (WRONG[mark.wrong as usize]) } }
+                                    td { (mark.rays) }
+                                    td.text { (lines(mark, ", ")) }
+                                    td.text.command { (code(&index(mark.part).join(&mark.index.to_string()))) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
