@@ -1,47 +1,9 @@
 // What a reader does with the report, in a real browser. run.sh makes the reports.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import path from "node:path";
-import { after, before, describe, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { chromium } from "playwright-core";
+import { describe, test } from "node:test";
+import { AXE as axe, THEMES, cutText, out, visit } from "./visit.mjs";
 
-const here = path.dirname(fileURLToPath(import.meta.url));
-const out = (name) => path.join(here, "out", name);
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const [AUDIT, CHECK] = ["audit.html", "check.html"].map((name) => `file://${out(name)}`);
-const THEMES = ["light", "dark"];
-
-let browser;
-before(async () => {
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-      "--disable-background-networking", "--disable-component-update", "--disable-sync"],
-  });
-});
-after(() => browser.close());
-
-/** Opens a report; whatever the console, the page or the network says is a failure. */
-async function visit(t, url, { width = 1280, height = 900, theme = "light", scripts = true } = {}) {
-  const context = await browser.newContext({
-    viewport: { width, height }, colorScheme: theme, javaScriptEnabled: scripts, reducedMotion: "reduce",
-  });
-  const page = await context.newPage();
-  const trouble = [];
-  page.on("console", (message) => trouble.push(`${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => trouble.push(error.message));
-  page.on("request", (request) => {
-    if (request.url() !== url && !request.url().startsWith("data:")) trouble.push(request.url());
-  });
-  t.after(async () => {
-    await context.close();
-    assert.deepEqual(trouble, []);
-  });
-  await page.goto(url);
-  return page;
-}
 
 const openAll = (page) => page.evaluate(() => {
   for (const part of document.querySelectorAll("details")) part.open = true;
@@ -120,6 +82,39 @@ describe("the table", () => {
   });
 });
 
+describe("the first table", () => {
+  const values = (page, column) => page.$$eval("#questions-table tbody tr", (all, column) =>
+    all.map((row) => Number(row.cells[column].dataset.v ?? -1)), column);
+
+  test("sorts by every column, by keyboard, and back", async (t) => {
+    const page = await visit(t, AUDIT);
+    const heads = page.locator("#questions-table thead th");
+    const columns = await heads.count();
+    assert.ok(6 < columns);
+    assert.equal(await page.locator("#questions-table thead button").count(), columns - 1);
+    const names = () => page.$$eval("#questions-table tbody th", (all) => all.map((head) => head.textContent));
+    const before = await names();
+    for (let column = 1; column < columns; column++) {
+      const head = heads.nth(column);
+      await head.getByRole("button").focus();
+      await page.keyboard.press("Enter");
+      assert.equal(await head.getAttribute("aria-sort"), "descending");
+      const down = await values(page, column);
+      assert.deepEqual(down, [...down].sort((a, b) => b - a));
+      assert.equal(await page.locator("#questions-table [aria-sort]").count(), 1);
+      await page.keyboard.press("Space");
+      assert.equal(await head.getAttribute("aria-sort"), "ascending");
+      const up = (await values(page, column)).filter((share) => share !== -1);
+      assert.deepEqual(up, [...up].sort((a, b) => a - b));
+      await page.keyboard.press("Enter");
+      assert.equal(await head.getAttribute("aria-sort"), null);
+      assert.deepEqual(await names(), before);
+    }
+    // The other table keeps its own order.
+    assert.equal(await page.locator("#heat-table [aria-sort]").count(), 0);
+  });
+});
+
 describe("without scripts", () => {
   test("everything stands there", async (t) => {
     const page = await visit(t, AUDIT, { scripts: false });
@@ -143,29 +138,7 @@ describe("on a phone", () => {
         await openAll(page);
         await page.screenshot({ path: out(`${name}-360-open-${theme}.png`) });
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
-        const cut = await page.evaluate(() => {
-          const bad = [];
-          const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-          while (walker.nextNode()) {
-            const parent = walker.currentNode.parentElement;
-            if (!walker.currentNode.data.trim() || parent.closest("script, .hidden, .skip, option")) continue;
-            if (!parent.checkVisibility()) continue;
-            const range = document.createRange();
-            range.selectNodeContents(walker.currentNode);
-            // Inside what scrolls sideways text may be anywhere; otherwise it is on the page.
-            const scrolls = parent.closest(".scroll, .drawing");
-            for (const box of range.getClientRects()) {
-              if (!scrolls && (box.left < -0.5 || box.right > 360.5)) bad.push(walker.currentNode.data);
-            }
-            // And nothing around it hides a part of it.
-            for (let box = parent; box && box !== scrolls; box = box.parentElement) {
-              const style = getComputedStyle(box);
-              if (style.overflowX !== "visible" && box.scrollWidth > box.clientWidth + 1
-                && !(box instanceof SVGElement)) bad.push(`${box.className}: ${walker.currentNode.data}`);
-            }
-          }
-          return [...new Set(bad)].slice(0, 20);
-        });
+        const cut = await cutText(page, 360);
         assert.deepEqual(cut, []);
         // What scrolls sideways is within the page and reached by keyboard.
         const regions = await page.$$eval(".scroll, .drawing", (all) => all.map((region) => {
@@ -198,7 +171,7 @@ describe("for everybody", () => {
   test("the table and every kernel are reached and opened by keyboard", async (t) => {
     const page = await visit(t, AUDIT);
     const reached = [];
-    for (let i = 0; i < 60; i++) {
+    for (let i = 0; i < 90; i++) {
       await page.keyboard.press("Tab");
       reached.push(await page.evaluate(() => {
         const at = document.activeElement;

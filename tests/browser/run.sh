@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The HTML report in headless Chromium. Needs Node.js 20, Debian's chromium (or CHROMIUM=path), poppler-utils
+# The HTML pages in headless Chromium. Needs Node.js 20, Debian's chromium (or CHROMIUM=path), poppler-utils
 # for the printed page as a picture, and the program (HAIRLINE=path, target/release/hairline if not said).
 # Screenshots go to tests/browser/out.
 set -euo pipefail
@@ -12,8 +12,12 @@ rm -rf out && mkdir out
 # Where nothing is expected, everything is a deviation.
 (cd out && "$hairline" check --quiet --kernel moller-trumbore --family edge-near -n 300 \
     --format html -o check.html) || test $? = 1
+for mesh in icosphere torus; do
+    "$hairline" mesh "../../corpora/meshes/$mesh.obj" --quiet --kernel moller-trumbore,plucker,woop-watertight \
+        --format html,json -o "out/$mesh.html" -o "out/$mesh.json"
+done
 test -d node_modules || npm ci
-node --test --test-reporter=spec report.test.mjs
+node --test --test-reporter=spec report.test.mjs mesh.test.mjs
 if command -v pdftoppm > /dev/null; then
     pdftoppm -r 70 -png out/audit.pdf out/printed
 fi
