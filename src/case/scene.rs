@@ -91,6 +91,9 @@ impl Scene {
             }
             let names: Vec<&str> = SCENES.iter().map(|preset| preset.name).collect();
             let names = names.join(", ");
+            if word.is_empty() {
+                return format!("nothing stands before or after a comma: write {WORDS}");
+            }
             format!("'{word}' is no scene: begin with one of {names}, or write {WORDS}")
         })?;
         scene.check()?;
@@ -180,7 +183,8 @@ impl Scene {
     pub(super) fn check_fit(&self) -> Result<(), String> {
         if self.extent < self.edge[1] {
             return Err(format!(
-                "edge={}: the longest edge is at most the extent, {}",
+                "edge={}: the longest edge is at most the extent, {} (edge and distance that are not given are \
+                 those of a scene of size 1)",
                 Range(self.edge),
                 Number(self.extent)
             ));
@@ -234,6 +238,9 @@ fn number(key: &str, text: &str) -> Result<f64, String> {
 /// Two finite numbers in order; one stands for both.
 fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
     let (low, high) = text.split_once("..").unwrap_or((text, text));
+    if high.starts_with('.') {
+        return Err(format!("{key}={text}: write a range with two dots, as 0.5..2"));
+    }
     let [low, high] = [number(key, low)?, number(key, high)?];
     if high < low {
         return Err(format!("{key}={text}: the range is empty; write the smaller number first"));
@@ -305,7 +312,9 @@ mod tests {
     #[test]
     fn bad_scenes_say_what_was_expected() {
         for (text, part) in [
-            ("", "'' is no scene"),
+            ("", "nothing stands before or after a comma"),
+            ("room,", "nothing stands before or after a comma"),
+            ("edge=1...2", "two dots, as 0.5..2"),
             ("palace", "begin with one of unit, room, city, cad-mm"),
             ("edge=1,room", "'room' is no scene"),
             ("size=3", "unknown word 'size'"),

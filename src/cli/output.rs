@@ -3,6 +3,7 @@
 use super::exit::Failure;
 use super::plugins;
 use crate::descriptors;
+use crate::report::number_of;
 use crate::suggest::nearest_name;
 use clap::ValueEnum;
 use std::fs::{self, File};
@@ -68,7 +69,9 @@ pub fn paired_outputs<'a, T>(
             Ok(formats.into_iter().zip(outputs.iter().map(String::as_str)).collect())
         }
         (n, m) => Err(Failure::usage(format!(
-            "{n} formats but {m} outputs: give -o once for each format, in the same order"
+            "{} but {}: give -o once for each format, in the same order",
+            number_of(n as u64, "format", "formats"),
+            number_of(m as u64, "output", "outputs"),
         ))),
     }
 }

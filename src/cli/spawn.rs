@@ -22,6 +22,9 @@ use std::io::{self, Write};
 
 /// What to run, and how to report it.
 #[derive(Args)]
+#[command(mut_arg("kernel", |kernel| {
+    kernel.help("A kernel, or several separated by commas [default: moller-trumbore, or only your own if there are some]")
+}))]
 pub struct SpawnArguments {
     #[command(flatten)]
     kernels: KernelArguments,
@@ -192,7 +195,7 @@ impl SpawnArguments {
 
     fn rows(&self) -> Result<Vec<Row>, Failure> {
         let rows = self.kernels.rows_without_band("it means nothing for the start of a ray")?;
-        if self.kernels.names_kernels() {
+        if self.kernels.names_kernels() || rows.iter().any(|row| !row.entry.is_built_in()) {
             return Ok(rows);
         }
         Ok(rows.into_iter().filter(|row| row.entry.info.name == DEFAULT_KERNEL).collect())

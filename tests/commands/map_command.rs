@@ -152,7 +152,7 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["--dots", "0", "-o", "a.png"], 2, "2^26"),
         (&["--format", "gif"], 2, "unknown format 'gif'"),
         (&["-o", "map.gif"], 2, "does not end in .svg, .png or .txt"),
-        (&["--format", "svg,png", "-o", "one.svg"], 2, "2 formats but 1 outputs"),
+        (&["--format", "svg,png", "-o", "one.svg"], 2, "2 formats but 1 output"),
         (&["--drawing", "--format", "png"], 2, "not as png"),
         (&["-o", "taken.svg"], 74, "taken.svg: is a directory"),
         (&["-o", "no/such/map.svg"], 74, "no/such/map.svg"),

@@ -154,10 +154,10 @@ fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
         line.split_once(':').unwrap().1.split_whitespace().map(str::to_owned).collect()
     };
     let both = screen("plane-unit-normal", &[]);
-    assert_eq!(head(&both), ["this", "zero", "1e-6"]);
+    assert_eq!(head(&both), ["recommended", "zero", "1e-6"]);
     assert_eq!(both.matches("  use  ").count(), 1, "{both}");
     let at = screen("moller-trumbore", &["--gate", "t_min", "--at", "1e-7,3e-3"]);
-    assert_eq!(head(&at), ["this", "as", "published", "1e-7", "3e-3"]);
+    assert_eq!(head(&at), ["recommended", "as", "published", "1e-7", "3e-3"]);
     let given = screen("moller-trumbore", &["--epsilon", "parallel=1e-9,edge=-1e-5"]);
     assert!(head(&given).join(" ").starts_with("this as given zero"), "{given}");
 }

@@ -75,6 +75,7 @@ pub fn grid<F: Scalar>(
             Kind::Miss => max_error.is_some_and(is_exceeded),
             kind => !kind.is_wrong_if_refused(),
         };
+        let is_self_hit = kind == Kind::SelfHit;
         for (k, knob) in setting.knobs.iter().enumerate() {
             let margins = trial.margins.iter().map(|margins| margins[k]);
             let margin = margins.fold(-F::infinity(), |most, m| if most < m { m } else { most });
@@ -86,9 +87,12 @@ pub fn grid<F: Scalar>(
             if margin < F::zero() && kind.is_wrong_if_refused() {
                 widen(&mut ranges.below[k], size);
             }
-            if F::zero() < margin && is_refused {
+            // No ray of a scene hits nearer than its least distance, so every other false hit nearer than that
+            // would speak for a least t as large: for a property of these rays, and not of the kernel.
+            let is_in_reach = knob.role(gates) != Role::T || is_self_hit || kind == Kind::Miss;
+            if F::zero() < margin && is_refused && is_in_reach {
                 widen(&mut ranges.above[k], size);
-                if kind == Kind::Miss {
+                if kind == Kind::Miss || is_self_hit {
                     // Of a larger sample some are worse than those of the pilot.
                     widen(&mut ranges.above[k], (BEYOND * size).min(cap));
                 }

@@ -55,7 +55,7 @@ impl Costs {
     }
 }
 
-/// A knob is left at 0, which needs no explanation, if that costs at most this share more.
+/// What costs at most this share more is as good: another seed may make it the cheapest.
 const NEGLIGIBLE: f64 = 0.01;
 
 /// The values that are weighed for each knob, in order.
@@ -183,8 +183,9 @@ impl<F: Scalar> Joint<F> {
         wrong.collect()
     }
 
-    /// The point with the least cost; none if errors are larger everywhere. A knob is 0 where that costs at most
-    /// [`NEGLIGIBLE`] more, or else in the middle of the points with equal cost along it.
+    /// A point as good as the cheapest ([`NEGLIGIBLE`]); none if errors are larger everywhere. Of these points a
+    /// knob is 0, which needs no explanation, or else in the middle along it, so that another seed finds much the
+    /// same.
     pub fn best(&self, counts: &[Count], costs: &Costs) -> Option<Vec<F>> {
         let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
         let mut best: Option<(f64, Vec<usize>)> = None;
@@ -220,9 +221,8 @@ impl<F: Scalar> Joint<F> {
                 (places, at_zero[k]) = (zeroed, true);
             }
         }
-        let least = cost(&places);
         for k in (0..places.len()).filter(|k| !at_zero[*k]) {
-            let as_good = |place: &usize| is_kept(&moved(&places, k, *place), least);
+            let as_good = |place: &usize| is_kept(&moved(&places, k, *place), most);
             let first = (0..places[k]).rev().take_while(as_good).last();
             let last = (places[k] + 1..self.grid.values[k].len()).take_while(as_good).last();
             places[k] = (first.unwrap_or(places[k]) + last.unwrap_or(places[k])) / 2;

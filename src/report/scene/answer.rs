@@ -113,7 +113,10 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     }
     if !part.others.is_empty() {
         let others = part.others.iter().map(|(gate, e)| format!("{gate}={e}"));
-        notes.push(format!("the others stay: {}", others.collect::<Vec<_>>().join(", ")));
+        notes.push(format!(
+            "not chosen here, as published: {}",
+            others.collect::<Vec<_>>().join(", ")
+        ));
     }
     match part.is_accurate {
         Some(false) => {
@@ -150,11 +153,14 @@ fn most_errors(record: &SceneRecord) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
+/// The column of what is recommended, where there is no form without a unit.
+pub(super) const RECOMMENDED: &str = "recommended";
+
 /// What a column is called.
 pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
     match name {
         "recommended" if part.relative.is_some() => "fixed",
-        "recommended" => "this",
+        "recommended" => RECOMMENDED,
         "source" => "as published",
         name if 13 <= name.len() => "as given",
         name => name,
@@ -184,7 +190,8 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                let name = format!("{value}{unit}, {}", where_of(&count.stratum));
+                let of = if value == "t" { "t" } else { "the point" };
+                let name = format!("error of {of}{unit}, {}", where_of(&count.stratum));
                 rows.push((name, cells.collect()));
             }
         }
@@ -199,11 +206,19 @@ fn errors(error: &ErrorPart) -> String {
     [error.median, error.most, error.worst].map(short_error).join(" ")
 }
 
+/// Whether a value is the least that no machine flushes to zero: then every value above zero will do.
+fn is_least(value: &str, scalar: &str) -> bool {
+    let least = if scalar == "f32" { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE };
+    value.parse::<f64>().is_ok_and(|value| 0.0 < value && value <= least * 1.01)
+}
+
 /// Comparisons that follow each triangle's size.
 fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart) -> Use {
     let forms = part.knobs.iter().zip(&relative.epsilons).map(|(knob, e)| match &knob.form {
-        Some(form) => format!("{} = {}", knob.name, form.replacen('e', e, 1)),
-        None => format!("{} = {e}", knob.name),
+        Some(form) if e.parse() != Ok(0.0) => {
+            format!("{} = {}", knob.name, form.replacen('e', e, 1))
+        }
+        _ => format!("{} = {e}", knob.name),
     });
     let (least, most) = (relative.cost, part.tried[0].cost);
     let mut notes = vec![
@@ -227,7 +242,10 @@ fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
         });
         LimitRow {
             knob: knob.name.clone(),
-            bound: bound(limit.value.as_deref(), limit.is_lower, &unit_of(record, knob)),
+            bound: match &limit.value {
+                Some(value) if limit.is_lower && is_least(value, &part.scalar) => "> 0".to_owned(),
+                value => bound(value.as_deref(), limit.is_lower, &unit_of(record, knob)),
+            },
             what: what(limit.count),
             most: format!("1 in {}", group_digits(limit.one_in)),
             fresh,
@@ -279,7 +297,8 @@ fn conflict_lines(
             format!("{form} in its place is within both limits, with e from {from} to {to}")
         }
         (_, _, "t") => "start the ray off the surface instead".to_owned(),
-        _ => "rounding decides those rays: it takes wider numbers or another kernel".to_owned(),
+        _ => "no value is right for such rays: it takes wider numbers (f64) or another kernel"
+            .to_owned(),
     };
     [conflict_line, instead]
 }
@@ -290,10 +309,12 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = costs.collect::<Vec<_>>().join(", ");
     let mut lines = vec![
         format!("cost: each share times its weight ({costs}), added up"),
-        "almost parallel: sines from 1/8 to an eighth of an ulp of 1, evenly by halvings"
+        "almost parallel: angles from 7 degrees down to below rounding, each halving as often".to_owned(),
+        "error of t, of the point: of the hits that remain half, 99 % are off by less; the worst seen"
             .to_owned(),
-        "t, point: errors of the hits that remain: half, 99 % are at most this; the worst"
+        "another seed may name numbers that are some times as large or small, at nearly the same cost;"
             .to_owned(),
+        "more rays (-n) bring them closer".to_owned(),
     ];
     if record.kernels.iter().any(|part| part.relative.is_some()) {
         let forms = [
@@ -305,10 +326,17 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     if record.kernels.iter().any(|part| !part.limits.is_empty()) {
         let most = "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper";
         lines.push(most.to_owned());
+        let of_edge = |part: &SceneKernelPart| {
+            part.limits.iter().any(|limit| part.knobs[limit.knob].role == "edge")
+        };
+        if record.kernels.iter().any(of_edge) {
+            let edge = "edge has no limit below: the further below zero, the more rays beside a triangle hit it";
+            lines.push(edge.to_owned());
+        }
     }
     let is_set = |limit: &LimitPart| limit.set_by.is_some();
     if record.kernels.iter().any(|part| part.limits.iter().any(is_set)) {
-        let star = "* set by the scene's sizes, distances and angles as well as by rounding";
+        let star = "* set by the scene's own sizes, distances and angles as much as by rounding";
         lines.push(star.to_owned());
     }
     lines

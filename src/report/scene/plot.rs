@@ -1,7 +1,7 @@
 //! What each value of a number does while the others stay: wrong answers over the value, what was tried as
 //! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
-use super::answer::{Answer, LimitRow, answer, column};
+use super::answer::{Answer, LimitRow, RECOMMENDED, answer, column};
 use super::record::*;
 use super::words::{human, label, unit_of};
 use crate::audit::Trials;
@@ -350,7 +350,7 @@ impl<'a> Draft<'a> {
                 ends.push(0.0);
             }
             ends[row] = start + 2.0 * half;
-            placed.push((x, row, text, names.split(", ").any(|name| name == "this")));
+            placed.push((x, row, text, names.split(", ").any(|name| name == RECOMMENDED)));
         }
         let rows = ends.len();
         // The first row is the lowest, next to the plot.

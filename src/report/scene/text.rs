@@ -1,5 +1,5 @@
-//! A study of a scene for people at a terminal: what to use, what it does, and how far each number may
-//! move.
+//! A study of a scene for people at a terminal: what to use, what it does, and the limits of each
+//! number.
 
 use super::answer::{Answer, answer, legend};
 use super::record::SceneRecord;
@@ -52,7 +52,7 @@ fn limits(answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     if answer.limits.is_empty() {
         return Ok(());
     }
-    let title = "each alone may move to (95 % sure, so 1 in 20 fails):";
+    let title = "limits, the other numbers fixed (95 %: 1 in 20 fails):";
     writeln!(out, "{title:<55}{:>11}{:>WIDTH$}", "at most", "fresh rays")?;
     for row in &answer.limits {
         let star = if row.is_of_scene { " *" } else { "" };

@@ -82,7 +82,12 @@ pub(super) fn meaning(
     let unit = spaced(&record.unit);
     match (knob.role.as_str(), knob.dimension) {
         ("t", [1, -1]) => {
-            Some(format!("nothing nearer than {}{} is hit", human(epsilon), unit_of_t(record)))
+            let here = match knob.is_gate {
+                true => String::new(),
+                false => format!(" (in --epsilon: {}={epsilon})", knob.name),
+            };
+            let least = format!("{}{}", human(epsilon), unit_of_t(record));
+            Some(format!("nothing nearer than {least} is hit{here}"))
         }
         ("parallel", [2, 1]) if record.unit_directions && 0.0 < value => {
             if let Some(shape) = part.least_shape {
@@ -112,8 +117,13 @@ pub(super) fn meaning(
             Some(format!("every triangle is missed at angles below {}", degrees(value)))
         }
         ("edge", [0, 0]) => {
-            let what = if value < 0.0 { "larger" } else { "smaller" };
-            Some(format!("triangles are {what} by {:e} of their size at each side", value.abs()))
+            let size = human(&format!("{:e}", value.abs()));
+            Some(match value < 0.0 {
+                true => format!(
+                    "rays up to {size} of a triangle's size beside it hit it, so at shared edges they hit both"
+                ),
+                false => format!("rays up to {size} of a triangle's size inside it miss it"),
+            })
         }
         // An absolute number beside what the smallest triangles have.
         ("edge", [length, _]) if 0 < length => {
