@@ -1,11 +1,12 @@
-//! The mesh reader: no panic on any bytes, and every index it gives is in range.
+//! The readers of meshes in all formats, by content: no panic on any bytes, and every index it gives is in range.
 #![cfg_attr(fuzzing, no_main)]
 
-use hairline::internals::corpus::mesh::read_obj;
+use hairline::internals::corpus::mesh::read;
 
 fn indices_in_range(data: &[u8]) {
-    if let Ok(mesh) = read_obj(data, "fuzz.obj", &mut |_| {}) {
-        assert_eq!(mesh.lines.len(), mesh.triangles.len());
+    let mut beside = |_: &str, _| Err(std::io::ErrorKind::NotFound.into());
+    if let Ok(mesh) = read(data, "fuzz", &mut beside, &mut |_| {}) {
+        assert_eq!(mesh.places.len(), mesh.triangles.len());
         for triangle in 0..mesh.triangles.len() {
             let _ = (mesh.vertices::<f32>(triangle), mesh.vertices::<f64>(triangle));
         }

@@ -5,7 +5,7 @@ use super::progress::Progress;
 use crate::audit::CorpusSet;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::corpus::mesh::{Mesh, read_obj};
+use crate::corpus::mesh::{self, Mesh};
 use crate::corpus::truth_json::TruthLine;
 use crate::descriptors;
 use crate::oracle;
@@ -72,7 +72,13 @@ pub fn read_record(path: &str) -> Result<Record, Failure> {
 pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     let size = fs::metadata(path).map_or(0, |metadata| metadata.len());
     let progress = Progress::new(size, "bytes", quiet || size < 1 << 24);
-    let mesh = read_obj(BufReader::new(open(path)?), path, &mut |bytes| progress.set(bytes));
+    let file = BufReader::new(open(path)?);
+    let mut beside = |name: &str, most: u64| {
+        let mut bytes = Vec::new();
+        let file = File::open(Path::new(path).with_file_name(name))?;
+        file.take(most).read_to_end(&mut bytes).map(|_| bytes)
+    };
+    let mesh = mesh::read(file, path, &mut beside, &mut |bytes| progress.set(bytes));
     progress.finish();
     let mesh = mesh?;
     if !quiet {

@@ -21,7 +21,7 @@ use std::sync::Arc;
 #[derive(Args)]
 #[command(mut_arg("band", |band| band.hide(true)))]
 pub struct MeshArguments {
-    /// An OBJ file; - is standard input
+    /// An OBJ, PLY or glTF file (.gltf or .glb); - is standard input
     #[arg(value_name = "FILE")]
     file: String,
 

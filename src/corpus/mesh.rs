@@ -1,33 +1,45 @@
-//! Meshes from OBJ files: triangles of `f32` and of `f64` positions, each nearest to the text.
-//!
-//! The file's text is read here, so that errors carry their line and numbers keep their digits;
-//! tobj then sorts faces into groups and polygons, on vertices that are placeholders for their index.
+//! Meshes from OBJ, PLY and glTF files: triangles of `f32` and of `f64` positions.
 
-pub use super::obj::Note;
-use super::obj::{self, LIMITS, Limits, Notes, Source};
+mod builder;
+mod counted;
+mod obj;
+
+#[cfg(feature = "cli")]
+mod formats;
+#[cfg(feature = "cli")]
+mod gltf;
+#[cfg(feature = "cli")]
+mod ply;
+
+use super::InputError;
 use super::shapes::Shape;
-use super::{InputError, fan};
 use crate::arith::Float;
-use sha2::{Digest, Sha256};
-use std::collections::BTreeSet;
-use std::io::{self, BufRead, Read, Write};
+pub use builder::{Note, Place};
+use counted::Counted;
+#[cfg(feature = "cli")]
+pub use formats::{Beside, read};
+use std::io::{self, BufRead, Write};
 
-/// A mesh of triangles, as read from an OBJ file.
+/// A mesh of triangles, as read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// The file's name as given.
     pub name: String,
-    /// For each vertex the `f32` nearest to each number's text; infinite where the text is beyond
+    /// For each vertex the `f32` nearest to each number of the file; infinite where the number is beyond
     /// the range of `f32`.
     pub positions_f32: Vec<[f32; 3]>,
-    /// For each vertex the `f64` nearest to each number's text, always finite.
+    /// For each vertex the `f64` nearest to each number of the file, always finite.
     pub positions_f64: Vec<[f64; 3]>,
     /// For each triangle its three indices into the positions, in the order of the file; polygons
     /// are fans from their first vertex.
     pub triangles: Vec<[u32; 3]>,
-    /// For each triangle the line number of its face in the file, counted from 1.
-    pub lines: Vec<u32>,
-    /// The number of different names of groups and objects (`g`, `o`) that hold triangles.
+    /// For each triangle the number of its face's line in the file, counted from 1; that of the face itself
+    /// if the file has no lines.
+    pub places: Vec<u32>,
+    /// Whether `places` are lines.
+    pub has_lines: bool,
+    /// The number of different names of groups and objects (`g`, `o`) that hold triangles in an OBJ file, of
+    /// nodes that do in a glTF file; 0 in a PLY file.
     pub groups: usize,
     /// Notes for the user, at most one of each kind.
     pub notes: Vec<Note>,
@@ -52,6 +64,18 @@ impl Mesh {
         }
     }
 }
+
+/// How much is read before a file is an error.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// Bytes in a line, with what is joined to it by backslashes in an OBJ file; in the header of a PLY file.
+    line: usize,
+    /// Vertices, and triangles after polygons are cut up.
+    elements: usize,
+}
+
+/// One MiB, and what 32-bit indices hold with room to spare.
+const LIMITS: Limits = Limits { line: 1 << 20, elements: 100_000_000 };
 
 /// Reads an OBJ file: `v`, `f`, `o` and `g` count; materials, normals and textures are ignored; anything
 /// else gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called
@@ -78,116 +102,10 @@ fn read_within<R: BufRead>(
     limits: Limits,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Mesh, InputError> {
-    let mut source = obj::read(reader, name, limits, progress)?;
-    let models = models_by_tobj(&source, name)?;
-    source.text = Vec::new();
-    let mut triangles = Vec::with_capacity(source.triangles);
-    let mut lines = Vec::with_capacity(source.triangles);
-    let mut groups = BTreeSet::new();
-    let mut face_lines = source.face_lines.into_iter();
-    let mut notes = source.notes;
-    for model in models {
-        let before = triangles.len();
-        for (face, line) in faces(&model.mesh).zip(face_lines.by_ref()) {
-            add_face(&face, line, &source.positions_f64, &mut triangles, &mut notes);
-            lines.resize(triangles.len(), line);
-        }
-        if triangles.len() > before && model.name != UNNAMED {
-            groups.insert(model.name);
-        }
-    }
-    debug_assert_eq!(face_lines.len(), 0, "tobj gives back every face");
-    if triangles.is_empty() {
-        return Err(InputError::of(name, format!("the file has no triangles: {FOLDED}")));
-    }
-    let digest = digest(&source.positions_f64, &source.positions_f32, &triangles);
-    Ok(Mesh {
-        name: name.to_owned(),
-        positions_f32: source.positions_f32,
-        positions_f64: source.positions_f64,
-        triangles,
-        lines,
-        groups: groups.len(),
-        notes: notes.0,
-        digest,
-    })
-}
-
-/// What tobj calls faces that no `o` or `g` line names.
-const UNNAMED: &str = "unnamed_object";
-const FOLDED: &str = "polygons left out because their fan of triangles folds over";
-const NO_AREA: &str = "triangles without area, kept";
-
-/// Has tobj read the faces and groups, with vertices whose first coordinate is their index.
-fn models_by_tobj(source: &Source, name: &str) -> Result<Vec<tobj::Model>, InputError> {
-    let mut vertices = Vec::new();
-    for index in 0..source.positions_f64.len() {
-        writeln!(vertices, "v {index} 0 0").map_err(|e| InputError::of(name, e.to_string()))?;
-    }
-    let mut unread = source.text.as_slice();
-    let mut reader = vertices.as_slice().chain(&mut unread);
-    let no_materials = |_: &std::path::Path| Ok(Default::default());
-    // Neither triangulate nor single_index: polygons stay whole, vertices are what they were.
-    match tobj::load_obj_buf(&mut reader, &tobj::LoadOptions::default(), no_materials) {
-        Ok((models, _)) => Ok(models),
-        Err(error) => {
-            let read = &source.text[..source.text.len() - unread.len()];
-            let faces = read.split(|byte| *byte == b'\n').filter(|l| l.starts_with(b"f")).count();
-            let line = source.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
-            Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
-        }
-    }
-}
-
-/// The vertices of each face, as indices into the file's vertices.
-fn faces(mesh: &tobj::Mesh) -> impl Iterator<Item = Vec<u32>> {
-    let mut rest = mesh.indices.as_slice();
-    let mut arities = mesh.face_arities.iter();
-    std::iter::from_fn(move || {
-        // A mesh of triangles only has no arities.
-        let arity = arities.next().map_or(3, |arity| *arity as usize);
-        let (face, after) = rest.split_at_checked(arity)?;
-        rest = after;
-        Some(face.iter().map(|vertex| mesh.positions[*vertex as usize * 3] as u32).collect())
-    })
-}
-
-/// Adds the fan of a face, or a note that it is left out.
-fn add_face(
-    face: &[u32],
-    line: u32,
-    positions: &[[f64; 3]],
-    triangles: &mut Vec<[u32; 3]>,
-    notes: &mut Notes,
-) {
-    if face.len() > 3 {
-        let corners: Vec<[f64; 3]> = face.iter().map(|v| positions[*v as usize]).collect();
-        if fan::folds(&corners) {
-            notes.count(FOLDED, line as usize);
-            return;
-        }
-    }
-    for pair in face[1..].windows(2) {
-        let triangle = [face[0], pair[0], pair[1]];
-        if fan::is_without_area(triangle.map(|vertex| positions[vertex as usize])) {
-            notes.count(NO_AREA, line as usize);
-        }
-        triangles.push(triangle);
-    }
-}
-
-fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> String {
-    let mut hash = Sha256::new();
-    for coordinate in wide.as_flattened() {
-        hash.update(coordinate.to_bits().to_le_bytes());
-    }
-    for coordinate in narrow.as_flattened() {
-        hash.update(coordinate.to_bits().to_le_bytes());
-    }
-    for index in triangles.as_flattened() {
-        hash.update(index.to_le_bytes());
-    }
-    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    let mut reader = Counted::new(reader, progress);
+    let mesh = obj::read(&mut reader, name, limits)?;
+    reader.finish();
+    Ok(mesh)
 }
 
 /// Writes a shape as an OBJ file. Numbers have the fewest digits that read back as the same `f64`,

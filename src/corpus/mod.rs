@@ -8,7 +8,6 @@ pub(crate) mod json;
 pub mod lines;
 pub mod mesh;
 pub mod number;
-mod obj;
 mod provenance;
 pub mod shapes;
 mod stored_case;

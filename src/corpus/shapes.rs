@@ -249,7 +249,7 @@ fn needles() -> Shape {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mesh::{Mesh, read_obj, write_obj};
+    use super::super::mesh::{Mesh, Place, read_obj, write_obj};
     use super::*;
     use std::collections::BTreeSet;
 
@@ -349,7 +349,7 @@ mod tests {
         let house = read(POLYGONS_OBJ.as_bytes());
         assert_eq!(open_edges(&house.triangles), []);
         assert_eq!((house.triangles.len(), house.groups, house.notes.len()), (16, 4, 1));
-        assert_eq!(house.notes[0].line, Some(35));
+        assert_eq!(house.notes[0].first, Some(Place::Line(35)));
     }
 
     #[test]

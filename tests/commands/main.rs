@@ -17,6 +17,7 @@ mod io;
 mod json_schema;
 mod map_command;
 mod mesh;
+mod mesh_files;
 mod mesh_page;
 mod orientation;
 mod own;

@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::Draw;
 use std::fmt::Write as _;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 
 fn read(text: &str) -> Result<Mesh, InputError> {
     read_obj(text.as_bytes(), "teapot.obj", &mut |_| {})
@@ -27,7 +27,7 @@ fn triangles_carry_their_vertices_and_lines() {
     let mesh = mesh_of(&format!("{SQUARE}# faces\nf 1 2 3\n\nf 1 3 4\n"));
     assert_eq!(mesh.name, "teapot.obj");
     assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(mesh.lines, [6, 8]);
+    assert_eq!(mesh.places, [6, 8]);
     assert_eq!((mesh.groups, mesh.notes.len()), (0, 0));
     assert_eq!(mesh.vertices::<f64>(1), [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(mesh.vertices::<f32>(0)[2], [1.0f32, 1.0, 0.0]);
@@ -117,7 +117,7 @@ fn texture_and_normal_indices_are_dropped_and_need_not_exist() {
          f 1/1/1 2/1/ 4//\n"
     ));
     assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 3]]);
-    assert_eq!(mesh.lines, [11, 12, 13]);
+    assert_eq!(mesh.places, [11, 12, 13]);
     assert_eq!(notes(&mesh), [""; 0]);
 }
 
@@ -131,7 +131,7 @@ fn negative_indices_count_back_from_their_face() {
 fn faces_may_come_before_their_vertices_and_groups_in_between() {
     let mesh = mesh_of("g a\nf 1 2 3\ng b\nf 4 3 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n");
     assert_eq!(mesh.triangles, [[0, 1, 2], [3, 2, 1]]);
-    assert_eq!((mesh.lines, mesh.groups), (vec![2, 4], 2));
+    assert_eq!((mesh.places, mesh.groups), (vec![2, 4], 2));
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn named_groups_that_hold_triangles_are_counted_once() {
     );
     let mesh = mesh_of(&text);
     assert_eq!(mesh.groups, 2);
-    assert_eq!(mesh.lines, [5, 8, 10, 12, 13, 15]);
+    assert_eq!(mesh.places, [5, 8, 10, 12, 13, 15]);
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn line_ends_blanks_comments_and_continuations_do_not_matter() {
         let mesh = mesh_of(&text);
         assert_eq!((mesh.digest, mesh.notes), (plain.digest.clone(), vec![]), "{text:?}");
     }
-    assert_eq!(mesh_of(&format!("{SQUARE}f 1 2\\\n3\nf 1 3\\\n\\\n4\\")).lines, [5, 7]);
+    assert_eq!(mesh_of(&format!("{SQUARE}f 1 2\\\n3\nf 1 3\\\n\\\n4\\")).places, [5, 7]);
     let continued = format!("{SQUARE}f 1 2 \\\n3\n\nf 1 \\\n 3 9 \\\n");
     assert_eq!(
         refusal(continued),
@@ -190,7 +190,7 @@ fn endless_lines_are_refused_before_they_fill_the_memory() {
     assert_eq!(refusal(continued), "teapot.obj:2: a line of more than 1048576 bytes");
     let longest = format!("#{}\n", "x".repeat((1 << 20) - 2));
     assert_eq!(longest.len(), 1 << 20);
-    assert_eq!(mesh_of(&format!("{longest}{SQUARE}f 1 2 3\n")).lines, [6]);
+    assert_eq!(mesh_of(&format!("{longest}{SQUARE}f 1 2 3\n")).places, [6]);
     assert_eq!(refusal(format!("\n#{longest}")), "teapot.obj:2: a line of more than 1048576 bytes");
 }
 
@@ -262,7 +262,7 @@ fn what_is_skipped_or_suspect_is_noted_once_with_its_count_and_first_line() {
         ]
     );
     assert_eq!(mesh.triangles, [[0, 1, 1], [0, 2, 1], [0, 0, 1], [0, 1, 2], [4, 0, 1]]);
-    assert_eq!(mesh.lines, [9, 10, 11, 11, 14]);
+    assert_eq!(mesh.places, [9, 10, 11, 11, 14]);
     assert_eq!(mesh.positions_f64[1], [1.0, 0.0, 0.0], "a weight does not scale");
     assert_eq!(mesh.positions_f32[4], [f32::INFINITY, f32::NEG_INFINITY, 0.0]);
     assert_eq!(mesh.positions_f64[4], [1e39, -1e39, 0.0]);
@@ -273,20 +273,18 @@ fn polygons_become_fans_from_their_first_vertex_unless_they_fold() {
     let text = format!("{SQUARE}v -1 0.5 0\nv 0.25 0.25 0\nf 2 3 4 5 1\nf 1 2 6 4\nf 2 6 4 1\n");
     let mesh = mesh_of(&text);
     assert_eq!(mesh.triangles, [[1, 2, 3], [1, 3, 4], [1, 4, 0], [0, 1, 5], [0, 5, 3]]);
-    assert_eq!(mesh.lines, [7, 7, 7, 8, 8]);
+    assert_eq!(mesh.places, [7, 7, 7, 8, 8]);
     assert_eq!(notes(&mesh).len(), 1);
-    assert_eq!((mesh.notes[0].line, mesh.notes[0].count), (Some(9), 1));
+    assert_eq!((mesh.notes[0].first, mesh.notes[0].count), (Some(Place::Line(9)), 1));
 }
 
 #[test]
 fn errors_of_tobj_carry_the_line_that_it_reached() {
-    let source = Source {
-        positions_f64: vec![[0.0; 3]; 3],
-        text: b"g a\nf 1 2 3\nf 1 2 x\nf 1 2 3\n".to_vec(),
-        face_lines: vec![10, 20, 30],
-        ..Source::default()
-    };
-    let error = models_by_tobj(&source, "teapot.obj").expect_err("bad face");
+    let mut source = obj::Source::default();
+    (1..=3).for_each(|line| source.mesh.vertex([0.0; 3], [0.0; 3], Place::Line(line)));
+    source.text = b"g a\nf 1 2 3\nf 1 2 x\nf 1 2 3\n".to_vec();
+    source.face_lines = vec![10, 20, 30];
+    let error = source.models_by_tobj("teapot.obj").expect_err("bad face");
     assert_eq!(error.to_string(), "teapot.obj:20: tobj: face parse error");
 }
 
@@ -326,8 +324,8 @@ fn a_mesh_of_two_hundred_thousand_triangles_reads_right() {
     assert_eq!(mesh.triangles, expected);
     assert_eq!((mesh.groups, mesh.notes.len()), (100, 0));
     let first = SIDE * SIDE + 2;
-    assert_eq!((mesh.lines[0], mesh.lines[1]), (first as u32, first as u32 + 1));
-    assert_eq!(mesh.lines.last().map(|line| *line as usize), Some(text.lines().count()));
+    assert_eq!((mesh.places[0], mesh.places[1]), (first as u32, first as u32 + 1));
+    assert_eq!(mesh.places.last().map(|line| *line as usize), Some(text.lines().count()));
     assert_eq!(mesh.positions_f64[SIDE * 3 + 5], [5.0, 3.0, 15.0 / 64.0]);
     assert_eq!(reports.last(), Some(&(text.len() as u64)));
     assert_eq!(reports.len(), text.len() / (1 << 20) + 1);
@@ -370,7 +368,7 @@ fn no_text_makes_the_reader_panic_or_name_a_vertex_that_is_not() {
         match read(&format!("{SQUARE}f 1 2 3\n{}\n", text.join(" "))) {
             Ok(mesh) => {
                 good += 1;
-                assert_eq!(mesh.lines.len(), mesh.triangles.len());
+                assert_eq!(mesh.places.len(), mesh.triangles.len());
                 assert_eq!(mesh.positions_f32.len(), mesh.positions_f64.len());
                 let count = mesh.positions_f64.len() as u32;
                 assert!(mesh.triangles.as_flattened().iter().all(|vertex| *vertex < count));

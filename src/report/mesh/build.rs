@@ -105,16 +105,18 @@ impl<F: Float> Builder<'_, F> {
     }
 
     fn topology(&self, topology: &Topology) -> TopologyPart {
-        let noted = |noted: &Noted| NotedPart {
-            count: noted.count,
-            first_line: noted
-                .first
-                .as_ref()
-                .map(|(face, _)| self.surface.mesh().lines[*face as usize]),
-            first_points: noted
-                .first
-                .as_ref()
-                .map_or_else(Vec::new, |(_, points)| self.points(points)),
+        let mesh = self.surface.mesh();
+        let noted = |noted: &Noted| {
+            let place = noted.first.as_ref().map(|(face, _)| mesh.places[*face as usize]);
+            NotedPart {
+                count: noted.count,
+                first_line: place.filter(|_| mesh.has_lines),
+                first_face: place.filter(|_| !mesh.has_lines),
+                first_points: noted
+                    .first
+                    .as_ref()
+                    .map_or_else(Vec::new, |(_, points)| self.points(points)),
+            }
         };
         TopologyPart {
             closed_manifold: topology.is_closed_manifold(),
@@ -165,11 +167,16 @@ impl<F: Float> Builder<'_, F> {
             let Plan { seed, .. } = *self.plan;
             let id = self.surface.id::<F>(part, &self.plan.parameters(), seed, *index).to_string();
             let (target, _) = self.targets.place(part, *index);
+            let mesh = self.surface.mesh();
             let faces = self.targets.faces(part, target).iter();
+            let places: Vec<u32> = faces.map(|face| mesh.places[*face as usize]).collect();
+            let (lines, faces) =
+                if mesh.has_lines { (places, Vec::new()) } else { (Vec::new(), places) };
             let arguments = format!("{} --mesh {}", quoted(&id), quoted(self.surface.path()));
             MeshExample {
                 points: self.points(&self.targets.points(part, target)),
-                lines: faces.map(|face| self.surface.mesh().lines[*face as usize]).collect(),
+                lines,
+                faces,
                 command: row.explain_command(&arguments),
                 id,
             }

@@ -27,6 +27,8 @@ pub fn places(mesh: &Mesh) -> usize {
 pub struct Drawing {
     /// Whether it is the whole mesh.
     pub whole: bool,
+    /// Whether faces have lines in the file; else they are counted.
+    pub has_lines: bool,
     /// The numbers of its vertices in the file, from 1, and where they are drawn: the longest side of the box
     /// around all of them goes from -[`UNIT`] to `UNIT`.
     pub points: Vec<(u32, [i32; 3])>,
@@ -57,7 +59,7 @@ pub struct Mark {
     pub part: Part,
     /// Its two ends, or its vertex twice: vertices of the mesh at first, then points of the drawing.
     pub ends: [u32; 2],
-    /// The lines of the faces around it.
+    /// The lines of the faces around it, or their numbers.
     pub lines: Vec<u32>,
     /// How many rays show it.
     pub rays: u32,
@@ -81,7 +83,8 @@ pub(super) fn row<F: Float>(
         for (order, target, seen) in found.tallies[part as usize].places.iter() {
             let (faces, points) =
                 (targets.faces(part, target as usize), targets.points(part, target as usize));
-            let mut lines: Vec<u32> = faces.iter().map(|face| mesh.lines[*face as usize]).collect();
+            let mut lines: Vec<u32> =
+                faces.iter().map(|face| mesh.places[*face as usize]).collect();
             lines.dedup();
             let mut around = Vec::new();
             if mesh.triangles.len() > WHOLE {
@@ -110,6 +113,11 @@ pub(super) fn row<F: Float>(
 }
 
 impl Drawing {
+    /// What stands before the numbers of faces.
+    pub(super) fn faces(&self) -> &'static str {
+        if self.has_lines { "faces at lines" } else { "faces" }
+    }
+
     /// Of the rows' places on a mesh. Places whose triangles would be too many are left out, the last of every
     /// row first.
     pub(super) fn new(mesh: &Mesh, mut rows: Vec<DrawnRow>) -> Drawing {
@@ -134,7 +142,8 @@ impl Drawing {
         let positions: Vec<[f64; 3]> =
             vertices.iter().map(|vertex| mesh.positions_f64[*vertex as usize]).collect();
         let numbers = vertices.iter().map(|vertex| vertex + 1);
-        Drawing { whole, points: numbers.zip(drawn(&positions)).collect(), triangles, rows }
+        let points = numbers.zip(drawn(&positions)).collect();
+        Drawing { whole, has_lines: mesh.has_lines, points, triangles, rows }
     }
 }
 

@@ -92,7 +92,8 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
                         h2 #rows-title { "Row by row" }
                         p {
                             "The first places of each row, with the first ray that shows each. Vertices have their numbers in the "
-                            "file (those with equal coordinates the number of the first), faces the lines of the file."
+                            "file (those with equal coordinates the number of the first), faces "
+                            @if drawing.has_lines { "the lines of the file." } @else { "are counted from 1." }
                         }
                         @for (i, row) in rows.iter().enumerate() { (stage::places(i, drawing, row)) }
                     }

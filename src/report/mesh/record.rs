@@ -100,8 +100,11 @@ pub struct TopologyPart {
 pub struct NotedPart {
     /// How many.
     pub count: u64,
-    /// The line of a face of the first.
+    /// The line of a face of the first; none if the file has no lines.
     pub first_line: Option<u32>,
+    /// The number of the face, counted from 1, if the file has no lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_face: Option<u32>,
     /// The first's points; infinities as null, because JSON has none.
     pub first_points: Vec<[f64; 3]>,
 }
@@ -182,8 +185,11 @@ pub struct MeshExample {
     pub id: String,
     /// The edge's two ends, or the vertex.
     pub points: Vec<[f64; 3]>,
-    /// The lines of the faces around it.
+    /// The lines of the faces around it; none if the file has no lines.
     pub lines: Vec<u32>,
+    /// The numbers of the faces, counted from 1, if the file has no lines.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faces: Vec<u32>,
     /// The command that shows it again.
     pub command: String,
 }

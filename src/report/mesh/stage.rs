@@ -66,7 +66,7 @@ pub(super) fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) ->
                     canvas #view hidden tabindex="0" role="application" aria-describedby="keys"
                         aria-label="The mesh, with the places where the chosen kernel row goes wrong"
                         data-points=(points) data-vertices=(vertices) data-triangles=(triangles)
-                        data-whole[drawing.whole] data-directions=(result.directions) data-file=(shortened(&result.mesh.file, 120)) {}
+                        data-whole[drawing.whole] data-directions=(result.directions) data-faces=(drawing.faces()) data-file=(shortened(&result.mesh.file, 120)) {}
                     (picture::still(drawing, &rows[worst].drawn.marks[..rows[worst].marked]))
                 }
                 div #place hidden {
@@ -107,7 +107,7 @@ pub(super) fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
             @if 0 < row.marked {
                 div.scroll role="group" aria-label={ "Places of " (label(row.result)) } tabindex="0" {
                     table {
-                        thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { "faces at lines" } th.text scope="col" { "the first ray again" } } }
+                        thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { (drawing.faces()) } th.text scope="col" { "the first ray again" } } }
                         tbody {
                             @for mark in row.drawn.marks.iter().take(row.marked.min(LISTED)) {
                                 tr {

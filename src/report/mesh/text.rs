@@ -104,9 +104,11 @@ pub(super) fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, Stri
         let mut parts: Vec<String> = Vec::new();
         for (i, (key, word)) in words.iter().filter(count).enumerate() {
             let noted = &kinds[key];
-            let first = match noted.first_line {
+            let first = match (noted.first_line, noted.first_face) {
                 // The first of the regular ones tells nothing.
-                Some(line) if i > 0 || *key != words[0].0 => format!(" (first at line {line})"),
+                _ if i == 0 && *key == words[0].0 => String::new(),
+                (Some(line), _) => format!(" (first at line {line})"),
+                (_, Some(face)) => format!(" (first at face {face})"),
                 _ => String::new(),
             };
             parts.push(format!("{} {word}{first}", group_digits(noted.count)));
@@ -216,13 +218,17 @@ fn examples(row: &MeshRowResult, limit: usize, elsewhere: bool) -> Vec<(String, 
     all
 }
 
-/// The points, and the lines of the faces.
+/// The points, and the lines of the faces, or their numbers.
 fn place(example: &MeshExample) -> String {
     let points: Vec<String> =
         example.points.iter().map(|[x, y, z]| format!("({x}, {y}, {z})")).collect();
-    let mut lines: Vec<String> = example.lines.iter().map(u32::to_string).collect();
-    lines.dedup();
-    let more = if lines.len() > 8 { ", …" } else { "" };
-    lines.truncate(8);
-    format!("{}, faces at lines {}{more}", points.join(" to "), lines.join(", "))
+    let (at, places) = match example.lines.as_slice() {
+        [] => ("", &example.faces),
+        _ => ("at lines ", &example.lines),
+    };
+    let mut places: Vec<String> = places.iter().map(u32::to_string).collect();
+    places.dedup();
+    let more = if places.len() > 8 { ", …" } else { "" };
+    places.truncate(8);
+    format!("{}, faces {at}{}{more}", points.join(" to "), places.join(", "))
 }

@@ -8,7 +8,7 @@
   const get = (id) => document.getElementById(id);
   const numbers = (text) => (text ? text.split(" ").map(Number) : []);
   const [points, vertices, triangles] = ["points", "vertices", "triangles"].map((name) => numbers(canvas.dataset[name]));
-  const { directions, file } = canvas.dataset;
+  const { directions, faces, file } = canvas.dataset;
   const rows = [...document.querySelectorAll("details.row")];
   const WORDS = ["crack", "double", "wrong at a fold"];
   const count = vertices.length;
@@ -120,7 +120,7 @@
       const [part, before, name] = mark.a === mark.b
         ? ["vertex", dataset.vertices, `${vertices[mark.a]}`]
         : ["edge", dataset.edges, `${vertices[mark.a]}–${vertices[mark.b]}`];
-      get("what").textContent = `${WORDS[mark.wrong]} at ${part} ${name} of ${file}, faces at lines ${mark.lines}: `
+      get("what").textContent = `${WORDS[mark.wrong]} at ${part} ${name} of ${file}, ${faces} ${mark.lines}: `
         + `${mark.rays} of ${directions} rays aimed at this ${part}. The first:`;
       get("command").textContent = before + mark.index + dataset.after;
     } else {

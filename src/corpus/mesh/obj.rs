@@ -1,110 +1,117 @@
-//! The lines of an OBJ file: numbers from their text, indices checked, everything with its line.
+//! OBJ files: numbers from their text, indices checked, everything with its line.
 //!
-//! tobj then reads a text of faces and groups with absolute indices only.
+//! The file's text is read here, so that errors carry their line and numbers keep their digits; tobj then
+//! sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
-use super::InputError;
-use std::fmt;
+use super::builder::{Builder, Place, quoted, shortened, vertices_text};
+use super::{InputError, Limits, Mesh};
+use std::collections::BTreeSet;
 use std::io::{BufRead, Read, Write};
 use std::num::IntErrorKind;
 
-/// How much is read before a file is an error.
-#[derive(Clone, Copy)]
-pub(super) struct Limits {
-    /// Bytes in a line, with what is joined to it by backslashes.
-    pub line: usize,
-    /// Vertices, and triangles after polygons are cut up.
-    pub elements: usize,
+/// Reads a whole file. Errors carry the line.
+pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
+    let mut source = Source::of(reader, name, limits)?;
+    let models = source.models_by_tobj(name)?;
+    source.text = Vec::new();
+    let mut mesh = source.mesh;
+    let mut groups = BTreeSet::new();
+    let mut face_lines = source.face_lines.into_iter();
+    for model in models {
+        let before = mesh.triangles();
+        for (face, line) in faces(&model.mesh).zip(face_lines.by_ref()) {
+            mesh.face(&face, line);
+        }
+        if mesh.triangles() > before && model.name != UNNAMED {
+            groups.insert(model.name);
+        }
+    }
+    debug_assert_eq!(face_lines.len(), 0, "tobj gives back every face");
+    mesh.finish(name, groups.len())
 }
 
-/// One MiB, and what 32-bit indices hold with room to spare.
-pub(super) const LIMITS: Limits = Limits { line: 1 << 20, elements: 100_000_000 };
+/// What tobj calls faces that no `o` or `g` line names.
+const UNNAMED: &str = "unnamed_object";
 
-const MEBIBYTE: u64 = 1 << 20;
+/// The vertices of each face, as indices into the file's vertices.
+fn faces(mesh: &tobj::Mesh) -> impl Iterator<Item = Vec<u32>> {
+    let mut rest = mesh.indices.as_slice();
+    let mut arities = mesh.face_arities.iter();
+    std::iter::from_fn(move || {
+        // A mesh of triangles only has no arities.
+        let arity = arities.next().map_or(3, |arity| *arity as usize);
+        let (face, after) = rest.split_at_checked(arity)?;
+        rest = after;
+        Some(face.iter().map(|vertex| mesh.positions[*vertex as usize * 3] as u32).collect())
+    })
+}
 
 /// What a file's lines hold.
 #[derive(Default)]
 pub(super) struct Source {
-    pub positions_f32: Vec<[f32; 3]>,
-    pub positions_f64: Vec<[f64; 3]>,
+    /// The vertices.
+    pub mesh: Builder,
     /// The `f` lines with absolute vertex indices alone, and the `o` and `g` lines as `g` lines.
     pub text: Vec<u8>,
     /// For each `f` line its line number in the file.
     pub face_lines: Vec<u32>,
     /// Triangles that the faces make, if none is left out.
-    pub triangles: usize,
-    /// What was skipped or altered.
-    pub notes: Notes,
+    triangles: usize,
     /// The largest index of a face, counted from 1, and the first line that names it.
-    pub largest: (i64, usize),
-}
-
-/// Something in a file that was skipped, altered or suspect.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
-    /// The first line it was found at, counted from 1.
-    pub line: Option<usize>,
-    /// How often it was found.
-    pub count: usize,
-    /// What was found and what was done with it, without the count.
-    pub message: String,
-}
-
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message, self.count)?;
-        self.line.map_or(Ok(()), |line| write!(f, " (first at line {line})"))
-    }
-}
-
-/// Notes of one kind are one note.
-#[derive(Default)]
-pub(super) struct Notes(pub Vec<Note>);
-
-impl Notes {
-    /// Counts one more of a kind; `line` is kept if it is the first.
-    pub fn count(&mut self, message: &str, line: usize) {
-        match self.0.iter_mut().find(|note| note.message == message) {
-            Some(note) => note.count += 1,
-            None => {
-                self.0.push(Note { line: Some(line), count: 1, message: message.to_owned() });
-            }
-        }
-    }
-}
-
-/// Reads a whole file. Errors carry the line; `progress` is called about every MiB with the bytes
-/// read so far, and at the end.
-pub(super) fn read<R: BufRead>(
-    reader: R,
-    name: &str,
-    limits: Limits,
-    progress: &mut dyn FnMut(u64),
-) -> Result<Source, InputError> {
-    let mut source = Source::default();
-    let mut lines = Lines::new(reader, name, limits.line, progress);
-    while let Some(line) = lines.next_statement()? {
-        source
-            .statement(&lines.statement, line, limits.elements)
-            .map_err(|message| InputError::at(name, line, message))?;
-    }
-    (lines.progress)(lines.bytes);
-    let vertices = source.positions_f64.len();
-    if vertices == 0 {
-        return Err(InputError::of(name, "the file has no vertices"));
-    }
-    if source.face_lines.is_empty() {
-        return Err(InputError::of(name, "the file has no faces"));
-    }
-    let (largest, line) = source.largest;
-    if largest > vertices as i64 {
-        let count = vertices_text(vertices);
-        let message = format!("face names vertex {largest} but the file has only {count}");
-        return Err(InputError::at(name, line, message));
-    }
-    Ok(source)
+    largest: (i64, usize),
 }
 
 impl Source {
+    fn of(reader: impl BufRead, name: &str, limits: Limits) -> Result<Source, InputError> {
+        let mut source = Source::default();
+        let mut lines = Lines::new(reader, name, limits.line);
+        while let Some(line) = lines.next_statement()? {
+            source
+                .statement(&lines.statement, line, limits.elements)
+                .map_err(|message| InputError::at(name, line, message))?;
+        }
+        let vertices = source.mesh.vertices();
+        if vertices == 0 {
+            return Err(InputError::of(name, "the file has no vertices"));
+        }
+        if source.face_lines.is_empty() {
+            return Err(InputError::of(name, "the file has no faces"));
+        }
+        let (largest, line) = source.largest;
+        if largest > vertices as i64 {
+            let count = vertices_text(vertices);
+            let message = format!("face names vertex {largest} but the file has only {count}");
+            return Err(InputError::at(name, line, message));
+        }
+        Ok(source)
+    }
+
+    /// Has tobj read the faces and groups, with vertices whose first coordinate is their index.
+    pub(super) fn models_by_tobj(&self, name: &str) -> Result<Vec<tobj::Model>, InputError> {
+        let mut vertices = Vec::new();
+        for index in 0..self.mesh.vertices() {
+            writeln!(vertices, "v {index} 0 0").map_err(|e| InputError::of(name, e.to_string()))?;
+        }
+        let mut unread = self.text.as_slice();
+        let mut reader = vertices.as_slice().chain(&mut unread);
+        let no_materials = |_: &std::path::Path| Ok(Default::default());
+        // Neither triangulate nor single_index: polygons stay whole, vertices are what they were.
+        match tobj::load_obj_buf(&mut reader, &tobj::LoadOptions::default(), no_materials) {
+            Ok((models, _)) => Ok(models),
+            Err(error) => {
+                let read = &self.text[..self.text.len() - unread.len()];
+                let faces =
+                    read.split(|byte| *byte == b'\n').filter(|l| l.starts_with(b"f")).count();
+                let line = self.face_lines.get(faces.saturating_sub(1)).map(|line| *line as usize);
+                Err(InputError { line, ..InputError::of(name, format!("tobj: {error}")) })
+            }
+        }
+    }
+
+    fn note(&mut self, message: &str, line: usize) {
+        self.mesh.note(message, Some(Place::Line(line)));
+    }
+
     fn statement(&mut self, text: &str, line: usize, limit: usize) -> Result<(), String> {
         let mut words = text.split_ascii_whitespace();
         match words.next() {
@@ -118,9 +125,9 @@ impl Source {
                 }
                 self.text.push(b'\n');
             }
-            Some("l" | "p") => self.notes.count("lines and points (l, p) skipped", line),
+            Some("l" | "p") => self.note("lines and points (l, p) skipped", line),
             None | Some("vt" | "vn" | "vp" | "s" | "usemtl" | "mtllib") => {}
-            Some(_) => self.notes.count("unknown statements skipped", line),
+            Some(_) => self.note("unknown statements skipped", line),
         }
         Ok(())
     }
@@ -131,7 +138,7 @@ impl Source {
         line: usize,
         limit: usize,
     ) -> Result<(), String> {
-        if self.positions_f64.len() >= limit {
+        if self.mesh.vertices() >= limit {
             return Err(format!("more than {limit} vertices"));
         }
         let (mut narrow, mut wide) = ([0.0f32; 3], [0.0f64; 3]);
@@ -159,13 +166,9 @@ impl Source {
             _ => return Err(format!("vertex has {count} numbers; x y z w r g b a are the most")),
         }
         if count == 4 && weight != 1.0 {
-            self.notes.count("weights (w) other than 1 ignored", line);
+            self.note("weights (w) other than 1 ignored", line);
         }
-        if narrow.iter().any(|coordinate| coordinate.is_infinite()) {
-            self.notes.count("f32 overflow: vertices with an infinite coordinate in f32", line);
-        }
-        self.positions_f32.push(narrow);
-        self.positions_f64.push(wide);
+        self.mesh.vertex(wide, narrow, Place::Line(line));
         Ok(())
     }
 
@@ -175,7 +178,7 @@ impl Source {
         line: usize,
         limit: usize,
     ) -> Result<(), String> {
-        let vertices = self.positions_f64.len();
+        let vertices = self.mesh.vertices();
         let mut corners = 0;
         self.text.push(b'f');
         for word in words {
@@ -232,40 +235,21 @@ fn face_vertex(word: &str) -> Result<i64, String> {
     }
 }
 
-fn vertices_text(count: usize) -> String {
-    format!("{count} {}", if count == 1 { "vertex" } else { "vertices" })
-}
-
-fn quoted(word: &str) -> String {
-    format!("'{}'", shortened(word))
-}
-
-/// A word of the file that fits into a message and does no harm to a terminal.
-fn shortened(word: &str) -> String {
-    let shown: String = word.chars().take(40).flat_map(char::escape_debug).collect();
-    if word.chars().nth(40).is_some() { shown + "..." } else { shown }
-}
-
 /// Goes through a text statement by statement: a line, or lines joined by backslashes at their
 /// ends, without comment.
 struct Lines<'a, R> {
     reader: R,
     name: &'a str,
     limit: usize,
-    progress: &'a mut dyn FnMut(u64),
-    /// Lines and bytes read so far, and when to report next.
+    /// Lines read so far.
     number: usize,
-    bytes: u64,
-    next_report: u64,
     raw: Vec<u8>,
     statement: String,
 }
 
 impl<'a, R: BufRead> Lines<'a, R> {
-    fn new(reader: R, name: &'a str, limit: usize, progress: &'a mut dyn FnMut(u64)) -> Self {
-        let (raw, statement) = (Vec::new(), String::new());
-        let (number, bytes, next_report) = (0, 0, MEBIBYTE);
-        Lines { reader, name, limit, progress, number, bytes, next_report, raw, statement }
+    fn new(reader: R, name: &'a str, limit: usize) -> Self {
+        Lines { reader, name, limit, number: 0, raw: Vec::new(), statement: String::new() }
     }
 
     /// Reads the next statement, perhaps an empty one, and gives the number of its first line.
@@ -305,11 +289,6 @@ impl<'a, R: BufRead> Lines<'a, R> {
         }
         if self.number > u32::MAX as usize {
             return Err(InputError::at(self.name, self.number, "more lines than 32 bits count"));
-        }
-        self.bytes += read as u64;
-        if self.bytes >= self.next_report {
-            (self.progress)(self.bytes);
-            self.next_report = self.bytes + MEBIBYTE;
         }
         Ok(true)
     }

@@ -1,0 +1,163 @@
+//! What every reader of meshes fills: vertices, then faces as fans of triangles, and notes.
+
+use super::{InputError, Mesh};
+use crate::corpus::fan;
+use sha2::{Digest, Sha256};
+use std::fmt;
+
+/// What is counted, from 1, to say where in a file something is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of a text.
+    Line(usize),
+    /// A vertex of a file without lines.
+    Vertex(usize),
+    /// A face of a file without lines.
+    Face(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Line(number) => write!(f, "line {number}"),
+            Place::Vertex(number) => write!(f, "vertex {number}"),
+            Place::Face(number) => write!(f, "face {number}"),
+        }
+    }
+}
+
+/// Something in a file that was skipped, altered or suspect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Where it was found first.
+    pub first: Option<Place>,
+    /// How often it was found.
+    pub count: usize,
+    /// What was found and what was done with it, without the count.
+    pub message: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.message, self.count)?;
+        self.first.map_or(Ok(()), |first| write!(f, " (first at {first})"))
+    }
+}
+
+/// A mesh that is being read.
+#[derive(Default)]
+pub(super) struct Builder {
+    pub positions_f32: Vec<[f32; 3]>,
+    pub positions_f64: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    places: Vec<u32>,
+    notes: Vec<Note>,
+    /// Whether faces are counted instead of lines.
+    without_lines: bool,
+}
+
+const OVERFLOW: &str = "f32 overflow: vertices with an infinite coordinate in f32";
+const FOLDED: &str = "polygons left out because their fan of triangles folds over";
+const NO_AREA: &str = "triangles without area, kept";
+
+impl Builder {
+    /// For a file without lines.
+    pub fn without_lines() -> Builder {
+        Builder { without_lines: true, ..Builder::default() }
+    }
+
+    /// Counts one more note of a kind; the place is kept if it is the first.
+    pub fn note(&mut self, message: &str, first: Option<Place>) {
+        match self.notes.iter_mut().find(|note| note.message == message) {
+            Some(note) => note.count += 1,
+            None => self.notes.push(Note { first, count: 1, message: message.to_owned() }),
+        }
+    }
+
+    /// Adds a vertex, which is finite in `f64`.
+    pub fn vertex(&mut self, wide: [f64; 3], narrow: [f32; 3], place: Place) {
+        if narrow.iter().any(|coordinate| coordinate.is_infinite()) {
+            self.note(OVERFLOW, Some(place));
+        }
+        self.positions_f32.push(narrow);
+        self.positions_f64.push(wide);
+    }
+
+    pub fn vertices(&self) -> usize {
+        self.positions_f64.len()
+    }
+
+    pub fn triangles(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Adds the fan of a face, or a note that it is left out. Its vertices exist; `number` counts lines or
+    /// faces.
+    pub fn face(&mut self, corners: &[u32], number: u32) {
+        let count = number as usize;
+        let place = if self.without_lines { Place::Face(count) } else { Place::Line(count) };
+        let position = |vertex: &u32| self.positions_f64[*vertex as usize];
+        if corners.len() > 3 {
+            let corners: Vec<[f64; 3]> = corners.iter().map(position).collect();
+            if fan::folds(&corners) {
+                return self.note(FOLDED, Some(place));
+            }
+        }
+        for pair in corners[1..].windows(2) {
+            let triangle = [corners[0], pair[0], pair[1]];
+            if fan::is_without_area(triangle.each_ref().map(|v| self.positions_f64[*v as usize])) {
+                self.note(NO_AREA, Some(place));
+            }
+            self.triangles.push(triangle);
+            self.places.push(number);
+        }
+    }
+
+    /// The mesh; an error if it has no triangles.
+    pub fn finish(self, name: &str, groups: usize) -> Result<Mesh, InputError> {
+        if self.triangles.is_empty() {
+            return Err(InputError::of(name, format!("the file has no triangles: {FOLDED}")));
+        }
+        Ok(Mesh {
+            name: name.to_owned(),
+            digest: digest(&self.positions_f64, &self.positions_f32, &self.triangles),
+            positions_f32: self.positions_f32,
+            positions_f64: self.positions_f64,
+            triangles: self.triangles,
+            places: self.places,
+            has_lines: !self.without_lines,
+            groups,
+            notes: self.notes,
+        })
+    }
+}
+
+fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> String {
+    let mut hash = Sha256::new();
+    for coordinate in wide.as_flattened() {
+        hash.update(coordinate.to_bits().to_le_bytes());
+    }
+    for coordinate in narrow.as_flattened() {
+        hash.update(coordinate.to_bits().to_le_bytes());
+    }
+    for index in triangles.as_flattened() {
+        hash.update(index.to_le_bytes());
+    }
+    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// As `8 vertices`.
+pub(super) fn vertices_text(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "vertex" } else { "vertices" })
+}
+
+/// A word of a file in quotes.
+pub(super) fn quoted(word: &str) -> String {
+    format!("'{}'", shortened(word))
+}
+
+/// A word of a file that fits into a message and does no harm to a terminal.
+pub(super) fn shortened(word: &str) -> String {
+    let shown: String = word.chars().take(40).flat_map(char::escape_debug).collect();
+    if word.chars().nth(40).is_some() { shown + "..." } else { shown }
+}

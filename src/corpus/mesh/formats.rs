@@ -1,0 +1,84 @@
+//! Which format a file of a mesh has, and its reader.
+
+use super::{Counted, InputError, LIMITS, Limits, Mesh, gltf, obj, ply};
+use std::io::{self, BufRead, Read};
+
+/// Reads at most so many bytes of a file in the folder of the mesh's own.
+pub type Beside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
+
+/// Reads an OBJ, PLY or glTF file (text or GLB). The name's extension says which; if it says nothing, the
+/// first bytes do, and what is neither PLY nor glTF is read as OBJ. `beside` reads the buffers that a glTF file
+/// has in files of their own. `name` is for messages and for [`Mesh::name`]; `progress` is called about every MiB
+/// with the number of bytes read so far, and once at the end.
+///
+/// What [`read_obj`](super::read_obj) says of polygons, areas, numbers and limits holds for all formats. It is
+/// also an error if a file ends early, if it names a file outside its folder or on the network, and if it
+/// needs a glTF extension that changes geometry (compressed or quantised meshes, instances).
+pub fn read<R: BufRead>(
+    reader: R,
+    name: &str,
+    beside: &mut Beside,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Mesh, InputError> {
+    read_within(reader, name, LIMITS, beside, progress)
+}
+
+pub(super) fn read_within<R: BufRead>(
+    reader: R,
+    name: &str,
+    limits: Limits,
+    beside: &mut Beside,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Mesh, InputError> {
+    let mut reader = Counted::new(reader, progress);
+    let mut head = Vec::new();
+    let format = match Format::of_extension(name) {
+        Some(format) => format,
+        None => {
+            let start = (&mut reader).take(HEAD).read_to_end(&mut head);
+            start.map_err(|error| InputError::reading(name, None, &error))?;
+            Format::of_content(&head)
+        }
+    };
+    let whole = head.as_slice().chain(&mut reader);
+    let mesh = match format {
+        Format::Obj => obj::read(whole, name, limits),
+        Format::Ply => ply::read(whole, name, limits),
+        Format::Gltf => gltf::read(whole, name, limits, beside),
+    }?;
+    reader.finish();
+    Ok(mesh)
+}
+
+/// Bytes that tell a format.
+const HEAD: u64 = 64;
+
+enum Format {
+    Obj,
+    Ply,
+    /// Text or GLB.
+    Gltf,
+}
+
+impl Format {
+    fn of_extension(name: &str) -> Option<Format> {
+        let (_, extension) = name.rsplit_once('.')?;
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Format::Obj),
+            "ply" => Some(Format::Ply),
+            "gltf" | "glb" => Some(Format::Gltf),
+            _ => None,
+        }
+    }
+
+    fn of_content(head: &[u8]) -> Format {
+        let text = head.trim_ascii_start();
+        if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
+            Format::Ply
+        } else if head.starts_with(gltf::MAGIC) || text.starts_with(b"{") {
+            Format::Gltf
+        } else {
+            Format::Obj
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! Meshes in OBJ, PLY and glTF files: the same mesh from each, and what is wrong with a file.
+
+mod writers;
+
+use crate::program;
+
+use hairline::internals::corpus::InputError;
+use hairline::internals::corpus::mesh::{self, Mesh};
+use program::{ends, scratch};
+use serde_json::{Value, json};
+use std::fs;
+use std::io;
+use writers::{Ply, Solid, data_uri, glb, solid};
+
+fn read_as(name: &str, bytes: &[u8]) -> Result<Mesh, InputError> {
+    let mut beside = |name: &str, _: u64| Err(io::Error::new(io::ErrorKind::NotFound, name));
+    mesh::read(bytes, name, &mut beside, &mut |_| {})
+}
+
+fn mesh_of(name: &str, bytes: &[u8]) -> Mesh {
+    read_as(name, bytes).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn refusal(name: &str, bytes: impl AsRef<[u8]>) -> String {
+    read_as(name, bytes.as_ref()).expect_err(name).to_string()
+}
+
+const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
+
+/// The solid in every format, with names that tell it.
+fn files(solid: &Solid) -> Vec<(String, Vec<u8>)> {
+    let ply =
+        |encoding: &str| (format!("{encoding}.ply"), solid.ply(encoding, "float", "uchar", "int"));
+    let mut files = vec![("a.obj".to_owned(), solid.obj())];
+    files.extend(ENCODINGS.map(ply));
+    files.extend([("a.gltf".to_owned(), solid.gltf()), ("a.glb".to_owned(), solid.glb())]);
+    files
+}
+
+#[test]
+fn a_mesh_is_the_same_in_every_format() {
+    let solid = solid();
+    let expected = mesh_of("a.obj", &solid.obj());
+    assert_eq!(expected.triangles, solid.faces);
+    for (name, bytes) in files(&solid) {
+        // By extension, and by content.
+        for name in [name.as_str(), "-", "mesh.txt"] {
+            let mesh = mesh_of(name, &bytes);
+            assert_eq!(mesh.positions_f32, solid.vertices, "{name}");
+            assert_eq!(mesh.positions_f64, expected.positions_f64, "{name}");
+            assert_eq!(
+                (mesh.triangles, mesh.digest),
+                (expected.triangles.clone(), expected.digest.clone())
+            );
+        }
+    }
+    let [ply, obj] = [solid.ply("ascii", "float", "uchar", "int"), solid.obj()];
+    // Faces begin after 16 lines of header, 8 vertices and a material; 8 vertices in the OBJ file.
+    assert_eq!(mesh_of("a.ply", &ply).places, (26..34).collect::<Vec<u32>>());
+    assert_eq!(mesh_of("a.obj", &obj).places, (9..17).collect::<Vec<u32>>());
+    assert_eq!(mesh_of("a.glb", &solid.glb()).places, (1..9).collect::<Vec<u32>>());
+    assert!(mesh_of("a.ply", &ply).has_lines && !mesh_of("a.glb", &solid.glb()).has_lines);
+    assert!(refusal("a.ply", obj).contains("ply"));
+}
+
+/// What a record says but for the file and the places in it.
+fn without_places(record: &mut Value) {
+    match record {
+        Value::Object(fields) => {
+            for place in ["file", "command", "lines", "faces", "first_line", "first_face", "notes"]
+            {
+                if !fields.get(place).is_some_and(|value| value.is_object()) {
+                    fields.remove(place);
+                }
+            }
+            fields.values_mut().for_each(without_places);
+        }
+        Value::Array(parts) => parts.iter_mut().for_each(without_places),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_command_that_takes_a_mesh_takes_every_format() {
+    let folder = scratch("mesh-files");
+    let files = files(&solid());
+    files.iter().for_each(|(name, bytes)| fs::write(folder.join(name), bytes).unwrap());
+    let flags = ["--kernel", "moller-trumbore", "--scalar", "f32,f64", "--quiet"];
+    let mut records = files.iter().map(|(name, _)| {
+        let run = ["mesh", name, "--format", "json", "--directions", "64"];
+        let mut record: Value =
+            serde_json::from_str(&ends(&folder, &[&run[..], &flags].concat(), 0).0).unwrap();
+        without_places(&mut record["result"]);
+        record["result"].take()
+    });
+    let first = records.next().unwrap();
+    assert_eq!(first["scalars"][0]["topology"]["closed_manifold"], true);
+    assert!(first["scalars"][0]["offenders"].as_u64().unwrap() > 0);
+    records.for_each(|record| assert_eq!(record, first));
+
+    // Ids hold the digest, so that one made from a file is shown with another.
+    let run = ["mesh", "a.glb", "--directions", "64"];
+    let (text, _) = ends(&folder, &[&run[..], &flags].concat(), 0);
+    assert!(text.contains(", faces 1, "), "{text}");
+    let page = |file: &str| {
+        ends(&folder, &[&["mesh", file, "--format", "html"][..], &flags].concat(), 0).0
+    };
+    assert!(page("a.glb").contains("data-faces=\"faces\""));
+    assert!(page("a.obj").contains("data-faces=\"faces at lines\""));
+    let command = text.lines().find(|line| line.trim_start().starts_with("hairline explain"));
+    let words = command.unwrap().split_whitespace().skip(1).map(|word| word.trim_matches('\''));
+    let words: Vec<&str> = words.collect();
+    let shown = ends(&folder, &words, 0).0;
+    let of_obj: Vec<&str> = words
+        .iter()
+        .map(|word| word.trim_matches('"'))
+        .map(|word| if word == "a.glb" { "a.obj" } else { word })
+        .collect();
+    assert_ne!(words, of_obj);
+    assert_eq!(ends(&folder, &of_obj, 0).0.replace("a.obj", "a.glb"), shown);
+
+    let counts = |command: &[&str], file: &str| {
+        let out = ends(&folder, &[command, &["--mesh", file, "--quiet"]].concat(), 0).0;
+        out.lines()
+            .filter(|line| !line.contains(" s, ") && !line.contains("{\"type\":\"p"))
+            .collect::<Vec<_>>()
+            .join("\n")
+            .replace(file, "FILE")
+    };
+    for command in [
+        &["epsilon", "--kernel", "moller-trumbore", "-n", "1000", "--format", "csv"][..],
+        &["audit", "--kernel", "cramer", "-n", "100", "--format", "jsonl"],
+        &["audit", "--kernel", "cramer", "-n", "100", "--scene", "mesh", "--format", "jsonl"],
+        &["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "--distance", "20"],
+    ] {
+        let expected = counts(command, "a.obj");
+        for file in ["binary_big_endian.ply", "a.gltf"] {
+            assert_eq!(counts(command, file), expected, "{command:?}");
+        }
+    }
+}
+
+#[test]
+fn ply_files_have_any_types_and_polygons() {
+    let solid = solid();
+    let expected = mesh_of("a.obj", &solid.obj()).digest;
+    let integers = ["char", "uchar", "short", "ushort", "int", "uint", "int8", "uint16", "uint32"];
+    for encoding in ENCODINGS {
+        for (count, index) in integers.iter().zip(integers.iter().cycle().skip(4)) {
+            for coordinate in ["float", "double", "float32", "float64"] {
+                let bytes = solid.ply(encoding, coordinate, count, index);
+                assert_eq!(mesh_of("a.ply", &bytes).digest, expected, "{encoding} {count} {index}");
+            }
+        }
+        // Faces before vertices, a square, and a polygon that folds over.
+        let mut ply = Ply::new(encoding);
+        ply.header("element face 2\nproperty list uchar int vertex_index\nelement vertex 5");
+        ply.header("property int x\nproperty short y\nproperty double z\nend_header");
+        for face in [[0, 1, 2, 3], [1, 2, 4, 0]] {
+            ply.number("uchar", 4.0);
+            face.iter().for_each(|corner| ply.number("int", f64::from(*corner)));
+            ply.end();
+        }
+        for [x, y, z] in
+            [[0.0, 0.0, 0.1], [1.0, 0.0, 0.1], [1.0, 1.0, 0.1], [0.0, 1.0, 0.1], [0.0, 3.0, 0.1]]
+        {
+            ply.number("int", x);
+            ply.number("short", y);
+            ply.number("double", z);
+            ply.end();
+        }
+        let mesh = mesh_of("a.ply", &ply.bytes);
+        assert_eq!(mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]], "{encoding}");
+        assert_eq!(
+            (mesh.positions_f64[2], mesh.positions_f32[2]),
+            ([1.0, 1.0, 0.1], [1.0, 1.0, 0.1])
+        );
+    }
+    let head = "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\n\
+                property double z\r\nelement face 1\r\nproperty list uchar int vertex_indices\r\nend_header\r\n";
+    let mesh = mesh_of(
+        "a.ply",
+        format!("{head}.5 -.5 1.\r\n\r\n1e300 +2 3.e-1\n0 0 0\n3 0 1 2").as_bytes(),
+    );
+    assert_eq!(mesh.positions_f64[..2], [[0.5, -0.5, 1.0], [1e300, 2.0, 0.3]]);
+    let notes: Vec<String> = mesh.notes.iter().map(|note| note.to_string()).collect();
+    assert_eq!(
+        notes,
+        ["f32 overflow: vertices with an infinite coordinate in f32: 1 (first at line 12)"]
+    );
+    assert_eq!(mesh.places, [14]);
+}
+
+#[test]
+fn ply_files_that_are_wrong_say_where() {
+    let file = |lines: &str| {
+        let head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+                    property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        refusal("a.ply", format!("{head}{lines}"))
+    };
+    for (lines, message) in [
+        (
+            "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+            "a.ply:13: face names vertex 3, counted from 0, of 3 vertices",
+        ),
+        (
+            "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",
+            "a.ply:13: face 1 of 1: names vertex -1, which no file has",
+        ),
+        ("0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "a.ply:13: face 1 of 1: 2 of at least 3 vertices"),
+        ("0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "a.ply:13: face 1 of 1: 3 of 4 numbers"),
+        ("0 0 0\n1 0 0\n0 1 0\n", "a.ply:12: the file ends before face 1 of 1"),
+        ("0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "a.ply:11: vertex 2 of 3: 2 of 3 numbers"),
+        ("0 0 0\n1 0 0 4\n", "a.ply:11: vertex 2 of 3: 4 of 3 numbers"),
+        ("0 nan 0\n", "a.ply:10: vertex 1 of 3: 'nan' is not finite"),
+        ("0 1e39 0\n", "a.ply:10: vertex 1 of 3: inf is not finite"),
+        ("0 x 0\n", "a.ply:10: vertex 1 of 3: 'x' is not a number"),
+        ("0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", "a.ply:13: face 1 of 1: "),
+        ("0 0 0\n1 0 0\n0 1 0\n300 0 1 2\n", "a.ply:13: face 1 of 1: 4 of 301 numbers"),
+    ] {
+        let said = file(lines);
+        assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");
+    }
+    let header = |lines: &str| refusal("a.ply", format!("ply\n{lines}"));
+    let vertex = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    let face = "element face 1\nproperty list uchar int vertex_indices\n";
+    for (lines, message) in [
+        (String::new(), "a.ply:2: header: Unexpected end of file"),
+        ("format ascii 2\n".to_owned(), "a.ply:2: header: "),
+        (format!("{vertex}{face}end_header\n"), "a.ply: header: No format line"),
+        (
+            format!("format ascii 1.0\n{vertex}end_header\n"),
+            "a.ply: the file has no elements 'face'",
+        ),
+        (
+            format!("format ascii 1.0\n{face}end_header\n"),
+            "a.ply: the file has no elements 'vertex'",
+        ),
+        (
+            format!("format ascii 1.0\n{face}{}end_header\n", vertex.replace(" z", " w")),
+            "a.ply: element 'vertex' has no number 'z'",
+        ),
+        (
+            format!("format ascii 1.0\n{vertex}{}end_header\n", face.replace(" int", " float")),
+            "a.ply: element 'face' has no list of integers 'vertex_indices'",
+        ),
+        (
+            format!(
+                "format ascii 1.0\n{}{face}end_header\n",
+                vertex.replace(" 3", " 1000000000000")
+            ),
+            "a.ply: more than 100000000 vertices",
+        ),
+        (
+            format!(
+                "format ascii 1.0\n{vertex}{}end_header\n",
+                face.replace(" 1\n", " 999999999999\n")
+            ),
+            "a.ply: more than 100000000 triangles",
+        ),
+        (
+            format!("format ascii 1.0\ncomment {}", "x".repeat(2 << 20)),
+            "a.ply: a header of more than 1048576 bytes",
+        ),
+        // Nothing of the file is an element of that many, and nothing at all is one without properties.
+        (
+            format!(
+                "format binary_little_endian 1.0\nelement none 1000000000000\n\
+                 element more 1000000000000\nproperty int n\n{vertex}{face}end_header\n12345678"
+            ),
+            "a.ply: the file ends in more 3 of 1000000000000",
+        ),
+    ] {
+        let said = header(&lines);
+        assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");
+    }
+    let long = "1 ".repeat(1 << 20);
+    let (folder, format) = (scratch("ply-codes"), "format ascii 1.0");
+    fs::write(folder.join("a.ply"), format!("ply\n{format}\n{vertex}{face}end_header\n{long}\n"))
+        .unwrap();
+    let (_, error) = ends(&folder, &["mesh", "a.ply"], 65);
+    assert!(error.contains("a.ply:10: a line of more than 1048576 bytes"), "{error}");
+    ends(&folder, &["mesh", "missing.ply"], 74);
+    ends(&folder, &["audit", "--mesh", "missing.glb"], 74);
+}
+
+#[test]
+fn cut_or_altered_files_are_an_error_or_the_same_mesh_and_never_a_panic() {
+    let solid = solid();
+    for (name, bytes) in files(&solid).into_iter().skip(1) {
+        let whole = mesh_of(&name, &bytes).digest;
+        for length in 0..bytes.len() {
+            if let Ok(mesh) = read_as(&name, &bytes[..length]) {
+                assert_eq!(mesh.digest, whole, "{name} {length}");
+                assert!(name != "a.glb" && length + 12 > bytes.len(), "{name} {length}");
+            }
+        }
+        for at in 0..bytes.len() {
+            for other in [0, 0xff, bytes[at] ^ 1, bytes[at] ^ 0x80, b'9', b'-'] {
+                let mut altered = bytes.clone();
+                altered[at] = other;
+                if let Ok(mesh) = read_as(&name, &altered) {
+                    let count = mesh.positions_f64.len() as u32;
+                    assert!(mesh.triangles.as_flattened().iter().all(|vertex| *vertex < count));
+                    assert!(mesh.positions_f64.as_flattened().iter().all(|x| x.is_finite()));
+                }
+            }
+        }
+    }
+}
+
+mod gltf;
