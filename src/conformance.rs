@@ -2,6 +2,8 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "cli")]
+mod expectations;
 mod outcome;
 
 pub use outcome::Outcome;
@@ -52,6 +54,8 @@ pub fn audit(kernel: &Entry) -> Request {
         band: None,
         scene: None,
         allowed: BTreeMap::new(),
+        #[cfg(feature = "cli")]
+        expectations: None,
     }
 }
 
@@ -69,6 +73,8 @@ pub struct Request {
     band: Option<String>,
     scene: Option<String>,
     allowed: BTreeMap<String, f64>,
+    #[cfg(feature = "cli")]
+    expectations: Option<String>,
 }
 
 impl Request {
@@ -165,8 +171,31 @@ impl Request {
         self
     }
 
+    /// Holds it to a reviewed file of what is wrong today, and to the `.lock` file beside it (feature `cli`): a
+    /// case more than expected, one less or another one fails the test. The path begins in the package's
+    /// folder, where `cargo test` runs; each test has a file of its own.
+    ///
+    /// `HAIRLINE_BLESS=1 cargo test` writes both files if they are missing or if nothing got worse;
+    /// `HAIRLINE_BLESS=worse` writes them in any case. They are as `hairline check` has them (docs/guide/check.md).
+    ///
+    /// ```
+    /// use hairline::{audit, find};
+    ///
+    /// // In a test of your own, which ends with `.assert_conforms()`.
+    /// let kernel = find("moller-trumbore").unwrap();
+    /// let mine = audit(kernel).scene("room").expectations("tests/room.toml");
+    /// // The file is not there yet, and the error says how to make it.
+    /// let error = mine.run().unwrap_err().to_string();
+    /// assert!(error.contains("HAIRLINE_BLESS=1 cargo test"), "{error}");
+    /// ```
+    #[cfg(feature = "cli")]
+    pub fn expectations(mut self, path: impl Into<String>) -> Request {
+        self.expectations = Some(path.into());
+        self
+    }
+
     /// Runs it, in each scalar that the kernel runs in. An error names the family, gate, epsilon, scene,
-    /// band or finding that does not exist.
+    /// band or finding that does not exist, or what is wrong with the expectations.
     pub fn run(&self) -> Result<Outcome, PlanError> {
         for (finding, share) in &self.allowed {
             if !ALLOWED.contains(&finding.as_str()) || !(0.0..=1.0).contains(share) {
@@ -176,6 +205,12 @@ impl Request {
                     "{what}: expected one of {names}, and a share from 0 to 1"
                 )));
             }
+        }
+        #[cfg(feature = "cli")]
+        if !self.allowed.is_empty() && self.expectations.is_some() {
+            let message = "allow: the file of expectations says what may be wrong; it may have \
+                           `rates` by family";
+            return Err(PlanError(message.to_owned()));
         }
         let band = self.band.as_deref().map(str::parse).transpose();
         let band = band.map_err(|error| PlanError(format!("band: {error}")))?;
@@ -203,10 +238,16 @@ impl Request {
         };
         let sums = audit::run(&plan, &Unobserved);
         let context = Context { seconds: 0.0, threads: rayon::current_num_threads() };
-        Ok(Outcome { record: build(&plan, &sums, &context), allowed: self.allowed.clone() })
+        #[allow(unused_mut)]
+        let mut record = build(&plan, &sums, &context);
+        #[cfg(feature = "cli")]
+        if let Some(file) = &self.expectations {
+            expectations::hold(&mut record, file)?;
+        }
+        Ok(Outcome { record, allowed: self.allowed.clone() })
     }
 
-    /// Runs it and panics unless the kernel keeps its contract on every case. The message has each
+    /// Runs it and panics unless the kernel keeps its contract on every case, or as its expectations say. The message has each
     /// kind of finding with its rate and 95 % interval, and the first cases with the command that
     /// shows their truth.
     #[track_caller]

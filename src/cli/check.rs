@@ -10,7 +10,7 @@ use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::corpus::InputError;
-use crate::expect::{self, Expectations, Lock};
+use crate::expect::{self, BlessError, Expectations};
 use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
@@ -158,8 +158,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let file = &arguments.expectations;
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
     let may_be_missing = arguments.bless || !is_demanded;
-    let kernels = kernels_of(&record);
-    let expected = read_expectations(file, may_be_missing, &kernels, arguments.bless)?;
+    let expected = expect::open(file, may_be_missing, &record, arguments.bless, read_text)?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
     let (result, target) = (&record.result, record.provenance.target.as_str());
@@ -230,72 +229,32 @@ fn defaults() -> Result<CheckFlags, clap::Error> {
     CheckFlags::from_arg_matches(&words_command().try_get_matches_from([""; 0])?)
 }
 
-/// The expectations; none if the file is not there and may be missing.
-fn read_expectations(
-    file: &str,
-    may_be_missing: bool,
-    kernels: &[&str],
-    blessing: bool,
-) -> Result<Option<Expectations>, Failure> {
-    let lock = lock_of(file);
-    let has_lock = Path::new(&lock).exists();
-    if may_be_missing && !Path::new(file).exists() {
-        if has_lock {
-            let message = format!(
-                "{file}, whose cases these are, is missing: restore it, or remove this file too"
-            );
-            return Err(InputError::of(&lock, message).into());
-        }
-        return Ok(None);
-    }
-    let mut expectations = expect::read(&read_text(file)?, file, kernels)?;
-    if has_lock {
-        expectations.lock = Some(Lock::read(&read_text(&lock)?, &lock)?);
-    }
-    if !blessing {
-        expectations.agree(file)?;
-    }
-    Ok(Some(expectations))
-}
-
-/// The kernels of a record: those of one's own need not be here.
-fn kernels_of(record: &Record) -> Vec<&str> {
-    record.result.plan.rows.iter().map(|row| row.kernel.as_str()).collect()
-}
-
-/// The name of the file of the cases.
-fn lock_of(file: &str) -> String {
-    format!("{file}.lock")
-}
-
-/// Writes the expectations that the run meets, and their cases, and reads them again.
+/// Writes the expectations that the run meets, and their cases.
 fn blessed(
     record: &Record,
     old: &Expectations,
     conformance: &Conformance,
     file: &str,
 ) -> Result<Expectations, Failure> {
-    let (result, target) = (&record.result, &record.provenance.target);
-    let blessed = expect::bless(result, target, old, conformance).map_err(|error| {
-        Failure::usage(format!(
-            "--bless: {file} has {} expectations of kernels, scalars or families outside this plan, \
-             which would be lost: run the whole plan, or remove them first",
-            error.outside_the_plan
-        ))
-    })?;
-    let lock = lock_of(file);
-    let mut expectations = expect::read(&blessed.file, file, &kernels_of(record))?;
-    expectations.lock = Some(Lock::read(&blessed.lock, &lock)?);
-    expectations.agree(file)?;
-    let texts = vec![(&blessed.file, file), (&blessed.lock, lock.as_str())];
+    let written =
+        expect::blessed(record, old, conformance, file).map_err(|error| match error {
+            BlessError::Unread(error) => error.into(),
+            BlessError::Outside(error) => Failure::usage(format!(
+                "--bless: {file} has {} expectations of kernels, scalars or families outside this plan, \
+                 which would be lost: run the whole plan, or remove them first",
+                error.outside_the_plan
+            )),
+        })?;
+    let texts = written.texts.iter().map(|(name, text)| (text, name.as_str())).collect();
     write_results(texts, |text, _, out| out.write_all(text.as_bytes()))?;
-    if !blessed.dropped.is_empty() {
+    if !written.dropped.is_empty() {
         eprintln!(
-            "{lock}: the counts of {} were of other cases, and are gone",
-            blessed.dropped.join(", ")
+            "{}: the counts of {} were of other cases, and are gone",
+            expect::lock_of(file),
+            written.dropped.join(", ")
         );
     }
-    Ok(expectations)
+    Ok(written.expectations)
 }
 
 impl CheckFlags {

@@ -4,8 +4,8 @@ use crate::case::Case;
 use crate::explore::rust_case;
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, Example, FindingPart, KernelResult, Key, Rate, Record, disagreements, interval_of,
-    percent, rate_of,
+    ALL_CLASSES, Conformance, FindingPart, KernelResult, Key, Rate, Record, Verdict, disagreements,
+    interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -29,8 +29,12 @@ impl Outcome {
     }
 
     /// Whether the kernel kept its contract on every case, and what it promises across triangles, but for
-    /// the shares that [`Request::allow`](super::Request::allow) lets pass.
+    /// the shares that [`Request::allow`](super::Request::allow) lets pass. With a file of expectations: whether
+    /// what was found is what it says.
     pub fn conforms(&self) -> bool {
+        if let Some(conformance) = &self.record.conformance {
+            return conformance.verdict == Verdict::Conforms;
+        }
         disagreements(&self.record.result).iter().all(|found| self.is_allowed(&found.key))
     }
 
@@ -65,6 +69,9 @@ const SHOWN: usize = 8;
 
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(conformance) = &self.record.conformance {
+            return beside_expectations(conformance, f);
+        }
         let mut parts = Vec::new();
         for result in &self.record.result.results {
             let at = format!("{} {} ({})", result.scalar, result.family, result.set);
@@ -86,7 +93,7 @@ impl fmt::Display for Outcome {
                 "{scalar} {family} ({set}): {finding} of {class}: {count} of {of}{share}\n"
             );
             if let Some(example) = &found.example {
-                writeln!(text, "    {}", shown_by(kernel, example))?;
+                writeln!(text, "    {}", shown_by(kernel, &example.command))?;
             }
             parts.push(text);
         }
@@ -111,19 +118,60 @@ fn describe(at: &str, kernel: &str, part: &FindingPart) -> Result<String, fmt::E
     let share = interval_of(&part.rate);
     let mut text = format!("{at}: {} {}: {count} of {of}{share}\n", part.finding, part.class);
     for example in &part.first {
-        let literal =
-            literal(&example.bits).map_or(String::new(), |case| format!("\n        {case}"));
-        let command = shown_by(kernel, example);
-        writeln!(text, "    {command}{literal}\n        {}", example.bits)?;
+        write_case(kernel, &example.command, &example.bits, &mut text)?;
     }
     Ok(text)
 }
 
+/// What changed against a file of expectations, the worse first.
+fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let file = conformance.expectations.as_deref().unwrap_or_default();
+    writeln!(f, "{file}: {}", conformance.summary())?;
+    if let Some(note) = &conformance.note {
+        writeln!(f, "{note}")?;
+    }
+    let unexpected = conformance.unexpected.iter().map(|found| ("", found));
+    let stale = conformance.stale.iter().map(|found| ("stale: ", found));
+    for (what, found) in unexpected.chain(stale).take(SHOWN) {
+        let line = found.line.map_or(String::new(), |line| format!("{file}:{line}: "));
+        writeln!(f, "{line}{what}{}", found.describe())?;
+        if let Some(why) = &found.why {
+            writeln!(f, "    {why}")?;
+        }
+        if let Some(command) = &found.command {
+            let mut text = String::new();
+            let bits = found.bits.as_deref().unwrap_or_default();
+            write_case(&found.kernel, command, bits, &mut text)?;
+            f.write_str(&text)?;
+        }
+    }
+    match (conformance.unexpected.len() + conformance.stale.len()).saturating_sub(SHOWN) {
+        0 => {}
+        more => writeln!(f, "and {more} more")?,
+    }
+    match conformance.verdict {
+        Verdict::Stale => writeln!(f, "HAIRLINE_BLESS=1 cargo test writes what was found"),
+        _ => Ok(()),
+    }
+}
+
+/// A case: the command that shows it, the case in Rust, its bits.
+fn write_case(kernel: &str, command: &str, bits: &str, text: &mut String) -> fmt::Result {
+    writeln!(text, "    {}", shown_by(kernel, command))?;
+    if let Some(case) = literal(bits) {
+        writeln!(text, "        {case}")?;
+    }
+    if !bits.is_empty() {
+        writeln!(text, "        {bits}")?;
+    }
+    Ok(())
+}
+
 /// The command of an example; a kernel of one's own is known to one's own program only.
-fn shown_by(kernel: &str, example: &Example) -> String {
+fn shown_by(kernel: &str, command: &str) -> String {
     let is_built_in = KERNELS.iter().any(|entry| entry.info.name == kernel);
     let program = if is_built_in { "hairline" } else { "YOUR-PROGRAM (cli::main_with)" };
-    example.command.replacen("hairline", program, 1)
+    command.replacen("hairline", program, 1)
 }
 
 /// A case as a literal in Rust, from its bits; none of a group.

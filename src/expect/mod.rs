@@ -13,6 +13,7 @@ mod changed;
 mod compare;
 mod difference;
 mod file;
+mod files;
 mod known;
 mod lock;
 
@@ -20,6 +21,7 @@ pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
 pub use difference::{Comparison, Difference, Trend, difference};
 pub use file::read;
+pub use files::{BlessError, Written, blessed, lock_of, open};
 pub use lock::{Cases, Lock};
 
 use crate::report::Key;

@@ -5,6 +5,7 @@ mod accuracy;
 mod arithmetic;
 mod contradictions;
 mod drawing;
+mod expectations;
 mod facts;
 mod families;
 mod floors;

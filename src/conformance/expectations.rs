@@ -1,0 +1,75 @@
+//! An audit from a test, held to a reviewed file of expectations.
+
+use super::PlanError;
+use crate::corpus::InputError;
+use crate::expect::{self, BlessError};
+use crate::report::Record;
+use std::path::Path;
+use std::{env, fs, io, process};
+
+/// Whether a test writes its expectations.
+const VARIABLE: &str = "HAIRLINE_BLESS";
+
+/// Compares a record with a file, and says so in it. With the variable the file is written first, unless
+/// something got worse.
+pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
+    let wish = env::var(VARIABLE).unwrap_or_default();
+    let [blesses, accepts_worse] = match wish.as_str() {
+        "" | "0" | "false" => [false, false],
+        "1" | "true" => [true, false],
+        "worse" => [true, true],
+        _ => {
+            let message = format!("{VARIABLE}: expected 1 or worse, not '{wish}'");
+            return Err(PlanError(message));
+        }
+    };
+    let text = |name: &str| {
+        fs::read_to_string(name).map_err(|error| InputError::reading(name, None, &error))
+    };
+    let said = |error: InputError| PlanError(error.to_string());
+    let old = expect::open(file, true, record, blesses, text).map_err(said)?;
+    if old.is_none() && !blesses {
+        return Err(PlanError(format!(
+            "{file}: there is no such file. `{VARIABLE}=1 cargo test` writes it and {}; review and \
+             commit both",
+            expect::lock_of(file)
+        )));
+    }
+    let (is_new, old) = (old.is_none(), old.unwrap_or_default());
+    let target = record.provenance.target.clone();
+    let mut compared = expect::compare(&record.result, &target, &old, Some(file));
+    let may_be_written = is_new || accepts_worse || !compared.change.is_worse();
+    if blesses && may_be_written {
+        let written = expect::blessed(record, &old, &compared, file).map_err(|error| {
+            PlanError(match error {
+                BlessError::Outside(error) => format!(
+                    "{file}: {} expectations of kernels, scalars or families that this test does not \
+                     run would be lost: give each test a file of its own",
+                    error.outside_the_plan
+                ),
+                BlessError::Unread(error) => error.to_string(),
+            })
+        })?;
+        for (name, text) in &written.texts {
+            write(name, text).map_err(|error| PlanError(format!("{name}: {error}")))?;
+        }
+        compared = expect::compare(&record.result, &target, &written.expectations, Some(file));
+    } else if blesses {
+        compared.note = Some(format!(
+            "{file} stays as it is: {}; {VARIABLE}=worse writes it all the same",
+            compared.change
+        ));
+    }
+    record.conformance = Some(compared);
+    Ok(())
+}
+
+/// Beside its place, and then into it.
+fn write(name: &str, text: &str) -> io::Result<()> {
+    let beside = format!("{name}.{}.tmp", process::id());
+    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, Path::new(name)));
+    if written.is_err() {
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
