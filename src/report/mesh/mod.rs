@@ -10,6 +10,8 @@ mod page;
 mod picture;
 mod record;
 #[cfg(feature = "cli")]
+mod shown;
+#[cfg(feature = "cli")]
 mod stage;
 mod text;
 

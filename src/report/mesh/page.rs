@@ -1,11 +1,10 @@
 //! A mesh audit as one HTML file that needs nothing else, with the mesh drawn and its leaks marked. A script
 //! turns the mesh; without it a picture stands still, and tables hold the first places of each row.
 
-use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
+use super::shown::{Shown, shown};
 use super::stage;
-use super::text::{label, topology_lines};
-use crate::report::html::room::Room;
+use super::text::topology_lines;
 use crate::report::html::words::{counts, interval, percent, shortened};
 use crate::report::html::{SHARED, STYLE, head_of, policy, shade};
 use crate::report::{Rate, Style, group_digits, number_of};
@@ -15,46 +14,6 @@ use std::io::{self, Write};
 /// What only this page has.
 const OWN_STYLE: &str = include_str!("view.css");
 const OWN_SCRIPT: &str = include_str!("view.js");
-
-/// Bytes for all marks. A row that leaves some of its share leaves them to the next.
-const MARKS: usize = 3_500_000;
-
-/// A row in a scalar.
-pub(super) struct Shown<'a> {
-    pub scalar: &'static str,
-    pub result: &'a MeshRowResult,
-    nanoseconds: Option<f64>,
-    pub drawn: &'a DrawnRow,
-    /// Its marks as the script reads them, and how many there are.
-    pub marks: String,
-    pub marked: usize,
-}
-
-impl Shown<'_> {
-    fn leaks(&self) -> u64 {
-        self.result.edges.cracked + self.result.vertices.cracked
-    }
-
-    fn failures(&self) -> u64 {
-        self.result.edges.failures + self.result.vertices.failures
-    }
-
-    /// Of edges and vertices together.
-    fn both(&self, rate: fn(&AcrossRates) -> &Rate) -> Rate {
-        Rate::sum([&self.result.edges.total, &self.result.vertices.total].map(rate))
-    }
-
-    /// How many hits are promised, and whether that was kept; none if nothing is promised.
-    pub fn promise(&self) -> Option<(&'static str, bool)> {
-        let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
-        let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
-        match self.result.promised {
-            "at-least-one" => Some((">= 1", 0 == self.leaks())),
-            "exactly-one" => Some(("= 1", 0 == self.leaks() && !more)),
-            _ => None,
-        }
-    }
-}
 
 /// Writes a report that has a drawing.
 pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -105,37 +64,6 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
         }
     };
     out.write_all(page.into_string().as_bytes())
-}
-
-/// The rows with as many marks as fit.
-fn shown<'a>(record: &'a MeshRecord, drawing: &'a Drawing) -> Vec<Shown<'a>> {
-    let parts = &record.result.scalars;
-    let results = parts.iter().flat_map(|part| part.results.iter().map(move |row| (part, row)));
-    let mut room = Room::new(MARKS);
-    let mut rows = Vec::new();
-    for (i, ((part, result), drawn)) in results.zip(&drawing.rows).enumerate() {
-        let mut own = room.part(room.left() / (drawing.rows.len() - i));
-        let marks = own.fill(drawn.marks.iter(), mark_text);
-        let marked = drawn.marks.len() - own.left_out as usize;
-        room.take_back(own);
-        let times = record.provenance.kernel_nanoseconds.get(part.scalar);
-        let nanoseconds = times.and_then(|times| times.get(&label(result))).copied();
-        rows.push(Shown { scalar: part.scalar, result, nanoseconds, drawn, marks, marked });
-    }
-    rows
-}
-
-/// `what a b rays index line,line;`
-fn mark_text(mark: &Mark) -> String {
-    let Mark { wrong, ends: [a, b], rays, index, .. } = mark;
-    format!("{} {a} {b} {rays} {index} {};", *wrong as usize, lines(mark, ","))
-}
-
-/// The lines of the faces around, the first eight.
-pub(super) fn lines(mark: &Mark, comma: &str) -> String {
-    let more = if mark.lines.len() > 8 { &["…".to_owned()][..] } else { &[] };
-    let first = mark.lines.iter().take(8).map(u32::to_string);
-    first.chain(more.iter().cloned()).collect::<Vec<_>>().join(comma)
 }
 
 /// How it went, as a class, and in one line.

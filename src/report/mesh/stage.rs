@@ -1,9 +1,9 @@
 //! The part of a page that shows where: the drawing with its controls, and the first places of each row.
 
 use super::drawing::{AROUND, Drawing, Mark, PLACES};
-use super::page::{Shown, lines};
 use super::picture;
 use super::record::*;
+use super::shown::{Shown, lines};
 use super::text::label;
 use crate::mesh::Part;
 use crate::report::html::words::{code, shortened};
