@@ -52,7 +52,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     }
     if least_t.is_some() && !tuned.iter().any(|tuned| tuned.knobs.contains(&Knob::LeastT)) {
         return Err(Failure::usage(
-            "--epsilon: t_min is not among the numbers that are chosen here: name it in --gate too, or leave it out",
+            "--epsilon: no kernel here has a t_min to choose, or --gate does not name it",
         ));
     }
     let studied = arguments.sources.studied_scene(arguments.quiet)?;

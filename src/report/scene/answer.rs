@@ -190,8 +190,7 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                let of = if value == "t" { "t" } else { "the point" };
-                let name = format!("error of {of}{unit}, {}", where_of(&count.stratum));
+                let name = format!("error of {value}{unit}, {}", where_of(&count.stratum));
                 rows.push((name, cells.collect()));
             }
         }
@@ -310,11 +309,10 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let mut lines = vec![
         format!("cost: each share times its weight ({costs}), added up"),
         "almost parallel: angles from 7 degrees down to below rounding, each halving as often".to_owned(),
-        "error of t, of the point: of the hits that remain half, 99 % are off by less; the worst seen"
+        "errors: of the hits that remain half, 99 % are off by less; the worst seen"
             .to_owned(),
-        "another seed may name numbers that are some times as large or small, at nearly the same cost;"
+        "another seed may name other numbers at nearly the same cost; more rays (-n) bring them closer"
             .to_owned(),
-        "more rays (-n) bring them closer".to_owned(),
     ];
     if record.kernels.iter().any(|part| part.relative.is_some()) {
         let forms = [
@@ -330,7 +328,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
             part.limits.iter().any(|limit| part.knobs[limit.knob].role == "edge")
         };
         if record.kernels.iter().any(of_edge) {
-            let edge = "edge has no limit below: the further below zero, the more rays beside a triangle hit it";
+            let edge = "edge: no limit stands for the rays beside a triangle, which a more negative edge lets hit";
             lines.push(edge.to_owned());
         }
     }

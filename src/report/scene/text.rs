@@ -33,7 +33,9 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
 
 fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     let title = format!("wrong on fresh rays (seed {}):", record.fresh_seed);
-    write!(out, "{title:<32}")?;
+    let labels = answer.rows.iter().map(|(label, _)| label.chars().count());
+    let first = labels.max().unwrap_or(0).max(30);
+    write!(out, "{title:<0$}", first + 2)?;
     let all = answer.columns.iter().chain(answer.rows.iter().flat_map(|(_, row)| row));
     let width = all.map(|cell| cell.chars().count() + 1).max().unwrap_or(0).max(WIDTH);
     let cells = |cells: &[String], out: &mut dyn Write| {
@@ -42,7 +44,7 @@ fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Re
     };
     cells(&answer.columns, out)?;
     for (label, row) in &answer.rows {
-        write!(out, "  {label:<30}")?;
+        write!(out, "  {label:<first$}")?;
         cells(row, out)?;
     }
     Ok(())
