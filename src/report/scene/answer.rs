@@ -308,8 +308,8 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = costs.collect::<Vec<_>>().join(", ");
     let mut lines = vec![
         format!("cost: each share times its weight ({costs}), added up"),
-        "almost parallel: angles from 7 degrees down to below rounding, each halving as often".to_owned(),
-        "errors: of the hits that remain half, 99 % are off by less; the worst seen"
+        "almost parallel: angles from 7 degrees down to below rounding, each halving equally often".to_owned(),
+        "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
             .to_owned(),
         "another seed may name other numbers at nearly the same cost; more rays (-n) bring them closer"
             .to_owned(),
