@@ -198,6 +198,18 @@ mod tests {
             }
         }
         assert_eq!(Contract::CLOSED_RAY.words(Some(&read(all).unwrap())), "closed-ray");
+        // What only the kernel's own contract promises keeps that from being the base, be it as near as can be.
+        let near = read("closed-ray,ends=open").unwrap();
+        let banded = Contract { band: "4ulps".parse().ok(), ..near };
+        for (own, words) in [
+            (near, "own"),
+            (Contract { no_self_hit: true, ..near }, "closed-ray,ends=open"),
+            (banded, "closed-ray,ends=open"),
+        ] {
+            assert_eq!(near.words(Some(&own)), words, "{own:?}");
+        }
+        assert_eq!(banded.words(Some(&banded)), "own");
+        assert_eq!(banded.words(Some(&near)), "own,band=4ulps");
         for (text, message) in [
             ("own", "'own' is no contract: write closed-line, "),
             ("", "'' is no contract: write closed-line, "),

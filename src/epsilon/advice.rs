@@ -153,7 +153,141 @@ pub fn decades<F: Float>() -> impl Iterator<Item = F> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::axis::Axis;
+    use super::super::curve::Lane;
     use super::*;
+    use crate::case::Draw;
+
+    const LARGEST: f32 = f32::MAX;
+
+    /// Margins of two sources, mostly of few values.
+    fn margins(draw: &mut Draw) -> [Vec<f32>; 2] {
+        let size = draw.integer(-20, 3) as i32;
+        let margin = |draw: &mut Draw| match draw.below(12) {
+            0 => f32::INFINITY,
+            1 => -f32::INFINITY,
+            2 => draw.pick(&[0.0, LARGEST, -LARGEST]),
+            _ => (draw.integer(-6, 6) as f32 + 0.3) * 2f32.powi(size),
+        };
+        [(); 2].map(|()| (0..draw.below(7)).map(|_| margin(draw)).collect())
+    }
+
+    fn side(question: Question, floor: f32, sources: &[Vec<f32>; 2]) -> Side<f32> {
+        let axis = Axis::new(&[]);
+        let curve = |(source, margins): (usize, &Vec<f32>)| {
+            let mut lane = Lane::new(question, floor, true);
+            for (i, margin) in margins.iter().enumerate() {
+                lane.add(&axis, *margin, Place { index: i as u64, triangle: 0 });
+            }
+            (source, lane.curve(&axis))
+        };
+        let curves: Vec<_> = sources.iter().enumerate().map(curve).collect();
+        let curves = curves.iter().map(|(source, curve)| (*source, curve));
+        Side::new(question, floor, LARGEST, curves)
+    }
+
+    /// The wrong answers by their definition.
+    fn wrong(question: Question, sources: &[Vec<f32>; 2], epsilon: f32) -> usize {
+        let is_wrong = |m: &&f32| (**m < epsilon) == question.is_wrong_if_refused();
+        sources.iter().flatten().filter(is_wrong).count()
+    }
+
+    #[test]
+    fn limits_are_the_last_epsilon_without_a_further_miss_and_the_first_without_a_further_hit() {
+        let mut draw = Draw::new("limits", 1, 0);
+        for _ in 0..3000 {
+            let (sources, floor) = (margins(&mut draw), draw.pick(&[0.0, -LARGEST]));
+            for question in [Question::FalseMiss, Question::OwnFalseHit] {
+                let side = side(question, floor, &sources);
+                let count = |e: f32| wrong(question, &sources, e);
+                let misses = question.is_wrong_if_refused();
+                let (best, beyond) = match misses {
+                    true => (floor, side.limit.next_up()),
+                    false => (LARGEST, side.limit.next_down()),
+                };
+                assert_eq!(count(side.limit), count(best), "{question:?} {sources:?}");
+                assert_eq!(side.unavoidable, count(best) as u64, "{question:?} {sources:?}");
+                let is_last = side.limit == if misses { LARGEST } else { floor };
+                assert!(is_last || count(best) < count(beyond), "{question:?} {sources:?}");
+                let margin =
+                    |(source, place): (usize, Place)| sources[source][place.index as usize];
+                match side.decided_by.map(margin) {
+                    Some(m) if misses => assert_eq!(m, side.limit),
+                    Some(m) => assert_eq!(m.next_up().min(LARGEST), side.limit),
+                    None => assert!(is_last),
+                }
+            }
+        }
+    }
+
+    fn trade(draw: &mut Draw, floor: f32) -> (Trade<f32>, [[Vec<f32>; 2]; 2]) {
+        let sources = [margins(draw), margins(draw)];
+        let misses = side(Question::FalseMiss, floor, &sources[0]);
+        let hits = side(Question::OwnFalseHit, floor, &sources[1]);
+        (Trade { floor, misses, hits }, sources)
+    }
+
+    /// The two shares of wrong answers by their definition.
+    fn shares(sources: &[[Vec<f32>; 2]; 2], epsilon: f32) -> [f64; 2] {
+        let share = |question, of: &[Vec<f32>; 2]| {
+            let all = of.iter().flatten().count().max(1);
+            wrong(question, of, epsilon) as f64 / all as f64
+        };
+        [share(Question::FalseMiss, &sources[0]), share(Question::OwnFalseHit, &sources[1])]
+    }
+
+    #[test]
+    fn the_knee_has_the_least_sum_of_both_shares() {
+        let mut draw = Draw::new("knee", 1, 0);
+        for _ in 0..500 {
+            let (trade, sources) = trade(&mut draw, -LARGEST);
+            let (low, high) = (trade.hits.limit, trade.misses.limit);
+            assert_eq!(trade.settled(), (low <= high).then_some((low, high)));
+            let among: Vec<f32> = (0..30).map(|_| draw.symmetric::<f32>() * 8.0).collect();
+            let sum = |e: f32| shares(&sources, e).iter().sum::<f64>();
+            let least = among.iter().map(|e| sum(*e)).fold(f64::INFINITY, f64::min);
+            assert!(sum(trade.knee(&among).unwrap()) <= least + 1e-12);
+            assert_eq!(trade.knee(&[]), None);
+        }
+    }
+
+    #[test]
+    fn candidates_are_zero_the_limits_and_decades_between_which_the_counts_change() {
+        let mut draw = Draw::new("candidates", 1, 0);
+        let mut found = 0;
+        for _ in 0..500 {
+            let floor = draw.pick(&[0.0, -LARGEST]);
+            let (trade, sources) = trade(&mut draw, floor);
+            let (low, high) = (trade.misses.limit, trade.hits.limit);
+            let change = |from: f32, to: f32| {
+                let (from, to) = (shares(&sources, from), shares(&sources, to));
+                (0..2).map(|i| (from[i] - to[i]).abs()).sum::<f64>()
+            };
+            for most in [3, 12] {
+                let chosen = candidates(&trade, most);
+                for special in [low, high, 0.0] {
+                    let is_usable = floor <= special && special.abs() < LARGEST;
+                    assert_eq!(chosen.contains(&special), is_usable, "{special:e} {chosen:?}");
+                }
+                // From one to the next the counts change enough, and before that they do not.
+                let enough = change(low, high) / most as f64;
+                let mut last = low;
+                for decade in decades::<f32>().filter(|e| low < *e && *e < high) {
+                    let is_enough = enough <= change(last, decade);
+                    if is_enough {
+                        last = decade;
+                        found += 1;
+                    }
+                    let is_wanted = is_enough && floor <= decade;
+                    assert_eq!(chosen.contains(&decade), is_wanted, "{decade:e} {chosen:?}");
+                }
+                let others = chosen.iter().filter(|e| ![low, high, 0.0].contains(e));
+                let mut between = others.filter(|e| **e <= low || high <= **e);
+                assert_eq!(between.next(), None, "{chosen:?}");
+            }
+        }
+        assert!(200 < found, "{found}");
+    }
 
     #[test]
     fn decades_cover_the_scalar_in_order() {

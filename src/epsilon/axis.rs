@@ -22,11 +22,9 @@ impl<F: Float> Axis<F> {
         edges.extend(marks.iter().filter(|mark| mark.is_finite()));
         for exponent in F::MIN_EXPONENT..=F::MAX_EXPONENT {
             for m in PER_OCTAVE..2 * PER_OCTAVE {
+                // What is no subnormal number rounds to another edge.
                 let edge = F::from_f64(scale_by_power_of_two(m as f64, exponent - 6));
-                // Few of them are subnormal numbers.
-                if scale_by_power_of_two(edge.to_f64(), 6 - exponent) == m as f64 {
-                    edges.extend([edge, -edge]);
-                }
+                edges.extend([edge, -edge]);
             }
         }
         edges.sort_by_key(|edge| edge.place());
@@ -115,6 +113,35 @@ mod tests {
     fn cells_are_what_a_search_finds_in_both_scalars() {
         cells_are_what_a_search_finds::<f32>();
         cells_are_what_a_search_finds::<f64>();
+    }
+
+    fn each_short_significand_is_an_edge_in_a_bin_of_its_own<F: Float>(bins: usize) {
+        let axis = Axis::<F>::new(&[]);
+        // Of at most seven bits, from the smallest number on.
+        let of_exponent = |exponent: i32| 1 << (exponent - F::MIN_EXPONENT).min(6);
+        let short: usize = (F::MIN_EXPONENT..=F::MAX_EXPONENT).map(of_exponent).sum();
+        assert_eq!(axis.edges().len(), 2 * short + 4);
+        assert!(axis.edges().windows(2).all(|pair| pair[0] < pair[1]));
+        let short = &axis.edges()[1..2 * short + 2];
+        assert!(short.windows(2).all(|pair| bin(pair[0]) < bin(pair[1])));
+        let largest = F::infinity().offset_ulps(-1);
+        let ends = [-largest, F::zero(), largest].map(bin);
+        assert_eq!((ends, half::<F>()), ([0, bins, 2 * bins], bins));
+        // Of its neighbours, that which is farther from zero shares it.
+        for edge in short.iter().filter(|edge| !edge.is_zero()) {
+            let away = if *edge < F::zero() { -1 } else { 1 };
+            let beside = edge.offset_ulps(away);
+            let is_edge = || short.binary_search_by_key(&beside.place(), |x| x.place()).is_ok();
+            assert!(bin(beside) == bin(*edge) || is_edge(), "{edge:e}");
+            assert_ne!(bin(edge.offset_ulps(-away)), bin(*edge), "{edge:e}");
+        }
+    }
+
+    #[test]
+    fn each_short_significand_is_an_edge_in_a_bin_of_its_own_in_both_scalars() {
+        // 64 for each power of two, from 2^-149 to 2^127 and from 2^-1074 to 2^1023.
+        each_short_significand_is_an_edge_in_a_bin_of_its_own::<f32>(64 * 277);
+        each_short_significand_is_an_edge_in_a_bin_of_its_own::<f64>(64 * 2098);
     }
 
     #[test]

@@ -152,7 +152,7 @@ impl<F: Float> Curve<F> {
         self.squared += other.squared;
         self.never += other.never;
         self.always += other.always;
-        let mut merged = Vec::with_capacity(self.cells.len() + other.cells.len());
+        let mut merged = Vec::new();
         let (mut left, mut right) = (self.cells.iter().peekable(), other.cells.iter().peekable());
         while let (Some(a), Some(b)) = (left.peek(), right.peek()) {
             merged.push(match a.low.place().cmp(&b.low.place()) {
@@ -317,74 +317,4 @@ fn kept<F: Float>(mut margins: Vec<F>) -> Vec<Cell<F>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Draw;
-
-    fn margin(draw: &mut Draw) -> f32 {
-        match draw.below(8) {
-            0 => f32::INFINITY,
-            1 => -f32::INFINITY,
-            2 => draw.pick(&[0.0, -0.0, 1e-6, -1e-6]),
-            _ => draw.symmetric::<f32>() * 2f32.powi(draw.integer(-30, 3) as i32),
-        }
-    }
-
-    /// The count by its definition.
-    fn direct(question: Question, margins: &[f32], epsilon: f32) -> u64 {
-        let wrong = |margin: &&f32| {
-            let refused = **margin < epsilon;
-            refused == question.is_wrong_if_refused()
-        };
-        margins.iter().filter(wrong).count() as u64
-    }
-
-    #[test]
-    fn a_curve_counts_what_its_margins_say_and_any_split_adds_up() {
-        let axis = Axis::new(&[1e-6, -1e-6]);
-        let mut draw = Draw::new("curve", 1, 0);
-        let margins: Vec<f32> = (0..3000).map(|_| margin(&mut draw)).collect();
-        for (question, floor) in
-            Question::ALL.into_iter().flat_map(|question| [(question, -f32::MAX), (question, 0.0)])
-        {
-            let lane = |keep: bool, margins: &[f32], from: u64| {
-                let mut lane = Lane::new(question, floor, keep);
-                for (margin, index) in margins.iter().zip(from..) {
-                    lane.add(&axis, *margin, Place { index, triangle: 0 });
-                }
-                lane
-            };
-            let (left, right) = margins.split_at(1234);
-            let mut split = lane(false, right, 1234);
-            split.merge(lane(false, left, 0));
-            let whole = lane(false, &margins, 0).curve(&axis);
-            assert_eq!(split.curve(&axis), whole);
-            let mut sum = lane(false, left, 0).curve(&axis);
-            sum.merge(&lane(false, right, 1234).curve(&axis));
-            assert_eq!(sum, whole);
-
-            let exact = lane(true, &margins, 0).curve(&axis);
-            let anywhere = (0..2000).map(|_| margin(&mut draw)).filter(|e| e.is_finite());
-            for epsilon in anywhere.chain(whole.decisive.map(|(m, _)| m)) {
-                let count = direct(question, &margins, epsilon);
-                assert_eq!(exact.wrong(epsilon).exact(), Some(count), "{question:?} {epsilon:e}");
-                let Bracket { low, high } = whole.wrong(epsilon);
-                assert!(low <= count && count <= high, "{question:?} {epsilon:e}");
-            }
-            for epsilon in axis.edges().iter().step_by(7).filter(|edge| edge.is_finite()) {
-                let count = direct(question, &margins, *epsilon);
-                assert_eq!(whole.wrong(*epsilon).exact(), Some(count), "{question:?} {epsilon:e}");
-            }
-            // On both sides of the decisive margin, wherever in its cell it falls.
-            let (decisive, _) = whole.decisive.unwrap();
-            for epsilon in [decisive, decisive.next_up()] {
-                let count = direct(question, &margins, epsilon);
-                let first =
-                    if question.is_wrong_if_refused() { decisive } else { decisive.next_up() };
-                if epsilon == first {
-                    assert_eq!(whole.wrong(epsilon).exact(), Some(count), "{question:?}");
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -70,6 +70,97 @@ mod tests {
         Class::all().filter(|class| duty.guards(*class)).map(Class::name).collect()
     }
 
+    /// Whether one of some patterns with `*` for any word fits a class.
+    fn fits(patterns: &[&str], class: &str) -> bool {
+        let word = |(pattern, word): (&str, &str)| pattern == "*" || pattern == word;
+        let has_all = |pattern: &str| {
+            pattern.split('/').count() == class.split('/').count()
+                && pattern.split('/').zip(class.split('/')).all(word)
+        };
+        patterns.iter().any(|pattern| has_all(pattern))
+    }
+
+    #[test]
+    fn what_has_no_gate_of_its_own_is_guarded_by_the_others() {
+        use Role::{Edge, Other, Parallel, T};
+        let duties = |roles: &[Role], culls: bool, extent, sides, role: Role| {
+            let gate = |role: &Role| {
+                let epsilon = if culls { Tunable::Signed } else { Tunable::NonNegative };
+                let dimension = crate::kernel::Dimension::new(0, 0);
+                Gate { name: role.name(), role: *role, refuses: "", dimension, epsilon }
+            };
+            let gates: Vec<Gate> = roles.iter().map(gate).collect();
+            let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
+            Duty::of(&gates, roles.iter().position(|known| *known == role).unwrap(), &contract)
+        };
+        let flat = ["parallel", "coplanar", "degenerate"];
+        let off = ["*/*/before", "*/*/beyond"];
+        let beside = ["edge/*/within", "vertex/*/within", "outside/*/*", "invalid"];
+        let seen_beside = ["edge/front/within", "vertex/front/within", "outside/*/*", "invalid"];
+        let all = [&["*/*/*", "invalid"], &flat[..]].concat();
+        let (line, interval) = (Extent::Line, Extent::Interval);
+        let (both, front) = (Sides::Both, Sides::Front);
+        let three = [Parallel, T, Edge];
+        let rows: [(&[Role], bool, Extent, Sides, Role, Vec<&str>); 16] = [
+            (&three, true, interval, both, Parallel, flat.to_vec()),
+            (&three, true, interval, both, T, [&off[..], &["interior/*/within"]].concat()),
+            (&three, true, interval, both, Edge, beside.to_vec()),
+            (&three, true, line, both, T, vec![]),
+            (
+                &three,
+                true,
+                line,
+                both,
+                Edge,
+                vec!["edge/*/*", "vertex/*/*", "outside/*/*", "invalid"],
+            ),
+            (&three, false, interval, front, Parallel, flat.to_vec()),
+            (&three, true, interval, front, Parallel, [&flat[..], &["*/back/*"]].concat()),
+            (&three, false, interval, front, T, [&off[..], &["interior/front/within"]].concat()),
+            (&three, false, interval, front, Edge, [&seen_beside[..], &["*/back/*"]].concat()),
+            (&three, true, interval, front, Edge, seen_beside.to_vec()),
+            (&[Other], true, interval, front, Other, all),
+            (
+                &[Edge],
+                true,
+                line,
+                both,
+                Edge,
+                [&flat[..], &["edge/*/*", "vertex/*/*", "outside/*/*", "invalid"]].concat(),
+            ),
+            (&[Edge, T], false, interval, both, Edge, [&flat[..], &beside[..]].concat()),
+            (
+                &[Parallel, Other],
+                false,
+                interval,
+                both,
+                Other,
+                [&off[..], &beside[..], &["interior/*/within"]].concat(),
+            ),
+            (
+                &[Parallel, Edge],
+                true,
+                interval,
+                front,
+                Edge,
+                [&off[..], &seen_beside[..], &["interior/front/within"]].concat(),
+            ),
+            (&[Edge, T], true, line, front, Edge, {
+                let seen = ["edge/front/*", "vertex/front/*", "outside/*/*", "*/back/*"];
+                [&flat[..], &seen[..], &["invalid"]].concat()
+            }),
+        ];
+        for (roles, culls, extent, sides, role, patterns) in rows {
+            let duty = duties(roles, culls, extent, sides, role);
+            for class in Class::all() {
+                let expected = fits(&patterns, &class.name());
+                let told = format!("{roles:?} {culls} {extent:?} {sides:?} {role:?}");
+                assert_eq!(duty.guards(class), expected, "{told}: {}", class.name());
+            }
+            assert_eq!(duty.guards_start(), role == T && extent != line);
+        }
+    }
+
     #[test]
     fn each_class_is_guarded_by_the_gate_that_asks_about_it() {
         let flat = ["parallel", "coplanar", "degenerate"];

@@ -106,6 +106,59 @@ mod tests {
     }
 
     #[test]
+    fn units_are_lengths_and_directions_to_their_powers() {
+        // Edges of 3, 4 and 5, |d| = 7, and a largest coordinate of 17, of the origin or of a vertex.
+        let corners = |x: f32| [[x, 0.0, 0.0], [x + 3.0, 0.0, 0.0], [x, 4.0, 0.0]];
+        let at = |origin: f32, x: f32, size: f32| {
+            let vectors = corners(x).map(|corner| corner.map(|x| x * size));
+            let d = [2.0, -3.0, 6.0].map(|x| x * size);
+            Case::<f32>::new([origin, 1.0, -2.0].map(|x| x * size), d, vectors)
+        };
+        for (origin, x) in [(-17.0, 0.0), (5.0, -17.0), (5.0, 14.0)] {
+            let case = at(origin, x, 1.0);
+            let unit = |length, direction| scale(&case, Dimension::new(length, direction));
+            assert_eq!([unit(0, 0), unit(1, 0), unit(3, 1), unit(0, 2)], [1.0, 5.0, 875.0, 49.0]);
+            assert_eq!(unit(1, -1), 17.0 / 7.0);
+            let scales = Scales::new(&[at(0.0, 0.0, 2.0), case], Dimension::new(2, 0));
+            assert_eq!(scales.by_case, [100.0, 25.0]);
+            // e·100 <= 6.5 and e·25 <= 6.25, in floats.
+            let [one, other] = [scales.relative(0, 6.5), scales.relative(1, 6.25)];
+            assert!((one - 0.065).abs() < 1e-8, "{one}");
+            assert!(0.25 <= other && other < 0.25 + 1e-7, "{other}");
+            assert_eq!(scales.relative(1, f32::INFINITY), f32::INFINITY);
+        }
+        for axis in 0..3 {
+            let mut corners = corners(0.0);
+            corners.iter_mut().for_each(|corner| corner.rotate_right(axis));
+            corners.rotate_left(axis);
+            let case = Case::<f32>::new([0.0; 3], [1.0, 0.0, 0.0], corners);
+            assert_eq!(scale(&case, Dimension::new(1, 0)), 5.0);
+        }
+        // Where nothing can be said of the size it is 1.
+        let point = Case::<f32>::new([0.0; 3], [1.0; 3], [[2.0; 3]; 3]);
+        assert_eq!(scale(&point, Dimension::new(1, 0)), 1.0);
+        let (huge, tiny) = (at(0.0, 0.0, 1e30), at(0.0, 0.0, 1e-30));
+        assert_eq!([&huge, &tiny].map(|case| scale(case, Dimension::new(2, 0))), [1.0; 2]);
+    }
+
+    #[test]
+    fn a_form_names_the_powers_of_its_unit() {
+        let form = |length, direction| scale_free_form(Dimension::new(length, direction));
+        assert_eq!(form(0, 0), None);
+        let forms = [(1, 0), (2, 0), (0, 1), (0, -1), (1, -1), (2, 1), (4, 2)];
+        let expected = [
+            "e * L",
+            "e * L^2",
+            "e * |d|",
+            "e / |d|",
+            "e * M / |d|",
+            "e * L^2 * |d|",
+            "e * L^4 * |d|^2",
+        ];
+        assert_eq!(forms.map(|(length, direction)| form(length, direction).unwrap()), expected);
+    }
+
+    #[test]
     fn the_relative_margin_is_the_last_epsilon_whose_product_is_accepted() {
         let mut draw = Draw::new("relative", 1, 0);
         for _ in 0..20_000 {

@@ -56,8 +56,6 @@ impl<F: Scalar> Response<F> {
 
 /// The responses on one source, gate by gate.
 pub struct SourceResponse<F> {
-    /// What the source gave.
-    pub summary: SourceSummary,
     /// In the order of the request.
     pub gates: Vec<Response<F>>,
 }
@@ -82,8 +80,7 @@ pub fn run<F: Scalar>(
     observer: &dyn Observer,
 ) -> Vec<SourceResponse<F>> {
     let pass = Pass::new(request, observer);
-    let sources = sources.iter().enumerate();
-    sources.map(|(number, source)| pass.over(number, source)).collect()
+    sources.iter().map(|source| pass.over(source)).collect()
 }
 
 /// A request with everything about its kernel looked up.
@@ -97,7 +94,6 @@ struct Pass<'a, F: Scalar> {
 
 /// What one thread has counted.
 struct Sums<F> {
-    summary: SourceSummary,
     gates: Vec<GateSums<F>>,
     margins: Vec<F>,
 }
@@ -119,13 +115,13 @@ impl<'a, F: Scalar> Pass<'a, F> {
         Pass { request, gates, epsilons, duties, observer }
     }
 
-    fn over(&self, number: usize, source: &Source) -> SourceResponse<F> {
+    fn over(&self, source: &Source) -> SourceResponse<F> {
         // A few large sums: a lane in f64 has 268,000 cells.
         let sums = engine::sum(
             0..source.count::<F>(),
             source.chunk(),
             self.observer,
-            || self.empty(number),
+            || self.empty(),
             |sums: &mut Sums<F>, indices| self.add(source, indices, sums),
         );
         let gates = sums.gates.into_iter().zip(self.request.gates);
@@ -134,10 +130,10 @@ impl<'a, F: Scalar> Pass<'a, F> {
             curves: sums.lanes.map(|lane| lane.curve(self.request.axis)).into(),
             refused_by_others: sums.refused_by_others,
         });
-        SourceResponse { summary: sums.summary, gates: responses.collect() }
+        SourceResponse { gates: responses.collect() }
     }
 
-    fn empty(&self, source: usize) -> Sums<F> {
+    fn empty(&self) -> Sums<F> {
         let lane = |gate: usize, question| {
             Lane::new(question, floor(&self.gates[gate]), self.request.exact)
         };
@@ -146,15 +142,12 @@ impl<'a, F: Scalar> Pass<'a, F> {
             refused_by_others: vec![0; self.gates.len()],
             effective: Vec::new(),
         };
-        Sums {
-            summary: SourceSummary::new(source, F::NAME),
-            gates: self.request.gates.iter().map(gate).collect(),
-            margins: Vec::new(),
-        }
+        Sums { gates: self.request.gates.iter().map(gate).collect(), margins: Vec::new() }
     }
 
     fn add(&self, source: &Source, indices: Range<u64>, sums: &mut Sums<F>) {
-        let chunk = Chunk::<F>::make(source, indices, self.observer, &mut sums.summary);
+        let mut summary = SourceSummary::new(0, F::NAME);
+        let chunk = Chunk::<F>::make(source, indices, self.observer, &mut summary);
         let contract = &self.request.row.contract;
         let obligations = chunk.obligations(contract);
         let groups = chunk.group_truths(contract);
@@ -244,7 +237,6 @@ fn add_groups<F: Scalar>(
 
 impl<F: Scalar> Merge for Sums<F> {
     fn merge(&mut self, other: Sums<F>) {
-        self.summary.merge(&other.summary);
         for (sums, more) in self.gates.iter_mut().zip(other.gates) {
             for (lane, more) in sums.lanes.iter_mut().zip(more.lanes) {
                 lane.merge(more);

@@ -1,6 +1,7 @@
 //! Obligations and findings worked out by hand.
 
 use super::*;
+use crate::arith::{Exact, Real};
 use crate::oracle::truth;
 
 fn down_at(x: f64, y: f64, z: f64) -> Truth {
@@ -393,4 +394,28 @@ fn the_distance_to_change_is_that_which_counts() {
             }
         }
     }
+}
+
+#[test]
+fn the_exact_distance_to_change_is_a_share_of_the_longest_edge() {
+    let corners = [[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let ask = |y: f64, triangle: [[f64; 3]; 3]| {
+        let case = Case::<f64>::new([1.0, y, 8.0], [0.0, 0.0, -1.0], triangle);
+        exact_to_change(&case, &truth(&case), &Contract::CLOSED_RAY)
+    };
+    let is = |found: Option<Exact>, square: [f64; 2]| {
+        let found = found.unwrap();
+        let [above, below] = square.map(Exact::from_f64);
+        let (found, expected) = (found.clone() * found, above / below);
+        found.is_at_most(&expected) && expected.is_at_most(&found)
+    };
+    // 0.5 from an edge, the longest is 5; of a point, a length.
+    assert!(is(ask(0.5, corners), [0.25, 25.0]) && is(ask(-2.0, corners), [4.0, 25.0]));
+    assert!(is(ask(0.5, [[1.0, 0.0, 0.0]; 3]), [0.25, 1.0]));
+    // An infinite end is never near.
+    let interval = Contract { extent: Extent::Interval, ..Contract::CLOSED_RAY };
+    let case = Case::<f64>::new([1.0, 0.5, 0.25], [0.0, 0.0, -1.0], corners);
+    let case = case.on(-f64::INFINITY, f64::INFINITY);
+    assert!(is(exact_to_change(&case, &truth(&case), &interval), [0.25, 25.0]));
+    assert!(exact_to_change(&case, &Truth::Invalid, &interval).is_none());
 }

@@ -180,20 +180,4 @@ pub fn around<F: Float>(point: &[F]) -> Grid<F> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn round_numbers_enclose_the_range() {
-        assert_eq!(rounds::<f32>([0.3, 4.0], 0), [0.2, 0.5, 1.0, 2.0, 5.0]);
-        assert_eq!(rounds::<f32>([0.5, 5.0], 1), [0.1, 1.0, 10.0]);
-        assert_eq!(rounds::<f64>([1e-3, 1e-3], 0), [1e-3]);
-        let all = rounds::<f32>([0.0, f64::MAX], 1);
-        assert!(f32::MIN_POSITIVE <= all[0] && *all.last().unwrap() == 1e38);
-        // 1-2-5 from 1e-12 to 1 are 37; from the smallest number only some decades are kept.
-        assert_eq!(rounds::<f64>([1e-12, 1.0], 0).len(), 37);
-        let few = rounds::<f64>([5e-324, 1.0], 0);
-        assert!(few.len() <= MOST_VALUES && few.contains(&1.0) && few[0] < 1e-290, "{few:?}");
-        assert_eq!(rounds::<f32>([1e-50, 1e-45], 0), [2e-38]);
-    }
-}
+mod tests;

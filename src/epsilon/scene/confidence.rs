@@ -39,6 +39,59 @@ fn at_least(k: u64, n: u64, one_in: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_bigint::BigInt;
+    use num_rational::BigRational;
+    use num_traits::ToPrimitive;
+
+    /// The probability by its definition, in rational numbers.
+    fn exactly_at_least(k: u64, n: u64, one_in: u64) -> f64 {
+        let p = BigRational::new(1.into(), one_in.into());
+        let q = BigRational::from_integer(1.into()) - &p;
+        let mut ways = BigRational::from_integer(1.into());
+        let mut sum = BigRational::from_integer(0.into());
+        for i in 0..=n {
+            if k <= i {
+                sum += &ways * p.pow(i as i32) * q.pow((n - i) as i32);
+            }
+            ways *= BigRational::new(BigInt::from(n - i), BigInt::from(i + 1));
+        }
+        sum.to_f64().unwrap()
+    }
+
+    #[test]
+    fn probabilities_are_those_of_rational_numbers() {
+        for n in [0, 1, 2, 5, 17, 40] {
+            for one_in in [2, 3, 10, 50] {
+                for k in 0..=n + 2 {
+                    let (found, exact) = (at_least(k, n, one_in), exactly_at_least(k, n, one_in));
+                    assert!((found - exact).abs() < 1e-12, "{k} of {n}, {one_in}: {found} {exact}");
+                }
+            }
+        }
+        for n in [100, 149, 150, 236, 299, 500] {
+            for found in 0..8 {
+                for one_in in [20, 50, 100] {
+                    let exact = exactly_at_least(found + 1, n, one_in);
+                    let shown = is_shown(found, n, one_in);
+                    assert_eq!(shown, CONFIDENCE <= exact, "{found} of {n}, {one_in}: {exact}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rank_is_the_last_that_shows_the_smallest_round_share() {
+        for n in [29, 58, 59, 100, 149, 299, 473, 1000, 2995] {
+            let (k, one_in) = rank(n).unwrap();
+            assert!(CONFIDENCE <= at_least(k, n, one_in), "{n}");
+            assert!(at_least(k + 1, n, one_in) < CONFIDENCE, "{n}");
+            let rounds = [10, 20, 50, 100, 200, 500, 1000, 2000];
+            let next = rounds.into_iter().find(|round| one_in < *round).unwrap();
+            assert!(rounds.contains(&one_in) && at_least(1, n, next) < CONFIDENCE, "{n}");
+        }
+        // As many as are kept, and no more.
+        assert_eq!(rank(u64::MAX >> 11).map(|(k, _)| k), Some(KEPT as u64));
+    }
 
     #[test]
     fn ranks_are_those_of_the_tables() {

@@ -183,6 +183,59 @@ mod tests {
         assert_eq!(hit_errors(&case, &hit)[1], Some(f64::INFINITY));
     }
 
+    #[test]
+    fn errors_of_weights_are_those_of_the_point_that_they_name() {
+        let mut draw = Draw::new("weight-errors", 1, 0);
+        for index in 0..200 {
+            let (o, d): ([f32; 3], [f32; 3]) = (draw.point(), draw.point());
+            let corners: [[f32; 3]; 3] = [draw.point(), draw.point(), draw.point()];
+            let (u, v) = (draw.symmetric::<f32>() * 3.0, draw.symmetric::<f32>());
+            let w = 1.0 - u - v;
+            let [a, b, c] = corners;
+            let at = |i: usize| w * a[i] + u * b[i] + v * c[i];
+            // Where the line crosses the plane, by Cramer's rule.
+            let [ro, rd, ra, rb, rc] = [o, d, a, b, c].map(|v| v.map(rational));
+            let minus =
+                |p: &[BigRational; 3], q: &[BigRational; 3]| [0, 1, 2].map(|i| &p[i] - &q[i]);
+            let (e, f, s) = (minus(&rb, &ra), minus(&rc, &ra), minus(&ra, &ro));
+            let n = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &e[i] * &f[j] - &e[j] * &f[i]);
+            let dot = |p: &[BigRational; 3]| (0..3).map(|i| &p[i] * &n[i]).sum::<BigRational>();
+            let t = dot(&s) / dot(&rd);
+            let off = |i: usize| to_f64(&(rational(at(i)) - (&ro[i] + &t * &rd[i])));
+            let distance = (0..3).map(|i| off(i).powi(2)).sum::<f64>().sqrt();
+            let case = Case::new(o, d, corners);
+            let hit = Hit { t: None, uv: Some((u, v)), facing: None };
+            let [of_t, of_point] = hit_errors(&case, &hit);
+            let found = of_point.unwrap();
+            assert!(
+                of_t.is_none() && (found - distance).abs() <= 1e-5 * distance,
+                "{found} {index}"
+            );
+            // The point of t is judged where there is one.
+            let both = hit_errors(&case, &Hit { t: Some(0.5), uv: Some((u, v)), facing: None });
+            assert_eq!(both, hit_errors(&case, &Hit { t: Some(0.5), uv: None, facing: None }));
+        }
+    }
+
+    #[test]
+    fn errors_are_zero_where_nothing_is_off_and_none_where_nothing_is_said() {
+        let corners = [[-4.0, -4.0, 2.0], [4.0, -4.0, 2.0], [0.0, 4.0, 2.0]];
+        let of = |t: Option<f32>, uv, z: f32| {
+            let case = Case::<f32>::new([0.0, 0.0, z], [0.0, 0.0, 1.0], corners);
+            hit_errors(&case, &Hit { t, uv, facing: None })
+        };
+        assert_eq!(of(Some(2.0), None, 0.0), [Some(0.0); 2]);
+        assert_eq!(of(Some(3.0), None, 1.0), [Some(2.0), Some(2.0)]);
+        assert_eq!(of(Some(1.0), None, 0.0), [Some(0.5), Some(1.0)]);
+        // At t' = 0 an error has no size to be compared with.
+        assert_eq!(of(Some(0.0), None, 2.0), [Some(0.0); 2]);
+        assert_eq!(of(Some(1.0), None, 2.0), [Some(f64::INFINITY), Some(1.0)]);
+        assert_eq!(of(None, None, 0.0), [None; 2]);
+        assert_eq!(of(None, Some((0.25, 0.5)), 0.0), [None, Some(0.0)]);
+        assert_eq!(of(Some(f32::INFINITY), None, 0.0), [Some(f64::INFINITY); 2]);
+        assert_eq!(of(None, Some((f32::NAN, 0.5)), 0.0), [None, Some(f64::INFINITY)]);
+    }
+
     fn to_f64(x: &BigRational) -> f64 {
         use num_traits::ToPrimitive;
         x.to_f64().unwrap()

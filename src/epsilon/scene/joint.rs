@@ -80,6 +80,12 @@ impl<F: Float> Grid<F> {
         Grid { values }
     }
 
+    /// By knob.
+    #[cfg(test)]
+    pub fn values(&self) -> &[Vec<F>] {
+        &self.values
+    }
+
     /// How many points there are, with one more in each direction.
     fn cells(&self) -> usize {
         self.values.iter().map(|values| values.len() + 1).product()
@@ -270,40 +276,4 @@ fn accumulated<F: Float>(grid: &Grid<F>, mut cells: Vec<i64>) -> Vec<i64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Draw;
-
-    #[test]
-    fn a_union_counts_each_point_once() {
-        let mut draw = Draw::new("union", 1, 0);
-        for _ in 0..500 {
-            let boxes: Vec<Vec<usize>> =
-                (0..draw.below(6) + 1).map(|_| (0..3).map(|_| draw.below(4)).collect()).collect();
-            let terms = union(boxes.clone());
-            for point in 0..64usize {
-                let point = [point / 16, point / 4 % 4, point % 4];
-                let holds = |corner: &Vec<usize>| point.iter().zip(corner).all(|(p, c)| p < c);
-                let sum: i64 = terms.iter().filter(|(_, c)| holds(c)).map(|(sign, _)| sign).sum();
-                assert_eq!(sum, i64::from(boxes.iter().any(holds)), "{boxes:?} {point:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn costs_are_words_between_commas() {
-        let costs = Costs::parse("miss=0, crack=2.5").unwrap();
-        assert_eq!(Kind::ALL.map(|kind| costs.of(kind)), [2.5, 0.0, 1.0, 1.0]);
-        for (text, part) in [
-            ("", "is no cost"),
-            ("crack", "is no cost"),
-            ("cracks=1", "unknown kind"),
-            ("crack=nan", "not a number from 0"),
-            ("crack=-1", "not a number from 0"),
-            ("miss=1,miss=2", "given twice"),
-            ("crack=0,miss=0,hit=0,self-hit=0", "every cost is 0"),
-        ] {
-            assert!(Costs::parse(text).unwrap_err().contains(part), "{text}");
-        }
-    }
-}
+mod tests;

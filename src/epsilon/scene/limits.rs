@@ -144,6 +144,43 @@ mod tests {
     use super::*;
     use crate::case::Draw;
 
+    #[test]
+    fn a_tail_keeps_the_most_decisive_margins_in_order() {
+        let mut draw = Draw::new("tail", 1, 0);
+        for lowest_first in [true, false] {
+            let margins: Vec<f32> = (0..300).map(|_| draw.below(90) as f32 - 40.0).collect();
+            let tail = |margins: &[f32]| {
+                let mut tail = Tail { of: margins.len() as u64, margins: Vec::new() };
+                margins.iter().for_each(|margin| tail.add(*margin, lowest_first));
+                tail
+            };
+            let (one, other) = margins.split_at(100);
+            let is_lower = !lowest_first;
+            let mut sum = Tails(vec![(1, 2, is_lower, tail(one))]);
+            sum.merge(Tails(vec![(1, 2, is_lower, tail(other))]));
+            let mut sorted = margins.clone();
+            sorted.sort_by(f32::total_cmp);
+            if !lowest_first {
+                sorted.reverse();
+            }
+            for (.., found) in [sum.0.remove(0), (1, 2, is_lower, tail(&margins))] {
+                assert_eq!((found.of, &found.margins[..]), (300, &sorted[..KEPT]));
+            }
+        }
+    }
+
+    #[test]
+    fn above_a_number_is_the_next_that_is_not_flushed() {
+        let normal = f32::MIN_POSITIVE;
+        for x in [1.0f32, -1.0, normal, normal.next_down(), -normal, -normal.next_down()] {
+            assert_eq!(above(x), x.next_up(), "{x:e}");
+        }
+        for x in [0.0, f32::from_bits(1), normal / 2.0, normal.next_down().next_down()] {
+            assert_eq!(above(x), normal, "{x:e}");
+        }
+        assert_eq!(above(-f32::from_bits(1)), 0.0);
+    }
+
     /// Of a distribution whose quantiles are known: the uniform one.
     #[test]
     fn limits_are_violated_no_more_often_than_stated() {

@@ -14,6 +14,8 @@ mod knob;
 mod limits;
 mod proved;
 mod study;
+#[cfg(test)]
+mod tests;
 mod trials;
 
 pub use confidence::{CONFIDENCE, rank};

@@ -3,7 +3,7 @@
 
 use super::knob::Knob;
 use super::trials::{Count, Kind, Setting};
-use crate::arith::{smallest_normal, three_digits};
+use crate::arith::{Float, smallest_normal, three_digits};
 use crate::case::{DirectionLength, Scene};
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
@@ -45,13 +45,17 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
         let places: Vec<usize> = counts.map(|(place, _)| place).collect();
         let bound = if places.is_empty() { None } else { bound(setting, gate) };
         let Some(bound) = bound else { return Vec::new() };
-        // Strictly beyond the bound, in few digits.
-        let size = (bound * (1.0 + 1e-9)).max(smallest_normal::<F>());
-        let beyond = F::from_f64(size).offset_ulps(1);
-        let value = three_digits(if is_lower { beyond } else { -beyond }, is_lower);
+        let value = beyond(bound, is_lower);
         places.into_iter().map(|count| Proved { knob: k, count, is_lower, value }).collect()
     };
     setting.knobs.iter().enumerate().flat_map(of_knob).collect()
+}
+
+/// Strictly beyond a bound, above it or below its negative, in few digits.
+fn beyond<F: Float>(bound: f64, is_above: bool) -> F {
+    let size = (bound * (1.0 + 1e-9)).max(smallest_normal::<F>());
+    let beyond = F::from_f64(size).offset_ulps(1);
+    three_digits(if is_above { beyond } else { -beyond }, is_above)
 }
 
 /// The largest error of what a gate compares with its epsilon in a scene.
@@ -80,4 +84,38 @@ fn proved_scene(scene: &Scene) -> Option<prove::Scene> {
         ..scene.clone()
     })
     .ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_proved_value_is_strictly_beyond_its_bound() {
+        assert_eq!([true, false].map(|above| beyond::<f32>(1.0, above)), [1.01, -1.01]);
+        assert_eq!([true, false].map(|above| beyond::<f64>(1.234, above)), [1.24, -1.24]);
+        // The float before 1.01 is beyond the one before itself.
+        let before = f64::from(1.01f32.next_down()) * (1.0 - 1e-9);
+        assert_eq!(beyond::<f32>(before, true), 1.01);
+        assert_eq!(beyond::<f32>(f64::from(1.01f32) * (1.0 - 1e-9), true), 1.02);
+        // What is off by less than 1e-9 of itself may be the bound.
+        assert_eq!(beyond::<f64>(1.01 * (1.0 - 5e-10), true), 1.02);
+        assert_eq!(beyond::<f64>(1.01 * (1.0 - 2e-9), true), 1.01);
+        // No smaller than the normal numbers.
+        assert_eq!(beyond::<f32>(1e-45, true), 1.18e-38);
+    }
+
+    #[test]
+    fn what_is_proved_holds_for_a_larger_scene() {
+        let (scene, _) = Scene::parse("extent=8,edge=0.5..4,distance=1..16").unwrap();
+        let edge = [0.5 / 2.5, 4.0 + 0.5 / 16.0];
+        let expected =
+            Scene { extent: 8.0 + 8.0, edge, distance: [1.0, 16.0 + 10.0], ..scene.clone() };
+        let (found, expected) =
+            (proved_scene(&scene).unwrap(), prove::Scene::of(&expected).unwrap());
+        assert_eq!(
+            (found.coordinates, found.edge, found.distance, found.shape),
+            (expected.coordinates, expected.edge, expected.distance, expected.shape)
+        );
+    }
 }

@@ -192,3 +192,28 @@ fn groups_and_polygons_are_free_where_no_direction_is_promised() {
     assert_eq!(ask(1.0), (GroupTruth::Crossing, Obligation::MustHit));
     assert_eq!(ask(1.0 + 4.0 * f64::EPSILON), (GroupTruth::Free, Obligation::Free));
 }
+
+#[test]
+fn an_ulp_of_a_polygon_is_that_of_its_largest_coordinate_wherever_it_is() {
+    // Convex, with one corner far out: of the first triangle, or of the last.
+    let corners = [[0.0, 0.0, 0.0], [64.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+    let ask = |mirrored: bool, band: &str| {
+        // 2^-47 below the side from (4, 4) to (0, 4): half an ulp of 64, four of 8.
+        let [x, y] = [2.0, 4.0 - 2f64.powi(-47)];
+        let place = |[x, y, z]: [f64; 3]| if mirrored { [y, x, z] } else { [x, y, z] };
+        let mut outline = corners.map(place);
+        if mirrored {
+            outline[1..].reverse();
+        }
+        let corner = |k: [usize; 3]| k.map(|i| outline[i]);
+        let case = |k| Case::<f64>::new(place([x, y, 8.0]), [0.0, 0.0, -1.0], corner(k));
+        let cases = [[0, 1, 2], [0, 2, 3]].map(case);
+        let truths = cases.map(|case| truth(&case));
+        let contract = Contract { band: band.parse().ok(), ..Contract::CLOSED_RAY };
+        polygon_obligation(&cases, &truths, &contract)
+    };
+    for mirrored in [false, true] {
+        assert_eq!(ask(mirrored, "1ulps"), Obligation::Free, "{mirrored}");
+        assert_eq!(ask(mirrored, "0.25ulps"), Obligation::MustHit, "{mirrored}");
+    }
+}

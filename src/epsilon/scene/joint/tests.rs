@@ -1,0 +1,240 @@
+//! The best point of a grid against its definition, and the counts that it is chosen by.
+
+use super::*;
+use crate::case::Draw;
+
+#[test]
+fn a_union_counts_each_point_once() {
+    let mut draw = Draw::new("union", 1, 0);
+    for _ in 0..500 {
+        let boxes: Vec<Vec<usize>> =
+            (0..draw.below(6) + 1).map(|_| (0..3).map(|_| draw.below(4)).collect()).collect();
+        let terms = union(boxes.clone());
+        for point in 0..64usize {
+            let point = [point / 16, point / 4 % 4, point % 4];
+            let holds = |corner: &Vec<usize>| point.iter().zip(corner).all(|(p, c)| p < c);
+            let sum: i64 = terms.iter().filter(|(_, c)| holds(c)).map(|(sign, _)| sign).sum();
+            assert_eq!(sum, i64::from(boxes.iter().any(holds)), "{boxes:?} {point:?}");
+        }
+    }
+}
+
+/// Random trials of three counts; each may be there many times, with an error that is too large or not.
+struct Trials {
+    /// The count, the margins, how many, and how many of them are too far off.
+    all: Vec<(usize, Vec<Margins<f32>>, i64, i64)>,
+}
+
+const COUNTS: [Count; 4] = {
+    use crate::family::Stratum::*;
+    [
+        Count { stratum: Interior, kind: Kind::Miss },
+        Count { stratum: Parallel, kind: Kind::Hit },
+        Count { stratum: Edges, kind: Kind::Crack },
+        Count { stratum: Grazing, kind: Kind::Miss },
+    ]
+};
+
+impl Trials {
+    fn random(draw: &mut Draw, values: &[Vec<f32>]) -> Trials {
+        let margin = |draw: &mut Draw, axis: usize| match values.get(axis) {
+            Some(_) if draw.below(4) == 0 => f32::INFINITY,
+            Some(values) => draw_near(draw, values),
+            None => f32::INFINITY,
+        };
+        let trial = |draw: &mut Draw| {
+            // Of the last count there is none.
+            let count = draw.below(3);
+            let triangles = if count == 2 { 1 + draw.below(3) } else { 1 };
+            let margins = (0..triangles).map(|_| [0, 1, 2].map(|axis| margin(draw, axis)));
+            let margins = margins.collect();
+            let off = if draw.below(4) == 0 { draw.below(3) as i64 } else { 0 };
+            (count, margins, 100 * (1 + draw.below(3)) as i64, off)
+        };
+        Trials { all: (0..12).map(|_| trial(draw)).collect() }
+    }
+
+    /// By count: the hits at a point, and those of them that are too far off.
+    fn hits(&self, point: &[f32]) -> [[i64; 2]; 4] {
+        let mut hits = [[0; 2]; 4];
+        for (count, margins, many, off) in &self.all {
+            if margins.iter().any(|m| point.iter().zip(m).all(|(value, m)| value <= m)) {
+                hits[*count][0] += many;
+                hits[*count][1] += off;
+            }
+        }
+        hits
+    }
+
+    fn cost(&self, costs: &[f64; 4], point: &[f32]) -> f64 {
+        let hits = self.hits(point);
+        let share = |c: usize| {
+            let of: i64 = self.all.iter().filter(|trial| trial.0 == c).map(|trial| trial.2).sum();
+            let refused = [0, 2, 3].contains(&c);
+            let wrong = if refused { of - hits[c][0] } else { hits[c][0] };
+            wrong as f64 / of.max(1) as f64
+        };
+        (0..4).map(|c| costs[c] * share(c)).sum()
+    }
+
+    fn is_accurate(&self, point: &[f32]) -> bool {
+        let hits = self.hits(point);
+        [0, 3].iter().all(|c| MaxError::is_kept(hits[*c][1] as u64, hits[*c][0] as u64))
+    }
+}
+
+fn draw_near(draw: &mut Draw, values: &[f32]) -> f32 {
+    draw.pick(values) + draw.pick(&[0.0, 0.25, -0.25])
+}
+
+/// The counts at every point, each by itself.
+fn counted(values: &[Vec<f32>], trials: &Trials, limited: bool) -> Joint<f32> {
+    let grid = Grid::new(values.to_vec());
+    let mut of = vec![0; 4];
+    trials.all.iter().for_each(|(count, _, many, _)| of[*count] += *many as u64);
+    let mut sums = [(); 2].map(|()| vec![vec![-1; grid.cells()]; 4]);
+    for places in all_places(values) {
+        let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
+        let hits = trials.hits(&at(values, &places));
+        for (c, hits) in hits.into_iter().enumerate() {
+            hits.into_iter().zip(&mut sums).for_each(|(n, sum)| sum[c][grid.cell(&above)] = n);
+        }
+    }
+    let [mut hits, mut exceeded] = sums;
+    // Of what is never counted there are no cells.
+    (hits[3], exceeded[1]) = (Vec::new(), Vec::new());
+    Joint { grid, of, hits, exceeded: limited.then_some(exceeded) }
+}
+
+fn at(values: &[Vec<f32>], places: &[usize]) -> Vec<f32> {
+    values.iter().zip(places).map(|(values, place)| values[*place]).collect()
+}
+
+/// The last knob's places first.
+fn all_places(values: &[Vec<f32>]) -> Vec<Vec<usize>> {
+    let mut all = vec![vec![]];
+    for values in values {
+        let longer = |places: &Vec<usize>| {
+            let places = places.clone();
+            (0..values.len()).map(move |place| [&places[..], &[place]].concat())
+        };
+        all = all.iter().flat_map(longer).collect();
+    }
+    all
+}
+
+/// What [`Joint::best`] promises, step by step at points that are counted one by one.
+fn expected(
+    values: &[Vec<f32>],
+    cost: &dyn Fn(&[usize]) -> f64,
+    is_accurate: &dyn Fn(&[usize]) -> bool,
+) -> Option<Vec<usize>> {
+    let accurate = all_places(values).into_iter().filter(|places| is_accurate(places));
+    let mut places = accurate.reduce(|a, b| if cost(&b) < cost(&a) { b } else { a })?;
+    let is_kept = |places: &[usize], most: f64| is_accurate(places) && cost(places) <= most;
+    let most = cost(&places) * 1.01;
+    let mut free = Vec::new();
+    for (k, values) in values.iter().enumerate() {
+        let mut zeroed = places.clone();
+        match values.iter().position(|value| *value == 0.0) {
+            Some(zero) => zeroed[k] = zero,
+            None => zeroed[k] = usize::MAX,
+        }
+        if zeroed[k] < usize::MAX && is_kept(&zeroed, most) {
+            places = zeroed;
+        } else {
+            free.push(k);
+        }
+    }
+    let least = cost(&places);
+    for k in free {
+        let is_good = |place: usize| {
+            let mut moved = places.clone();
+            moved[k] = place;
+            is_kept(&moved, least)
+        };
+        let (mut low, mut high) = (places[k], places[k]);
+        while 0 < low && is_good(low - 1) {
+            low -= 1;
+        }
+        while high + 1 < values[k].len() && is_good(high + 1) {
+            high += 1;
+        }
+        places[k] = (low + high) / 2;
+    }
+    Some(places)
+}
+
+#[test]
+fn the_best_point_is_the_cheapest_and_rather_zero_or_in_the_middle() {
+    let mut draw = Draw::new("best", 1, 0);
+    let (mut none, mut zeros, mut moved) = (0, 0, 0);
+    for round in 0..1500 {
+        let axis = |draw: &mut Draw| {
+            let from = -(draw.below(5) as i64);
+            (from..from + 1 + draw.below(6) as i64).map(|x| x as f32).collect::<Vec<f32>>()
+        };
+        let mut values: Vec<Vec<f32>> = (0..1 + draw.below(3)).map(|_| axis(&mut draw)).collect();
+        if draw.coin() {
+            values[0].iter_mut().for_each(|x| *x += 0.5);
+        }
+        let trials = Trials::random(&mut draw, &values);
+        // A hundredth more is within reach of what costs a hundredth.
+        let all = [[10.0, 1.0, 1.0, 1.0], [1.0, 100.0, 1.0, 1.0], [1.0, 0.0, 0.01, 1.0]];
+        let costs = Costs { of: draw.pick(&all) };
+        let limited = draw.below(3) == 0;
+        let joint = counted(&values, &trials, limited);
+        let by_count = COUNTS.map(|count| costs.of(count.kind));
+        let cost = |places: &[usize]| trials.cost(&by_count, &at(&values, places));
+        let is_accurate = |places: &[usize]| !limited || trials.is_accurate(&at(&values, places));
+        let expected = expected(&values, &cost, &is_accurate);
+        let found = joint.best(&COUNTS, &costs);
+        let expected = expected.map(|places| at(&values, &places));
+        assert_eq!(found, expected, "{round} {values:?} {:?}", trials.all);
+        none += u32::from(found.is_none());
+        let point = found.unwrap_or_default();
+        zeros += u32::from(point.contains(&0.0));
+        moved += u32::from(point.iter().any(|x| *x != 0.0));
+    }
+    assert!(20 < none && 200 < zeros && 200 < moved, "{none} {zeros} {moved}");
+}
+
+#[test]
+fn cells_are_summed_over_all_above_them() {
+    let mut draw = Draw::new("accumulated", 1, 0);
+    for lengths in [vec![1], vec![4], vec![2, 3], vec![3, 1, 2]] {
+        let values: Vec<Vec<f32>> =
+            lengths.iter().map(|n| (0..*n).map(|x| x as f32).collect()).collect();
+        let grid = Grid::new(values.clone());
+        // One more in each direction.
+        let wide: Vec<Vec<f32>> =
+            lengths.iter().map(|n| (0..=*n).map(|x| x as f32).collect()).collect();
+        let all = all_places(&wide);
+        assert_eq!(grid.cells(), all.len());
+        let cells: Vec<i64> = all.iter().map(|_| draw.integer(-9, 9)).collect();
+        let sums = accumulated(&grid, cells.clone());
+        for places in &all {
+            let above = |other: &&Vec<usize>| places.iter().zip(*other).all(|(p, o)| p <= o);
+            let sum: i64 = all.iter().filter(above).map(|o| cells[grid.cell(o)]).sum();
+            assert_eq!(sums[grid.cell(places)], sum, "{lengths:?} {places:?}");
+        }
+        assert!(accumulated(&grid, Vec::new()).is_empty());
+    }
+}
+
+#[test]
+fn costs_are_words_between_commas() {
+    let costs = Costs::parse("miss=0, crack=2.5").unwrap();
+    assert_eq!(Kind::ALL.map(|kind| costs.of(kind)), [2.5, 0.0, 1.0, 1.0]);
+    for (text, part) in [
+        ("", "is no cost"),
+        ("crack", "is no cost"),
+        ("cracks=1", "unknown kind"),
+        ("crack=nan", "not a number from 0"),
+        ("crack=-1", "not a number from 0"),
+        ("miss=1,miss=2", "given twice"),
+        ("crack=0,miss=0,hit=0,self-hit=0", "every cost is 0"),
+    ] {
+        assert!(Costs::parse(text).unwrap_err().contains(part), "{text}");
+    }
+}

@@ -1,0 +1,421 @@
+//! The passes over a scene against brute force over its trials, which a test of the library compares with the
+//! generators, the oracle and the judge.
+
+use super::candidates::grid;
+use super::confidence::rank;
+use super::curves::curves;
+use super::errors::{HitErrors, errors_of};
+use super::joint::Grid;
+use super::trials::Margins;
+use super::*;
+use crate::arith::three_digits;
+use crate::audit::{EpsilonChoice, Histogram, Row, Unobserved};
+use crate::case::Scene;
+use crate::contract::{Contract, Extent, Sides};
+use crate::engine::Merge;
+use crate::family::Stratum;
+use crate::kernel::{Role, Scalar, find};
+
+/// One trial of a pass.
+struct Kept {
+    count: usize,
+    margins: Vec<Margins<f32>>,
+    errors: HitErrors,
+}
+
+struct All(Vec<Kept>);
+
+impl Merge for All {
+    fn merge(&mut self, other: All) {
+        self.0.extend(other.0);
+    }
+}
+
+struct Tuned {
+    row: Row,
+    knobs: Vec<Knob>,
+    counts: Vec<Count>,
+    scene: Scene,
+}
+
+impl Tuned {
+    fn new(kernel: &str, scene: &str) -> Tuned {
+        let row = EpsilonChoice::Source.rows(&[find(kernel).unwrap()], None).unwrap().remove(0);
+        let knobs = Knob::all(&row);
+        let row = Row { contract: contract_with(&knobs, &row.contract), ..row };
+        let counts = counts(&knobs, &row.contract);
+        Tuned { row, knobs, counts, scene: Scene::parse(scene).unwrap().0 }
+    }
+
+    fn setting(&self) -> Setting<'_, f32> {
+        let Tuned { row, knobs, counts, scene } = self;
+        let subject = f32::subject(row.entry).unwrap();
+        Setting { row, subject, knobs, counts, scene, mesh: None, relative: false }
+    }
+
+    fn all(&self, seed: u64, number: u64) -> Vec<Kept> {
+        let keep = |all: &mut All, trial: Trial<'_, f32>| {
+            let margins = trial.margins.to_vec();
+            all.0.push(Kept { count: trial.count, margins, errors: errors_of(&trial) });
+        };
+        self.setting().sum(seed, number, &Unobserved, || All(Vec::new()), keep).0
+    }
+
+    fn is_miss(&self, count: usize) -> bool {
+        self.counts[count].kind == Kind::Miss
+    }
+
+    /// Whether what is counted is wrong if it is refused.
+    fn is_lost(&self, count: usize) -> bool {
+        matches!(self.counts[count].kind, Kind::Miss | Kind::Crack)
+    }
+}
+
+impl Kept {
+    fn is_hit(&self, epsilons: &[f32]) -> bool {
+        self.margins.iter().any(|m| epsilons.iter().zip(m).all(|(e, m)| e <= m))
+    }
+
+    /// Whether it is a hit with one of the epsilons replaced.
+    fn is_hit_with(&self, epsilons: &[f32], knob: usize, value: f32) -> bool {
+        let mut moved = epsilons.to_vec();
+        moved[knob] = value;
+        self.is_hit(&moved)
+    }
+
+    /// The largest value of a knob at which it is a hit: one of its margins; -inf if it is none anywhere.
+    fn alone(&self, epsilons: &[f32], knob: usize) -> f32 {
+        let margins = self.margins.iter().map(|m| m[knob]);
+        let hits = margins.filter(|m| self.is_hit_with(epsilons, knob, *m));
+        hits.fold(f32::NEG_INFINITY, f32::max)
+    }
+}
+
+const KERNELS: [(&str, [f32; 3]); 4] = [
+    ("moller-trumbore", [1e-7, -1e-5, 1e-4]),
+    ("plane-unit-normal", [1e-3, 1e-4, 0.0]),
+    ("woop-watertight", [-1e-7, 1e-9, 0.0]),
+    ("moller-trumbore-culling", [1e-6, 1e-5, 1e-3]),
+];
+
+#[test]
+fn what_is_counted_depends_on_the_least_t_and_the_sides() {
+    use Kind::*;
+    use Stratum::*;
+    let of = |knobs: &[Knob], extent, sides| {
+        let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
+        counts(knobs, &contract).iter().map(|count| (count.stratum, count.kind)).collect::<Vec<_>>()
+    };
+    let always = vec![
+        (Interior, Miss),
+        (Edges, Crack),
+        (Vertices, Crack),
+        (Grazing, Miss),
+        (Grazing, Hit),
+        (Parallel, Hit),
+        (Outside, Hit),
+    ];
+    assert_eq!(of(&[Knob::LeastT], Extent::Line, Sides::Both), always);
+    assert_eq!(of(&[], Extent::Ray, Sides::Both), always);
+    let mut more = always;
+    more.insert(6, (Shadow, SelfHit));
+    assert_eq!(of(&[Knob::LeastT], Extent::Ray, Sides::Both), more);
+    more.insert(1, (Interior, Hit));
+    assert_eq!(of(&[Knob::LeastT], Extent::Ray, Sides::Front), more);
+    assert_eq!(Kind::ALL.map(Kind::name), ["crack", "miss", "hit", "self-hit"]);
+    assert_eq!(Kind::ALL.map(Kind::is_wrong_if_refused), [true, true, false, false]);
+}
+
+#[test]
+fn curves_count_the_hits_at_each_value_while_the_others_stay() {
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let epsilons = &epsilons[..tuned.knobs.len()];
+        let all = tuned.all(3, 300);
+        let axis = vec![f32::MIN, -1e-3, -1e-6, 0.0, 1e-9, 1e-7, 1e-5, 1e-3, 0.1, 10.0];
+        let axes = vec![axis.clone(); tuned.knobs.len()];
+        let found = curves(&tuned.setting(), epsilons, &axes, 3, 300, &Unobserved);
+        assert_eq!(found.len(), tuned.knobs.len());
+        for (k, curve) in found.iter().enumerate() {
+            assert_eq!(curve.values, axis);
+            for c in 0..tuned.counts.len() {
+                let of = || all.iter().filter(|kept| kept.count == c);
+                let hits =
+                    |value| of().filter(|t| t.is_hit_with(epsilons, k, value)).count() as u64;
+                let expected: Vec<u64> = axis.iter().map(|value| hits(*value)).collect();
+                assert_eq!(curve.hits[c], expected, "{kernel} {k} {:?}", tuned.counts[c]);
+                assert_eq!((curve.left[c], curve.of[c]), (hits(f32::MIN), of().count() as u64));
+            }
+        }
+    }
+}
+
+#[test]
+fn limits_are_margins_of_their_rank() {
+    let mut found_some = [0; 2];
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let epsilons = &epsilons[..tuned.knobs.len()];
+        let all = tuned.all(4, 400);
+        let mut found = limits(&tuned.setting(), epsilons, 4, 400, &Unobserved).into_iter();
+        let gates = tuned.row.entry.info.gates;
+        for (k, knob) in tuned.knobs.iter().enumerate() {
+            for (c, count) in tuned.counts.iter().enumerate() {
+                let role = knob.role(gates);
+                let is_lower = match (role.name(), count.stratum.family().name, count.kind.name()) {
+                    ("parallel", "scene-grazing" | "scene-parallel", "hit") => true,
+                    ("t", "scene-shadow", "self-hit") => true,
+                    ("parallel" | "t", "scene-interior", "miss") => false,
+                    (_, "scene-edges" | "scene-vertices", "crack") if role == Role::Edge => false,
+                    _ => continue,
+                };
+                let of = all.iter().filter(|kept| kept.count == c);
+                let mut margins: Vec<f32> = of.map(|kept| kept.alone(epsilons, k)).collect();
+                margins.retain(|m| is_lower || f32::NEG_INFINITY < *m);
+                margins.sort_by(f32::total_cmp);
+                if is_lower {
+                    margins.reverse();
+                }
+                let (rank, one_in) = rank(margins.len() as u64).unwrap();
+                let margin = margins[rank as usize - 1];
+                if margin == f32::NEG_INFINITY || !is_lower && margin == f32::INFINITY {
+                    continue;
+                }
+                let above = |m: f32| {
+                    let next = m.next_up();
+                    three_digits(if 0.0 < next { next.max(f32::MIN_POSITIVE) } else { next }, true)
+                };
+                let value = match is_lower {
+                    true => (margin < f32::INFINITY).then(|| above(margin)),
+                    false => Some(three_digits(margin, false)),
+                };
+                let expected = Limit { knob: k, count: c, is_lower, value, one_in };
+                assert_eq!(found.next(), Some(expected), "{kernel} {knob:?} {count:?}");
+                found_some[usize::from(is_lower)] += 1;
+            }
+        }
+        assert_eq!(found.next(), None, "{kernel}");
+    }
+    assert!(found_some.into_iter().all(|n| 5 < n), "{found_some:?}");
+}
+
+/// The largest size of a value of a knob that means anything in the room: 3 m and 10 m, unit directions.
+fn largest(tuned: &Tuned, knob: Knob) -> f64 {
+    let gates = tuned.row.entry.info.gates;
+    let length: f64 = if knob.role(gates) == Role::T { 10.0 } else { 3.0 };
+    length.powi(knob.dimension(gates).length.into())
+}
+
+#[test]
+fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
+    let max_error = MaxError::parse("t=1e-5").unwrap();
+    let mut sizes = Vec::new();
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let given = vec![epsilons[..tuned.knobs.len()].to_vec()];
+        for max_error in [None, Some(&max_error)] {
+            let all = tuned.all(5, 200);
+            let (found, is_thin): (Grid<f32>, bool) =
+                grid(&tuned.setting(), &given, max_error, 5, 200, &Unobserved);
+            sizes.push((is_thin, found.values().iter().map(Vec::len).collect::<Vec<_>>()));
+            for (k, knob) in tuned.knobs.iter().enumerate() {
+                let most = largest(&tuned, *knob);
+                let (mut above, mut below) = (Vec::new(), Vec::new());
+                for kept in &all {
+                    let margin = kept.margins.iter().map(|m| m[k]).fold(f32::MIN, f32::max);
+                    let size = f64::from(margin.abs()).min(most);
+                    let is_off = max_error.is_some_and(|max| max.is_exceeded(&kept.errors));
+                    if !margin.is_finite() || margin == 0.0 || margin == f32::MIN {
+                        continue;
+                    }
+                    if margin < 0.0 && tuned.is_lost(kept.count) {
+                        below.push(size);
+                    }
+                    if margin > 0.0
+                        && (!tuned.is_lost(kept.count) || tuned.is_miss(kept.count) && is_off)
+                    {
+                        above.push(size);
+                        let is_miss = tuned.is_miss(kept.count);
+                        above.extend(is_miss.then_some((100.0 * size).min(most)));
+                    }
+                }
+                if !knob.takes_negative(tuned.row.entry.info.gates) {
+                    below.clear();
+                }
+                let values = &found.values()[k];
+                assert!(values.windows(2).all(|pair| pair[0] < pair[1]), "{values:?}");
+                assert!(values.contains(&0.0) && values.contains(&given[0][k]), "{values:?}");
+                let of_sign = |is_above: bool| -> Vec<f64> {
+                    let others = values.iter().filter(|x| **x != given[0][k] && **x != 0.0);
+                    let mut sizes: Vec<f64> = others
+                        .filter(|x| (0.0 < **x) == is_above)
+                        .map(|x| f64::from(x.abs()))
+                        .collect();
+                    sizes.sort_by(f64::total_cmp);
+                    sizes
+                };
+                for (sizes, wanted) in [(of_sign(true), above), (of_sign(false), below)] {
+                    let told = format!("{kernel} {knob:?} {sizes:?}");
+                    let Some(least) = wanted.iter().copied().reduce(f64::min) else {
+                        assert!(sizes.is_empty(), "{told}");
+                        continue;
+                    };
+                    let most = wanted.into_iter().fold(0.0, f64::max);
+                    let [first, second] = [sizes[0], sizes[1.min(sizes.len() - 1)]];
+                    let low = least.max(2e-38);
+                    assert!(
+                        first <= low * 1.000001 && low <= second * 1.000001,
+                        "{told} {least:e}"
+                    );
+                    let last = sizes[sizes.len() - 1];
+                    let before = sizes[sizes.len().saturating_sub(2)];
+                    assert!(most <= last * 1.000001, "{told} {most:e}");
+                    assert!(sizes.len() == 1 || before < most, "{told} {most:e}");
+                }
+            }
+            let points: usize = found.values().iter().map(|values| values.len() + 1).product();
+            assert!(points <= 300_000, "{points}");
+        }
+    }
+    // Three knobs make thin grids, one or two do not need to be.
+    assert!(sizes.iter().any(|(is_thin, _)| *is_thin), "{sizes:?}");
+    assert!(sizes.iter().any(|(is_thin, _)| !is_thin), "{sizes:?}");
+}
+
+/// What a histogram of some errors says.
+fn told(errors: &Histogram) -> (u64, f64, f64) {
+    (errors.count(), errors.largest(), errors.quantile(0.5))
+}
+
+#[test]
+fn a_study_tries_everything_on_fresh_rays() {
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let knobs = tuned.knobs.len();
+        let named = vec![
+            ("one".to_owned(), epsilons[..knobs].to_vec()),
+            ("again".to_owned(), epsilons[..knobs].to_vec()),
+            ("zero".to_owned(), vec![0.0; knobs]),
+        ];
+        let costs = Costs::parse("crack=3,miss=2,hit=0.5").unwrap();
+        let max_error = MaxError::parse("t=0.05,point=0.1").unwrap();
+        let (seed, number) = (6, 300);
+        let setting = tuned.setting();
+        let study =
+            study_scene(&setting, &costs, Some(&max_error), &named, seed, number, &Unobserved)
+                .unwrap();
+        let names: Vec<&str> = study.tried.iter().map(|tried| tried.name.as_str()).collect();
+        assert_eq!(names, ["recommended", "one", "zero"], "{kernel}");
+        assert_eq!(study.tried[0].epsilons, study.best);
+        let cheapest = |max| {
+            cheapest(
+                &setting,
+                &[named[0].1.clone(), named[2].1.clone()],
+                &costs,
+                max,
+                seed,
+                number,
+                &Unobserved,
+            )
+        };
+        let accurate = cheapest(Some(&max_error));
+        assert_eq!(study.is_accurate, accurate.is_some());
+        assert_eq!(study.best, accurate.or_else(|| cheapest(None)).unwrap());
+        let fresh = tuned.all(seed + 1, number);
+        let of = |c: usize| fresh.iter().filter(move |kept| kept.count == c);
+        for tried in &study.tried {
+            let mut cost = 0.0;
+            for (c, count) in tuned.counts.iter().enumerate() {
+                let hits: Vec<&Kept> = of(c).filter(|kept| kept.is_hit(&tried.epsilons)).collect();
+                let all = of(c).count();
+                let wrong = if tuned.is_lost(c) { all - hits.len() } else { hits.len() };
+                let found = tried.wrong[c];
+                assert_eq!(
+                    (found.count, found.of),
+                    (wrong as u64, all as u64),
+                    "{kernel} {count:?}"
+                );
+                assert_eq!(found.products.of_squared, all as u64, "one trial a ray");
+                cost += costs.of(count.kind) * wrong as f64 / all.max(1) as f64;
+                let exceeded = tried.exceeded[c];
+                let mut sums = [Histogram::default(), Histogram::default()];
+                let hits = if tuned.is_miss(c) { hits } else { Vec::new() };
+                for kept in &hits {
+                    let pairs = sums.iter_mut().zip(kept.errors);
+                    pairs.for_each(|(sum, error)| {
+                        error.into_iter().for_each(|error| sum.add(error))
+                    });
+                }
+                let off = hits.iter().filter(|kept| max_error.is_exceeded(&kept.errors)).count();
+                assert_eq!((exceeded.count, exceeded.of), (off as u64, hits.len() as u64));
+                assert_eq!(tried.errors[c].each_ref().map(told), sums.each_ref().map(told));
+            }
+            assert!((tried.cost - cost).abs() <= 1e-9, "{kernel} {} {cost}", tried.cost);
+        }
+        let expected = limits(&setting, &study.best, seed, number, &Unobserved);
+        let found: Vec<_> = study.limits.iter().map(|(limit, _)| limit.clone()).collect();
+        assert_eq!(found, expected, "{kernel}");
+        let moved = study.limits.iter().filter_map(|(limit, trials)| {
+            Some((limit.knob, limit.count, limit.is_lower, limit.value?, *trials))
+        });
+        let proofs = study.proved.iter().map(|(proved, trials)| {
+            (proved.knob, proved.count, proved.is_lower, proved.value, *trials)
+        });
+        for (k, c, is_lower, value, trials) in moved.chain(proofs) {
+            let left = |kept: &&Kept| is_lower || kept.is_hit_with(&study.best, k, f32::MIN);
+            let lost = of(c).filter(left).filter(|kept| !kept.is_hit_with(&study.best, k, value));
+            let (lost, all) = (lost.count() as u64, of(c).filter(left).count() as u64);
+            let wrong = if tuned.is_lost(c) { lost } else { all - lost };
+            assert_eq!((trials.count, trials.of), (wrong, all), "{kernel} {k} {c} {value:e}");
+        }
+        for (k, curve) in study.curves.iter().enumerate() {
+            let has = |value: f32| curve.values.contains(&value);
+            assert!(study.tried.iter().all(|tried| has(tried.epsilons[k])) && has(0.0));
+            let of_knob = study.limits.iter().filter(|(limit, _)| limit.knob == k);
+            assert!(of_knob.filter_map(|(limit, _)| limit.value).all(has), "{kernel} {k}");
+            let of_knob = study.proved.iter().filter(|(proved, _)| proved.knob == k);
+            assert!(of_knob.map(|(proved, _)| proved.value).all(has), "{kernel} {k}");
+            for (i, value) in curve.values.iter().enumerate().step_by(5) {
+                for c in 0..tuned.counts.len() {
+                    let hits = of(c).filter(|kept| kept.is_hit_with(&study.best, k, *value));
+                    assert_eq!(curve.hits[c][i], hits.count() as u64, "{kernel} {k} {c} {value:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_form_that_follows_the_size_is_named_if_it_is_a_fifth_cheaper() {
+    for (kernel, scene, expected) in [
+        ("moller-trumbore", "room", true),
+        ("plane-unit-normal", "extent=1,edge=1,distance=1..2", false),
+    ] {
+        let tuned = Tuned::new(kernel, scene);
+        let setting = tuned.setting();
+        let costs = Costs::default();
+        let study = study_scene(&setting, &costs, None, &[], 1, 300, &Unobserved).unwrap();
+        let relative = Setting { relative: true, ..setting };
+        let followed = cheapest(&relative, &[], &costs, None, 1, 300, &Unobserved).unwrap();
+        let wrong =
+            count_at(&relative, &[Attempt::new(followed.clone())], 2, 300, &Unobserved).remove(0);
+        let cost = costs.total(&tuned.counts, wrong.iter().map(|w| w.share().unwrap_or(0.0)));
+        let is_named = cost < 0.8 * study.tried[0].cost;
+        let told = format!("{kernel} {cost} {}", study.tried[0].cost);
+        assert_eq!((study.relative.is_some(), is_named), (expected, expected), "{told}");
+        assert_eq!(study.relative_limits, limits(&relative, &followed, 1, 300, &Unobserved));
+        if let Some(form) = study.relative {
+            assert_eq!((form.epsilons, form.wrong, form.cost), (followed, wrong, cost));
+        }
+    }
+}
+
+#[test]
+fn epsilons_of_a_row_stand_by_knob() {
+    let tuned = Tuned::new("moller-trumbore", "room");
+    let of_gates = tuned.row.epsilons::<f32>();
+    assert_eq!(own_epsilons(&tuned.row, &tuned.knobs, 0.25), [of_gates[0], of_gates[1], 0.25]);
+    let reversed: Vec<Knob> = tuned.knobs.iter().rev().copied().collect();
+    assert_eq!(own_epsilons(&tuned.row, &reversed, 0.25), [0.25, of_gates[1], of_gates[0]]);
+    assert_eq!([0, 7, u64::MAX].map(fresh_seed), [1, 8, 0]);
+}
