@@ -199,6 +199,16 @@ mod tests {
             let (sources, floor) = (margins(&mut draw), draw.pick(&[0.0, -LARGEST]));
             for question in [Question::FalseMiss, Question::OwnFalseHit] {
                 let side = side(question, floor, &sources);
+                if question == Question::OwnFalseHit && sources.concat().contains(&LARGEST) {
+                    // No epsilon refuses it.
+                    assert_eq!(
+                        (side.limit, side.unavoidable),
+                        (LARGEST, {
+                            sources.iter().flatten().filter(|m| LARGEST <= **m).count() as u64
+                        })
+                    );
+                    continue;
+                }
                 let count = |e: f32| wrong(question, &sources, e);
                 let misses = question.is_wrong_if_refused();
                 let (best, beyond) = match misses {

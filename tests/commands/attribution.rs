@@ -1,12 +1,14 @@
 //! Why kernels are wrong: tracked runs are the float runs, and known causes come out.
 
-use hairline::internals::arith::{Arithmetic, Float};
+use hairline::internals::arith::{Arithmetic, Float, Real, Vector};
 use hairline::internals::audit::{Attribution, attribute};
-use hairline::internals::case::{Case, Draw, Parameters};
+use hairline::internals::case::{Case, Draw, Parameters, Ray, Triangle};
 use hairline::internals::contract::{Contract, NAMED};
 use hairline::internals::family::{FAMILIES, find};
 use hairline::internals::judge::{Class, Finding, Obligation, judge, obligation};
-use hairline::internals::kernel::{self, KERNELS, Scalar, Subject, Verdict};
+use hairline::internals::kernel::{
+    self, Gate, Generic, Hit, KERNELS, Kernel, KernelInfo, Role, Scalar, Sink, Subject, Verdict,
+};
 use hairline::internals::oracle::truth;
 use std::collections::BTreeMap;
 
@@ -200,6 +202,71 @@ fn nan_coordinates_of_a_coplanar_hit_are_the_formulas_own() {
     let coplanar = |class: &Class| class.name() == "coplanar";
     let counts = attributions::<f32>("scalar-triple", &[0.0], None, "lattice", coplanar);
     assert_eq!(only(&counts, Finding::BadValue), [Attribution::Convention]);
+}
+
+#[test]
+fn what_is_wrong_at_zero_too_is_no_epsilons_fault() {
+    let behind = |class: &Class| class.name() == "interior/back/within";
+    let closed = named("closed-ray");
+    for epsilons in [[0.0; 3], [1e-9; 3], [-0.0; 3]] {
+        let counts = attributions::<f64>(
+            "moller-trumbore-culling",
+            &epsilons[..2],
+            closed,
+            "lattice",
+            behind,
+        );
+        assert_eq!(only(&counts, Finding::FalseMiss), [Attribution::Convention], "{epsilons:?}");
+    }
+}
+
+#[test]
+fn a_hit_whose_values_alone_overflow_is_out_of_range() {
+    // Products of four lengths leave the range of f32, those of three do not: t is inf - inf.
+    let k = 2f32.powi(60);
+    let triangle = [[-k, k, -k], [k, k, k], [k, 0.0, k]];
+    let case = Case::<f32>::new([0.0, 0.0, k], [1.0, 1.0, -1.0], triangle);
+    let entry = kernel::find("moller-trumbore").unwrap();
+    let subject = f32::subject(entry).unwrap();
+    let truth = truth(&case);
+    let asked = obligation(&truth, &entry.info.contract, false);
+    let found = judge(asked, &truth, entry.info.gives, &run(subject, &case, &[0.0; 2]));
+    assert_eq!(found, Some(Finding::BadValue));
+    let why = attribute(subject, &case, &[0.0; 2], &truth, asked);
+    assert_eq!(why, Some(Attribution::Range));
+}
+
+/// Hits where the origin's x has a negative sign, as a zero may; t is rounded.
+struct SignOfZero;
+
+impl Kernel for SignOfZero {
+    const INFO: KernelInfo = KernelInfo {
+        gates: &[Gate::fixed(Role::Edge, "x of the origin has no sign")],
+        ..KernelInfo::own("sign-of-zero", Contract::CLOSED_RAY)
+    };
+
+    type Prepared<V: Vector> = ();
+
+    fn prepare<V: Vector>(_: &Triangle<V>) {}
+
+    fn test<V: Vector, S: Sink<V::Real>>(
+        _: &(),
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let hits = sink.fixed(0, ray.origin.at(0).is_sign_negative());
+        hits.then(|| Hit::at(V::Real::one() / &ray.direction.at(2)))
+    }
+}
+
+#[test]
+fn a_decision_in_which_nothing_rounds_is_the_formulas_own_even_by_the_sign_of_a_zero() {
+    let far = [[5.0, 5.0, 1.0], [6.0, 5.0, 1.0], [5.0, 6.0, 1.0]];
+    let case = Case::<f32>::new([-0.0, 0.0, 0.0], [0.0, 0.0, 3.0], far);
+    let subject = &Generic::<SignOfZero>::SUBJECT;
+    assert!(run::<f32>(subject, &case, &[0.0]).hit);
+    let why = attribute(subject, &case, &[0.0], &truth(&case), Obligation::MustMiss);
+    assert_eq!(why, Some(Attribution::Convention));
 }
 
 #[test]
