@@ -40,7 +40,11 @@ impl Tree {
         let names = String::from_utf8_lossy(&listed);
         let files = names.split('\0').filter(|file| !file.is_empty() && root.join(file).is_file());
         // Without the tool itself, whose changes change no result.
-        Ok(files.filter(|file| !file.starts_with("tests/mutants/")).map(str::to_owned).collect())
+        let files = files.filter(|file| !file.starts_with("tests/mutants/"));
+        // In an order that does not depend on what git tracks already.
+        let mut files: Vec<String> = files.map(str::to_owned).collect();
+        files.sort();
+        Ok(files)
     }
 
     /// The package's sources that are chosen.
