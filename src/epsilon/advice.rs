@@ -172,14 +172,18 @@ mod tests {
         [(); 2].map(|()| (0..draw.below(7)).map(|_| margin(draw)).collect())
     }
 
-    fn side(question: Question, floor: f32, sources: &[Vec<f32>; 2]) -> Side<f32> {
-        let axis = Axis::new(&[]);
+    fn side(
+        axis: &Axis<f32>,
+        question: Question,
+        floor: f32,
+        sources: &[Vec<f32>; 2],
+    ) -> Side<f32> {
         let curve = |(source, margins): (usize, &Vec<f32>)| {
             let mut lane = Lane::new(question, floor, true);
             for (i, margin) in margins.iter().enumerate() {
-                lane.add(&axis, *margin, Place { index: i as u64, triangle: 0 });
+                lane.add(axis, *margin, Place { index: i as u64, triangle: 0 });
             }
-            (source, lane.curve(&axis))
+            (source, lane.curve(axis))
         };
         let curves: Vec<_> = sources.iter().enumerate().map(curve).collect();
         let curves = curves.iter().map(|(source, curve)| (*source, curve));
@@ -194,11 +198,11 @@ mod tests {
 
     #[test]
     fn limits_are_the_last_epsilon_without_a_further_miss_and_the_first_without_a_further_hit() {
-        let mut draw = Draw::new("limits", 1, 0);
+        let (mut draw, axis) = (Draw::new("limits", 1, 0), Axis::new(&[]));
         for _ in 0..3000 {
             let (sources, floor) = (margins(&mut draw), draw.pick(&[0.0, -LARGEST]));
             for question in [Question::FalseMiss, Question::OwnFalseHit] {
-                let side = side(question, floor, &sources);
+                let side = side(&axis, question, floor, &sources);
                 if question == Question::OwnFalseHit && sources.concat().contains(&LARGEST) {
                     // No epsilon refuses it.
                     assert_eq!(
@@ -230,10 +234,10 @@ mod tests {
         }
     }
 
-    fn trade(draw: &mut Draw, floor: f32) -> (Trade<f32>, [[Vec<f32>; 2]; 2]) {
+    fn trade(draw: &mut Draw, axis: &Axis<f32>, floor: f32) -> (Trade<f32>, [[Vec<f32>; 2]; 2]) {
         let sources = [margins(draw), margins(draw)];
-        let misses = side(Question::FalseMiss, floor, &sources[0]);
-        let hits = side(Question::OwnFalseHit, floor, &sources[1]);
+        let misses = side(axis, Question::FalseMiss, floor, &sources[0]);
+        let hits = side(axis, Question::OwnFalseHit, floor, &sources[1]);
         (Trade { floor, misses, hits }, sources)
     }
 
@@ -248,9 +252,9 @@ mod tests {
 
     #[test]
     fn the_knee_has_the_least_sum_of_both_shares() {
-        let mut draw = Draw::new("knee", 1, 0);
+        let (mut draw, axis) = (Draw::new("knee", 1, 0), Axis::new(&[]));
         for _ in 0..500 {
-            let (trade, sources) = trade(&mut draw, -LARGEST);
+            let (trade, sources) = trade(&mut draw, &axis, -LARGEST);
             let (low, high) = (trade.hits.limit, trade.misses.limit);
             assert_eq!(trade.settled(), (low <= high).then_some((low, high)));
             let among: Vec<f32> = (0..30).map(|_| draw.symmetric::<f32>() * 8.0).collect();
@@ -263,11 +267,11 @@ mod tests {
 
     #[test]
     fn candidates_are_zero_the_limits_and_decades_between_which_the_counts_change() {
-        let mut draw = Draw::new("candidates", 1, 0);
+        let (mut draw, axis) = (Draw::new("candidates", 1, 0), Axis::new(&[]));
         let mut found = 0;
-        for _ in 0..500 {
+        for _ in 0..150 {
             let floor = draw.pick(&[0.0, -LARGEST]);
-            let (trade, sources) = trade(&mut draw, floor);
+            let (trade, sources) = trade(&mut draw, &axis, floor);
             let (low, high) = (trade.misses.limit, trade.hits.limit);
             let change = |from: f32, to: f32| {
                 let (from, to) = (shares(&sources, from), shares(&sources, to));
@@ -296,7 +300,7 @@ mod tests {
                 assert_eq!(between.next(), None, "{chosen:?}");
             }
         }
-        assert!(200 < found, "{found}");
+        assert!(50 < found, "{found}");
     }
 
     #[test]

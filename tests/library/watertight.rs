@@ -10,7 +10,7 @@ use hairline::internals::corpus::mesh::{Mesh, read_obj, write_obj};
 use hairline::internals::corpus::shapes;
 use hairline::internals::family::MeshFamily;
 use hairline::internals::judge::may_be_elsewhere;
-use hairline::internals::kernel::{Entry, Scalar, Verdict, find};
+use hairline::internals::kernel::{Entry, Failure, Scalar, Verdict, find};
 use hairline::internals::mesh::{
     Aim, EdgeKind, FaceKind, MOST_AROUND, Part, Surface, Targets, Topology, VertexKind,
 };
@@ -741,4 +741,45 @@ fn a_ray_may_pass_beside_a_silhouette() {
         |neighbours: &[(Truth, bool)]| is_elsewhere_under("front-closed-ray", neighbours, 1e-4);
     assert!(culling(&[(inside, false)]) && culling(&[(inside, false), (inside, false)]));
     assert!(!culling(&[(front, false)]));
+}
+
+#[test]
+fn what_lies_around_a_line_is_told_apart_by_distance_and_by_edge() {
+    let back = |feature| at(feature, Ordering::Greater, Facing::Back);
+    let ask = |neighbours: &[([[f32; 2]; 3], Truth, Verdict<f32>)]| {
+        let case = |(corners, ..): &([[f32; 2]; 3], Truth, Verdict<f32>)| {
+            let corners = corners.map(|[x, y]| [x, y, 0.0]);
+            Case::new([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], corners)
+        };
+        let cases: Vec<Case<f32>> = neighbours.iter().map(case).collect();
+        let truths: Vec<Truth> = neighbours.iter().map(|(_, truth, _)| *truth).collect();
+        let verdicts: Vec<_> = neighbours.iter().map(|(.., verdict)| *verdict).collect();
+        let closed = NAMED.iter().find(|named| named.name == "closed-ray").unwrap().contract;
+        may_be_elsewhere(Facing::Front, &cases, &truths, &verdicts, &closed)
+    };
+    let miss = Verdict::miss(None);
+    // A 1024th of the longest edge is not near any more.
+    let wide = |y: f32| [[-512.0, -y], [512.0, -y], [0.0, 200.0]];
+    let inside = back(Feature::Interior);
+    assert!(ask(&[(wide(1.0f32.next_down()), inside, miss)]));
+    assert!(!ask(&[(wide(1.0), inside, miss)]));
+    // Two faces have one crossing on their edge, which either may report; they go along it in two ways.
+    let (one, other) =
+        ([[-1.0, 0.0], [1.0, 0.0], [0.0, 2.0]], [[1.0, 0.0], [-1.0, 0.0], [0.0, -2.0]]);
+    let rim = back(Feature::EdgeAb);
+    let hit = Verdict { hit: true, ..miss };
+    assert!(ask(&[(one, rim, miss), (other, rim, miss)]));
+    assert!(!ask(&[(one, rim, miss), (other, rim, hit)]));
+    assert!(!ask(&[(other, rim, hit), (one, rim, miss)]));
+    // Lost inside, on an edge, and a third to make the number odd.
+    let front = at(Feature::Interior, Ordering::Greater, Facing::Front);
+    assert!(ask(&[(wide(0.5), inside, miss), (one, rim, miss), (wide(0.5), front, miss)]));
+    // Of a neighbour on which the kernel failed nothing is known.
+    let outside = back(Feature::Outside);
+    assert!(!ask(&[(wide(1.0), outside, miss)]));
+    assert!(ask(&[
+        (wide(1.0), outside, miss),
+        (wide(1.0), outside, Verdict::failed(Failure::Panic))
+    ]));
+    assert!(ask(&[(wide(1.0), inside, Verdict::failed(Failure::Timeout))]));
 }

@@ -263,3 +263,20 @@ fn edges_whose_squares_could_underflow_are_left_to_integers_but_points_are_not()
     assert_eq!(step([0.0, edge(-450)]), Step::Integers);
     assert_eq!(step([0.0; 2]), Step::FloatsNearOne);
 }
+
+#[test]
+fn floats_are_certain_of_an_end_from_a_thousandfold_of_their_error_on() {
+    let mut steps = [0; 4];
+    for index in 0..2000 {
+        let mut draw = Draw::new("ends", 1, index);
+        let [o, d, a, b, c] = [(); 5].map(|()| draw.point());
+        // Origins and triangles of sizes of their own.
+        let far = scaled(1.0, draw.integer(-3, 3) as i32);
+        let case = Case::<f64>::new(o.map(|x| x * far), d, [a, b, c]);
+        let Some(t) = define(&case).exact.t.and_then(|t| t.to_f64()) else { continue };
+        let end = t * (1.0 + scaled(draw.symmetric(), draw.integer(-44, -26) as i32));
+        compare(&case.on(end, f64::INFINITY), &mut steps);
+    }
+    // As above: whoever changes when floats are certain puts the new counts here, and says why.
+    assert_eq!(steps, [0, 677, 1323, 0]);
+}
