@@ -1,5 +1,6 @@
 //! What follows from a response: which epsilons are right, and what the others cost.
 
+use super::axis::largest;
 use super::curve::{Bracket, Curve, Question};
 use super::duty::Duty;
 use super::run::{Response, SourceResponse, floor};
@@ -7,6 +8,7 @@ use crate::arith::Float;
 use crate::audit::{Place, Source};
 use crate::family::Grouping;
 use crate::kernel::{Gate, Scalar};
+use std::ops::RangeInclusive;
 
 /// The two counts that an epsilon trades against each other, over all sources: hits lost, and false
 /// hits of the kinds that the gate is there to refuse.
@@ -46,8 +48,7 @@ impl<F: Scalar> Trade<F> {
         sources: &[Source],
         run: &[SourceResponse<F>],
     ) -> Trade<F> {
-        let largest = F::infinity().offset_ulps(-1);
-        let floor = floor(gate);
+        let (largest, floor) = (largest(), floor(gate));
         let secondary =
             |source: &Source| duty.guards_start() && source.grouping() == Grouping::SecondaryRay;
         let side = |question: Question, counts: &dyn Fn(&Source) -> bool| {
@@ -137,17 +138,19 @@ pub fn candidates<F: Scalar>(trade: &Trade<F>, most: usize) -> Vec<F> {
             last = decade;
         }
     }
-    let largest = F::infinity().offset_ulps(-1);
+    let largest = largest();
     chosen.retain(|e| trade.floor <= *e && e.abs() < largest);
     chosen
 }
 
+/// The exponents of the powers of ten that any scalar has, and some more.
+pub(super) const DECADES: RangeInclusive<i32> = -330..=310;
+
 /// The powers of ten of a scalar, negative ones first, in order.
 pub fn decades<F: Float>() -> impl Iterator<Item = F> {
-    let digits = F::MAX_EXPONENT * 3 / 10 + 20;
     let text = move |sign: &str, k: i32| F::parse(&format!("{sign}1e{k}"));
-    let negative = (-digits..=digits).rev().filter_map(move |k| text("-", k));
-    let positive = (-digits..=digits).filter_map(move |k| text("", k));
+    let negative = DECADES.rev().filter_map(move |k| text("-", k));
+    let positive = DECADES.filter_map(move |k| text("", k));
     negative.chain(positive).filter(|e| e.is_finite() && !e.is_zero())
 }
 
@@ -225,6 +228,10 @@ mod tests {
                 assert!(is_last || count(best) < count(beyond), "{question:?} {sources:?}");
                 let margin =
                     |(source, place): (usize, Place)| sources[source][place.index as usize];
+                if let Some((source, _)) = side.decided_by {
+                    let m = margin(side.decided_by.unwrap());
+                    assert_eq!(sources.iter().position(|of| of.contains(&m)), Some(source));
+                }
                 match side.decided_by.map(margin) {
                     Some(m) if misses => assert_eq!(m, side.limit),
                     Some(m) => assert_eq!(m.next_up().min(LARGEST), side.limit),
@@ -262,6 +269,57 @@ mod tests {
             let least = among.iter().map(|e| sum(*e)).fold(f64::INFINITY, f64::min);
             assert!(sum(trade.knee(&among).unwrap()) <= least + 1e-12);
             assert_eq!(trade.knee(&[]), None);
+        }
+    }
+
+    #[test]
+    fn a_gate_is_settled_where_the_limits_meet() {
+        let axis = Axis::new(&[]);
+        for (below, is_settled) in [(2, true), (1, true), (0, false)] {
+            let hits = [vec![1f32.offset_ulps(-below)], vec![]];
+            let misses = side(&axis, Question::FalseMiss, 0.0, &[vec![1.0], vec![]]);
+            let hits = side(&axis, Question::OwnFalseHit, 0.0, &hits);
+            let limit = hits.limit;
+            let settled = Trade { floor: 0.0, misses, hits }.settled();
+            assert_eq!(settled, is_settled.then_some((limit, 1.0)));
+        }
+    }
+
+    #[test]
+    fn a_gate_on_t_is_not_blamed_for_misses_of_rays_that_start_on_their_triangle() {
+        use crate::audit::{EpsilonChoice, Unobserved};
+        let entry = crate::kernel::find("plane-unit-normal").unwrap();
+        let row = &EpsilonChoice::Source.rows(&[entry], None).unwrap()[0];
+        let source = |name| Source::Family {
+            family: crate::family::find(name).unwrap(),
+            parameters: crate::case::Parameters::default(),
+            seed: 1,
+            count: 60,
+            exhaustive: false,
+        };
+        let sources = ["secondary-ray", "edge-exact", "behind"].map(source);
+        let (axis, gates) = (Axis::new(&[]), [0, 1, 2]);
+        let subject = f32::subject(entry).unwrap();
+        let request =
+            super::super::run::Request { row, subject, gates: &gates, axis: &axis, exact: true };
+        let run = super::super::run::run(&request, &sources, &Unobserved);
+        for n in gates {
+            let gate = &entry.info.gates[n];
+            let duty = Duty::of(entry.info.gates, n, &row.contract);
+            let trade = Trade::new(gate, &duty, n, &sources, &run);
+            let is_t = gate.role == crate::kernel::Role::T;
+            let total = |i: usize, question| run[i].gates[n].curve(question).total;
+            let misses = [0, 1, 2].map(|i| total(i, Question::FalseMiss));
+            assert!(misses[0] > 0 && misses[1] > 0, "{misses:?}");
+            let counted = if is_t { &misses[1..] } else { &misses };
+            assert_eq!(trade.misses.curve.total, counted.iter().sum::<u64>(), "{}", gate.name);
+            let hits = (0..3).map(|i| total(i, Question::OwnFalseHit)).sum::<u64>();
+            assert_eq!((trade.hits.curve.total, trade.floor), (hits, floor(gate)));
+            let all = super::total(n, &run).unwrap();
+            for question in Question::ALL {
+                let sum = (0..3).map(|i| total(i, question)).sum::<u64>();
+                assert_eq!(all.curve(question).total, sum, "{question:?}");
+            }
         }
     }
 

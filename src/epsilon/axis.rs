@@ -17,7 +17,7 @@ pub struct Axis<F> {
 impl<F: Float> Axis<F> {
     /// With these epsilons among the edges.
     pub fn new(marks: &[F]) -> Axis<F> {
-        let largest = F::infinity().offset_ulps(-1);
+        let largest = largest();
         let mut edges = vec![F::infinity(), largest, -largest, F::zero()];
         edges.extend(marks.iter().filter(|mark| mark.is_finite()));
         for exponent in F::MIN_EXPONENT..=F::MAX_EXPONENT {
@@ -57,6 +57,11 @@ impl<F: Float> Axis<F> {
         }
         cell
     }
+}
+
+/// The largest finite number.
+pub(super) fn largest<F: Float>() -> F {
+    F::infinity().offset_ulps(-1)
 }
 
 /// Bins on each side of zero.
@@ -124,8 +129,10 @@ mod tests {
         assert!(axis.edges().windows(2).all(|pair| pair[0] < pair[1]));
         let short = &axis.edges()[1..2 * short + 2];
         assert!(short.windows(2).all(|pair| bin(pair[0]) < bin(pair[1])));
-        let largest = F::infinity().offset_ulps(-1);
-        let ends = [-largest, F::zero(), largest].map(bin);
+        let last = axis.edges()[short.len() + 1];
+        assert!(last.is_finite() && !last.offset_ulps(1).is_finite());
+        assert_eq!((axis.edges()[0], largest::<F>()), (-last, last));
+        let ends = [-last, F::zero(), last].map(bin);
         assert_eq!((ends, half::<F>()), ([0, bins, 2 * bins], bins));
         // Of its neighbours, that which is farther from zero shares it.
         for edge in short.iter().filter(|edge| !edge.is_zero()) {

@@ -235,9 +235,7 @@ impl<F: Float> Lane<F> {
         }
         match &mut self.margins {
             Margins::Counted(counts) => {
-                if counts.is_empty() {
-                    counts.resize(axis.edges().len() + 1, 0);
-                }
+                counts.resize(axis.edges().len(), 0);
                 counts[axis.cell(margin)] += 1;
             }
             Margins::Kept(margins) => margins.push(margin),

@@ -1,6 +1,6 @@
 //! One pass over the cases, for every epsilon.
 
-use super::axis::Axis;
+use super::axis::{Axis, largest};
 use super::curve::{Curve, Lane, Question};
 use super::duty::Duty;
 use crate::arith::Float;
@@ -68,7 +68,7 @@ pub fn tunable_gates(gates: &[Gate]) -> Vec<usize> {
 /// The lowest epsilon that a gate takes.
 pub fn floor<F: Float>(gate: &Gate) -> F {
     match gate.epsilon {
-        Tunable::Signed => -F::infinity().offset_ulps(-1),
+        Tunable::Signed => -largest::<F>(),
         Tunable::NonNegative | Tunable::Fixed => F::zero(),
     }
 }

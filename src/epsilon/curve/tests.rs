@@ -55,6 +55,10 @@ fn rays_add_the_squares_of_their_margins_and_the_first_place_decides_among_equal
         assert_eq!(curve.decisive, Some((1.5, place(3, 0))));
         assert_eq!(curve.steps().collect::<Vec<_>>(), [1.5, 1.515625]);
         assert_eq!(Curve::<f32>::new(question, 0.0).wrong(1.0).exact(), Some(0));
+        // Of nothing and of something it is the latter.
+        let mut sum = Curve::new(question, 0.0);
+        sum.merge(&curve);
+        assert_eq!(sum, curve);
         // Of two sources the first one's place is kept.
         let mut first = lane(question, &[(7, 1)]).curve(&axis);
         first.merge(&lane(question, &[(1, 1)]).curve(&axis));
@@ -66,7 +70,7 @@ fn rays_add_the_squares_of_their_margins_and_the_first_place_decides_among_equal
 fn a_curve_counts_what_its_margins_say_and_any_split_adds_up() {
     let axis = Axis::new(&[1e-6, -1e-6]);
     let mut draw = Draw::new("curve", 1, 0);
-    let margins: Vec<f32> = (0..3000).map(|_| margin(&mut draw)).collect();
+    let margins: Vec<f32> = (0..2000).map(|_| margin(&mut draw)).collect();
     for (question, floor) in
         Question::ALL.into_iter().flat_map(|question| [(question, -f32::MAX), (question, 0.0)])
     {

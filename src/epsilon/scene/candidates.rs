@@ -1,5 +1,6 @@
 //! The values that are weighed for each knob: round numbers over the range in which they matter.
 
+use super::super::advice::DECADES;
 use super::errors::{MaxError, errors_of};
 use super::joint::Grid;
 use super::knob::{Knob, MOST_KNOBS};
@@ -152,7 +153,7 @@ fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     let normal = smallest_normal::<F>();
     let digits: &[u32] = if step == 0 { &[1, 2, 5] } else { &[1] };
     let every = 1 << step.saturating_sub(1);
-    let decades = (-330..=310).filter(|k| k % every == 0);
+    let decades = DECADES.filter(|k| k % every == 0);
     let all = decades.flat_map(|k| digits.iter().map(move |d| format!("{d}e{k}")));
     let all = all.filter_map(|text| Some((text.parse::<f64>().ok()?, F::parse(&text)?)));
     let all: Vec<(f64, F)> =

@@ -1,6 +1,7 @@
 //! A study of a scene: the cheapest epsilons together, how far each may move, and what both do on fresh
 //! rays.
 
+use super::super::axis::largest;
 use super::candidates::{around, grid};
 use super::curves::{Curve, axes, curves};
 use super::errors::{ErrorSums, MaxError, errors_of};
@@ -213,7 +214,7 @@ impl<F: Float> Attempt<F> {
             epsilons[knob] = value;
             epsilons
         };
-        let among = (!is_lower).then(|| with(F::infinity().offset_ulps(-1) * -F::one()));
+        let among = (!is_lower).then(|| with(-largest::<F>()));
         Attempt { epsilons: with(value), among }
     }
 }
