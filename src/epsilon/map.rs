@@ -118,3 +118,62 @@ fn finished<F: Scalar>(gates: [usize; 2], epsilons: [Vec<F>; 2], counts: &Counts
         epsilons,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::axis::Axis;
+    use super::*;
+    use crate::audit::{EpsilonChoice, EpsilonText, Unobserved};
+    use crate::case::Parameters;
+    use crate::judge::asked;
+    use crate::kernel::{Verdict, verdicts_of};
+    use crate::oracle::truth;
+
+    #[test]
+    fn a_map_counts_what_runs_with_each_pair_of_epsilons_find() {
+        // Gates beside the first two keep their epsilons.
+        for (kernel, gates) in [("moller-trumbore", [0, 1]), ("plane-unit-normal", [2, 0])] {
+            let entry = crate::kernel::find(kernel).unwrap();
+            let mut row = EpsilonChoice::Source.rows(&[entry], None).unwrap().remove(0);
+            row.epsilons.fill(EpsilonText::Decimal("1e-3".to_owned()));
+            let source = |name| Source::Family {
+                family: crate::family::find(name).unwrap(),
+                parameters: Parameters::default(),
+                seed: 1,
+                count: 60,
+                exhaustive: false,
+            };
+            let sources = ["edge-near", "grazing", "origin-near"].map(source);
+            let axes = [vec![-1.0f32, 0.0, 1e-6, 1e-2, 3.0], vec![-1e-2, 1e-5, 0.5]];
+            let (axis, subject) = (Axis::new(&[]), f32::subject(entry).unwrap());
+            let request = Request { row: &row, subject, gates: &gates, axis: &axis, exact: false };
+            let found = map(&request, axes.clone(), &sources, &Unobserved);
+            let cases: Vec<_> = sources
+                .iter()
+                .flat_map(|source| (0..60).flat_map(|i| source.make::<f32>(i).cases().to_vec()))
+                .collect();
+            let owed: Vec<Obligation> =
+                cases.iter().map(|case| asked(case, &truth(case), &row.contract, false)).collect();
+            let count = |wanted| owed.iter().filter(|owed| **owed == wanted).count() as u64;
+            assert_eq!(found.must_hit, count(Obligation::MustHit));
+            assert_eq!(found.must_miss, count(Obligation::MustMiss));
+            assert_eq!((found.gates, &found.epsilons), (gates, &axes));
+            for (i, one) in axes[0].iter().enumerate() {
+                for (j, other) in axes[1].iter().enumerate() {
+                    let mut epsilons = row.epsilons::<f32>();
+                    (epsilons[gates[0]], epsilons[gates[1]]) = (*one, *other);
+                    let mut verdicts = vec![Verdict::miss(None); cases.len()];
+                    verdicts_of(subject, &cases, &epsilons, &mut verdicts);
+                    let wrong = |wanted, hit| {
+                        let pairs = owed.iter().zip(&verdicts);
+                        pairs.filter(|(owed, v)| **owed == wanted && v.hit == hit).count() as u64
+                    };
+                    let told = format!("{kernel} {one} {other}");
+                    let misses = wrong(Obligation::MustHit, false);
+                    assert_eq!(found.false_misses[i][j], misses, "{told}");
+                    assert_eq!(found.false_hits[i][j], wrong(Obligation::MustMiss, true), "{told}");
+                }
+            }
+        }
+    }
+}

@@ -205,3 +205,114 @@ fn check<F: Scalar>(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::{EpsilonChoice, Unobserved};
+    use crate::case::Parameters;
+    use crate::family::find;
+
+    #[test]
+    fn what_a_gate_is_there_to_refuse_are_false_hits_of_its_classes_or_second_hits() {
+        let info = crate::kernel::find("plane-unit-normal").unwrap().info;
+        for (gate, known) in info.gates.iter().enumerate() {
+            let duty = Duty::of(info.gates, gate, &info.contract);
+            let mut tally = Tally::new(0, 0);
+            let mut expected = (0, 0);
+            for class in Class::all() {
+                let (count, of) = (class.number() as u64 + 1, 100 + class.number() as u64);
+                let counts = &mut tally.classes[class.number()];
+                counts.findings[Finding::FalseHit as usize] = count;
+                counts.findings[Finding::FalseMiss as usize] = 1000;
+                counts.must_miss = of;
+                if duty.guards(class) {
+                    expected = (expected.0 + count, expected.1 + of);
+                }
+            }
+            assert_eq!(own_false_hits(&duty, &tally), expected, "{}", known.name);
+            (tally.self_hits.hits, tally.self_hits.rays) = (3, 50);
+            let expected = if duty.guards_start() { (3, 50) } else { expected };
+            assert_eq!(own_false_hits(&duty, &tally), expected, "{}", known.name);
+        }
+    }
+
+    #[test]
+    fn a_study_weighs_what_has_a_name_and_what_is_asked_for() {
+        let entry = crate::kernel::find("moller-trumbore").unwrap();
+        let row = EpsilonChoice::Source.rows(&[entry], None).unwrap().remove(0);
+        let source = |name| Source::Family {
+            family: find(name).unwrap(),
+            parameters: Parameters::default(),
+            seed: 1,
+            count: 80,
+            exhaustive: false,
+        };
+        let sources = ["grazing", "edge-near", "secondary-ray"].map(source);
+        let subject = f32::subject(entry).unwrap();
+        let study = |map: bool, at: &[f32]| {
+            let (gates, at) = (vec![0, 1], at.to_vec());
+            let plan = StudyPlan { row: &row, subject, gates, at, exact: false, map };
+            study(&plan, &sources, &Unobserved).unwrap()
+        };
+        let found = study(true, &[0.125, -0.25]);
+        let own = row.epsilons::<f32>();
+        for (gate, of_gate) in found.gates.iter().enumerate() {
+            assert_eq!(of_gate.gate, gate);
+            let epsilons: Vec<f32> = of_gate.prices.iter().map(|price| price.epsilon).collect();
+            assert!(epsilons.windows(2).all(|pair| pair[0] < pair[1]), "{epsilons:?}");
+            let takes_negative = entry.info.gates[gate].epsilon == crate::kernel::Tunable::Signed;
+            assert_eq!(epsilons.contains(&-0.25), takes_negative);
+            assert!(epsilons.contains(&0.125) && epsilons.contains(&0.0));
+            assert!(of_gate.marks.windows(2).all(|pair| pair[0].1 <= pair[1].1));
+            let named = |name: &str| of_gate.marks.iter().find(|mark| mark.0 == name).map(|m| m.1);
+            assert_eq!(named(&format!("this row: {}", row.set)), Some(own[gate]));
+            for (name, epsilon) in &of_gate.marks {
+                assert!(epsilons.contains(epsilon), "{name}");
+                let preset = PRESETS.iter().find(|preset| preset.name == name.as_str());
+                assert!(preset.is_some() || name.starts_with("this row") || name == LEAST_SUM);
+            }
+            assert_eq!(named(LEAST_SUM).is_none(), of_gate.trade.settled().is_some());
+            let all =
+                found.responses.iter().map(|r| r.gates[gate].curve(Question::FalseMiss).total);
+            assert_eq!(of_gate.total.curve(Question::FalseMiss).total, all.sum::<u64>());
+            for price in &of_gate.prices {
+                assert_eq!(price.row.epsilons::<f32>()[gate], price.epsilon);
+                assert_eq!(price.row.epsilons::<f32>()[1 - gate], own[1 - gate]);
+                assert_eq!(price.tallies.len(), sources.len());
+                let misses = price.tallies.iter().map(|t| t.total().of(Finding::FalseMiss));
+                let wrong = of_gate.total.curve(Question::FalseMiss).wrong(price.epsilon);
+                assert!((wrong.low..=wrong.high).contains(&misses.sum()), "{:e}", price.epsilon);
+            }
+        }
+        let map = found.map.unwrap();
+        let epsilons = |gate: usize| found.gates[gate].prices.iter().map(|p| p.epsilon).collect();
+        assert_eq!(map.epsilons, [epsilons(0), epsilons(1)] as [Vec<f32>; 2]);
+        assert!(study(false, &[]).map.is_none());
+    }
+
+    #[test]
+    fn a_response_that_differs_from_the_run_is_a_fault() {
+        let entry = crate::kernel::find("moller-trumbore").unwrap();
+        let row = EpsilonChoice::Source.rows(&[entry], None).unwrap().remove(0);
+        let family = find("edge-near").unwrap();
+        let parameters = Parameters::default();
+        let source = |seed| {
+            [Source::Family {
+                family,
+                parameters: parameters.clone(),
+                seed,
+                count: 80,
+                exhaustive: false,
+            }]
+        };
+        let (subject, axis) = (f32::subject(entry).unwrap(), Axis::new(&[]));
+        let request = Request { row: &row, subject, gates: &[1], axis: &axis, exact: true };
+        let duty = Duty::of(entry.info.gates, 1, &row.contract);
+        let responses = run(&request, &source(1), &Unobserved);
+        let prices_of = |seed| prices(&row, 1, &[0.0f32, 0.01], &source(seed), &Unobserved);
+        assert_eq!(check(&prices_of(1), &duty, 0, &responses), Ok(()));
+        let fault = check(&prices_of(2), &duty, 0, &responses).unwrap_err();
+        assert!(fault.contains("the response says") && fault.contains("the run"), "{fault}");
+    }
+}
