@@ -126,6 +126,10 @@ mod tests {
             assert!((one - 0.065).abs() < 1e-8, "{one}");
             assert!(0.25 <= other && other < 0.25 + 1e-7, "{other}");
             assert_eq!(scales.relative(1, f32::INFINITY), f32::INFINITY);
+            assert_eq!(scales.relative(1, -f32::INFINITY), -f32::INFINITY);
+            let small = at(origin, x, 1.0 / 1024.0);
+            let unit = |length, direction| scale(&small, Dimension::new(length, direction));
+            assert_eq!([unit(1, 0), unit(1, -1)], [5.0 / 1024.0, 17.0 / 7.0]);
         }
         for axis in 0..3 {
             let mut corners = corners(0.0);

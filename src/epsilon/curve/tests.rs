@@ -113,3 +113,22 @@ fn a_curve_counts_what_its_margins_say_and_any_split_adds_up() {
         }
     }
 }
+
+#[test]
+fn the_largest_numbers_have_cells_of_their_own_and_nothing_is_lost_in_an_empty_lane() {
+    let axis = Axis::new(&[]);
+    let lane = |margins: &[f32]| {
+        let mut lane = Lane::new(Question::FalseMiss, f32::MIN, false);
+        for (margin, index) in margins.iter().zip(0..) {
+            lane.add(&axis, *margin, Place { index, triangle: 0 });
+        }
+        lane
+    };
+    let mut sum = lane(&[]);
+    sum.merge(lane(&[f32::MAX, f32::MIN]));
+    sum.merge(lane(&[]));
+    let curve = sum.curve(&axis);
+    assert_eq!((curve.total, curve.cells.len(), curve.never, curve.always), (2, 2, 0, 0));
+    assert_eq!(curve.cells[1], Cell { low: f32::MAX, end: f32::INFINITY, count: 1 });
+    assert_eq!(curve, lane(&[f32::MAX, f32::MIN]).curve(&axis));
+}

@@ -160,7 +160,7 @@ fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
         all.filter(|(wide, value)| normal <= *wide && value.is_finite()).collect();
     let first = all.partition_point(|(wide, _)| *wide <= low).saturating_sub(1);
     let last = (all.partition_point(|(wide, _)| *wide < high) + 1).min(all.len());
-    if last - first > MOST_VALUES && step < 8 {
+    if last - first > MOST_VALUES {
         return rounds([low, high], step + 1);
     }
     all[first..last].iter().map(|(_, value)| *value).collect()
