@@ -255,10 +255,10 @@ fn cases_that_are_all_free_are_all_listed() {
 fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
     let mut found = Vec::new();
-    for number in 0..96 {
+    for number in 0..144 {
         let bit = |k: usize| number >> k & 1 == 1;
         let gives = Gives { t: bit(0), uv: bit(1), facing: bit(2) };
-        let failure = (number >= 80).then_some(Failure::Panic);
+        let failure = (number >= 128).then_some(Failure::Panic);
         let value = |k: usize| if bit(k) { 0.5 } else { nan };
         let (hit, facing) = (failure.is_none() && bit(3), facings[number / 16 % 3]);
         let verdict =
