@@ -101,7 +101,8 @@ mod tests {
         let (line, interval) = (Extent::Line, Extent::Interval);
         let (both, front) = (Sides::Both, Sides::Front);
         let three = [Parallel, T, Edge];
-        let rows: [(&[Role], bool, Extent, Sides, Role, Vec<&str>); 16] = [
+        type Row<'a> = (&'a [Role], bool, Extent, Sides, Role, Vec<&'a str>);
+        let rows: [Row; 16] = [
             (&three, true, interval, both, Parallel, flat.to_vec()),
             (&three, true, interval, both, T, [&off[..], &["interior/*/within"]].concat()),
             (&three, true, interval, both, Edge, beside.to_vec()),

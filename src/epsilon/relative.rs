@@ -124,7 +124,7 @@ mod tests {
             // e·100 <= 6.5 and e·25 <= 6.25, in floats.
             let [one, other] = [scales.relative(0, 6.5), scales.relative(1, 6.25)];
             assert!((one - 0.065).abs() < 1e-8, "{one}");
-            assert!(0.25 <= other && other < 0.25 + 1e-7, "{other}");
+            assert!((0.25..0.25 + 1e-7).contains(&other), "{other}");
             assert_eq!(scales.relative(1, f32::INFINITY), f32::INFINITY);
             assert_eq!(scales.relative(1, -f32::INFINITY), -f32::INFINITY);
             let small = at(origin, x, 1.0 / 1024.0);

@@ -746,8 +746,9 @@ fn a_ray_may_pass_beside_a_silhouette() {
 #[test]
 fn what_lies_around_a_line_is_told_apart_by_distance_and_by_edge() {
     let back = |feature| at(feature, Ordering::Greater, Facing::Back);
-    let ask = |neighbours: &[([[f32; 2]; 3], Truth, Verdict<f32>)]| {
-        let case = |(corners, ..): &([[f32; 2]; 3], Truth, Verdict<f32>)| {
+    type Around = ([[f32; 2]; 3], Truth, Verdict<f32>);
+    let ask = |neighbours: &[Around]| {
+        let case = |(corners, ..): &Around| {
             let corners = corners.map(|[x, y]| [x, y, 0.0]);
             Case::new([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], corners)
         };
