@@ -90,10 +90,11 @@ pub fn grid<F: Scalar>(
             }
             // No ray of a scene hits nearer than its least distance, so every other false hit nearer than that
             // would speak for a least t as large: for a property of these rays, and not of the kernel.
-            let is_in_reach = knob.role(gates) != Role::T || is_self_hit || kind == Kind::Miss;
+            let is_of_t = knob.role(gates) == Role::T;
+            let is_in_reach = !is_of_t || is_self_hit || kind == Kind::Miss;
             if F::zero() < margin && is_refused && is_in_reach {
                 widen(&mut ranges.above[k], size);
-                if kind == Kind::Miss || is_self_hit {
+                if is_of_t || kind == Kind::Miss {
                     // Of a larger sample some are worse than those of the pilot.
                     widen(&mut ranges.above[k], (BEYOND * size).min(cap));
                 }

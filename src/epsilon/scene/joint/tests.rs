@@ -150,12 +150,11 @@ fn expected(
             free.push(k);
         }
     }
-    let least = cost(&places);
     for k in free {
         let is_good = |place: usize| {
             let mut moved = places.clone();
             moved[k] = place;
-            is_kept(&moved, least)
+            is_kept(&moved, most)
         };
         let (mut low, mut high) = (places[k], places[k]);
         while 0 < low && is_good(low - 1) {
