@@ -11,7 +11,7 @@ use crate::report::{Example, Key, ResultPart};
 pub enum Change {
     /// It shows a finding, and did not.
     New,
-    /// It showed a finding, and shows none.
+    /// It showed a finding, and no longer shows that one.
     Right,
 }
 
@@ -32,7 +32,7 @@ impl Change {
     pub fn note(self) -> &'static str {
         match self {
             Change::New => "; the case shown is new",
-            Change::Right => "; the case shown is right now",
+            Change::Right => "; the case shown no longer shows it",
         }
     }
 }

@@ -226,7 +226,10 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
         ));
     }
     if find(name).is_some() {
-        return Err(format!("there are two kernels of the name '{name}'"));
+        return Err(format!(
+            "there are two kernels of the name '{name}' (to compare two builds, audit each with --format json, \
+             and see hairline diff)"
+        ));
     }
     let entry: &'static Entry = Box::leak(Box::new(entry));
     ADDED.write().unwrap_or_else(PoisonError::into_inner).push(entry);

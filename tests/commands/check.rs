@@ -592,7 +592,7 @@ fn the_case_of_what_got_better_is_right_now() {
     let run = |more: &[&'static str], code| ends(&folder, &[&check[..], more].concat(), code).0;
     run(&["-n", "400", "--bless"], 0);
     let out = run(&["-n", "400", "--band", "1ulps"], 3);
-    let better: Vec<&str> = out.split("; the case shown is right now").skip(1).collect();
+    let better: Vec<&str> = out.split("; the case shown no longer shows it").skip(1).collect();
     assert!(!better.is_empty(), "{out}");
     for text in better {
         let id = text.split('\'').nth(1).unwrap();
@@ -606,7 +606,7 @@ fn the_case_of_what_got_better_is_right_now() {
 }
 
 #[test]
-fn the_same_bad_values_among_more_hits_are_the_same() {
+fn the_same_cases_among_more_trials_are_the_same() {
     let folder = scratch("check-hits");
     let check = ["check", "-q", "--family", "range-ends", "--kernel", "moller-trumbore"];
     let run = |more: &[&'static str], code: i32| {
@@ -615,13 +615,13 @@ fn the_same_bad_values_among_more_hits_are_the_same() {
     run(&["--bless"], 0);
     let lock = folder.join("hairline.expectations.toml.lock");
     let blessed = fs::read_to_string(&lock).unwrap();
-    // One more of which they are, as if the kernel had lost a hit since.
-    for (finding, code) in [("bad-value", 0), ("false-miss", 1)] {
+    // One more of which they are, as if the kernel had lost a hit, or crashed, on another case since.
+    for finding in ["bad-value", "false-miss"] {
         let line = blessed.lines().find(|line| line.contains(&format!("\t{finding}\t"))).unwrap();
         let mut words: Vec<String> = line.split('\t').map(str::to_owned).collect();
         words[7] = (words[7].parse::<u64>().unwrap() + 1).to_string();
         fs::write(&lock, blessed.replacen(line, &words.join("\t"), 1)).unwrap();
-        run(&[], code);
+        run(&[], 0);
     }
 }
 

@@ -278,7 +278,7 @@ fn a_difference_of_two_records_shows_a_case_that_one_of_the_kernels_gets_right()
         assert!(shown.contains("mine (own): "), "{shown}");
         shown.contains("as it should")
     };
-    for (old, new, note) in [(&loose, &strict, "is new"), (&strict, &loose, "is right now")] {
+    for (old, new, note) in [(&loose, &strict, "is new"), (&strict, &loose, "no longer shows it")] {
         let output = hairline(&["diff", &old.1, &new.1]);
         let shown = text(&output.stdout);
         let lines: Vec<&str> = shown.lines().collect();
