@@ -132,7 +132,11 @@ mod tests {
     #[test]
     fn a_map_counts_what_runs_with_each_pair_of_epsilons_find() {
         // Gates beside the first two keep their epsilons.
-        for (kernel, gates) in [("moller-trumbore", [0, 1]), ("plane-unit-normal", [2, 0])] {
+        for (kernel, gates) in [
+            ("moller-trumbore", [0, 1]),
+            ("plane-unit-normal", [2, 0]),
+            ("plane-unit-normal", [1, 2]),
+        ] {
             let entry = crate::kernel::find(kernel).unwrap();
             let mut row = EpsilonChoice::Source.rows(&[entry], None).unwrap().remove(0);
             row.epsilons.fill(EpsilonText::Decimal("1e-3".to_owned()));

@@ -107,4 +107,37 @@ mod tests {
             assert!((1..=MOST_KNOBS).contains(&of(entry.info.name).len()), "{}", entry.info.name);
         }
     }
+
+    #[test]
+    fn values_below_zero_mean_something_where_the_gate_takes_them_and_is_not_on_t() {
+        let gate = |role, epsilon| {
+            let dimension = Dimension::new(1, 0);
+            Gate { name: "gate", role, refuses: "", dimension, epsilon }
+        };
+        let gates = [
+            gate(Role::Edge, Tunable::Signed),
+            gate(Role::Edge, Tunable::NonNegative),
+            gate(Role::T, Tunable::Signed),
+        ];
+        let knobs = [Knob::Gate(0), Knob::Gate(1), Knob::Gate(2), Knob::LeastT];
+        let negative = knobs.map(|knob| knob.takes_negative(&gates));
+        assert_eq!(negative, [true, false, false, false]);
+        assert_eq!(knobs.map(|knob| knob.role(&gates)), [Role::Edge, Role::Edge, Role::T, Role::T]);
+        assert_eq!(Knob::LeastT.dimension(&gates), Dimension::new(1, -1));
+        assert_eq!([Knob::Gate(0), Knob::LeastT].map(|knob| knob.name(&gates)), ["gate", "t_min"]);
+    }
+
+    #[test]
+    fn a_least_t_makes_a_ray_of_a_line_and_of_nothing_else() {
+        for (extent, knobs, expected) in [
+            (Extent::Line, &[Knob::Gate(0), Knob::LeastT][..], Extent::Ray),
+            (Extent::Line, &[Knob::Gate(0)], Extent::Line),
+            (Extent::Interval, &[Knob::LeastT], Extent::Interval),
+            (Extent::Ray, &[Knob::LeastT], Extent::Ray),
+        ] {
+            let contract = Contract { extent, ..Contract::CLOSED_RAY };
+            let expected = Contract { extent: expected, ..contract };
+            assert_eq!(contract_with(knobs, &contract), expected);
+        }
+    }
 }

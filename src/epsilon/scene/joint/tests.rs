@@ -51,7 +51,7 @@ impl Trials {
             let off = if draw.below(4) == 0 { draw.below(3) as i64 } else { 0 };
             (count, margins, draw.pick(&[1, 100, 300]), off)
         };
-        Trials { all: (0..12).map(|_| trial(draw)).collect() }
+        Trials { all: (0..1 + draw.below(12)).map(|_| trial(draw)).collect() }
     }
 
     /// By count: the hits at a point, and those of them that are too far off.
@@ -249,4 +249,26 @@ fn costs_are_words_between_commas() {
     ] {
         assert!(Costs::parse(text).unwrap_err().contains(part), "{text}");
     }
+}
+
+#[test]
+fn a_grid_accepts_a_value_up_to_its_margin() {
+    let grid = Grid::new(vec![vec![-1.0f32, 0.0, 2.0], vec![0.0], vec![1.0, 3.0]]);
+    assert_eq!(grid.accepted(&[0.0, f32::INFINITY, 0.5]), [2, 1, 0]);
+    assert_eq!(grid.accepted(&[-f32::INFINITY, -0.5, 3.0]), [0, 0, 2]);
+    assert_eq!(grid.accepted(&[2.0, 0.0, 2.9]), [3, 1, 1]);
+}
+
+#[test]
+fn sums_of_two_threads_are_added_cell_by_cell() {
+    let mut sums =
+        Sums { of: vec![1, 2], cells: vec![vec![1, 2], vec![]], exceeded: vec![vec![], vec![5]] };
+    sums.merge(Sums {
+        of: vec![10, 20],
+        cells: vec![vec![3, 4], vec![7, 9]],
+        exceeded: vec![vec![6], vec![8]],
+    });
+    assert_eq!(sums.of, [11, 22]);
+    assert_eq!(sums.cells, [[4, 6], [7, 9]]);
+    assert_eq!(sums.exceeded, [[6], [13]]);
 }
