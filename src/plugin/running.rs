@@ -1,6 +1,6 @@
 //! A running process, and what goes in and comes out. A command has a pipe each way, each with a thread of
 //! its own, so that neither side's full pipe nor its silence stops this program. The host of a library reads
-//! a batch whole before it answers, so one socket serves both ways, which is several times as fast.
+//! a batch whole before it answers, so one socket serves both ways, without threads.
 
 #![forbid(unsafe_code)]
 
