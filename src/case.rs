@@ -3,8 +3,10 @@
 #![forbid(unsafe_code)]
 
 mod bits;
+mod literal;
 mod scene;
 
+pub(crate) use literal::{rust_case, rust_list};
 pub(crate) use scene::Number;
 pub use scene::{DirectionLength, SCENES, Scene, ScenePreset};
 

@@ -45,13 +45,21 @@ mod oracle;
 mod judge;
 
 mod audit;
+#[cfg(feature = "studies")]
 mod epsilon;
+#[cfg(feature = "studies")]
 mod explore;
+#[cfg(feature = "studies")]
 mod map;
+#[cfg(feature = "studies")]
 mod orientation;
+#[cfg(feature = "studies")]
 mod prove;
+#[cfg(feature = "studies")]
 mod selfcheck;
+#[cfg(feature = "studies")]
 mod spawn;
+#[cfg(feature = "studies")]
 mod vectors;
 
 mod report;
@@ -85,6 +93,7 @@ pub use kernel::{
 pub use audit::PlanError;
 pub use conformance::{Outcome, Request, audit};
 pub use report::{Example, FindingPart, Rate, SeverityPart};
+#[cfg(feature = "studies")]
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
 
 #[cfg(feature = "proptest")]

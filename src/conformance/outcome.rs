@@ -1,7 +1,6 @@
 //! What an audit from a test found, and what its panic says.
 
-use crate::case::Case;
-use crate::explore::rust_case;
+use crate::case::{Case, rust_case};
 use crate::kernel::KERNELS;
 use crate::report::{
     ALL_CLASSES, Conformance, FindingPart, KernelResult, Key, Rate, Record, Verdict, disagreements,

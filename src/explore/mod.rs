@@ -31,7 +31,7 @@ pub(crate) use objective::{scale, verdict_and_finding};
 pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored};
 pub use signature::Signature;
 pub use simplify::{Change, SIMPLIFICATIONS, ScaleBy, Simplification, Size};
-pub use snippet::{c_snippet, rust_case, rust_snippet};
+pub use snippet::{c_snippet, rust_snippet};
 pub(crate) use worst::family_case;
 pub use worst::{
     Entry, Found, Goal, LANES, Table, Update, exact_score, find_worst, replay, search,

@@ -5,7 +5,7 @@ use super::signature::Signature;
 use super::simplify::odd_and_exponent;
 use crate::arith::Float;
 use crate::audit::Row;
-use crate::case::Case;
+use crate::case::{Case, rust_case, rust_list};
 use crate::judge::Finding;
 use crate::kernel::Scalar;
 
@@ -40,18 +40,6 @@ fn {name}() {{
     )
 }
 
-/// A case as an expression in Rust.
-pub fn rust_case<F: Float>(case: &Case<F>) -> String {
-    let [origin, direction, a, b, c] = case.vectors().map(|v| rust_list(&v));
-    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-    let interval = if t_min.to_bits() == F::zero().to_bits() && t_max == F::infinity() {
-        String::new()
-    } else {
-        format!(".on({}, {})", rust_number(t_min), rust_number(t_max))
-    };
-    format!("Case::<{}>::new({origin}, {direction}, [{a}, {b}, {c}]){interval}", F::NAME)
-}
-
 /// The numbers in C, as hexadecimal floats, for a test of whatever kernel.
 pub fn c_snippet<F: Scalar>(row: &Row, case: &Case<F>, signature: &Signature) -> String {
     let epsilons: Vec<F> = row.epsilons();
@@ -80,22 +68,6 @@ fn asked(finding: Finding) -> &'static str {
         Finding::FalseMiss => "The contract asks a hit; the kernel misses.",
         Finding::FalseHit => "The contract asks a miss; the kernel hits.",
         _ => "A hit is right; a value that the kernel reports with it is not.",
-    }
-}
-
-fn rust_list<F: Float>(numbers: &[F]) -> String {
-    let numbers: Vec<String> = numbers.iter().map(|x| rust_number(*x)).collect();
-    format!("[{}]", numbers.join(", "))
-}
-
-/// The shortest literal that is the number; a NaN by its bits.
-fn rust_number<F: Float>(x: F) -> String {
-    if x.is_nan() {
-        format!("{}::from_bits(0x{})", F::NAME, x.hex())
-    } else if x.is_finite() {
-        format!("{x:?}")
-    } else {
-        format!("{}{}::INFINITY", if x.is_sign_negative() { "-" } else { "" }, F::NAME)
     }
 }
 

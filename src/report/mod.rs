@@ -11,6 +11,7 @@ mod columns;
 mod conformance;
 mod disagreement;
 mod distribution;
+#[cfg(feature = "studies")]
 pub mod epsilon;
 mod extremes;
 #[cfg(feature = "cli")]
@@ -23,12 +24,14 @@ mod jsonl;
 mod junit;
 mod lines;
 mod markdown;
+#[cfg(feature = "studies")]
 pub mod mesh;
 mod pool;
 mod rate;
 mod record;
 mod row_view;
 mod sarif;
+#[cfg(feature = "studies")]
 pub mod scene;
 mod screen;
 mod shard;
