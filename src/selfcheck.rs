@@ -230,13 +230,14 @@ mod tests {
         // changes a bound, an order of layers or these cases puts the new counts here, and says why.
         let counts = [
             ("invalid", 149),
-            ("filter", 10098),
-            ("grid", 9067),
-            ("scaled filter", 4335),
-            ("double-double", 7336),
-            ("robust", 962),
-            ("monomials", 9883),
-            ("big integers", 23646),
+            ("filter", 9471),
+            ("grid", 7176),
+            ("wide grid", 18057),
+            ("scaled filter", 2798),
+            ("double-double", 4141),
+            ("robust", 414),
+            ("monomials", 9880),
+            ("big integers", 13191),
         ];
         assert_eq!(by_integers.layers.named(), counts);
     }

@@ -5,9 +5,8 @@
 //! one component s that does not vanish identically tells the side of each vertex. An edge whose
 //! ends have opposite s crosses the line at a point whose t is a fraction of the ends' values.
 
-use super::integer::{Integer, Interval, Triple, cross};
+use super::integer::{Integer, Interval, Number, Triple, cross};
 use crate::truth::{Contact, ContactKind, Feature};
-use num_traits::Zero;
 use std::cmp::Ordering;
 
 const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
@@ -117,7 +116,7 @@ fn touches<I: Integer>(
 ) -> Touches<I> {
     // t of a point of the line is r_m / d_m for any m with d_m ≠ 0.
     let m = (0..3).find(|&m| !d[m].is_zero()).expect("a direction that is not zero");
-    let has_area = !n.iter().all(Zero::is_zero);
+    let has_area = !n.iter().all(Number::is_zero);
     // In a plane one component of the offsets tells all; without one that differs, all vertices are
     // equally far from the line.
     let component = if has_area {
@@ -127,7 +126,7 @@ fn touches<I: Integer>(
     };
     let on_line = |offset: &Triple<I>| match (has_area, component) {
         (true, Some(k)) => offset[k].is_zero(),
-        _ => offset.iter().all(Zero::is_zero),
+        _ => offset.iter().all(Number::is_zero),
     };
     let vertex = |i: usize| {
         on_line(&offsets[i]).then(|| Touch::new(r[i][m].clone(), d[m].clone(), VERTICES[i]))

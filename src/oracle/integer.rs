@@ -3,29 +3,64 @@
 use crate::arith::decompose;
 use crate::case::Case;
 use num_bigint::BigInt;
-use num_traits::Zero;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// An exact integer: `i128` or `BigInt`.
+/// An exact integer of some width.
+pub(crate) trait Number {
+    /// In any size.
+    fn big(&self) -> BigInt;
+    /// Less, equal or greater than zero.
+    fn sign(&self) -> Ordering;
+
+    /// Whether it is zero.
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        self.sign() == Ordering::Equal
+    }
+}
+
+impl Number for i64 {
+    fn big(&self) -> BigInt {
+        BigInt::from(*self)
+    }
+    #[inline(always)]
+    fn sign(&self) -> Ordering {
+        self.cmp(&0)
+    }
+}
+
+impl Number for i128 {
+    fn big(&self) -> BigInt {
+        BigInt::from(*self)
+    }
+    #[inline(always)]
+    fn sign(&self) -> Ordering {
+        self.cmp(&0)
+    }
+}
+
+impl Number for BigInt {
+    fn big(&self) -> BigInt {
+        self.clone()
+    }
+    fn sign(&self) -> Ordering {
+        self.cmp(&BigInt::ZERO)
+    }
+}
+
+/// A [`Number`] that computes: `i128` or `BigInt`.
 pub(crate) trait Integer:
-    Clone
+    Number
+    + Clone
     + Ord
-    + Zero
     + Neg<Output = Self>
     + for<'a> Add<&'a Self, Output = Self>
     + for<'a> Sub<&'a Self, Output = Self>
     + for<'a> Mul<&'a Self, Output = Self>
 {
-    /// In any size.
-    fn big(&self) -> BigInt;
     /// The order of `a*b` and `c*d`.
     fn compare_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Ordering;
-
-    /// Less, equal or greater than zero.
-    fn sign(&self) -> Ordering {
-        self.cmp(&Self::zero())
-    }
 
     /// `a*b - c*d`.
     fn minor(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
@@ -34,9 +69,6 @@ pub(crate) trait Integer:
 }
 
 impl Integer for i128 {
-    fn big(&self) -> BigInt {
-        BigInt::from(*self)
-    }
     fn compare_products(a: &i128, b: &i128, c: &i128, d: &i128) -> Ordering {
         match (a.checked_mul(*b), c.checked_mul(*d)) {
             (Some(left), Some(right)) => left.cmp(&right),
@@ -46,9 +78,6 @@ impl Integer for i128 {
 }
 
 impl Integer for BigInt {
-    fn big(&self) -> BigInt {
-        self.clone()
-    }
     fn compare_products(a: &BigInt, b: &BigInt, c: &BigInt, d: &BigInt) -> Ordering {
         (a * b).cmp(&(c * d))
     }
@@ -81,17 +110,17 @@ impl Interval {
     }
 
     /// The sign of t - t_min; the denominator is not zero.
-    pub fn compare_start<I: Integer>(&self, numerator: &I, denominator: &I) -> Ordering {
+    pub fn compare_start<I: Number>(&self, numerator: &I, denominator: &I) -> Ordering {
         self.compare(numerator, denominator, self.t_min)
     }
 
     /// The sign of t - t_max; the denominator is not zero.
-    pub fn compare_end<I: Integer>(&self, numerator: &I, denominator: &I) -> Ordering {
+    pub fn compare_end<I: Number>(&self, numerator: &I, denominator: &I) -> Ordering {
         self.compare(numerator, denominator, self.t_max)
     }
 
     #[inline]
-    fn compare<I: Integer>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
+    fn compare<I: Number>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
         let negative = denominator.sign() == Ordering::Less;
         let relative = |sign: Ordering| if negative { sign.reverse() } else { sign };
         if end == 0.0 {
@@ -118,7 +147,7 @@ pub(crate) fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; 
     let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
     let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
     let integer = |(digits, exponent): (i64, i64)| match digits {
-        0 => BigInt::zero(),
+        0 => BigInt::ZERO,
         _ => BigInt::from(digits) << (exponent - grid),
     };
     (parts.map(|point| point.map(integer)), grid)

@@ -2,7 +2,7 @@
 //!
 //! The definition is [`define`], written with num-rational: slow and obvious. [`truth`] gives the
 //! same answer faster, in layers that each decide or hand on: a floating-point filter for all signs
-//! together; machine integers where the coordinates lie on a small grid; then, sign by sign,
+//! together; machine integers where the coordinates lie on a grid, a small one or a wide one; then, sign by sign,
 //! double-doubles with a bound, the adaptive predicate of the crate `robust` where its conditions
 //! hold, the determinant multiplied out, and integers of any size. An `f32` case is decided in `f64`,
 //! which holds it exactly. It works over the whole range of exponents.
@@ -23,6 +23,7 @@ mod rational;
 mod resolve;
 mod scaled;
 mod signs;
+mod wide;
 
 pub use batch::{Batch, UnequalColumns};
 pub use rational::{Definition, define};
@@ -30,6 +31,7 @@ pub use rational::{Definition, define};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
+use grid::{Narrow, Wide};
 use serde::{Deserialize, Serialize};
 
 /// A layer of the oracle, the fastest first.
@@ -41,6 +43,8 @@ pub enum Layer {
     Filter,
     /// Machine integers on a small grid.
     Grid,
+    /// Wider ones on a grid of 61 bits.
+    WideGrid,
     /// The filter again, after each axis was scaled.
     ScaledFilter,
     /// Double-doubles with a bound.
@@ -67,6 +71,7 @@ impl Layers {
             "invalid",
             "filter",
             "grid",
+            "wide grid",
             "scaled filter",
             "double-double",
             "robust",
@@ -138,8 +143,10 @@ pub fn truths<F: Float>(cases: &[Case<F>], truths: &mut Vec<Truth>, layers: &mut
 fn behind_the_filter<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
     let case = case.widen();
     // What is invalid is on no grid: it is asked for only then.
-    let (truth, layer) = if let Some(truth) = grid::decide(&case) {
+    let (truth, layer) = if let Some(truth) = grid::decide::<Narrow>(&case) {
         (truth, Layer::Grid)
+    } else if let Some(truth) = on_wide_grid(&case) {
+        (truth, Layer::WideGrid)
     } else if !is_valid(&case) {
         (Truth::Invalid, Layer::Invalid)
     } else {
@@ -147,6 +154,11 @@ fn behind_the_filter<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
     };
     layers.count(layer, 1);
     truth
+}
+
+#[inline(never)]
+fn on_wide_grid(case: &Case<f64>) -> Option<Truth> {
+    grid::decide::<Wide>(case)
 }
 
 /// Finite coordinates, a direction that is not zero, and an interval whose ends are in order.

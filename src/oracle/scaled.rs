@@ -6,11 +6,10 @@
 
 use super::contact;
 use super::determinants::Determinant;
-use super::integer::{Integer, Interval, Triple, align, cross, dot, minus};
+use super::integer::{Interval, Number, Triple, align, cross, dot, minus};
 use crate::case::Case;
 use crate::truth::Truth;
 use num_bigint::BigInt;
-use num_traits::Zero;
 use std::cmp::Ordering;
 
 /// A case's numbers as integers of any size.
@@ -42,7 +41,7 @@ impl Scaled {
             Determinant::D => self.capital_d(),
             Determinant::T => self.capital_t(),
         };
-        Integer::sign(&value)
+        Number::sign(&value)
     }
 
     fn normal(&self) -> Triple<BigInt> {
@@ -68,7 +67,7 @@ impl Scaled {
     /// The truth where D is zero.
     pub fn flat(&self, case: &Case<f64>) -> Truth {
         let n = self.normal();
-        let degenerate = n.iter().all(Zero::is_zero);
+        let degenerate = n.iter().all(Number::is_zero);
         if !degenerate && !self.capital_t().is_zero() {
             return Truth::Parallel;
         }

@@ -132,13 +132,15 @@ fn underflowing(draw: &mut Draw) -> Case<f64> {
     with_rows(draw, [f, p, q], [0.0; 3], other)
 }
 
-/// Integers about the largest that a small grid holds, times powers of two up to the ends of what it
-/// takes, with one number now and then half a unit or one ulp off.
+/// Integers about the largest that a small or a wide grid holds, times powers of two up to the ends of what
+/// it takes, with one number now and then half a unit or one ulp off.
 fn last_bits(draw: &mut Draw) -> Case<f64> {
-    let largest = draw.pick(&[1i64 << 29, 1 << 30, 1 << 31]);
+    let bits = draw.pick(&[29, 30, 31, 60, 61, 62]);
+    // One above the largest float of so many bits.
+    let largest = (1i64 << bits) - (1i64 << bits >> f64::MANTISSA_DIGITS).max(1) + 1;
     let [position, direction] = [0; 2].map(|_| match draw.below(4) {
         0 => draw.integer(-1074, -960),
-        1 => draw.integer(955, 992),
+        1 => 1023 - bits - draw.integer(0, 37),
         2 => draw.integer(-30, 30),
         _ => 0,
     });
