@@ -221,6 +221,11 @@ fn blame(failure: Failure, given: &[Given]) -> Failure {
             return Failure::Message(*status, format!("{}: {message}", setting.place));
         }
     }
+    // It fails beside a flag only.
+    let is_named = |given: &&Given| message.starts_with(&format!("--{}: ", given.key));
+    if let Some(setting) = given.iter().find(is_named) {
+        return Failure::Message(*status, format!("{}: {message}", setting.place));
+    }
     failure
 }
 
@@ -304,6 +309,6 @@ mod tests {
             .collect();
         // Three flags are false, which takes no word.
         let words = read_settings(&examples.join("\n"), "h.toml").unwrap();
-        assert_eq!(words.len(), 23, "{words:?}");
+        assert_eq!(words.len(), 24, "{words:?}");
     }
 }

@@ -60,6 +60,7 @@ const SETTINGS: &[Setting] = &[
     setting("scale-direction", Kind::Flag, ""),
     setting("offset", Kind::Text, "1e6:0:0"),
     setting("direction", Kind::Text, "unit"),
+    setting("scene", Kind::Text, "room"),
     setting("mesh", Kind::Files, "model.obj"),
     setting("directions", Kind::Text, ""),
     setting("corpus", Kind::Files, "cases.jsonl"),

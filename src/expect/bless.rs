@@ -1,7 +1,7 @@
 //! Writing what a run found as what is expected from now on.
 
 use super::{Amount, Cases, Expectations, Lock, SCHEMA};
-use crate::report::{Conformance, Key, ResultPart, disagreements};
+use crate::report::{Conformance, Key, Record, disagreements};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -27,11 +27,11 @@ pub struct Blessed {
 /// The expectations that a run on a target meets. Reasons and links of the old ones are kept, and so are bounds
 /// by rate that hold, and the cases of other targets; nothing that the plan leaves out is dropped silently.
 pub fn bless(
-    result: &ResultPart,
-    target: &str,
+    record: &Record,
     old: &Expectations,
     compared: &Conformance,
 ) -> Result<Blessed, Unblessable> {
+    let (result, target) = (&record.result, &record.provenance.target);
     if compared.outside_the_plan > 0 {
         return Err(Unblessable { outside_the_plan: compared.outside_the_plan });
     }
@@ -50,16 +50,22 @@ pub fn bless(
         let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
         (found.key, Cases { count, of, digest })
     });
-    lock.targets.insert(target.to_owned(), cases.collect());
+    lock.targets.insert(target.clone(), cases.collect());
     let dropped = dropped.into_keys().filter(|name| name != target).collect();
-    Ok(Blessed { file: reviewed(&lock, old, compared), lock: lock.to_string(), dropped })
+    let sources = record.provenance.plan_flags.as_ref().map(|flags| flags.sources.as_str());
+    Ok(Blessed { file: reviewed(&lock, sources, old, compared), lock: lock.to_string(), dropped })
 }
 
 /// Families, each with its amount, the larger count first.
 type Amounts<'a> = BTreeMap<(Reverse<u64>, &'a str), String>;
 
 /// The file for people: a line for each finding of a kernel row in a scalar, and for each reason.
-fn reviewed(lock: &Lock, old: &Expectations, compared: &Conformance) -> String {
+fn reviewed(
+    lock: &Lock,
+    sources: Option<&str>,
+    old: &Expectations,
+    compared: &Conformance,
+) -> String {
     let mut text = format!(
         "# Known disagreements: what `hairline check` expects beside the default, which is none. The cases are\n\
          # in the .lock file beside this one. `hairline check --bless` writes both, and keeps `why` and `url`.\n\
@@ -68,6 +74,9 @@ fn reviewed(lock: &Lock, old: &Expectations, compared: &Conformance) -> String {
          schema = \"{SCHEMA}\"\ncases = \"{}\"\n",
         lock.cases
     );
+    if let Some(sources) = sources.filter(|sources| !sources.is_empty()) {
+        let _ = writeln!(text, "sources = {}", quoted(sources));
+    }
     let exceeded: BTreeSet<Key> = compared.unexpected.iter().map(|found| found.key()).collect();
     let mut most = lock.most();
     let stale: BTreeSet<Key> = compared.stale.iter().map(|found| found.key()).collect();

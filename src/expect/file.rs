@@ -21,6 +21,7 @@ struct FileText {
     _schema: String,
     #[serde(default)]
     cases: String,
+    sources: Option<String>,
     #[serde(default)]
     known: Vec<RowText>,
 }
@@ -82,7 +83,7 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
             }
         }
     }
-    Ok(Expectations { cases: parsed.cases, entries, lock: None })
+    Ok(Expectations { cases: parsed.cases, sources: parsed.sources, entries, lock: None })
 }
 
 struct Reader<'a> {

@@ -2,7 +2,8 @@
 
 use super::{Expectations, Lock, Unblessable, bless, read};
 use crate::corpus::InputError;
-use crate::report::{Conformance, Record};
+use crate::family::{FAMILIES, Stratum};
+use crate::report::{Conformance, Record, disagreements};
 use std::path::Path;
 
 /// The name of the file of the cases.
@@ -36,8 +37,61 @@ pub fn open<E: From<InputError>>(
     }
     if !blessing {
         expectations.agree(file)?;
+        expectations.are_about(record, file)?;
     }
     Ok(Some(expectations))
+}
+
+/// Where the cases of a family come from.
+#[derive(PartialEq)]
+enum Origin<'a> {
+    Families,
+    Scene,
+    /// A mesh or a file of stored cases, by its name in tables.
+    File(&'a str),
+}
+
+impl Origin<'_> {
+    fn of(family: &str) -> Origin<'_> {
+        match family {
+            _ if FAMILIES.iter().any(|known| known.name == family) => Origin::Families,
+            _ if Stratum::of_family(family).is_some() => Origin::Scene,
+            name => Origin::File(name),
+        }
+    }
+}
+
+impl Expectations {
+    /// Checks that some of the expectations are about what was run: else each finding would be unexpected.
+    ///
+    /// Errors: what the file is about, and what to run.
+    fn are_about(&self, record: &Record, file: &str) -> Result<(), InputError> {
+        let result = &record.result;
+        let origins: Vec<Origin> =
+            result.plan.sources.iter().map(|source| Origin::of(&source.family)).collect();
+        let mut about: Vec<&str> = self.entries.keys().map(|key| key.family.as_str()).collect();
+        let is_about = |family: &&str| origins.contains(&Origin::of(family));
+        if about.is_empty() || about.iter().any(is_about) || disagreements(result).is_empty() {
+            return Ok(());
+        }
+        about.sort_unstable();
+        about.dedup();
+        let about = about.join(", ");
+        let message = match (&self.sources, &record.provenance.plan_flags) {
+            (Some(flags), _) => format!(
+                "its cases are of `{flags}` ({about}), and this run has none of them: run `hairline check \
+                 {flags}`, or put it into hairline.toml"
+            ),
+            (None, Some(_)) => format!(
+                "its cases are of {about}, and this run has none of them: run these (as hairline.toml or flags \
+                 name them), or move the file away and let `hairline check --bless` write one for this run"
+            ),
+            (None, None) => format!(
+                "its cases are of {about}, and this test has none of them: give each test a file of its own"
+            ),
+        };
+        Err(InputError::of(file, message))
+    }
 }
 
 /// What a record is blessed to.
@@ -57,8 +111,7 @@ pub fn blessed(
     compared: &Conformance,
     file: &str,
 ) -> Result<Written, BlessError> {
-    let (result, target) = (&record.result, &record.provenance.target);
-    let blessed = bless(result, target, old, compared).map_err(BlessError::Outside)?;
+    let blessed = bless(record, old, compared).map_err(BlessError::Outside)?;
     let lock = lock_of(file);
     let read_again = || {
         let mut expectations = read(&blessed.file, file, &kernels_of(record))?;

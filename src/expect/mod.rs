@@ -35,6 +35,8 @@ pub const SCHEMA: &str = "hairline-expectations/2";
 pub struct Expectations {
     /// The hash of what chooses the cases that are counted.
     pub cases: String,
+    /// The flags that choose these cases, where a command line wrote the file.
+    pub sources: Option<String>,
     /// The expectation for each finding on a family, of all classes together. Every other finding is
     /// expected not to occur.
     pub entries: BTreeMap<Key, Entry>,

@@ -758,3 +758,29 @@ fn a_polygons_finding_has_a_command_that_shows_the_polygon_as_a_whole() {
         "{command}"
     );
 }
+
+#[test]
+fn a_scene_is_a_setting_and_a_run_of_none_of_the_expected_cases_is_one_error() {
+    let folder = scratch("check-scene");
+    let settings = "kernel = \"moller-trumbore\"\nscalar = \"f32\"\ncount = 300\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    ends(&folder, &["check", "-q", "--bless", "--scene", "room"], 0);
+    let bare = hairline_with(&folder, &["check", "-q"], &[]);
+    let error = String::from_utf8(bare.stderr).unwrap();
+    assert_eq!((bare.status.code(), bare.stdout.len()), (Some(65), 0), "{error}");
+    let of =
+        "hairline.expectations.toml: its cases are of `--scalar f32 --scene room -n 300` (scene-";
+    assert!(error.contains(of), "{error}");
+    assert!(error.ends_with(
+        ": run `hairline check --scalar f32 --scene room -n 300`, or put it into hairline.toml\n"
+    ));
+    assert_eq!(error.lines().count(), 1, "{error}");
+    // A variable, and the file.
+    let code =
+        |words: &[&str], variables| hairline_with(&folder, words, variables).status.code().unwrap();
+    assert_eq!(code(&["check", "-q"], &[("HAIRLINE_SCENE", "room")]), 0);
+    fs::write(folder.join("hairline.toml"), format!("{settings}scene = \"room\"\n")).unwrap();
+    assert_eq!(code(&["check", "-q"], &[]), 0);
+    let (_, error) = ends(&folder, &["check", "-q", "--family", "tiny"], 2);
+    assert!(error.contains("hairline.toml:4: --scene: 'tiny' is no part of a scene"), "{error}");
+}
