@@ -2,6 +2,7 @@
 
 use super::changed::{Change, UNSURE, changed_case};
 use super::known::{Found, Known};
+use super::unjudged::not_judged_before;
 use super::{Amount, Entry, Expectations};
 use crate::audit::{Digest, Interval};
 use crate::judge::Finding;
@@ -47,18 +48,29 @@ pub fn compare(
         too_rare_to_tell: 0,
         outside_the_plan: 0,
     };
+    let planned = Planned::of(result);
+    let newly_judged = |found: &Found| {
+        let part = planned.result(&found.key).filter(|_| same_plan)?;
+        not_judged_before(entries, part, planned.indices(&found.key), found)
+    };
     for found in &found {
         if !entries.contains_key(&found.key) {
             if judge.is_unexpected(found, entries) {
-                conformance.unexpected.push(deviation(&found.key, None, &found.rate, Some(found)));
-                conformance.change.new += 1;
+                let mut deviation = deviation(&found.key, None, &found.rate, Some(found));
+                if let Some(why) = newly_judged(found) {
+                    deviation.expected += &why;
+                    conformance.stale.push(deviation);
+                    conformance.change.newly_judged += 1;
+                } else {
+                    conformance.unexpected.push(deviation);
+                    conformance.change.new += 1;
+                }
             } else {
                 conformance.too_rare_to_tell += 1;
             }
         }
     }
     let found: BTreeMap<&Key, &Found> = found.iter().map(|found| (&found.key, found)).collect();
-    let planned = Planned::of(result);
     for (key, entry) in entries {
         let Some(part) = planned.result(key) else {
             if planned.leaves_out(key) {
@@ -85,10 +97,17 @@ pub fn compare(
                 conformance.stale.push(deviation);
             }
             Outcome::Worse => {
+                let unjudged = found.and_then(newly_judged);
+                deviation.expected += unjudged.as_deref().unwrap_or_default();
                 let new = found
                     .filter(|_| same_plan)
                     .and_then(|found| changed(result, entry, found, Change::New));
                 show(&mut deviation, Change::New, new);
+                if unjudged.is_some() {
+                    conformance.stale.push(deviation);
+                    conformance.change.newly_judged += 1;
+                    continue;
+                }
                 *match same_plan && is_as_many(&entry.amount, &rate) {
                     true => &mut conformance.change.other_cases,
                     false => &mut conformance.change.worse,
@@ -97,7 +116,7 @@ pub fn compare(
             }
         }
     }
-    conformance.change.better = conformance.stale.len() as u64;
+    conformance.change.better = conformance.stale.len() as u64 - conformance.change.newly_judged;
     conformance.change.unchanged = conformance.known.len() as u64;
     // What is known needs no example: with them a record would be half as large again.
     for known in &mut conformance.known {
@@ -122,6 +141,7 @@ fn changed(result: &ResultPart, entry: &Entry, found: &Found, change: Change) ->
 /// What the plan holds.
 struct Planned<'a> {
     results: BTreeMap<[&'a str; 4], &'a KernelResult>,
+    sources: BTreeMap<[&'a str; 2], u64>,
     kernels: BTreeSet<&'a str>,
     scalars: BTreeSet<&'a str>,
     families: BTreeSet<&'a str>,
@@ -131,6 +151,11 @@ impl<'a> Planned<'a> {
     fn of(result: &'a ResultPart) -> Planned<'a> {
         Planned {
             results: result.by_place(),
+            sources: result
+                .sources
+                .iter()
+                .map(|source| ([source.scalar.as_str(), &source.family], source.indices))
+                .collect(),
             kernels: result.plan.rows.iter().map(|row| row.kernel.as_str()).collect(),
             scalars: result.plan.scalars.iter().map(String::as_str).collect(),
             families: result.plan.sources.iter().map(|source| source.family.as_str()).collect(),
@@ -139,6 +164,12 @@ impl<'a> Planned<'a> {
 
     fn result(&self, key: &Key) -> Option<&'a KernelResult> {
         self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
+    }
+
+    /// How many indices a key's source has.
+    fn indices(&self, key: &Key) -> u64 {
+        let source = [key.scalar.as_str(), &key.family];
+        self.sources.get(&source).copied().unwrap_or_default()
     }
 
     /// Whether the plan leaves out the kernel, the scalar or the family: then the expectation is about

@@ -16,6 +16,7 @@ mod file;
 mod files;
 mod known;
 mod lock;
+mod unjudged;
 
 pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;

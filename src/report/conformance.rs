@@ -63,6 +63,10 @@ pub struct NetChange {
     pub new: u64,
     /// As many cases as expected, but not the same ones.
     pub other_cases: u64,
+    /// More cases than expected, all of which may be such that were not judged before, because the kernel crashed
+    /// on them.
+    #[serde(default)]
+    pub newly_judged: u64,
     /// As expected.
     pub unchanged: u64,
 }
@@ -76,11 +80,12 @@ impl NetChange {
 
 impl fmt::Display for NetChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NetChange { better, worse, new, other_cases, unchanged } = self;
-        write!(
-            f,
-            "{better} better, {worse} worse, {new} new, {other_cases} of other cases, {unchanged} unchanged"
-        )
+        let NetChange { better, worse, new, other_cases, newly_judged, unchanged } = self;
+        write!(f, "{better} better, {worse} worse, {new} new, {other_cases} of other cases, ")?;
+        if 0 < *newly_judged {
+            write!(f, "{newly_judged} not judged before, ")?;
+        }
+        write!(f, "{unchanged} unchanged")
     }
 }
 

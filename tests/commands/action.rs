@@ -220,3 +220,32 @@ fn a_year_of_a_kernel_in_c() {
     assert_eq!(crash["expected"], "none");
     assert!(shows(&folder, "crash", crash["case"].as_str().unwrap(), "crash"));
 }
+
+#[test]
+fn what_a_crash_kept_from_being_judged_is_no_regression_once_it_is_repaired() {
+    let folder = scratch("repaired");
+    let settings = "kernel-lib = \"libmine.so\"\nscalar = \"f32\"\ncount = 5_000\n\
+                    family = [\"interior\", \"edge-near\", \"tiny\", \"fan\"]\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    if !build(&folder, "crash", &["-ffp-contract=off", "-DCRASH"]) {
+        return;
+    }
+    ends(&folder, &["check", "--bless", "--quiet"], 0);
+    // Repaired, and worse at once: only what shows a case that did not crash is worse.
+    build(&folder, "worse", &["-ffp-contract=off", "-DEPSILON=\"0.01\""]);
+    let (out, _) = ends(&folder, &["check", "--quiet"], 1);
+    assert!(out.contains("interior: false-miss of interior/"), "{out}");
+    build(&folder, "repaired", &["-ffp-contract=off"]);
+    let (out, _) = ends(&folder, &["check", "--quiet"], 3);
+    assert!(
+        out.contains(" not judged before: the kernel crashed; the case shown is new\n"),
+        "{out}"
+    );
+    let (_, error) = ends(&folder, &["check", "--bless"], 0);
+    let change = error.lines().last().unwrap();
+    assert!(
+        change.contains(" 0 worse, 0 new, ") && change.contains(" not judged before, "),
+        "{error}"
+    );
+    ends(&folder, &["check", "--quiet"], 0);
+}
