@@ -147,6 +147,11 @@ impl<'a> Side<'a> {
         self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
     }
 
+    fn row(&self, key: &Key) -> Option<&'a RowPart> {
+        let mut rows = self.result.plan.rows.iter();
+        rows.find(|row| (&row.kernel, &row.set) == (&key.kernel, &key.set))
+    }
+
     fn rate(&self, key: &Key) -> Option<Rate> {
         self.result(key).map(|part| rate_of(part, &key.class, &key.finding))
     }
@@ -174,7 +179,14 @@ impl Judge {
         // shows its own that has more.
         let is_old = change == Trend::Better && !same_cases;
         let sides = if is_old { [old, new] } else { [new, old] };
-        let example = sides.iter().find_map(of_side);
+        let example = sides.iter().find_map(|side| {
+            let mut example = of_side(side)?;
+            // The same case may be run by the new kernel, which has other words.
+            if let (true, Some(before), Some(now)) = (same_cases, old.row(key), new.row(key)) {
+                example.command = example.command.replace(&before.flags(), &now.flags());
+            }
+            Some(example)
+        });
         let changed = example.as_ref().filter(|_| same_cases).and_then(|example| {
             let read = |digest: Option<&str>| match digest {
                 None => Some(Digest::default()),

@@ -28,7 +28,7 @@ impl RowPart {
     }
 
     /// The flags that make this row again.
-    pub(super) fn flags(&self) -> String {
+    pub(crate) fn flags(&self) -> String {
         flags(&self.selector, self.epsilon_argument().as_deref(), &self.contract_words)
     }
 
