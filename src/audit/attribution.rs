@@ -7,8 +7,9 @@
 use crate::arith::Float;
 use crate::case::Case;
 use crate::judge::{Answer, Finding, Obligation, judge, judge_answer};
-use crate::kernel::{Gated, Subject, TrackedRun};
+use crate::kernel::{Gated, KernelInfo, Subject, TrackedRun, Tunable, Verdict, verdicts_of};
 use crate::truth::Truth;
+use std::slice;
 
 /// Why a finding happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,12 +23,19 @@ pub enum Attribution {
     Rounding,
     /// As rounding, and a number behind the decisions overflowed or lost bits to underflow.
     Range,
+    /// Not its epsilons: the kernel does not show its formula, and it is wrong with every epsilon 0 too.
+    NotEpsilon,
 }
 
 impl Attribution {
     /// All of them, in the order of reports.
-    pub const ALL: [Attribution; 4] =
-        [Attribution::Convention, Attribution::Epsilon, Attribution::Rounding, Attribution::Range];
+    pub const ALL: [Attribution; 5] = [
+        Attribution::Convention,
+        Attribution::Epsilon,
+        Attribution::Rounding,
+        Attribution::Range,
+        Attribution::NotEpsilon,
+    ];
 
     /// The name in records.
     pub fn name(self) -> &'static str {
@@ -36,6 +44,7 @@ impl Attribution {
             Attribution::Epsilon => "epsilon",
             Attribution::Rounding => "rounding",
             Attribution::Range => "range",
+            Attribution::NotEpsilon => "not-epsilon",
         }
     }
 
@@ -51,6 +60,10 @@ impl Attribution {
             Attribution::Rounding => "rounding (without rounding it is right, epsilons and all)",
             Attribution::Range => {
                 "range (without rounding it is right; a number behind the decision overflowed or underflowed)"
+            }
+            Attribution::NotEpsilon => {
+                "not its epsilons (with every epsilon 0 it is wrong too; whether its formula or rounding is to \
+                 blame only the formula tells, and it does not show that)"
             }
         }
     }
@@ -85,6 +98,31 @@ pub fn attribute<F: Float>(
     let zero = subject.run_tracked(case, &zeros)?;
     let answer = without_rounding(subject, case, &zeros, &zero)?;
     Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
+}
+
+/// Why a kernel that does not show its formula is wrong on a case, as far as a run with every epsilon 0 tells; none
+/// if it takes no epsilons.
+pub fn attribute_by_running<F: Float>(
+    subject: &dyn Subject<F>,
+    info: &KernelInfo,
+    case: &Case<F>,
+    epsilons: &[F],
+    truth: &Truth,
+    obligation: Obligation,
+) -> Option<Attribution> {
+    if info.gates.iter().all(|gate| gate.epsilon == Tunable::Fixed) {
+        return None;
+    }
+    let is_wrong = |epsilons: &[F]| {
+        let mut verdict = [Verdict::miss(None)];
+        verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
+        judge(obligation, truth, info.gives, &verdict[0]).is_some()
+    };
+    let zeros = vec![F::zero(); epsilons.len()];
+    Some(match epsilons != zeros && !is_wrong(&zeros) {
+        true => Attribution::Epsilon,
+        false => Attribution::NotEpsilon,
+    })
 }
 
 /// What the kernel answers where nothing rounds.

@@ -1,6 +1,6 @@
 //! Counts the causes of the first findings of each class, by index.
 
-use super::attribution::{Attribution, attribute};
+use super::attribution::{Attribution, attribute, attribute_by_running};
 use super::digest::Place;
 use super::rows::RowIn;
 use super::source::Source;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Causes {
     by: [Trials; Attribution::ALL.len()],
-    /// Findings of kernels that do not run in exact arithmetic.
+    /// Findings of kernels that do not run in exact arithmetic, and take no epsilons.
     pub untold: u64,
 }
 
@@ -67,7 +67,12 @@ pub(super) fn causes<F: Scalar>(
             let case = &made.cases()[place.triangle as usize];
             let truth = oracle::truth(case);
             let asked = asked(case, &truth, contract, secondary);
-            attribute(row.subject, case, &row.epsilons, &truth, asked)
+            match row.subject.gated() {
+                Some(_) => attribute(row.subject, case, &row.epsilons, &truth, asked),
+                None => {
+                    attribute_by_running(row.subject, row.info, case, &row.epsilons, &truth, asked)
+                }
+            }
         }))
     };
     let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());

@@ -6,7 +6,9 @@ use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
 use crate::arith::{Exact, Float, Real};
-use crate::audit::{Errors, Row, attribute, exact_severity, polygon_verdict};
+use crate::audit::{
+    Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
+};
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
@@ -199,11 +201,27 @@ fn write_row<F: Scalar>(
     }
     match subject.gated() {
         Some(gated) => write_gates(out, case, gated, &verdict, row)?,
-        None => write_epsilons(out, case, subject, row)?,
+        None => write_epsilons(out, case, subject, &verdict, row)?,
     }
     if let Some(finding) = finding.filter(|finding| !finding.is_failure()) {
-        let why = attribute(subject, case, &epsilons, truth, asked);
-        let why = why.map_or("cannot be told", |attribution| attribution.describe());
+        let why = match subject.gated() {
+            Some(_) => attribute(subject, case, &epsilons, truth, asked),
+            None => {
+                let info = row.entry.info;
+                attribute_by_running(subject, info, case, &epsilons, truth, asked)
+            }
+        };
+        let why = match (why, subject.gated()) {
+            (Some(Attribution::Epsilon), None) => {
+                "epsilon (with every epsilon 0 it is right, and wrong with these)"
+            }
+            (Some(attribution), _) => attribution.describe(),
+            (None, Some(_)) => "cannot be told: it does not run in exact arithmetic",
+            (None, None) => {
+                "cannot be told: it does not show its formula, and has no epsilons at which it could be run \
+                 otherwise"
+            }
+        };
         writeln!(out, "    why the {}: {why}", finding.name())?;
     }
     if !verdict.hit {
@@ -220,6 +238,7 @@ fn write_epsilons<F: Scalar>(
     out: &mut dyn Write,
     case: &Case<F>,
     subject: &dyn Subject<F>,
+    verdict: &Verdict<F>,
     row: &Row,
 ) -> io::Result<()> {
     let info = row.entry.info;
@@ -230,7 +249,7 @@ fn write_epsilons<F: Scalar>(
         subject.margins(info, slice::from_ref(case), &mut margins, &mut []);
     }
     if tells && margins.iter().any(|margin| *margin == -F::infinity()) {
-        writeln!(out, "    a miss whatever its epsilons are")?;
+        writeln!(out, "    a miss whatever its epsilons are: none of its gates explains it")?;
     }
     for (i, gate) in info.gates.iter().enumerate().filter(|(_, g)| g.epsilon != Tunable::Fixed) {
         let (name, e) = (gate.name, epsilons[i]);
@@ -241,9 +260,19 @@ fn write_epsilons<F: Scalar>(
             true => format!("accepted up to e = {margin}; "),
             false => String::new(),
         };
-        writeln!(out, "    {name:<10} {found}run at e = {e}   [{}]", gate.refuses)?;
+        let refuses = if !verdict.hit && found.contains("up to") && margins[i] < e {
+            ": refuses <- decides"
+        } else {
+            ""
+        };
+        writeln!(
+            out,
+            "    {name:<10} {found}run at e = {}{refuses}   [{}]",
+            shortest(e),
+            gate.refuses
+        )?;
     }
-    writeln!(out, "    it does not show its gates: no exact margins, no run without rounding")
+    writeln!(out, "    it does not show its formula: no exact margins, no run without rounding")
 }
 
 /// Each gate's margin, computed and exact, and what it decided.

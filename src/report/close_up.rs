@@ -91,7 +91,23 @@ fn write_line(
         let far: u64 = results.iter().map(|r| far(r, "false-miss") + far(r, "false-hit")).sum();
         writeln!(out, " {:>10}", short_percent([far, cell.wrong.of]))?;
     }
+    write_untold(line, out)?;
     write_others(line, out)
+}
+
+/// Why there are no causes, if findings were examined and none can be told.
+fn write_untold(line: &Line, out: &mut dyn Write) -> io::Result<()> {
+    let parts = line.row.results.iter().flat_map(|result| &result.findings);
+    let mut causes = parts.filter_map(|part| part.causes.as_ref()).peekable();
+    let is_untold = causes.peek().is_some()
+        && causes.all(|part| 0 < part.untold && part.by.values().all(|rate| rate.of == 0));
+    if !is_untold {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "  no causes: it does not show its formula, and has no epsilons at which it could be run otherwise"
+    )
 }
 
 /// Cracks and doubles, whole polygons and bad values, where there are any to count.

@@ -13,7 +13,10 @@ pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
         let sample = trials.of + causes.untold < found;
         (why.name().to_owned(), Rate::new(trials, sample))
     };
-    CausesPart { by: Attribution::ALL.map(share).into(), untold: causes.untold }
+    // Only of kernels that do not show their formula.
+    let is_told = |why: &Attribution| *why != Attribution::NotEpsilon || 0 < causes.of(*why).count;
+    let told = Attribution::ALL.into_iter().filter(is_told);
+    CausesPart { by: told.map(share).collect(), untold: causes.untold }
 }
 
 /// By the finding's name.

@@ -31,8 +31,8 @@ pub struct FindingPart {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CausesPart {
-    /// By `convention`, `epsilon`, `rounding`, `range`; with an interval if not all findings were
-    /// examined.
+    /// By `convention`, `epsilon`, `rounding`, `range`, and `not-epsilon` of kernels that do not show their
+    /// formula; with an interval if not all findings were examined.
     pub by: BTreeMap<String, Rate>,
     /// Findings examined of kernels that cannot tell.
     pub untold: u64,
