@@ -7,6 +7,7 @@ use crate::kernel::{self, Entry, Scalar};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
 use clap::Args;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -31,8 +32,8 @@ pub struct PluginArguments {
     )]
     kernel_timeout: f64,
 
-    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000; no limit in a
-    /// fuzz campaign]
+    /// On how many cases such a kernel may crash or hang before the run ends [default: 1000, or 30 seconds of
+    /// waiting, which are 3 cases; no limit in a fuzz campaign]
     #[arg(long, value_name = "N", help_heading = "Kernels of your own")]
     kernel_failures: Option<u64>,
 
@@ -45,6 +46,9 @@ pub struct PluginArguments {
 
 /// How long a kernel may be silent by default.
 const TIMEOUT_SECONDS: f64 = 10.0;
+
+/// How long a run waits in all for a silent kernel by default, but for three cases at least.
+const PATIENCE_SECONDS: f64 = 30.0;
 
 /// On how many cases it may fail by default.
 const FAILURES: u64 = 1000;
@@ -83,6 +87,21 @@ impl PluginArguments {
 
     /// Starts the kernels and puts them into the table.
     pub fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
+        self.entries_known_as(&BTreeMap::new())
+    }
+
+    /// The same; a kernel of one of these names goes by the flag beside it, which a record has.
+    pub fn entries_known_as(
+        &self,
+        known: &BTreeMap<String, String>,
+    ) -> Result<Vec<&'static Entry>, Failure> {
+        let register = |what: &str, loaded: Result<Entry, LoadError>| {
+            let known_as = |entry: Entry| match known.get(entry.info.name) {
+                Some(flag) => entry.chosen_by(flag.clone().leak()),
+                None => entry,
+            };
+            register(what, loaded.map(known_as))
+        };
         let limits = self.limits()?;
         let libraries = self.kernel_lib.iter().map(|path| {
             let flag = format!("--kernel-lib {}", quoted(path));
@@ -107,7 +126,12 @@ impl PluginArguments {
         }
         let silence = Duration::from_secs_f64(seconds);
         let failures = self.kernel_failures.unwrap_or(FAILURES);
-        Ok(Limits { silence, failures, require_ieee: self.require_ieee })
+        let timeouts = match self.kernel_failures {
+            Some(failures) => failures.saturating_add(1),
+            None => ((PATIENCE_SECONDS / seconds).ceil() as u64).max(3),
+        };
+        let tell: fn(&str) = |line| eprintln!("{line}");
+        Ok(Limits { silence, failures, timeouts, tell, require_ieee: self.require_ieee })
     }
 }
 

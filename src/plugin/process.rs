@@ -3,6 +3,7 @@
 
 #![forbid(unsafe_code)]
 
+use super::binary;
 use super::exchange;
 use super::hello::{Hello, Start};
 use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
@@ -10,6 +11,7 @@ use super::running::{Lost, Program, Running};
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
+use crate::report::number_of;
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -21,12 +23,20 @@ pub struct Limits {
     pub silence: Duration,
     /// On how many cases it may crash or hang before the run ends.
     pub failures: u64,
+    /// With how many silences the run ends.
+    pub timeouts: u64,
+    /// Is told of each silence, in one line.
+    pub tell: fn(&str),
     /// Whether the run ends if its arithmetic is not that which IEEE 754 starts with.
     pub require_ieee: bool,
 }
 
 /// After how many cases a process that has never answered is given up.
 const NEVER_ANSWERED: u64 = 3;
+
+/// After so many lost processes the standard error of further ones is left out: each has a line or two about how it
+/// ended.
+const LOUD: u64 = 5;
 
 /// Why a kernel's process cannot be used.
 #[derive(Debug)]
@@ -40,7 +50,7 @@ pub enum LoadError {
 /// Starts a kernel's process and reads its hello. The entry lives as long as this process; `flag`
 /// chooses it on a command line.
 pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, LoadError> {
-    let running = program.start(limits.silence).map_err(LoadError::Start)?;
+    let running = program.start(limits.silence, true).map_err(LoadError::Start)?;
     let (hello, running) = greet(running).map_err(|lost| {
         LoadError::Hello(match lost {
             Lost::Garbled(message) => message,
@@ -50,7 +60,7 @@ pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, Loa
             Lost::Failed(failure) => format!("before its hello was over it {failure}"),
         })
     })?;
-    let mut notes = Vec::new();
+    let mut notes = hello.notes();
     if !hello.floats.is_default() {
         let note = loaded_with(hello.floats);
         if limits.require_ieee {
@@ -104,8 +114,12 @@ struct State {
     idle: Vec<Running>,
     /// Whether any batch was answered.
     has_answered: bool,
-    /// Cases that killed a process.
+    /// Processes that ended or were silent.
+    lost: u64,
+    /// Cases that killed a process, or on which it was silent.
     failures: u64,
+    /// Those on which it was silent.
+    timeouts: u64,
     /// The first of them.
     first: Option<String>,
     margins: MarginFailures,
@@ -139,10 +153,11 @@ impl Process {
             None => self.another()?,
         };
         let said = if self.hello.binary {
-            exchange::in_binary(&mut running, cases, epsilons, verdicts, margins)?
+            exchange::in_binary(&mut running, cases, epsilons, verdicts, margins)
         } else {
-            exchange::in_text(&mut running, cases, epsilons, verdicts)?
+            exchange::in_text(&mut running, cases, epsilons, verdicts)
         };
+        let said = said.inspect_err(|_| self.state().lost += 1)?;
         if let Some(floats) = said.floats {
             self.has_changed_to(floats)?;
         }
@@ -157,7 +172,14 @@ impl Process {
 
     fn another(&self) -> Result<Running, Lost> {
         let cannot = |error| Lost::Garbled(format!("it cannot be started again: {error}"));
-        let (hello, running) = greet(self.program.start(self.limits.silence).map_err(cannot)?)?;
+        let is_loud = self.state().lost < LOUD;
+        if !is_loud {
+            self.note(format!(
+                "{LOUD} of its processes have failed; what further ones write to standard error is left out"
+            ));
+        }
+        let started = self.program.start(self.limits.silence, is_loud).map_err(cannot)?;
+        let (hello, running) = greet(started)?;
         if hello != self.hello {
             let message = "started again, it announced itself differently".to_owned();
             return Err(Lost::Garbled(message));
@@ -197,17 +219,46 @@ impl Process {
         let mut state = self.state();
         state.failures += 1;
         let (failures, most) = (state.failures, self.limits.failures);
+        let (silence, patience) = (self.limits.silence.as_secs_f64(), self.limits.timeouts);
+        if failure == Failure::Timeout {
+            state.timeouts += 1;
+            if patience < u64::MAX {
+                let (name, number) = (self.hello.name(), state.timeouts);
+                (self.limits.tell)(&format!(
+                    "kernel '{name}': no answer within {silence} s, {number} of {patience}: {}",
+                    case.hex()
+                ));
+            }
+        }
         if failure == Failure::Timeout && !state.has_answered && failures >= NEVER_ANSWERED {
             return Err(format!(
                 "it has answered none of {failures} cases, each within {} s: does it flush its output after a \
                  batch, and speak the encoding that its hello announces?",
-                self.limits.silence.as_secs_f64()
+                silence
             ));
         }
         let first = state.first.get_or_insert_with(|| format!("{failure} on {}", case.hex()));
+        let first = first.clone();
+        if failure == Failure::Timeout && state.timeouts >= patience {
+            return Err(format!(
+                "it gave no answer within {silence} s on {} (--kernel-timeout waits shorter, \
+                 --kernel-failures N goes on until more than N fail); first: {first}",
+                number_of(patience, "case", "cases")
+            ));
+        }
         if failures > most {
             return Err(format!(
                 "it failed on more than {most} cases, the limit of --kernel-failures; first: {first}"
+            ));
+        }
+        drop(state);
+        if failure == Failure::Overrun {
+            self.note(format!(
+                "it touches memory outside its buffers; if it does so on many cases, are its structs those of \
+                 include/hairline.h (in f{} {} bytes a case, {} a verdict)?",
+                8 * size_of::<F>(),
+                binary::CASE_NUMBERS * size_of::<F>(),
+                binary::verdict_bytes::<F>(),
             ));
         }
         Ok(Verdict::failed(failure))

@@ -39,10 +39,13 @@ impl Program {
         }
     }
 
-    /// Starts it; its standard error is this program's. It is lost when it is silent for this long.
-    pub(super) fn start(&self, silence: Duration) -> io::Result<Running> {
+    /// Starts it; its standard error is this program's, if it may be loud. It is lost when it is silent for this long.
+    pub(super) fn start(&self, silence: Duration, is_loud: bool) -> io::Result<Running> {
         let mut command = Command::new(&self.words[0]);
         command.args(&self.words[1..]);
+        if !is_loud {
+            command.stderr(Stdio::null());
+        }
         // A group of its own, to be killed with all that it starts.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
