@@ -59,8 +59,9 @@ typedef struct {
 typedef struct {
     const char *name;     /* one word: `--epsilon NAME=VALUE` sets it */
     const char *value;    /* its usual value, in decimal, as "1e-6" */
-    const char *refuses;  /* the comparison, as "abs(det) < e"; NULL if unknown. A gate that is not named
-                           * parallel, t or edge may begin with its role: "role=t tau < e" */
+    const char *refuses;  /* the comparison, as "abs(det) < e"; NULL if unknown. It may begin with what the
+                           * gate is there to refuse, "role=t tau < e": parallel, t, edge or other. Usual
+                           * names say it themselves: det, t, u */
     int32_t length;       /* the dimension of what is compared: the power of length ... */
     int32_t direction;    /* ... and of the direction's length. det is 2, 1; t is 1, -1; u is 0, 0 */
     int32_t non_negative; /* 1 if a negative value would mean the same as 0, else 0 */

@@ -35,12 +35,12 @@ impl Entry {
 
     /// The same with a test in `f32`, which lives as long as the process.
     pub fn f32(self, test: impl Test<f32> + 'static) -> Entry {
-        self.with_f32(Box::leak(Box::new(Own(test))))
+        self.with_f32(Box::leak(Box::new(Own::new(test))))
     }
 
     /// The same with a test in `f64`, which lives as long as the process.
     pub fn f64(self, test: impl Test<f64> + 'static) -> Entry {
-        self.with_f64(Box::leak(Box::new(Own(test))))
+        self.with_f64(Box::leak(Box::new(Own::new(test))))
     }
 
     /// What should be known of it beside its verdicts; each in one line.

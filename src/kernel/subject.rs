@@ -68,27 +68,7 @@ pub trait Subject<F: Float>: Sync {
         margins: &mut [F],
         values: &mut [Option<Hit<F>>],
     ) {
-        let open = open_epsilons(info);
-        each_case(info, cases, margins, values, |case, margins| {
-            let verdict = |epsilons: &[F]| {
-                let mut verdict = [Verdict::miss(None)];
-                self.run(slice::from_ref(case), epsilons, &mut verdict);
-                verdict[0]
-            };
-            let is_hit = |epsilons: &[F]| verdict(epsilons).hit;
-            let measured = catch_unwind(AssertUnwindSafe(|| {
-                let values = values_of(info, &verdict(&open));
-                match values {
-                    Some(_) => by_running(&open, is_hit, margins),
-                    None => of_miss(&open, is_hit, margins),
-                }
-                values
-            }));
-            measured.unwrap_or_else(|_| {
-                margins.fill(F::from_f64(f64::NAN));
-                None
-            })
-        });
+        margins_by_running(self, info, cases, margins, values);
     }
 
     /// Why no more margins are found, in one line.
@@ -105,6 +85,37 @@ pub trait Subject<F: Float>: Sync {
     fn gave_up(&self) -> Option<String> {
         None
     }
+}
+
+/// What [`Subject::margins`] are of a kernel that does not show its gates.
+pub(super) fn margins_by_running<F: Float, S: Subject<F> + ?Sized>(
+    subject: &S,
+    info: &KernelInfo,
+    cases: &[Case<F>],
+    margins: &mut [F],
+    values: &mut [Option<Hit<F>>],
+) {
+    let open = open_epsilons(info);
+    each_case(info, cases, margins, values, |case, margins| {
+        let verdict = |epsilons: &[F]| {
+            let mut verdict = [Verdict::miss(None)];
+            subject.run(slice::from_ref(case), epsilons, &mut verdict);
+            verdict[0]
+        };
+        let is_hit = |epsilons: &[F]| verdict(epsilons).hit;
+        let measured = catch_unwind(AssertUnwindSafe(|| {
+            let values = values_of(info, &verdict(&open));
+            match values {
+                Some(_) => by_running(&open, is_hit, margins),
+                None => of_miss(&open, is_hit, margins),
+            }
+            values
+        }));
+        measured.unwrap_or_else(|_| {
+            margins.fill(F::from_f64(f64::NAN));
+            None
+        })
+    });
 }
 
 /// Runs a kernel on all cases; a panic is the verdict on the case at which it happens. Returns the

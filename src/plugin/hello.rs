@@ -29,7 +29,8 @@ pub struct Hello {
 #[derive(Clone, Debug, PartialEq)]
 struct Epsilon {
     name: String,
-    role: Role,
+    /// None if neither its name nor a word says it.
+    role: Option<Role>,
     value: String,
     dimension: Dimension,
     tunable: Tunable,
@@ -137,6 +138,20 @@ impl Hello {
         !self.epsilons.is_empty()
     }
 
+    /// What should be known of the announcement, each in one line.
+    pub fn notes(&self) -> Vec<String> {
+        let unknown = self.epsilons.iter().filter(|epsilon| epsilon.role.is_none());
+        let note = |epsilon: &Epsilon| {
+            format!(
+                "what its epsilon '{}' is there to refuse is not known, so advice about it is poor; begin its \
+                 meaning with role=parallel (parallel rays, triangles without area), role=t (off the ends of the \
+                 ray), role=edge (outside the triangle) or role=other",
+                epsilon.name
+            )
+        };
+        unknown.map(note).collect()
+    }
+
     /// The kernel's name.
     pub fn name(&self) -> &str {
         &self.name
@@ -147,7 +162,7 @@ impl Hello {
         let [t, uv, facing] = self.gives;
         let gate = |epsilon: &Epsilon| Gate {
             name: leak(&epsilon.name),
-            role: epsilon.role,
+            role: epsilon.role.unwrap_or(Role::Other),
             refuses: leak(&epsilon.refuses),
             dimension: epsilon.dimension,
             epsilon: epsilon.tunable,
@@ -226,15 +241,21 @@ fn epsilon(text: &str) -> Result<Epsilon, String> {
     let finite = [number::parse::<f32>(value).map(f64::from), number::parse::<f64>(value)];
     let fits = |x: &f64| x.is_finite() && (tunable == Tunable::Signed || *x >= 0.0);
     if !finite.iter().all(|x| x.as_ref().is_ok_and(fits)) || value.contains(['x', 'X']) {
-        return Err(format!("epsilon {name}: '{}' is no epsilon that it can take", shown(value)));
+        let plain = value.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let advice = match plain != value && number::parse::<f64>(plain).is_ok() {
+            true => format!("; write {plain}, without a suffix"),
+            false => String::new(),
+        };
+        let value = shown(value);
+        return Err(format!("epsilon {name}: '{value}' is no epsilon that it can take{advice}"));
     }
     let mut words = words.peekable();
     let role = match words.next_if(|word| word.starts_with("role=")) {
-        None => Role::find(name).unwrap_or(Role::Other),
-        Some(word) => Role::find(&word["role=".len()..]).ok_or_else(|| {
+        None => Role::of_gate(name),
+        Some(word) => Some(Role::find(&word["role=".len()..]).ok_or_else(|| {
             let known = Role::ALL.map(Role::name).join(", ");
             format!("epsilon {name}: '{}' is none of {known}", shown(word))
-        })?,
+        })?),
     };
     let meaning = words.collect::<Vec<_>>().join(" ");
     let refuses = if meaning.is_empty() { "not told".to_owned() } else { meaning };
@@ -285,11 +306,18 @@ mod tests {
     fn a_role_is_given_or_follows_from_the_name() {
         let hello = WHOLE
             .replace("epsilon parallel", "epsilon det")
-            .replace("signed\nready", "signed\nepsilon near 0 3 0 signed role=t s t >= e\nready");
-        let gates = read(&hello).unwrap().info().gates;
+            .replace("epsilon edge", "epsilon eps")
+            .replace("signed\nready", "signed\nepsilon u 0 3 0 signed role=t s t >= e\nready");
+        let hello = read(&hello).unwrap();
+        let gates = hello.info().gates;
         let roles: Vec<_> = gates.iter().map(|gate| (gate.name, gate.role)).collect();
-        assert_eq!(roles, [("det", Role::Other), ("edge", Role::Edge), ("near", Role::T)]);
+        assert_eq!(roles, [("det", Role::Parallel), ("eps", Role::Other), ("u", Role::T)]);
         assert_eq!(gates[2].refuses, "s t >= e");
+        let [note] = &hello.notes()[..] else { panic!("{:?}", hello.notes()) };
+        assert!(
+            note.starts_with("what its epsilon 'eps' is there to refuse is not known"),
+            "{note}"
+        );
         assert_eq!(read(WHOLE).unwrap().info().gates[0].role, Role::Parallel);
     }
 
@@ -313,6 +341,11 @@ mod tests {
             ("closed-ray,invalid=free", "closed-rai", "contract: 'closed-rai' is no contract"),
             ("epsilon edge -1e-3", "epsilon parallel 1", "epsilon 'parallel' is announced twice"),
             ("epsilon edge -1e-3 0 0 signed", "epsilon edge 0", "epsilon: 'edge 0' is not NAME"),
+            (
+                "1e-6 2 1 non",
+                "1e-6f 2 1 non",
+                "epsilon parallel: '1e-6f' is no epsilon that it can take; write 1e-6, without a suffix",
+            ),
             ("1e-6 2 1 non", "-1e-6 2 1 non", "epsilon parallel: '-1e-6' is no epsilon"),
             ("signed\nready", "signed role=side\nready", "epsilon edge: 'role=side' is none of"),
             ("1e-6 2 1 non", "1e-6 two 1 non", "epsilon: 'parallel 1e-6 two"),

@@ -4,15 +4,15 @@ use super::distribution;
 use super::record::*;
 use crate::arith::Float;
 use crate::audit::{
-    Audit, Cell, CorpusSet, Examples, GroupCount, Place, Plan, PolygonCount, Row, Source,
-    SourceSummary, Tally, Trials, exact_severity,
+    Audit, Cell, CorpusSet, EpsilonText, Examples, GroupCount, Place, Plan, PolygonCount, Row,
+    Source, SourceSummary, Tally, Trials, exact_severity,
 };
 use crate::case::Case;
-use crate::contract::Across;
+use crate::contract::{Across, Boundary, Extent};
 use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
-use crate::kernel::Scalar;
+use crate::kernel::{Gate, Role, Scalar};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -306,8 +306,35 @@ pub(super) fn provenance_of(context: &Context) -> Provenance {
 
 /// What should be known of the rows' kernels beside their verdicts.
 pub(super) fn kernel_notes(rows: &[Row]) -> BTreeMap<String, Vec<String>> {
-    let notes = rows.iter().map(|row| (row.entry.info.name.to_owned(), row.entry.notes()));
-    notes.filter(|(_, notes)| !notes.is_empty()).collect()
+    let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for row in rows {
+        let notes = row.entry.notes().into_iter().chain(ends_note(row));
+        let known = all.entry(row.entry.info.name.to_owned()).or_default();
+        notes.for_each(|note| {
+            if !known.contains(&note) {
+                known.push(note);
+            }
+        });
+    }
+    all.retain(|_, notes| !notes.is_empty());
+    all
+}
+
+/// A contract that promises hits at the ends of a ray, and an epsilon that excludes them.
+fn ends_note(row: &Row) -> Option<String> {
+    // What a built-in kernel promises is what its source says.
+    let promises = !row.entry.is_built_in()
+        && row.contract.extent != Extent::Line
+        && row.contract.ends == Boundary::Closed;
+    let excludes = |(gate, text): &(&Gate, &EpsilonText)| {
+        gate.role == Role::T && text.value::<f64>().is_some_and(|value| 0.0 < value)
+    };
+    let (gate, text) = row.tuned().filter(|_| promises).find(excludes)?;
+    let name = gate.name;
+    Some(format!(
+        "its contract promises hits at the ends of the ray, and its epsilon {name} = {text} excludes those near the \
+         start; if that is meant, promise less: --contract own,ends=free"
+    ))
 }
 
 fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {

@@ -30,6 +30,8 @@
 #define FLUSH_AT_LOAD 19
 #define ROUND_UP 20
 #define THROW 21
+#define BAD_GIVES 22
+#define EPSILONS 23
 
 #if FAULT == THROW
 #include <stdexcept>
@@ -46,6 +48,14 @@ uint32_t hairline_abi(void) { return FAULT == OTHER_ABI ? HAIRLINE_ABI + 1 : HAI
 const hairline_kernel *hairline_describe(void) {
     static hairline_kernel kernel = {
         .name = "misbehave", .contract = "closed-ray", .gives = HAIRLINE_GIVES_T};
+    static const hairline_epsilon epsilons[] = {
+        {"det", "1e-9", "abs(det) < e", 2, 1, 1, 0},
+        {"near", "1e-3", "t < e", 1, -1, 1, 0},
+        {"slack", "1e-9", "d < e", 1, 0, 1, 0},
+    };
+    if (FAULT == BAD_GIVES) kernel.gives = 255;
+    if (FAULT == EPSILONS) kernel.epsilons = epsilons;
+    if (FAULT == EPSILONS) kernel.epsilon_count = 3;
     if (FAULT == NULL_DESCRIPTION) return NULL;
     if (FAULT == CRASH_IN_DESCRIBE) abort();
     if (FAULT == BAD_CONTRACT) kernel.contract = "closed\nray";

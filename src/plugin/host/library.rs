@@ -109,6 +109,13 @@ impl Library {
         hello += &format!("name {}\n", name.ok_or("its name is NULL")?);
         hello += &format!("contract {}\n", contract.ok_or("its contract is NULL")?);
         hello += &source.map_or_else(String::new, |source| format!("source {source}\n"));
+        if 7 < kernel.gives {
+            return Err(format!(
+                "its gives is {}, expected HAIRLINE_GIVES_T (1), HAIRLINE_GIVES_UV (2), HAIRLINE_GIVES_FACING (4), \
+                 or a sum of them",
+                kernel.gives
+            ));
+        }
         let words = |words: &[(bool, &str)]| -> String {
             words.iter().filter(|(given, _)| *given).map(|(_, word)| format!(" {word}")).collect()
         };
