@@ -260,8 +260,11 @@ impl FromStr for CaseId {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let shape =
-            || format!("'{text}' is not a case id: family@version/scalar/parameters/seed/index");
+        let shape = || {
+            format!(
+                "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@1/f32/-/1/135"
+            )
+        };
         let [family, scalar, parameters, seed, index] =
             text.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
         let (family, version) = family.split_once('@').ok_or_else(shape)?;

@@ -143,8 +143,13 @@ fn checked(kernel: &str, gate: &Gate, text: &str) -> Result<EpsilonText, PlanErr
         .ok_or_else(|| PlanError(format!("'{text}' is not an epsilon for gate '{}'", gate.name)))?;
     let Some(value) = epsilon.value::<f64>() else {
         let name = gate.name;
+        let plain = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let advice = match EpsilonText::of(plain).and_then(|plain| plain.value::<f64>()) {
+            Some(_) if plain != text => format!("; write {plain}, without a suffix"),
+            _ => String::new(),
+        };
         return Err(PlanError(format!(
-            "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON"
+            "'{text}' is not an epsilon for gate '{name}': expected a finite decimal number or k*EPSILON{advice}"
         )));
     };
     match gate.epsilon {

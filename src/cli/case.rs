@@ -81,7 +81,9 @@ impl CaseArguments {
         match id.scalar.as_str() {
             "f32" => Ok(from_id(&id, self.mesh.as_deref()).map(Cases::F32)?),
             "f64" => Ok(from_id(&id, self.mesh.as_deref()).map(Cases::F64)?),
-            other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
+            other => Err(Failure::usage(format!(
+                "unknown scalar '{other}' in '{id}': there are f32 and f64"
+            ))),
         }
     }
 

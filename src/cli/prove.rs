@@ -30,6 +30,14 @@ pub struct ProveArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     kernel: Vec<String>,
 
+    /// Only to say why not
+    #[arg(long, hide = true)]
+    kernel_lib: Vec<String>,
+
+    /// Only to say why not
+    #[arg(long, hide = true)]
+    kernel_cmd: Vec<String>,
+
     /// f32, f64, or both separated by a comma
     #[arg(long, value_delimiter = ',', default_value = "f32,f64", value_name = "SCALAR")]
     scalar: Vec<String>,
@@ -121,6 +129,13 @@ enum OutputFormat {
 
 /// Runs the command.
 pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
+    if !arguments.kernel_lib.is_empty() || !arguments.kernel_cmd.is_empty() {
+        return Err(Failure::usage(
+            "prove needs a kernel's formula, and a library or a command shows only its answers: name the built-in \
+             kernel of the same formula (--kernel moller-trumbore; `hairline list kernels` has all), or write yours \
+             in Rust against hairline::Kernel",
+        ));
+    }
     if !arguments.check.is_empty() {
         return files::check(arguments);
     }

@@ -10,8 +10,8 @@ use super::sources::{SourceArguments, rays_at_each, scalars_in_use, set_threads,
 use crate::audit::{self, Plan, Shard, Source};
 use crate::engine::Unobserved;
 use crate::report::{
-    Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, illustrations,
-    number_of, shard_part,
+    Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, group_digits,
+    illustrations, number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -169,12 +169,13 @@ impl RunArguments {
                 .map(|pair| pair.0)
                 .collect();
             eprintln!(
-                "{rows} on {sources} in {}: {total} indices{}, {threads}",
+                "{rows} on {sources} in {}: {} rays{}, {threads}",
                 scalars.join(" and "),
+                group_digits(total),
                 shard.map_or(String::new(), |shard| format!(", of them shard {shard}"))
             );
         }
-        let progress = Progress::new(total, "indices", self.report.quiet);
+        let progress = Progress::new(total, "rays", self.report.quiet);
         let mut sums = audit::sum(plan, shard.unwrap_or(Shard::WHOLE), &progress);
         let part = shard.map(|_| shard_part(plan, &sums));
         audit::finish(plan, &progress, &mut sums);

@@ -1,7 +1,7 @@
 //! The part of a record that says how a run compares with what was expected of it.
 
 use super::rate::Rate;
-use super::{Key, group_digits};
+use super::{Key, group_digits, number_of};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -207,6 +207,13 @@ impl Deviation {
 }
 
 impl Conformance {
+    /// How many disagreements are known, as the expectations of this plan have them.
+    pub fn expected(&self) -> u64 {
+        let is_known = |found: &&Deviation| found.line.is_some();
+        let deviations = self.unexpected.iter().chain(&self.stale).filter(is_known).count();
+        (self.known.len() + deviations) as u64
+    }
+
     /// Adds demands on proofs that are not met.
     pub fn demand(&mut self, unproved: Vec<Unproved>) {
         if !unproved.is_empty() {
@@ -246,7 +253,16 @@ impl Conformance {
             "{verdict}: {proofs}{}{how}, {}, {}",
             count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
             count(&self.stale, "stale expectation", "stale expectations"),
-            count(&self.known, "known disagreement", "known disagreements")
+            match self.expected() {
+                all if all == self.known.len() as u64 => {
+                    count(&self.known, "known disagreement", "known disagreements")
+                }
+                all => format!(
+                    "{} of {} unchanged",
+                    group_digits(self.known.len() as u64),
+                    number_of(all, "known disagreement", "known disagreements"),
+                ),
+            }
         )
     }
 }

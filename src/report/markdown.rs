@@ -3,7 +3,7 @@
 use super::columns::{Column, short_percent};
 use super::lines::{Line, column_legend, lines};
 use super::rate::percent;
-use super::{Conformance, Deviation, Rate, Record, Style, group_digits};
+use super::{Conformance, Deviation, Rate, Record, Style, group_digits, number_of};
 use std::io::{self, Write};
 
 /// A forge's summary holds less than a mebibyte.
@@ -34,10 +34,11 @@ fn whole(record: &Record) -> String {
         Some(conformance) => conformance_part(conformance, &mut text),
         None => text.push_str("## hairline\n"),
     }
-    let (rows, sources) = (plan.rows.len(), plan.sources.len());
+    let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");
+    let sources = number_of(plan.sources.len() as u64, "source of cases", "sources of cases");
     let tool = &record.provenance.tool;
     text.push_str(&format!(
-        "\n{tool}, plan `{}`: {rows} kernel rows on {sources} sources of cases. \
+        "\n{tool}, plan `{}`: {rows} on {sources}. \
          Shares of wrong verdicts (false misses and false hits), with 95 % intervals (Clopper-Pearson).\n",
         plan.hash
     ));

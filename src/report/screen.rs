@@ -149,7 +149,13 @@ fn write_answer(
         special => format!(" in ordinary sizes (all columns but {})", special.join(" and ")),
     };
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
-    let mean = if 1 < meant { ", on average over these columns" } else { "" };
+    let mean = match &special[..] {
+        _ if meant <= 1 => place.clone(),
+        [] => " (the mean of the columns)".to_owned(),
+        special => {
+            format!(" in ordinary sizes (the mean of all columns but {})", special.join(" and "))
+        }
+    };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let text = match &standings[..] {
         [] if columns.is_empty() => {
@@ -163,7 +169,7 @@ fn write_answer(
             format!("{}: no false miss and no false hit{place}.", only.label)
         }
         [only] => format!(
-            "{} is wrong on {} % of the cases{place}{mean}, {} times by over 1/1000 of the triangle's longest edge.",
+            "{} is wrong on {} % of the cases{mean}, {} times by over 1/1000 of the triangle's longest edge.",
             only.label,
             percent(only.share),
             group_digits(only.far),
@@ -179,7 +185,7 @@ fn write_answer(
             let contracts = lines.iter().map(|line| &*line.row.part.contract);
             let compared = match contracts.collect::<BTreeSet<&str>>().len() {
                 1 => format!(
-                    "Wrong least{mean}: {}, {} %; most: {}, {} %. ",
+                    "Smallest share of wrong answers{mean}: {}, {} %; largest: {}, {} %. ",
                     least.label,
                     percent(least.share),
                     most.label,
@@ -196,7 +202,7 @@ fn write_answer(
                     group_digits(most),
                 ),
                 most => format!(
-                    "Wrong by over 1/1000 of the longest edge, least: {}, {} times; most: {}, {}.",
+                    "Fewest answers off by over 1/1000 of the longest edge: {}, {}; most: {}, {}.",
                     near.label,
                     group_digits(near.far),
                     far.label,

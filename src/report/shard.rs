@@ -163,8 +163,8 @@ pub fn merged<E: From<String>>(
     let hash = plan_part(&plan).hash;
     if hash != parts.hash {
         let message = format!(
-            "the plan is {hash} here, expected {}: a mesh or a corpus has changed, a --kernel-lib is not named \
-             in the same words, or the parts are of another version",
+            "the plan is {hash} here, expected {}: a mesh or a corpus has changed, a kernel of your own \
+             announces itself differently, or the parts are of another version",
             parts.hash
         );
         return Err(message.into());

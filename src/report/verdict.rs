@@ -19,7 +19,7 @@ pub(super) fn write(
         (Method::CaseByCase, Some(file)) => format!("compared case by case with {file}"),
         (Method::Intervals, Some(file)) => format!(
             "compared by intervals with {file}, which is of other cases (it has {} entries)",
-            group_digits((conformance.known.len() + conformance.stale.len()) as u64)
+            group_digits(conformance.expected())
         ),
     };
     writeln!(out, "{}, plan {}: {how}", record.provenance.tool, record.result.plan.hash)?;

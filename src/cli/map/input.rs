@@ -50,7 +50,9 @@ impl MapArguments {
             return match id.scalar.as_str() {
                 "f32" => Ok(Input::PointsF32(points_of_id(&id)?, last)),
                 "f64" => Ok(Input::PointsF64(points_of_id(&id)?, last)),
-                other => Err(Failure::usage(format!("unknown scalar '{other}' in '{id}'"))),
+                other => Err(Failure::usage(format!(
+                    "unknown scalar '{other}' in '{id}': there are f32 and f64"
+                ))),
             };
         }
         self.case(text)
