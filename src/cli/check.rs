@@ -158,6 +158,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let file = &arguments.expectations;
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
     let may_be_missing = arguments.bless || !is_demanded;
+    let lock = arguments.bless.then(|| expect::locked(file));
     let expected = expect::open(file, may_be_missing, &record, arguments.bless, read_text)?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
@@ -178,6 +179,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
             }
         }
     }
+    drop(lock);
     conformance.demand(unproved);
     record.conformance = Some(conformance);
     outputs.write(&record)?;

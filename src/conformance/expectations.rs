@@ -26,6 +26,7 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
     let text = |name: &str| {
         fs::read_to_string(name).map_err(|error| InputError::reading(name, None, &error))
     };
+    let _lock = blesses.then(|| expect::locked(file));
     let said = |error: InputError| PlanError(error.to_string());
     let old = expect::open(file, true, record, blesses, text).map_err(said)?;
     if old.is_none() && !blesses {

@@ -68,7 +68,8 @@ fn reviewed(
 ) -> String {
     let mut text = format!(
         "# Known disagreements: what `hairline check` expects beside the default, which is none. The cases are\n\
-         # in the .lock file beside this one. `hairline check --bless` writes both, and keeps `why` and `url`.\n\
+         # in the .lock file beside this one. `hairline check --bless`, or HAIRLINE_BLESS=1 in a test, writes both,\n\
+         # and keeps `why` and `url`.\n\
          # A line may be split by families, each part with its reason. A family in `rates = {{ NAME = 0.02 }}`\n\
          # instead of `counts` has an upper bound.\n\
          schema = \"{SCHEMA}\"\ncases = \"{}\"\n",

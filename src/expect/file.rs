@@ -63,8 +63,8 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
     if version.schema.get_ref() != SCHEMA {
         let found = version.schema.get_ref();
         let message = format!(
-            "schema '{found}', expected '{SCHEMA}': move the file away, and `hairline check --bless` writes \
-             one of today"
+            "schema '{found}', expected '{SCHEMA}': move the file away, and `hairline check --bless`, or \
+             HAIRLINE_BLESS=1 in a test, writes one of today"
         );
         return Err(reader.error(&version.schema.span(), message));
     }

@@ -11,6 +11,9 @@ use std::fmt::{self, Write};
 /// The first word of the file, after its comment.
 const SCHEMA: &str = "hairline-expectations-lock/1";
 
+/// How the file comes about.
+const WRITER: &str = "`hairline check --bless`, or HAIRLINE_BLESS=1 in a test, writes this file";
+
 /// The cases behind the counts of expectations.
 #[derive(Clone, Debug, Default)]
 pub struct Lock {
@@ -37,16 +40,12 @@ impl Lock {
         let mut lock = Lock::default();
         let mut section = None;
         if !text.is_empty() && !text.ends_with('\n') {
-            let message = "the last line is cut off; `hairline check --bless` writes this file";
+            let message = format!("the last line is cut off; {WRITER}");
             return Err(InputError::at(file, text.lines().count(), message));
         }
         for (number, line) in (1..).zip(text.lines()) {
             let wrong = |expected: String| {
-                InputError::at(
-                    file,
-                    number,
-                    format!("expected {expected}; `hairline check --bless` writes this file"),
-                )
+                InputError::at(file, number, format!("expected {expected}; {WRITER}"))
             };
             if line.is_empty() || line.starts_with('#') {
                 continue;
@@ -112,10 +111,7 @@ fn entry(line: &str) -> Result<(Key, Cases), String> {
 
 impl fmt::Display for Lock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "# The cases behind the counts, one line a class. `hairline check --bless` writes this file."
-        )?;
+        writeln!(f, "# The cases behind the counts, one line a class. {WRITER}.")?;
         writeln!(f, "{SCHEMA} cases {}", self.cases)?;
         for (target, entries) in &self.targets {
             writeln!(f, "[{target}]")?;
@@ -137,7 +133,8 @@ impl Expectations {
     /// Errors: file and line of a count that differs, and what to do.
     pub fn agree(&self, file: &str) -> Result<(), InputError> {
         let Some(lock) = &self.lock else { return Ok(()) };
-        let advice = "put back what was there, or let `hairline check --bless` write both files";
+        let advice = "put back what was there, or let `hairline check --bless` (in a test HAIRLINE_BLESS=1) write \
+                      both files";
         if lock.cases != self.cases {
             let message =
                 format!("cases {}, but {file}.lock has cases {}: {advice}", self.cases, lock.cases);
@@ -214,7 +211,7 @@ mod tests {
             let error =
                 Lock::read(&file(LINE).replace(from, to), "e.lock").unwrap_err().to_string();
             assert!(error.starts_with(expected), "{expected}: {error}");
-            assert!(error.ends_with("`hairline check --bless` writes this file"), "{error}");
+            assert!(error.ends_with(WRITER), "{error}");
         }
     }
 }
