@@ -9,9 +9,11 @@ use crate::audit::{Plan, Source, StoredSource};
 use crate::corpus::InputError;
 use crate::engine::Unobserved;
 use crate::family::{MeshFamily, Stratum};
+use crate::kernel;
 use crate::mesh::{Part, SceneMesh, Surface};
 use crate::report::{illustrations, mergeable, merged};
 use clap::Args;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What to merge, and how to report.
@@ -35,10 +37,23 @@ pub struct MergeArguments {
 /// Runs the command.
 pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let outputs = arguments.report.outputs()?;
-    // What they answer is looked at again, for the worst findings and their causes.
-    arguments.plugins.entries()?;
     let files = &arguments.records;
     let records = files.iter().map(|file| read_record(file)).collect::<Result<Vec<_>, _>>()?;
+    // What they answer is looked at again, for the worst findings and their causes. They go by the words of the run.
+    let rows = records.iter().flat_map(|record| &record.result.plan.rows);
+    let selectors: BTreeMap<String, String> =
+        rows.map(|row| (row.kernel.clone(), row.selector.clone())).collect();
+    arguments.plugins.entries_known_as(&selectors)?;
+    let is_unknown = |(kernel, flag): &(&String, &String)| {
+        flag.starts_with("--kernel-") && kernel::find(kernel).is_none()
+    };
+    if let Some((kernel, flag)) = selectors.iter().find(is_unknown) {
+        let message = format!(
+            "the causes of findings of kernel '{kernel}' are looked for by running it: add {flag}, or wherever it \
+             lies here"
+        );
+        return Err(InputError::of("merge", message).into());
+    }
     let parts = mergeable(records, arguments.allow_partial).map_err(|error| {
         let file = error.record.map_or("merge", |i| &files[i]);
         InputError::of(file, error.message)

@@ -118,18 +118,28 @@ pub struct Given {
     pub place: String,
 }
 
+/// How the variables of settings begin.
+const PREFIX: &str = "HAIRLINE_";
+
 /// The variable of a setting.
 fn variable(key: &str) -> String {
-    format!("HAIRLINE_{}", key.to_uppercase().replace('-', "_"))
+    format!("{PREFIX}{}", key.to_uppercase().replace('-', "_"))
 }
 
 /// A note on each variable whose name begins as those of settings do, and is none.
 pub fn unknown_variables(names: impl Iterator<Item = String>) -> Vec<String> {
     let known: Vec<String> = SETTINGS.iter().map(|setting| variable(setting.key)).collect();
-    let is_unknown = |name: &String| name.starts_with("HAIRLINE_") && !known.contains(name);
+    let is_unknown = |name: &String| name.starts_with(PREFIX) && !known.contains(name);
     let note = |name: String| {
-        let near = nearest_name(&name, known.iter().map(String::as_str));
-        let advice = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
+        // What all names have in common makes none of them nearer.
+        let own = |name: &'_ str| name[PREFIX.len()..].to_owned();
+        let names: Vec<String> = known.iter().map(|name| own(name)).collect();
+        let near = nearest_name(&own(&name), names.iter().map(String::as_str));
+        let advice = match near {
+            _ if name == "HAIRLINE_BLESS" => "; in `check` it is the flag --bless".to_owned(),
+            Some(near) => format!("; did you mean {PREFIX}{near}?"),
+            None => String::new(),
+        };
         format!("note: {name} is no setting, and is not used{advice}")
     };
     let mut notes: Vec<String> = names.filter(is_unknown).map(note).collect();
@@ -328,13 +338,21 @@ mod tests {
 
     #[test]
     fn variables_that_are_no_settings_are_named() {
-        let names =
-            ["HAIRLINE_CUONT", "HAIRLINE_COUNT", "PATH", "HAIRLINE_", "HAIRLINE_ZZZZZZZZZZ"];
+        let names = [
+            "HAIRLINE_CUONT",
+            "HAIRLINE_COUNT",
+            "PATH",
+            "HAIRLINE_",
+            "HAIRLINE_CARGO",
+            "HAIRLINE_BLESS",
+        ];
         let notes = unknown_variables(names.into_iter().map(str::to_owned));
-        assert_eq!(notes.len(), 3);
+        assert_eq!(notes.len(), 4);
+        assert!(notes[1].ends_with("; in `check` it is the flag --bless"), "{notes:?}");
+        assert!(notes[2].ends_with("HAIRLINE_CARGO is no setting, and is not used"), "{notes:?}");
         let expected =
             "note: HAIRLINE_CUONT is no setting, and is not used; did you mean HAIRLINE_COUNT?";
-        assert_eq!(notes[1], expected);
+        assert_eq!(notes[3], expected);
     }
 
     #[test]
