@@ -232,7 +232,7 @@ fn what_a_crash_kept_from_being_judged_is_no_regression_once_it_is_repaired() {
     }
     ends(&folder, &["check", "--bless", "--quiet"], 0);
     // Repaired, and worse at once: only what shows a case that did not crash is worse.
-    build(&folder, "worse", &["-ffp-contract=off", "-DEPSILON=\"0.01\""]);
+    build(&folder, "worse", &["-ffp-contract=off", "-DEPSILON=\"0.5\""]);
     let (out, _) = ends(&folder, &["check", "--quiet"], 1);
     assert!(out.contains("interior: false-miss of interior/"), "{out}");
     build(&folder, "repaired", &["-ffp-contract=off"]);
@@ -248,4 +248,27 @@ fn what_a_crash_kept_from_being_judged_is_no_regression_once_it_is_repaired() {
         "{error}"
     );
     ends(&folder, &["check", "--quiet"], 0);
+}
+
+#[test]
+fn a_class_that_is_gone_is_shown_with_the_new_library() {
+    let folder = scratch("gone");
+    for (name, flags) in [("first", &["-DEPSILON=\"0.5\""][..]), ("better", &["-DWIDE"])] {
+        if !build(&folder, name, flags) {
+            return;
+        }
+        let library = format!("./lib{name}.so");
+        let run = "audit -q --scalar f32 --family interior,edge-near -n 5000 --format json";
+        let record = format!("{name}.json");
+        let words =
+            [&run.split(' ').collect::<Vec<_>>()[..], &["--kernel-lib", &library, "-o", &record]];
+        ends(&folder, &words.concat(), 0);
+    }
+    let (out, _) = ends(&folder, &["diff", "first.json", "better.json"], 0);
+    let gone: Vec<&str> = out
+        .lines()
+        .skip_while(|line| !line.contains("interior: false-miss") || !line.contains(", 0 of"))
+        .take(2)
+        .collect();
+    assert!(gone[1].contains("--kernel-lib './libbetter.so' --epsilon 'parallel=1e-7'"), "{out}");
 }

@@ -127,7 +127,8 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
     let folder = blessed("check-agree");
     let (line, _) = line_with(&folder, FILE, "tiny = ");
     let tiny = count_of(&fs::read_to_string(folder.join(FILE)).unwrap(), "tiny");
-    let advice = "put back what was there, or let `hairline check --bless` write both files\n";
+    let advice = "put back what was there, or let `hairline check --bless` (in a test HAIRLINE_BLESS=1) write both \
+                  files\n";
     recount(&folder, "tiny", |count| count - 1);
     let (out, error) = ends(&folder, &["check", "--quiet"], 65);
     let found = format!(
@@ -440,11 +441,11 @@ fn settings_come_from_the_command_line_then_the_environment_then_the_file() {
         let error = String::from_utf8(output.stderr).unwrap();
         error.split(": ").nth(1).unwrap().split(' ').next().unwrap().to_owned()
     };
-    assert_eq!(indices(&[], &[]), "1000");
+    assert_eq!(indices(&[], &[]), "1,000");
     assert_eq!(indices(&[], &[("HAIRLINE_COUNT", "300")]), "300");
     assert_eq!(indices(&["-n", "40"], &[("HAIRLINE_COUNT", "300")]), "40");
     fs::remove_file(folder.join("hairline.toml")).unwrap();
-    assert_eq!(indices(&["--scalar", "f32"], &[]), "20000");
+    assert_eq!(indices(&["--scalar", "f32"], &[]), "20,000");
 }
 
 #[test]
@@ -687,7 +688,7 @@ fn on_github_deviations_are_annotated_and_the_summary_is_appended() {
     let error = String::from_utf8(output.stderr).unwrap();
     assert!(
         error.starts_with(&format!(
-            "::error file={FILE},line=13,title=hairline%3A unexpected disagreement::moller-trumbore"
+            "::error file={FILE},line=15,title=hairline%3A unexpected disagreement::moller-trumbore"
         )),
         "{error}"
     );
@@ -783,4 +784,23 @@ fn a_scene_is_a_setting_and_a_run_of_none_of_the_expected_cases_is_one_error() {
     assert_eq!(code(&["check", "-q"], &[]), 0);
     let (_, error) = ends(&folder, &["check", "-q", "--family", "tiny"], 2);
     assert!(error.contains("hairline.toml:4: --scene: 'tiny' is no part of a scene"), "{error}");
+}
+
+#[test]
+#[cfg(unix)]
+fn of_two_programs_that_bless_at_once_one_waits() {
+    let folder = project("check-two");
+    let lock = fs::File::open(&folder).unwrap();
+    lock.lock().unwrap();
+    let mut blesses = std::process::Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .args(["check", "-q", "--bless", "-n", "20"])
+        .current_dir(&folder)
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    assert!(blesses.try_wait().unwrap().is_none() && !folder.join(FILE).exists());
+    drop(lock);
+    assert_eq!(blesses.wait().unwrap().code(), Some(0));
+    assert!(folder.join(FILE).exists() && folder.join(LOCK).exists());
 }

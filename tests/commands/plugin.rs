@@ -157,6 +157,59 @@ fn a_library_that_hangs_is_a_finding_and_the_run_ends() {
 }
 
 #[test]
+fn crashes_do_not_flood_standard_error() {
+    let Some(library) = misbehaving("THROW") else { return };
+    let (record, error) =
+        record(&[&["--threads", "2", "--kernel-lib", &library][..], &FLAGS].concat());
+    assert!(12 < count(&record, "crashes"));
+    let lines = error.lines().filter(|line| line.contains("terminate called")).count();
+    assert!((3..12).contains(&lines), "{lines}: {error}");
+    let left_out = "what further ones write to standard error is left out";
+    assert_eq!(error.matches(left_out).count(), 1, "{error}");
+}
+
+#[test]
+fn a_kernel_that_is_silent_again_and_again_is_given_up_and_each_time_is_said() {
+    let Some(library) = misbehaving("HANG") else { return };
+    let flags = ["audit", "--kernel-timeout", "0.1", "--kernel-failures", "2", "--threads", "1"];
+    let output = hairline(&[&flags[..], &["--kernel-lib", &library], &FLAGS].concat());
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(65), "{error}");
+    for number in 1..=3 {
+        let said = format!("kernel 'misbehave': no answer within 0.1 s, {number} of 3: o=");
+        assert_eq!(error.matches(&said).count(), 1, "{error}");
+    }
+    assert!(
+        error.contains("it gave no answer within 0.1 s on 3 cases (--kernel-timeout"),
+        "{error}"
+    );
+}
+
+#[test]
+fn what_a_library_says_of_itself_is_checked_and_what_it_leaves_out_is_said() {
+    let Some(library) = misbehaving("BAD_GIVES") else { return };
+    let error = refused(&["audit", "--kernel-lib", &library], 65);
+    assert!(error.contains("its gives is 255, expected HAIRLINE_GIVES_T (1), "), "{error}");
+    let Some(library) = misbehaving("EPSILONS") else { return };
+    let output = hairline(&[&["audit", "--kernel-lib", &library][..], &FLAGS].concat());
+    let screen = text(&output.stdout).replace('\n', " ");
+    let ends =
+        "excludes those near the start; if that is meant, promise less: --contract own,ends=free.";
+    assert_eq!(screen.matches(ends).count(), 1, "{screen}");
+    let role = "misbehave: what its epsilon 'slack' is there to refuse is not known";
+    assert_eq!(screen.matches(role).count(), 1, "{screen}");
+    let less = ["audit", "--contract", "own,ends=free", "--kernel-lib", &library];
+    let screen = text(&hairline(&[&less[..], &FLAGS].concat()).stdout);
+    assert!(!screen.contains("excludes those"), "{screen}");
+    // Where it touches what is not its own the sizes of its structs are named.
+    let Some(library) = misbehaving("WRITE_PAST") else { return };
+    let (_, error) = record(&[&["--kernel-lib", &library][..], &FLAGS].concat());
+    assert!(error.contains("hairline.h (in f64 136 bytes a case, 32 a verdict)?"), "{error}");
+    let error = refused(&["prove", "--kernel-lib", &library], 2);
+    assert!(error.contains("name the built-in kernel of the same formula"), "{error}");
+}
+
+#[test]
 fn too_many_failures_end_the_run_with_the_first_of_them() {
     let Some(library) = misbehaving("ABORT") else { return };
     let flags = ["audit", "--kernel-failures", "3", "--kernel-lib", &library];
@@ -255,9 +308,16 @@ fn records_of_a_library_are_merged_when_it_is_named_again() {
         run(&[&plan[..], &["--shard", shard]].concat(), file);
     }
     let merge = ["merge", &parts[0], &parts[1]];
-    assert!(refused(&merge, 65).contains("one of your own is known by its --kernel-lib"));
-    let merged = run(&[&merge[..], &["--kernel-lib", &library]].concat(), &at("merged"));
-    assert_eq!(merged, whole);
+    let error = refused(&merge, 65);
+    let flag = format!("by running it: add --kernel-lib '{library}'");
+    assert!(error.contains(&flag), "{error}");
+    // In other words, because the parts may have been run elsewhere.
+    let copy = at("libelsewhere.so");
+    fs::copy(&library, &copy).unwrap();
+    for library in [&library, &copy] {
+        let merged = run(&[&merge[..], &["--kernel-lib", library]].concat(), &at("merged"));
+        assert_eq!(merged, whole);
+    }
 }
 
 #[test]
@@ -362,7 +422,21 @@ fn the_example_in_c_is_moller_trumbore_bit_for_bit() {
         ["explain", "tiny@1/f32/-/1/0", "--epsilon", "parallel=0", "--kernel-lib", &library];
     let shown = text(&hairline(&tight).stdout);
     assert!(shown.contains("c-moller-trumbore (parallel=0): hit;"), "{shown}");
-    assert!(shown.contains("it does not show its gates"), "{shown}");
+    assert!(shown.contains("it does not show its formula"), "{shown}");
+    // At its own epsilon it is refused by that, and right with every epsilon 0: the cause.
+    let shown = text(&hairline(&["explain", "tiny@1/f32/-/1/0", "--kernel-lib", &library]).stdout);
+    assert!(shown.contains("run at e = 1e-6: refuses <- decides   [abs(det) < e]"), "{shown}");
+    assert!(
+        shown.contains("why the false-miss: epsilon (with every epsilon 0 it is right"),
+        "{shown}"
+    );
+    let audit =
+        ["audit", "-q", "--kernel-lib", &library, "--family", "tiny,edge-near", "-n", "500"];
+    let screen = text(&hairline(&audit).stdout);
+    assert!(
+        screen.contains("  epsilon 98.4%") && screen.contains("  not-epsilon 100.0%"),
+        "{screen}"
+    );
 }
 
 #[test]
