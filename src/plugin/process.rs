@@ -11,7 +11,7 @@ use super::running::{Lost, Program, Running};
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
-use crate::report::number_of;
+use crate::report::{group_digits, number_of};
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -370,7 +370,17 @@ impl Process {
             (Ok(took), _) => return Ok(took),
             (Err(Lost::Garbled(message)), _) => return Err(message),
             (Err(Lost::Failed(failure)), [case]) => verdicts[0] = self.pinned(failure, case)?,
-            (Err(Lost::Failed(failure)), _) => self.pin_all(failure, cases, epsilons, verdicts)?,
+            (Err(Lost::Failed(failure)), _) => {
+                if failure == Failure::Timeout && self.limits.timeouts < u64::MAX {
+                    (self.limits.tell)(&format!(
+                        "kernel '{}': no answer within {} s on {} cases together; they are asked one by one",
+                        self.hello.name(),
+                        self.limits.silence.as_secs_f64(),
+                        group_digits(cases.len() as u64)
+                    ));
+                }
+                self.pin_all(failure, cases, epsilons, verdicts)?;
+            }
         }
         Ok(None)
     }

@@ -8,6 +8,7 @@ use super::rate::{percent, share_column};
 use super::record::*;
 use super::why::cause_shares;
 use super::{Style, group_digits};
+use crate::audit::Attribution;
 use crate::kernel;
 use std::io::{self, Write};
 
@@ -36,6 +37,18 @@ pub(super) fn write(
          hard; far off: wrong by over 1/1000 of the triangle's longest edge.",
         out,
     )?;
+    let has_other_causes = |line: &Line| {
+        let mut shares = ["false-miss", "false-hit"]
+            .into_iter()
+            .filter_map(|kind| cause_shares(&line.row.results, kind, ""));
+        shares.any(|shares| shares.iter().any(|(cause, ..)| *cause == Attribution::NotEpsilon))
+    };
+    if lines.iter().any(has_other_causes) {
+        write_wrapped(
+            "not-epsilon: with every epsilon 0 it is wrong too; runs cannot tell rounding from the formula itself",
+            out,
+        )?;
+    }
     write_wrapped(&column_legend(columns, &[]), out)
 }
 

@@ -179,6 +179,7 @@ fn a_kernel_that_is_silent_again_and_again_is_given_up_and_each_time_is_said() {
         let said = format!("kernel 'misbehave': no answer within 0.1 s, {number} of 3: o=");
         assert_eq!(error.matches(&said).count(), 1, "{error}");
     }
+    assert!(error.contains(" cases together; they are asked one by one\n"), "{error}");
     assert!(
         error.contains("it gave no answer within 0.1 s on 3 cases (--kernel-timeout"),
         "{error}"
