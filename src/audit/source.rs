@@ -77,11 +77,13 @@ pub(crate) fn is_of_mesh(name: &str) -> bool {
     })
 }
 
-/// The stored cases of one file.
+/// The stored cases of one file of which all are secondary rays, or none is.
 #[derive(Clone, Default)]
 pub struct CorpusSet {
     /// The file's name.
     pub file: String,
+    /// Whether each ray starts at a computed hit point on its triangle.
+    pub is_secondary: bool,
     /// Names and cases in `f32`.
     pub f32: Vec<(String, Case<f32>)>,
     /// Names and cases in `f64`.
@@ -130,6 +132,7 @@ impl Source {
             Source::SceneMesh { mesh, stratum, .. } => {
                 format!("{}:{}", stratum.family().name, mesh.surface().file_name())
             }
+            Source::Corpus(set) if set.is_secondary => format!("corpus-secondary:{}", set.file),
             Source::Corpus(set) => format!("corpus:{}", set.file),
         };
         let shown = |c: char| match c.is_control() {
@@ -217,6 +220,7 @@ impl Source {
             Source::Family { family, .. } => family.grouping,
             Source::MeshPart { part, .. } => part.grouping(),
             Source::SceneMesh { stratum, .. } => stratum.family().grouping,
+            Source::Corpus(set) if set.is_secondary => Grouping::SecondaryRay,
             Source::Mesh { .. } | Source::Corpus(_) => Grouping::Single,
         }
     }

@@ -78,6 +78,9 @@ pub enum StoredSource {
     Corpus {
         /// Their file.
         file: String,
+        /// Whether they are those that start on their triangle, or the others.
+        #[serde(default)]
+        is_secondary: bool,
     },
 }
 
@@ -148,7 +151,9 @@ impl StoredSource {
                     count: *count,
                 }
             }
-            Source::Corpus(set) => StoredSource::Corpus { file: set.file.clone() },
+            Source::Corpus(set) => {
+                StoredSource::Corpus { file: set.file.clone(), is_secondary: set.is_secondary }
+            }
         }
     }
 

@@ -18,6 +18,9 @@ pub struct Scene {
     pub distance: [f64; 2],
     /// The length of the directions.
     pub direction: DirectionLength,
+    /// The sines of the angles between almost parallel rays and planes, each halving equally likely; none for those
+    /// from 1/8 down to below rounding.
+    pub sine: Option<[f64; 2]>,
 }
 
 /// How long the directions of a scene's rays are.
@@ -46,7 +49,8 @@ const fn preset(
     edge: [f64; 2],
     distance: [f64; 2],
 ) -> ScenePreset {
-    let scene = Scene { extent, center: 0.0, edge, distance, direction: DirectionLength::Unit };
+    let direction = DirectionLength::Unit;
+    let scene = Scene { extent, center: 0.0, edge, distance, direction, sine: None };
     ScenePreset { name, unit, scene }
 }
 
@@ -64,12 +68,14 @@ impl Default for Scene {
     }
 }
 
+/// The least sine of an angle: far below what a rounded direction can have.
+const LEAST_SINE: f64 = 1e-30;
+
 /// In place of a preset: the scene of a mesh.
 const OF_MESH: &str = "mesh";
 
 /// The words of a scene, as errors list them.
-const WORDS: &str =
-    "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target";
+const WORDS: &str = "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target, sine=1e-7..0.1";
 
 impl Scene {
     /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
@@ -144,6 +150,7 @@ impl Scene {
             "center" => self.center = number(key, value)?,
             "edge" => self.edge = range(key, value)?,
             "distance" => self.distance = range(key, value)?,
+            "sine" => self.sine = Some(range(key, value)?),
             "direction" => {
                 self.direction = match value {
                     "unit" => DirectionLength::Unit,
@@ -171,7 +178,13 @@ impl Scene {
                 Range(self.distance)
             ));
         }
-        Ok(())
+        match self.sine {
+            Some([low, high]) if low < LEAST_SINE || 1.0 < high => Err(format!(
+                "sine={}: sines of angles are from {LEAST_SINE:e} to 1",
+                Range([low, high])
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// The largest coordinate of a triangle.
@@ -285,7 +298,8 @@ impl fmt::Display for Scene {
         if self.center != 0.0 {
             write!(f, "center={},", Number(self.center))?;
         }
-        write!(f, "edge={edge},distance={distance},direction={direction}")
+        write!(f, "edge={edge},distance={distance},direction={direction}")?;
+        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))
     }
 }
 
@@ -299,6 +313,7 @@ mod tests {
             "extent=1000,edge=0.01..10,distance=0..2000,direction=unit",
             "extent=1e-7,edge=1e-9,distance=5e-9..1e-8,direction=target",
             "extent=10,center=-100000,edge=1,distance=0..4,direction=unit",
+            "extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..0.01",
         ] {
             assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
         }
@@ -330,6 +345,9 @@ mod tests {
             ("distance=0", "not 0 alone"),
             ("distance=-1..2", "from 0 up"),
             ("direction=long", "direction=unit or target"),
+            ("sine=0..1", "sines of angles are from 1e-30 to 1"),
+            ("sine=0.5..2", "to 1"),
+            ("sine=flat", "'flat' is not a finite number"),
             ("extent=1,extent=2", "'extent' is given twice"),
         ] {
             let error = Scene::parse(text).unwrap_err();

@@ -115,9 +115,10 @@ impl CaseArguments {
 }
 
 fn stored_cases(stored: &StoredCase) -> Cases {
+    let grouping = if stored.is_secondary { Grouping::SecondaryRay } else { Grouping::Single };
     match stored.case {
-        AnyCase::F32(case) => Cases::F32(Group::alone(vec![case], Grouping::Single)),
-        AnyCase::F64(case) => Cases::F64(Group::alone(vec![case], Grouping::Single)),
+        AnyCase::F32(case) => Cases::F32(Group::alone(vec![case], grouping)),
+        AnyCase::F64(case) => Cases::F64(Group::alone(vec![case], grouping)),
     }
 }
 

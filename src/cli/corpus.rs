@@ -10,7 +10,7 @@ use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
 use crate::explore;
 use crate::explore::campaign::Find;
 use crate::family::manifest::{self, ManifestLine};
-use crate::family::{FAMILIES, Family, find};
+use crate::family::{FAMILIES, Family, Grouping, find};
 use crate::kernel::Scalar;
 use crate::oracle;
 use clap::{Args, Subcommand};
@@ -102,8 +102,11 @@ fn write_family<F: Scalar>(
         for (k, case) in made.cases().iter().enumerate() {
             let mut id = family.id::<F>(&parameters, seed, index);
             id.triangle = several.then_some(k);
-            let mut stored =
-                StoredCase { name: Some(id.to_string()), ..StoredCase::of(wrap(*case)) };
+            let mut stored = StoredCase {
+                name: Some(id.to_string()),
+                is_secondary: family.grouping == Grouping::SecondaryRay,
+                ..StoredCase::of(wrap(*case))
+            };
             stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
             writeln!(out, "{}", write_case(&stored))?;
         }

@@ -8,7 +8,10 @@ use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{SourceArguments, scalars_in_use, set_threads, total_indices};
+use super::sources::{
+    SourceArguments, note_corpora_without_secondary_rays, scalars_in_use, set_threads,
+    total_indices,
+};
 use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
@@ -38,7 +41,8 @@ pub struct EpsilonArguments {
     #[arg(long)]
     exact: bool,
 
-    /// Write every point of each source's curve into the JSON; all kernels together take hundreds of megabytes
+    /// Write every point of each source's curve into the JSON; all kernels together take hundreds of megabytes.
+    /// In a scene: curves at every number of two digits
     #[arg(long)]
     curves: bool,
 
@@ -105,6 +109,9 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     if !arguments.quiet && families == FAMILIES.len() - SPANNING.len() {
         let left_out = SPANNING.join(", ");
         eprintln!("left out: {left_out}, whose sizes span the whole range (--family runs them)");
+    }
+    if !arguments.quiet {
+        note_corpora_without_secondary_rays(&rows, &sources);
     }
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
     // What is wrong with the flags shows before the first study runs.

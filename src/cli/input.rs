@@ -183,17 +183,21 @@ pub fn truth_line(stored: &StoredCase) -> TruthLine {
     TruthLine::new(stored.name.as_deref(), &definition.truth, &definition.exact)
 }
 
-/// The cases of a corpus file for a run; unnamed ones are called by file and line.
-pub fn corpus_set(file: &str) -> Result<CorpusSet, Failure> {
-    let mut set = CorpusSet { file: file.to_owned(), ..CorpusSet::default() };
+/// The cases of a corpus file for a run, those that start on their triangle last; unnamed ones are called by file
+/// and line. Without any case an empty set of others.
+pub fn corpus_sets(file: &str) -> Result<[CorpusSet; 2], Failure> {
+    let set =
+        |is_secondary| CorpusSet { file: file.to_owned(), is_secondary, ..CorpusSet::default() };
+    let mut sets = [set(false), set(true)];
     for stored in read_corpus(file)? {
+        let set = &mut sets[usize::from(stored.is_secondary)];
         let name = name_of(&stored);
         match stored.case {
             AnyCase::F32(case) => set.f32.push((name, case)),
             AnyCase::F64(case) => set.f64.push((name, case)),
         }
     }
-    Ok(set)
+    Ok(sets)
 }
 
 /// A stored case's name, or `line-N`.

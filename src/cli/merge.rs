@@ -1,7 +1,7 @@
 //! `hairline merge`: the records of parts of a run become the record of the whole.
 
 use super::exit::{Failure, Status};
-use super::input::{corpus_set, read_mesh, read_record};
+use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
 use super::reporting::{ReportArguments, self_check};
@@ -113,7 +113,10 @@ fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source
                 count: *count,
             })
         }
-        StoredSource::Corpus { file } => Ok(Source::Corpus(corpus_set(file)?)),
+        StoredSource::Corpus { file, is_secondary } => {
+            let [others, secondary] = corpus_sets(file)?;
+            Ok(Source::Corpus(if *is_secondary { secondary } else { others }))
+        }
         StoredSource::Family { family, .. } => {
             Err(format!("family '{family}' needs no file").into())
         }

@@ -2,9 +2,9 @@
 
 use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
-use super::input::{corpus_files, corpus_set, read_mesh};
+use super::input::{corpus_files, corpus_sets, read_mesh};
 use crate::arith::Float;
-use crate::audit::{Row, Source, shell_word};
+use crate::audit::{CorpusSet, Row, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
 use crate::epsilon::scene::StudiedScene;
@@ -235,7 +235,14 @@ impl SourceArguments {
                 if !seen.insert(fs::canonicalize(&file).unwrap_or_else(|_| PathBuf::from(&file))) {
                     return Err(Failure::usage(format!("--corpus: '{file}' is given twice")));
                 }
-                sources.push(Source::Corpus(corpus_set(&file)?));
+                let [others, secondary] = corpus_sets(&file)?;
+                let is_empty = |set: &CorpusSet| set.f32.is_empty() && set.f64.is_empty();
+                if !is_empty(&others) || is_empty(&secondary) {
+                    sources.push(Source::Corpus(others));
+                }
+                if !is_empty(&secondary) {
+                    sources.push(Source::Corpus(secondary));
+                }
             }
         }
         Ok(sources)
@@ -337,6 +344,25 @@ pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Fail
     }
     rows.iter().try_for_each(|row| row.check_in(chosen))?;
     Ok(used)
+}
+
+/// Notes the corpora without a secondary ray of a run that asks about self-hits: nothing more is demanded of them.
+pub fn note_corpora_without_secondary_rays(rows: &[Row], sources: &[Source]) {
+    if !rows.iter().any(|row| row.contract.no_self_hit) {
+        return;
+    }
+    let sets = sources.iter().filter_map(|source| match source {
+        Source::Corpus(set) => Some(set),
+        _ => None,
+    });
+    let marked: Vec<&String> =
+        sets.clone().filter(|set| set.is_secondary).map(|set| &set.file).collect();
+    for set in sets.filter(|set| !marked.contains(&&set.file)) {
+        eprintln!(
+            "note: no case of {} says \"starts\":\"on-triangle\", so no-self-hit demands nothing more of them",
+            set.file
+        );
+    }
 }
 
 /// The indices of a run; an error if there are none.

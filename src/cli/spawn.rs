@@ -10,14 +10,17 @@ use super::output::{paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::{scalars_in_use, set_threads};
-use crate::audit::Row;
+use crate::audit::{Row, shell_word};
 use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
-use crate::spawn::{Plan, PointKind, Scheme, default_schemes, needs_t, parse, run as run_plan};
+use crate::plugin::{OffsetCommand, Program};
+use crate::spawn::{
+    Plan, PointKind, Scheme, default_schemes, needs_t, parse, register, run as run_plan,
+};
 use choice::{least_without_failure, made_for};
 use clap::Args;
-use record::{PointsPart, SpawnRecord};
+use record::{PointsPart, SCHEMA, SpawnRecord};
 use std::io::{self, Write};
 
 /// What to run, and how to report it.
@@ -39,6 +42,11 @@ pub struct SpawnArguments {
     #[arg(long, value_delimiter = ',', value_name = "SCHEME", allow_hyphen_values = true)]
     scheme: Vec<String>,
 
+    /// An offset of your own as a command that answers hit points over its pipes (docs/guide/spawn.md), with a
+    /// name: mine=./mine; may be repeated
+    #[arg(long, value_name = "NAME=COMMAND")]
+    scheme_cmd: Vec<String>,
+
     /// How hit points are formed: uv (from the vertices and u, v), ray (o + t*d), or both
     #[arg(long, value_delimiter = ',', value_name = "POINT", default_value = "uv,ray")]
     point: Vec<String>,
@@ -46,6 +54,11 @@ pub struct SpawnArguments {
     /// A wall in front of every triangle, this many of its longest edges away: starts beyond it are counted
     #[arg(long, value_name = "EDGES", default_value = "0.01", allow_hyphen_values = true)]
     wall: String,
+
+    /// A neighbour on the edge nearest to each hit point, folded up to this angle with the triangle: starts behind
+    /// it are counted
+    #[arg(long, value_name = "DEGREES", default_value = "45", allow_hyphen_values = true)]
+    fold: String,
 
     /// f32, f64 or both
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32", help_heading = RUNNING)]
@@ -105,13 +118,14 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
     let (scene, unit) = arguments.scene(scalars)?;
-    let (kinds, wall) = (arguments.kinds()?, arguments.wall()?);
+    let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
+    let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;
     let mut studies: Vec<Study<'_>> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
             let in_scalar = row.entry.scalars();
-            let settings = Settings { arguments, row, scene: &scene, kind, wall };
+            let settings = Settings { arguments, row, scene: &scene, kind, wall, fold };
             if scalars[0] && in_scalar[0] && has::<f32>(&schemes) {
                 let schemes = &schemes;
                 studies.push(Box::new(move |progress| settings.study::<f32>(schemes, progress)));
@@ -131,7 +145,22 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let progress = Progress::new(total, "first rays", arguments.quiet);
     let points = studies.iter().map(|study| study(&progress)).collect();
     progress.finish();
-    let record = SpawnRecord::new(&scene, unit, arguments.seed, arguments.count, wall, points);
+    for (name, command) in commands {
+        if let Some(fault) = command.fault() {
+            return Err(Failure::Message(Status::BadInput, format!("scheme '{name}': {fault}")));
+        }
+    }
+    let record = SpawnRecord {
+        schema: SCHEMA.to_owned(),
+        scene: scene.to_string(),
+        unit: unit.to_owned(),
+        seed: arguments.seed,
+        pilot_seed: pilot_seed(arguments.seed),
+        count: arguments.count,
+        wall,
+        fold,
+        points,
+    };
     write_results(outputs, |format, _, out| (format.write)(&record, out))?;
     Ok(Status::Success)
 }
@@ -156,6 +185,7 @@ struct Settings<'a> {
     scene: &'a Scene,
     kind: PointKind,
     wall: f64,
+    fold: f64,
 }
 
 impl Settings<'_> {
@@ -165,14 +195,14 @@ impl Settings<'_> {
     where
         AnyCase: From<Case<F>>,
     {
-        let Settings { arguments, row, scene, kind, wall } = *self;
+        let Settings { arguments, row, scene, kind, wall, fold } = *self;
         let gives_t = row.entry.info.gives.t;
         let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
         let schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
         let (seed, count) = (pilot_seed(arguments.seed), arguments.count);
         let (schemes_of_pilot, with_least) = (&schemes, true);
-        let plan =
-            Plan { row, scene, kind, schemes: schemes_of_pilot, wall, with_least, seed, count };
+        let schemes = schemes_of_pilot;
+        let plan = Plan { row, scene, kind, schemes, wall, fold, with_least, seed, count };
         let pilot = run_plan::<F>(&plan, progress);
         let mut schemes = schemes.clone();
         if arguments.makes_schemes() {
@@ -235,14 +265,47 @@ impl SpawnArguments {
         })
     }
 
+    fn fold(&self) -> Result<f64, Failure> {
+        let fold: Option<f64> = self.fold.trim().parse().ok();
+        fold.filter(|fold| 0.0 < *fold && *fold < 180.0).ok_or_else(|| {
+            Failure::usage(format!(
+                "--fold: '{}' is not an angle between 0 and 180 degrees, such as 45",
+                self.fold
+            ))
+        })
+    }
+
+    /// Starts the commands that answer for offsets, and makes their names known.
+    fn commands(&self) -> Result<Vec<(String, OffsetCommand)>, Failure> {
+        let started = |text: &String| {
+            let wrong = |error: String| Failure::usage(format!("--scheme-cmd '{text}': {error}"));
+            let missing = || wrong("write NAME=COMMAND, as mine=./mine".to_owned());
+            let (name, line) = text.split_once('=').ok_or_else(missing)?;
+            let name = name.trim();
+            let program = Program::parse(line).map_err(wrong)?;
+            let command = OffsetCommand::start(program).map_err(|error| {
+                let message = format!("{line}: it cannot be started: {error}");
+                Failure::Message(Status::InputOutput, message)
+            })?;
+            let scheme = Scheme::own(name).f32(command.clone()).f64(command.clone());
+            let flags = format!("--scheme-cmd {} --scheme {name}", shell_word(text));
+            register(scheme.chosen_by(flags)).map_err(wrong)?;
+            Ok((name.to_owned(), command))
+        };
+        self.scheme_cmd.iter().map(started).collect()
+    }
+
     fn schemes(&self) -> Result<Vec<Scheme>, Failure> {
         if self.scheme.is_empty() {
             return Ok(default_schemes());
         }
-        let chosen = self
-            .scheme
-            .iter()
-            .map(|text| parse(text).map_err(|error| Failure::usage(format!("--scheme: {error}"))));
+        let of_commands = self.scheme_cmd.iter().filter_map(|command| command.split_once('='));
+        let of_commands = of_commands.map(|(name, _)| name.trim().to_owned());
+        let more = of_commands.filter(|name| !self.scheme.contains(name));
+        let chosen =
+            self.scheme.iter().cloned().chain(more).map(|text| {
+                parse(&text).map_err(|error| Failure::usage(format!("--scheme: {error}")))
+            });
         let chosen: Vec<Scheme> = chosen.collect::<Result<_, _>>()?;
         let names: Vec<&String> = chosen.iter().map(|scheme| &scheme.name).collect();
         refuse_twice("--scheme", &names)?;

@@ -17,31 +17,50 @@ const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 /// The fields of `bits`.
 const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
 
+/// What the field `starts` says of a ray that starts at a computed hit point on its triangle.
+const ON_TRIANGLE: &str = "on-triangle";
+
 /// The most bytes of a name: commands repeat it.
 const LONGEST_NAME: usize = 1000;
 
 /// The case that stands in a line, and what stands beside it.
 pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
-    let [name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found] =
-        json::fields(
-            text,
-            [
-                "name",
-                "scalar",
-                "origin",
-                "direction",
-                "a",
-                "b",
-                "c",
-                "t_min",
-                "t_max",
-                "truth",
-                "bits",
-                "why",
-                "url",
-                "found",
-            ],
-        )?;
+    let [
+        name,
+        scalar,
+        origin,
+        direction,
+        a,
+        b,
+        c,
+        t_min,
+        t_max,
+        starts,
+        truth,
+        bits,
+        why,
+        url,
+        found,
+    ] = json::fields(
+        text,
+        [
+            "name",
+            "scalar",
+            "origin",
+            "direction",
+            "a",
+            "b",
+            "c",
+            "t_min",
+            "t_max",
+            "starts",
+            "truth",
+            "bits",
+            "why",
+            "url",
+            "found",
+        ],
+    )?;
     let scalar = json::string(json::required("scalar", scalar)?)
         .map_err(|message| format!("scalar: {message}"))?;
     let vectors = [origin, direction, a, b, c];
@@ -53,6 +72,11 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     let text = |field: &str, value: Option<&RawValue>| {
         value.map(json::string).transpose().map_err(|message| format!("{field}: {message}"))
     };
+    let starts = text("starts", starts)?;
+    if let Some(other) = starts.as_deref().filter(|starts| *starts != ON_TRIANGLE) {
+        let found = json::quoted(other);
+        return Err(format!("starts: expected '{ON_TRIANGLE}', found {found}"));
+    }
     let truth = truth.map(|truth| StoredTruth::parse(truth.get())).transpose();
     let found = found.map(|found| Provenance::parse(found.get())).transpose();
     let name = text("name", name)?;
@@ -60,6 +84,7 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     Ok(StoredCase {
         name,
         case,
+        is_secondary: starts.is_some(),
         truth: truth.map_err(|message| format!("truth: {message}"))?,
         line,
         why: text("why", why)?,
@@ -187,6 +212,9 @@ pub(crate) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
             bits.push((field, hex(end)));
         }
     }
+    if stored.is_secondary {
+        fields.push(("starts", format!("\"{ON_TRIANGLE}\"")));
+    }
     fields.extend(stored.truth.as_ref().map(|truth| ("truth", truth.to_json())));
     fields.push(("bits", object(&bits)));
     fields.extend(stored.why.as_ref().map(|why| ("why", text(why))));
@@ -292,7 +320,8 @@ mod tests {
         let truth = StoredTruth::parse(r#"{"facing":null,"u_exact":"1/3"}"#).ok();
         let (why, url) = (Some("tab\t\"quote\"".to_owned()), Some("ü\n".to_owned()));
         let stored =
-            StoredCase { name: Some(name), case: any, truth, line: 7, why, url, found: None };
+            StoredCase { name: Some(name), truth, line: 7, why, url, ..StoredCase::of(any) };
+        let stored = StoredCase { is_secondary: case.bits()[0] & 1 == 1, ..stored };
         let text = write_case(&stored);
         assert!(!text.contains('\n'));
         let read = parse(&text, 7).unwrap();
@@ -323,17 +352,14 @@ mod tests {
         let case = case.on(0.0, f32::NAN);
         let stored = StoredCase {
             name: Some("x".to_owned()),
-            case: AnyCase::F32(case),
+            is_secondary: true,
             truth: StoredTruth::parse(r#"{"class":"invalid"}"#).ok(),
-            line: 0,
-            why: None,
-            url: None,
-            found: None,
+            ..StoredCase::of(case)
         };
         let expected = concat!(
             r#"{"name":"x","scalar":"f32","origin":[0.5,-0.0,1.0000000116860974e-7],"#,
             r#""direction":[0,0,1],"a":[0.10000000149011612,0.10000000149011612,"#,
-            r#"0.10000000149011612],"b":[4,0,0],"c":[1,1,1],"t_max":"nan","#,
+            r#"0.10000000149011612],"b":[4,0,0],"c":[1,1,1],"t_max":"nan","starts":"on-triangle","#,
             r#""truth":{"class":"invalid"},"bits":{"origin":["3f000000","80000000","33d6bf95"],"#,
             r#""direction":["00000000","00000000","3f800000"],"#,
             r#""a":["3dcccccd","3dcccccd","3dcccccd"],"b":["40800000","00000000","00000000"],"#,

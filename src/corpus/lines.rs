@@ -112,7 +112,7 @@ mod tests {
         for (line, message) in [
             (
                 r#"{"orign":1}"#,
-                "unknown field 'orign', expected one of name, scalar, origin, direction, a, b, c, t_min, t_max, truth, bits, why, url, found",
+                "unknown field 'orign', expected one of name, scalar, origin, direction, a, b, c, t_min, t_max, starts, truth, bits, why, url, found",
             ),
             (r#"{"a\nb":1}"#, "unknown field 'a\\nb', expected one of name, "),
             (r#"{CASE,"a":[0,0,0]}"#, "duplicate field 'a'"),
@@ -145,6 +145,10 @@ mod tests {
                 "t_max: expected a number or a string, found null",
             ),
             (r#"{"scalar":"f32",CASE,"t_min":"-1e39"}"#, "t_min: '-1e39' overflows f32"),
+            (
+                r#"{"scalar":"f32",CASE,"starts":"on-edge"}"#,
+                "starts: expected 'on-triangle', found 'on-edge'",
+            ),
             (r#"{"scalar":"f32",CASE,"name":null}"#, "name: expected a string, found null"),
             (r#"{"scalar":"f32",CASE,"why":1}"#, "why: expected a string, found 1"),
             (r#"{"scalar":"f32",CASE,"url":[]}"#, "url: expected a string, found []"),

@@ -44,6 +44,9 @@ pub struct StoredCase {
     pub name: Option<String>,
     /// The ray and the triangle.
     pub case: AnyCase,
+    /// Whether the ray starts at a computed hit point on the triangle, as a shadow ray does: a hit there is a
+    /// self-hit.
+    pub is_secondary: bool,
     /// What the file says about it; not compared with anything yet.
     pub truth: Option<StoredTruth>,
     /// Counted from 1.
@@ -60,6 +63,15 @@ impl StoredCase {
     /// A case with nothing beside it.
     pub fn of(case: impl Into<AnyCase>) -> StoredCase {
         let case = case.into();
-        StoredCase { name: None, case, truth: None, line: 0, why: None, url: None, found: None }
+        StoredCase {
+            name: None,
+            case,
+            is_secondary: false,
+            truth: None,
+            line: 0,
+            why: None,
+            url: None,
+            found: None,
+        }
     }
 }

@@ -78,6 +78,7 @@ pub fn few(sources: &[Source], most: u64) -> Vec<Source> {
             },
             Source::Corpus(set) => Source::Corpus(CorpusSet {
                 file: set.file.clone(),
+                is_secondary: set.is_secondary,
                 f32: set.f32.iter().take(most as usize).cloned().collect(),
                 f64: set.f64.iter().take(most as usize).cloned().collect(),
             }),
@@ -121,7 +122,7 @@ mod tests {
         assert_eq!(shown(&spanning), SPANNING.map(|name| of(name, 10)));
         let cases = (0..30).map(|i| (i.to_string(), Case::new([0.0; 3], [1.0; 3], [[2.0; 3]; 3])));
         let f32: Vec<(String, Case<f32>)> = cases.collect();
-        let set = CorpusSet { file: "corpus".to_owned(), f64: Vec::new(), f32: f32.clone() };
+        let set = CorpusSet { file: "corpus".to_owned(), f32: f32.clone(), ..CorpusSet::default() };
         let Source::Corpus(found) = few(&[Source::Corpus(set)], 10).remove(0) else {
             panic!("a corpus")
         };

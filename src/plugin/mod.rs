@@ -13,11 +13,13 @@ mod hello;
 #[cfg(unix)]
 mod host;
 mod margins;
+mod offset;
 mod process;
 mod running;
 pub mod text;
 
 pub use hello::{Hello, Start};
+pub use offset::OffsetCommand;
 pub use process::{Limits, LoadError, load};
 pub use running::Program;
 

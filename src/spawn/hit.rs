@@ -33,6 +33,12 @@ impl<F: Float> Start<F> {
     pub fn at(origin: [F; 3]) -> Start<F> {
         Start { origin, t_min: F::zero() }
     }
+
+    /// Where hits begin to count along a direction, in `f64`.
+    pub(super) fn point(&self, direction: [F; 3]) -> [f64; 3] {
+        let t_min = self.t_min.to_f64();
+        std::array::from_fn(|i| self.origin[i].to_f64() + t_min * direction[i].to_f64())
+    }
 }
 
 /// An offset scheme in one scalar. Any closure of the same signature is one.
@@ -41,6 +47,11 @@ impl<F: Float> Start<F> {
 pub trait Offset<F: Float>: Send + Sync {
     /// Where the new ray starts.
     fn start(&self, hit: &HitPoint<F>) -> Start<F>;
+
+    /// Where those of several hits start.
+    fn starts(&self, hits: &[HitPoint<F>]) -> Vec<Start<F>> {
+        hits.iter().map(|hit| self.start(hit)).collect()
+    }
 }
 
 impl<F: Float, T: Fn(&HitPoint<F>) -> Start<F> + Send + Sync> Offset<F> for T {

@@ -15,7 +15,9 @@
 #![forbid(unsafe_code)]
 
 mod hit;
+mod neighbour;
 mod plane;
+mod proved;
 mod published;
 mod run;
 mod safe;
@@ -25,6 +27,7 @@ mod trial;
 
 pub use hit::{HitPoint, Offset, Start};
 pub use plane::Plane;
+pub use proved::proved_normal;
 pub use published::{PUBLISHED, Parameter, Published};
 pub use run::{Plan, new_ray, run};
 pub use safe::{Least, least};

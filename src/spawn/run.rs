@@ -1,6 +1,7 @@
 //! A run: every scheme on the hit points of one kernel in one scene.
 
-use super::hit::Start;
+use super::hit::{HitPoint, Start};
+use super::neighbour::Neighbour;
 use super::plane::Plane;
 use super::published::largest;
 use super::safe::{Least, least};
@@ -29,6 +30,8 @@ pub struct Plan<'a> {
     pub schemes: &'a [Scheme],
     /// How far in front of each triangle a wall is, in its longest edges.
     pub wall: f64,
+    /// The angle in degrees at which a neighbour is folded up.
+    pub fold: f64,
     /// Whether the smallest safe offset of each hit point is looked for.
     pub with_least: bool,
     /// Which random rays.
@@ -78,9 +81,11 @@ fn starts_right(truth: &Truth) -> bool {
 /// What is known of a trial beside any scheme.
 struct Measured<F: Float> {
     plane: Plane,
+    neighbour: Neighbour,
     /// +1 if the new ray leaves to the front, else -1.
     side: f64,
-    /// The longest edge in ulps of the triangle's largest coordinate.
+    /// The longest edge, and the same in ulps of the triangle's largest coordinate.
+    edge: f64,
     edge_in_ulps: f64,
     /// The height of the hit point, on the side to which the ray leaves.
     height: f64,
@@ -91,7 +96,7 @@ struct Measured<F: Float> {
 }
 
 impl<F: Float> Measured<F> {
-    fn of(trial: &Trial<F>, with_least: bool) -> Measured<F> {
+    fn of(trial: &Trial<F>, fold: f64, with_least: bool) -> Measured<F> {
         let hit = &trial.hit;
         let (plane, side) = (Plane::new(hit.vertices), if trial.is_front { 1.0 } else { -1.0 });
         let is_right =
@@ -105,6 +110,8 @@ impl<F: Float> Measured<F> {
         let way = |least: &Least<F>| side * plane.height(least.origin) - height;
         Measured {
             side,
+            neighbour: Neighbour::new(hit.vertices, hit.point, fold),
+            edge,
             edge_in_ulps: edge / F::from_f64(most).ulp().to_f64(),
             height,
             least_way: least.as_ref().filter(|least| !least.distance.is_zero()).map(way),
@@ -130,7 +137,7 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
     sums.without_side += without_side;
     sums.not_finite += not_finite;
     let measured: Vec<Measured<F>> =
-        trials.iter().map(|trial| Measured::of(trial, plan.with_least)).collect();
+        trials.iter().map(|trial| Measured::of(trial, plan.fold, plan.with_least)).collect();
     for (trial, measured) in trials.iter().zip(&measured) {
         match &measured.least {
             None => sums.without_least += u64::from(plan.with_least),
@@ -146,9 +153,10 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
     let (epsilons, tells_self_hits) = (plan.row.epsilons::<F>(), plan.tells_self_hits());
     let mut verdicts = vec![Verdict::miss(None); trials.len()];
     let (mut truths, mut layers) = (Vec::new(), Layers::default());
+    let hits: Vec<HitPoint<F>> = trials.iter().map(|trial| trial.hit).collect();
     for (scheme, sums) in plan.schemes.iter().zip(&mut sums.schemes) {
         let Some(offset) = scheme.offset::<F>() else { continue };
-        let starts: Vec<Start<F>> = trials.iter().map(|trial| offset.start(&trial.hit)).collect();
+        let starts = offset.starts(&hits);
         let with_starts = trials.iter().zip(&starts);
         let cases: Vec<Case<F>> =
             with_starts.map(|(trial, start)| trial.case(start.origin, start.t_min)).collect();
@@ -174,6 +182,9 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
                 sums.in_edges.add(height, is_right);
                 sums.in_ulps.add(height * measured.edge_in_ulps, is_right);
                 sums.beyond_wall += u64::from(is_right && plan.wall <= height);
+                let point = start.point(trial.hit.direction);
+                let is_past = measured.neighbour.is_passed(point, height * measured.edge);
+                sums.past_neighbour += u64::from(is_right && is_past);
                 if let Some(least_way) = measured.least_way {
                     sums.over_least.add(((height - measured.height) / least_way).max(0.0));
                 }

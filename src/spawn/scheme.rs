@@ -14,6 +14,8 @@ pub struct Scheme {
     pub name: String,
     /// Author, title, year and address.
     pub source: String,
+    /// The flags that choose it.
+    pub flags: String,
     f32: Option<Arc<dyn Offset<f32>>>,
     f64: Option<Arc<dyn Offset<f64>>>,
 }
@@ -30,7 +32,13 @@ impl Scheme {
     /// hairline::register_scheme(Scheme::own("a-centimetre").f32(up)).unwrap();
     /// ```
     pub fn own(name: &str) -> Scheme {
-        Scheme { name: name.to_owned(), source: "your own".to_owned(), f32: None, f64: None }
+        let (name, source) = (name.to_owned(), "your own".to_owned());
+        Scheme { flags: format!("--scheme {name}"), name, source, f32: None, f64: None }
+    }
+
+    /// The same, chosen by other flags.
+    pub(crate) fn chosen_by(self, flags: String) -> Scheme {
+        Scheme { flags, ..self }
     }
 
     /// The same with a formula in `f32`.

@@ -51,6 +51,8 @@ pub struct OfScheme {
     pub failed: u64,
     /// Starts that lie beyond a wall in front of the triangle.
     pub beyond_wall: u64,
+    /// Starts behind the neighbour that is folded up at the edge nearest to the hit point.
+    pub past_neighbour: u64,
     /// In longest edges of the triangle.
     pub in_edges: Heights,
     /// In ulps of the largest coordinate of the triangle.
@@ -73,6 +75,7 @@ impl OfScheme {
         self.self_hits += other.self_hits;
         self.failed += other.failed;
         self.beyond_wall += other.beyond_wall;
+        self.past_neighbour += other.past_neighbour;
         self.in_edges.merge(&other.in_edges);
         self.in_ulps.merge(&other.in_ulps);
         self.over_least.merge(&other.over_least);

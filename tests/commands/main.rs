@@ -27,6 +27,7 @@ mod prove;
 mod rows;
 mod scene;
 mod screen;
+mod secondary;
 mod shards;
 mod shrink;
 mod spawn;

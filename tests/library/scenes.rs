@@ -142,7 +142,7 @@ fn setting<'a>(
     scene: &'a Scene,
 ) -> Setting<'a, f32> {
     let subject = f32::subject(row.entry).unwrap();
-    Setting { row, subject, knobs, counts, scene, mesh: None, relative: false }
+    Setting { row, subject, knobs, counts, scene, mesh: None, relative: false, fine_curves: false }
 }
 
 /// A case or group, and which of the counts it is for.

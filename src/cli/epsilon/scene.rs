@@ -77,6 +77,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         max_error,
         least_t: least_t.as_deref(),
         at: &arguments.at,
+        fine_curves: arguments.curves,
         seed,
         count,
         progress: &progress,
@@ -114,6 +115,7 @@ struct Run<'a> {
     /// The least t that `--epsilon` names.
     least_t: Option<&'a str>,
     at: &'a [String],
+    fine_curves: bool,
     seed: u64,
     count: u64,
     progress: &'a Progress,
@@ -134,6 +136,7 @@ impl Run<'_> {
             scene: &self.studied.scene,
             mesh: self.studied.mesh.as_ref(),
             relative: false,
+            fine_curves: self.fine_curves,
         };
         let number = |flag: &str, text: &str| {
             let value = F::parse(text).filter(|value| value.is_finite());
@@ -177,7 +180,6 @@ impl EpsilonArguments {
         let given = [
             ("--exact", self.exact),
             ("--map", self.map),
-            ("--curves", self.curves),
             ("--family", self.sources.names_families()),
         ];
         match given.iter().find(|(_, given)| *given) {

@@ -1,27 +1,32 @@
 //! The versioned record of `spawn`; the same bytes whatever the number of threads.
 
 use super::choice::lowest;
-use super::pilot_seed;
+use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, shell_word};
-use crate::case::{Case, Scene};
+use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
-use crate::spawn::{Heights, Lengths, OfScheme, Plan, Scheme, Sums, first_ray_id, new_ray};
+use crate::spawn::{
+    Heights, Lengths, OfScheme, Plan, PointKind, Scheme, Sums, first_ray_id, new_ray, proved_normal,
+};
 use serde::Serialize;
 use std::io::{self, Write};
 
 /// The schema's name and version.
-const SCHEMA: &str = "hairline-spawn/1";
+pub const SCHEMA: &str = "hairline-spawn/1";
 
 /// Everything that was found.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct SpawnRecord {
-    pub schema: &'static str,
+    /// [`SCHEMA`].
+    pub schema: String,
     /// The scene's words.
     pub scene: String,
     /// Its unit of length; empty if it has none.
-    pub unit: &'static str,
+    pub unit: String,
     /// The seed of the rays that are reported.
     pub seed: u64,
     /// The seed of the rays on which schemes were chosen and made.
@@ -30,21 +35,28 @@ pub struct SpawnRecord {
     pub count: u64,
     /// How far in front of each triangle the wall is, in its longest edges.
     pub wall: f64,
+    /// The angle in degrees at which a neighbour is folded up at the edge nearest to the hit point.
+    pub fold: f64,
     /// By kernel, kind of hit point and scalar.
     pub points: Vec<PointsPart>,
 }
 
 /// The hit points of one kind, of a kernel in a scalar.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct PointsPart {
+    /// The kernel's name.
     pub kernel: String,
     /// What its epsilons are called.
     pub set: String,
     /// The flags that choose the kernel and its epsilons.
     pub flags: String,
-    pub scalar: &'static str,
+    /// `f32` or `f64`.
+    pub scalar: String,
     /// `uv` or `ray`.
-    pub point: &'static str,
+    pub point: String,
+    /// How many hit points.
     pub hits: u64,
     /// First rays on which the kernel reported no hit.
     pub missed: u64,
@@ -54,15 +66,20 @@ pub struct PointsPart {
     pub not_finite: u64,
     /// The smallest safe offsets along the normal.
     pub least: LeastPart,
+    /// The distance along the normal, and every larger one, that is proved to have no wrong start.
+    pub proved_normal: Option<f64>,
     /// The lowest scheme with neither a wrong start nor a self-hit.
     pub best: Option<BestPart>,
     /// The lowest scheme without a wrong start, if that is another.
     pub lowest_right: Option<String>,
+    /// What each scheme does.
     pub schemes: Vec<SchemePart>,
 }
 
 /// The smallest safe offsets along the normal, of the hit points that need one.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct LeastPart {
     /// Hit points that need an offset.
     pub needed: Rate,
@@ -74,17 +91,25 @@ pub struct LeastPart {
     pub ulps: LengthsPart,
 }
 
-/// Quantiles, rounded up by at most one part in 256; the largest as it was.
+/// Quantiles, rounded up by at most one part in 256; the largest seen as it was.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct LengthsPart {
+    /// Half are at most this.
     pub median: f64,
+    /// 99 % are at most this.
     pub p99: f64,
+    /// The largest seen on this seed: a larger one may come with more rays.
     pub largest: f64,
 }
 
 /// What to use.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct BestPart {
+    /// The scheme's name.
     pub scheme: String,
     /// At most one new ray in this many fails, with a confidence of 95 %.
     pub one_in: u64,
@@ -94,8 +119,12 @@ pub struct BestPart {
 
 /// What a scheme does.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct SchemePart {
+    /// As `--scheme` takes it.
     pub name: String,
+    /// Author, title, year and address.
     pub source: String,
     /// Starts on the plane, behind it, or nowhere.
     pub wrong: Rate,
@@ -105,47 +134,42 @@ pub struct SchemePart {
     pub self_hits: Rate,
     /// Starts beyond the wall.
     pub beyond_wall: Rate,
+    /// Starts behind the neighbour.
+    pub past_neighbour: Rate,
     /// In longest edges of the triangle.
     pub height_in_edges: HeightsPart,
     /// In ulps of the triangle's largest coordinate.
     pub height_in_ulps: HeightsPart,
     /// The way along the normal over the least that is right, where one is needed: its median.
     pub over_least: Option<f64>,
+    /// The first wrong start.
     pub first_wrong: Option<WrongPart>,
 }
 
 /// Quantiles of heights over the plane; none on the plane or behind it.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct HeightsPart {
+    /// Half are at most this.
     pub median: Option<f64>,
+    /// 99 % are at most this.
     pub p99: Option<f64>,
+    /// The highest seen.
     pub highest: f64,
-    /// How deep the wrong starts lie at most.
+    /// How deep the deepest wrong start that was seen lies.
     pub deepest: f64,
 }
 
 /// A wrong start.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct WrongPart {
     /// The id of the first ray, which `hairline explain` takes.
     pub first_ray: String,
     /// Shows the new ray.
     pub explain: String,
-}
-
-impl SpawnRecord {
-    pub fn new(
-        scene: &Scene,
-        unit: &'static str,
-        seed: u64,
-        count: u64,
-        wall: f64,
-        points: Vec<PointsPart>,
-    ) -> SpawnRecord {
-        let scene = scene.to_string();
-        let pilot_seed = pilot_seed(seed);
-        SpawnRecord { schema: SCHEMA, scene, unit, seed, pilot_seed, count, wall, points }
-    }
 }
 
 impl PointsPart {
@@ -165,8 +189,8 @@ impl PointsPart {
         PointsPart {
             kernel: plan.row.entry.info.name.to_owned(),
             set: plan.row.set.clone(),
-            scalar: F::NAME,
-            point: plan.kind.name(),
+            scalar: F::NAME.to_owned(),
+            point: plan.kind.name().to_owned(),
             hits: sums.hits,
             missed: sums.missed,
             without_side: sums.without_side,
@@ -177,12 +201,15 @@ impl PointsPart {
                 lengths: LengthsPart::new(&sums.least),
                 ulps: LengthsPart::new(&sums.least_in_ulps),
             },
+            proved_normal: (plan.kind == PointKind::Weights)
+                .then(|| three_digits(proved_normal::<F>(plan.scene), true)),
             lowest_right: right.map(|place| plan.schemes[place].name.clone()),
             best: best.map(|place| {
                 let scheme = plan.schemes[place].name.clone();
                 let (scene, point) = (shell_word(words), plan.kind.name());
                 let command = format!(
-                    "hairline spawn {flags} --scene {scene} --scheme {scheme} --point {point} --scalar {}",
+                    "hairline spawn {flags} --scene {scene} {} --point {point} --scalar {}",
+                    plan.schemes[place].flags,
                     F::NAME
                 );
                 BestPart { one_in: one_in(&sums.schemes[place]), scheme, command }
@@ -231,6 +258,7 @@ impl SchemePart {
             not_finite: sums.not_finite,
             self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
             beyond_wall: rate(sums.beyond_wall),
+            past_neighbour: rate(sums.past_neighbour),
             height_in_edges: HeightsPart::new(&sums.in_edges),
             height_in_ulps: HeightsPart::new(&sums.in_ulps),
             over_least: (0 < over_least.count()).then(|| over_least.quantile(0.5)),
@@ -257,4 +285,14 @@ impl WrongPart {
 pub fn write_json(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, record)?;
     writeln!(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_schema_is_that_of_the_types() {
+        crate::report::tests::schema::assert_committed::<SpawnRecord>("spawn");
+    }
 }

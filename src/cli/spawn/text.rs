@@ -27,13 +27,13 @@ fn of_unit(unit: &str) -> String {
 }
 
 fn heading(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
-    let point = match part.point {
+    let point = match part.point.as_str() {
         "uv" => "hit points from u and v",
         _ => "hit points o + t*d",
     };
-    let (kernel, scalar, scene) = (&part.kernel, part.scalar, &record.scene);
+    let (kernel, scalar, scene) = (&part.kernel, &part.scalar, &record.scene);
     let set = if part.set == "source" { String::new() } else { format!(" ({})", part.set) };
-    writeln!(out, "{kernel}{set} {scalar}, {point}, in {scene}{}", of_unit(record.unit))
+    writeln!(out, "{kernel}{set} {scalar}, {point}, in {scene}{}", of_unit(&record.unit))
 }
 
 fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
@@ -91,15 +91,25 @@ fn size(x: f64) -> String {
 
 fn table(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
     let wall = format!("past {}", record.wall);
+    let fold = format!("of {}\u{b0}", record.fold);
     writeln!(
         out,
-        "{:<16}{:<21}{:>7}  {:^26}{:>8}{:>11}{:>8}",
-        "", "wrong side", "self-", "height in triangles", "in ulps", "a wall", "times"
+        "{:<16}{:<21}{:>7}  {:^26}{:>8}{:>10}{:>9}{:>8}",
+        "", "wrong side", "self-", "height in triangles", "in ulps", "a wall", "a fold", "times"
     )?;
     writeln!(
         out,
-        "{:<16}{:<21}{:>7}{:>9}{:>9}{:>9}{:>9}{:>11}{:>8}",
-        "offset", "[95 % interval]", "hits", "median", "99 %", "highest", "median", wall, "least"
+        "{:<16}{:<21}{:>7}{:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>8}",
+        "offset",
+        "[95 % interval]",
+        "hits",
+        "median",
+        "99 %",
+        "top seen",
+        "median",
+        wall,
+        fold,
+        "least"
     )?;
     part.schemes.iter().try_for_each(|scheme| row(scheme, out))
 }
@@ -111,7 +121,7 @@ fn row(scheme: &SchemePart, out: &mut dyn Write) -> io::Result<()> {
     let HeightsPart { median, p99, highest, .. } = &scheme.height_in_edges;
     writeln!(
         out,
-        "{:<16}{:<21}{:>7}{:>9}{:>9}{:>9}{:>9}{:>11}{:>8}",
+        "{:<16}{:<21}{:>7}{:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>8}",
         scheme.name,
         wrong.trim_matches([' ', '(', ')']),
         share(scheme.self_hits.rate),
@@ -120,6 +130,7 @@ fn row(scheme: &SchemePart, out: &mut dyn Write) -> io::Result<()> {
         size(*highest),
         height(scheme.height_in_ulps.median),
         share(scheme.beyond_wall.rate),
+        share(scheme.past_neighbour.rate),
         scheme.over_least.map_or("-".to_owned(), size),
     )
 }
@@ -132,7 +143,7 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
         writeln!(
             out,
             "{} of the hit points are themselves wrong. The smallest safe offset along the normal there:\n  \
-             median {}{unit}, 99 % {}{unit}, largest {}{unit}; in ulps of the point {}, {}, {}",
+             median {}{unit}, 99 % {}{unit}, largest seen {}{unit}; in ulps of the point {}, {}, {}",
             percent(least.needed.rate.unwrap_or(0.0)),
             size(lengths.median),
             size(lengths.p99),
@@ -140,6 +151,12 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
             size(ulps.median),
             size(ulps.p99),
             size(ulps.largest),
+        )?;
+    }
+    if let Some(proved) = part.proved_normal {
+        writeln!(
+            out,
+            "proved: normal={proved:e}{unit} or more never has a wrong side here (weights from 0 to 1)"
         )?;
     }
     let left_out = [
@@ -164,9 +181,10 @@ wrong side   the new ray starts on the exact plane of its triangle or behind it
 self-hits    the kernel says that the new ray hits the triangle which it leaves
 height       of the start over the plane: in longest edges of the triangle, and in ulps of its coordinates
 a wall       starts beyond a wall parallel to the triangle, {} of its longest edge in front of it
+a fold       starts behind a neighbour on the edge nearest to p, folded up to {} degrees with the triangle
 times least  the way along the normal over the shortest that is right, where p itself is wrong (median)
 Made for the scene: on seed {}; counted: on seed {}. `hairline list schemes` has the sources;
 --format json has a wrong start of each.",
-        record.wall, record.pilot_seed, record.seed
+        record.wall, record.fold, record.pilot_seed, record.seed
     )
 }

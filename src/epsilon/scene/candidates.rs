@@ -125,8 +125,8 @@ pub fn grid<F: Scalar>(
 }
 
 /// Some values, zero, and round numbers on each side of zero where there are values, from a thousandth of
-/// the smallest to a thousand times the largest.
-pub fn round_values<F: Float>(special: &[F]) -> Vec<F> {
+/// the smallest to a thousand times the largest: 1, 2, 5, or (fine) every number of two digits.
+pub fn round_values<F: Float>(special: &[F], is_fine: bool) -> Vec<F> {
     let mut values = vec![F::zero()];
     values.extend(special);
     for sign in [F::one(), -F::one()] {
@@ -135,10 +135,22 @@ pub fn round_values<F: Float>(special: &[F]) -> Vec<F> {
             let [low, high] = ends.unwrap_or([size; 2]);
             Some([low.min(size), high.max(size)])
         });
-        let around = ends.map(|[low, high]| rounds::<F>([low / 1e3, high * 1e3], 0));
+        let around = ends.map(|[low, high]| {
+            let ends = [low / 1e3, high * 1e3];
+            if is_fine { two_digits::<F>(ends) } else { rounds::<F>(ends, 0) }
+        });
         values.extend(around.into_iter().flatten().map(|x| x * sign));
     }
     in_order(values)
+}
+
+/// Every number of two digits in a range that no machine flushes to zero.
+fn two_digits<F: Float>([low, high]: [f64; 2]) -> Vec<F> {
+    let least = low.max(smallest_normal::<F>());
+    let all = DECADES.flat_map(|k| (10..100).map(move |d| format!("{d}e{}", k - 1)));
+    let is_in = |text: &String| text.parse().is_ok_and(|x: f64| least <= x && x <= high);
+    let found = all.filter(is_in).filter_map(|text| F::parse(&text));
+    found.filter(|value| value.is_finite()).collect()
 }
 
 /// The different values, in order.

@@ -72,11 +72,12 @@ pub fn curves<F: Scalar>(
 }
 
 /// For each knob the values at which its curve is drawn: those that are tried, its limits, those that are
-/// proved, zero, and round numbers from far below to far above them.
+/// proved, zero, and round numbers from far below to far above them, many if fine.
 pub fn axes<F: Float>(
     tried: &[(String, Vec<F>)],
     limits: &[Limit<F>],
     proofs: &[(Proved<F>, Trials)],
+    is_fine: bool,
 ) -> Vec<Vec<F>> {
     let of_knob = |knob: usize| {
         let own = tried.iter().map(|(_, epsilons)| epsilons[knob]);
@@ -84,7 +85,7 @@ pub fn axes<F: Float>(
         let proofs = proofs.iter().map(|(proved, _)| proved).filter(|proved| proved.knob == knob);
         let limits = limits.filter_map(|limit| limit.value);
         let special: Vec<F> = own.chain(limits).chain(proofs.map(|proved| proved.value)).collect();
-        round_values(&special)
+        round_values(&special, is_fine)
     };
     let knobs = tried.first().map_or(0, |(_, epsilons)| epsilons.len());
     (0..knobs).map(of_knob).collect()

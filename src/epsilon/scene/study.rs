@@ -14,6 +14,7 @@ use crate::arith::Float;
 use crate::audit::{Row, Trials};
 use crate::case::Case;
 use crate::engine::{Merge, Observer};
+use crate::family::Stratum;
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 
 /// A study's results.
@@ -52,6 +53,8 @@ pub struct Tried<F> {
     pub errors: Vec<ErrorSums>,
     /// By count: of those hits the ones whose errors are larger than is wanted.
     pub exceeded: Vec<Trials>,
+    /// At a shared edge: the rays that hit both triangles, which cost nothing.
+    pub doubles: Trials,
 }
 
 /// The seed of the fresh rays: the next one.
@@ -119,12 +122,13 @@ pub fn study_scene<F: Scalar>(
         let trials = wrong.map_or(Trials::default(), |wrong| wrong[limit.count]);
         (limit, trials)
     };
-    let axes = axes(&vectors, &found, &proofs);
+    let axes = axes(&vectors, &found, &proofs, setting.fine_curves);
     let curves = curves(setting, &best, &axes, fresh, count, observer);
     let found = found.into_iter().map(with_trials).collect();
     let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits| {
         let cost = costs.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)));
-        Tried { name, epsilons, wrong, cost, errors: of_hits.errors, exceeded: of_hits.exceeded }
+        let OfHits { errors, exceeded, doubles } = of_hits;
+        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles }
     };
     let of_vectors = vectors.into_iter().zip(wrong).zip(of_hits);
     let all: Vec<Tried<F>> =
@@ -234,6 +238,8 @@ struct OfHits {
     errors: Vec<ErrorSums>,
     /// Those with larger errors than is wanted.
     exceeded: Vec<Trials>,
+    /// At a shared edge: the rays that hit both triangles.
+    doubles: Trials,
 }
 
 impl Merge for OfHits {
@@ -242,6 +248,7 @@ impl Merge for OfHits {
         errors.for_each(|(sum, more)| sum.merge(more));
         let exceeded = self.exceeded.iter_mut().zip(&other.exceeded);
         exceeded.for_each(|(sum, more)| sum.merge(more));
+        self.doubles.merge(&other.doubles);
     }
 }
 
@@ -259,7 +266,8 @@ impl Wrong {
     fn new(attempts: usize, with_errors: usize, counts: &[Count]) -> Wrong {
         let none = vec![Trials::default(); counts.len()];
         let errors = vec![ErrorSums::default(); counts.len()];
-        let of_hits = vec![OfHits { errors, exceeded: none.clone() }; with_errors];
+        let exceeded = none.clone();
+        let of_hits = vec![OfHits { errors, exceeded, doubles: Trials::default() }; with_errors];
         Wrong { trials: vec![none; attempts], of_hits, fault: None }
     }
 
@@ -270,7 +278,14 @@ impl Wrong {
         max_error: Option<&MaxError>,
         trial: &Trial<'_, F>,
     ) {
-        if setting.counts[trial.count].kind != Kind::Miss {
+        let Count { stratum, kind } = setting.counts[trial.count];
+        if stratum == Stratum::Edges {
+            for (attempt, sums) in attempts.iter().zip(&mut self.of_hits) {
+                let hits = trial.margins.iter().filter(|m| accepts(m, &attempt.epsilons));
+                sums.doubles.add_ray(u64::from(1 < hits.count()), 1);
+            }
+        }
+        if kind != Kind::Miss {
             return;
         }
         let errors = errors_of(trial);

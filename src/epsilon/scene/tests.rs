@@ -50,7 +50,16 @@ impl Tuned {
     fn setting(&self) -> Setting<'_, f32> {
         let Tuned { row, knobs, counts, scene } = self;
         let subject = f32::subject(row.entry).unwrap();
-        Setting { row, subject, knobs, counts, scene, mesh: None, relative: false }
+        Setting {
+            row,
+            subject,
+            knobs,
+            counts,
+            scene,
+            mesh: None,
+            relative: false,
+            fine_curves: false,
+        }
     }
 
     fn all(&self, seed: u64, number: u64) -> Vec<Kept> {
@@ -361,6 +370,14 @@ fn a_study_tries_everything_on_fresh_rays() {
                 assert_eq!((exceeded.count, exceeded.of), (off as u64, hits.len() as u64));
                 assert_eq!(tried.errors[c].each_ref().map(told), sums.each_ref().map(told));
             }
+            let at_edges = fresh.iter().filter(|kept| kept.margins.len() == 2);
+            let double = |kept: &&Kept| {
+                let is_hit = |m: &Margins<f32>| tried.epsilons.iter().zip(m).all(|(e, m)| e <= m);
+                kept.margins.iter().all(is_hit)
+            };
+            let doubles = at_edges.clone().filter(double).count();
+            let found = (tried.doubles.count, tried.doubles.of);
+            assert_eq!(found, (doubles as u64, at_edges.count() as u64), "{kernel}");
             assert!((tried.cost - cost).abs() <= 1e-9, "{kernel} {} {cost}", tried.cost);
         }
         let expected = limits(&setting, &study.best, seed, number, &Unobserved);

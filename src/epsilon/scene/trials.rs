@@ -106,6 +106,8 @@ pub struct Setting<'a, F: 'static> {
     pub mesh: Option<&'a Arc<SceneMesh>>,
     /// Epsilons are multiplied by each case's own size.
     pub relative: bool,
+    /// Curves are counted at every number of two digits.
+    pub fine_curves: bool,
 }
 
 /// What happens once on each ray that counts for something.

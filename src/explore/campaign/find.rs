@@ -112,12 +112,9 @@ impl Find {
         };
         StoredCase {
             name: Some(name),
-            case: self.case,
             truth: Some(StoredTruth::from(&truth)),
-            line: 0,
-            why: None,
-            url: None,
             found: Some(found),
+            ..StoredCase::of(self.case)
         }
     }
 

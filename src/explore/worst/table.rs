@@ -104,12 +104,9 @@ impl Entry {
         );
         StoredCase {
             name: Some(name),
-            case: self.case,
             truth: Some(StoredTruth::from(&truth)),
-            line: 0,
             why: Some(why),
-            url: None,
-            found: None,
+            ..StoredCase::of(self.case)
         }
     }
 

@@ -13,7 +13,10 @@ pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let (triangle, frame) = setup.triangles.triangle(draw);
     let weights = if draw.coin() { inside(draw) } else { beside(draw) };
     let target = point_of(triangle, weights);
-    let sine = grazing_sine::<F>(draw);
+    let sine = match setup.scene.sine {
+        Some(range) => between_powers(draw, range) * if draw.coin() { 1.0 } else { -1.0 },
+        None => grazing_sine::<F>(draw),
+    };
     let flat = in_plane(draw, &frame);
     let toward = flat * (1.0 - sine * sine).sqrt() + frame.normal * sine;
     let (start, direction) = ray(draw, setup.scene, target, toward);

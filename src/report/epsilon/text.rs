@@ -69,6 +69,10 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         Some(command) => writeln!(out, "      decided by {command}"),
         None => Ok(()),
     };
+    let flushed = |limit: &str, out: &mut dyn Write| match is_subnormal(&part.scalar, limit) {
+        true => writeln!(out, "      {limit} is {FLUSHED}"),
+        false => Ok(()),
+    };
     let what = "possible false hits of the kinds that this gate is there to refuse";
     writeln!(
         out,
@@ -78,6 +82,7 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "    every e: {}", least(misses, "possible false misses"))?;
     } else {
         writeln!(out, "    e <= {}: {}", misses.limit, least(misses, "possible false misses"))?;
+        flushed(&misses.limit, out)?;
         decided(misses, out)?;
     }
     for (gate, count) in refused_by_others {
@@ -91,10 +96,7 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "    every e: {}", least(hits, what))?;
     } else {
         writeln!(out, "    e >= {}: {}", hits.limit, least(hits, what))?;
-        if is_subnormal(&part.scalar, &hits.limit) {
-            let note = "a subnormal number, which machines that flush to zero take for 0";
-            writeln!(out, "      {} is {note}", hits.limit)?;
-        }
+        flushed(&hits.limit, out)?;
         decided(hits, out)?;
     }
     match settled {
@@ -122,8 +124,12 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
+/// What is to be said of a subnormal epsilon.
+pub(in crate::report) const FLUSHED: &str =
+    "a subnormal number, which machines that flush to zero take for 0";
+
 /// Whether an epsilon is below the normal numbers of its scalar.
-fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+pub(in crate::report) fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
     let normal =
         if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() };
     epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < normal)

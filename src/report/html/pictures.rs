@@ -107,7 +107,8 @@ fn drawings(row: &Row) -> Vec<Markup> {
         for kind in Kind::ALL {
             let Some((family, part)) = worst(scalar, kind) else { continue };
             // A drawing does not know that its ray starts at the kernel's own hit.
-            if run.contract.no_self_hit && family == "secondary-ray" {
+            let is_secondary = family == "secondary-ray" || family.starts_with("corpus-secondary:");
+            if run.contract.no_self_hit && is_secondary {
                 continue;
             }
             let svg = match scalar.scalar {

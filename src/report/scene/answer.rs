@@ -5,6 +5,8 @@ use super::words::{
     bound, flag, human, label, least_t, meaning, of_unit, share, short_error, spaced, unit_of,
     unit_of_t, where_of,
 };
+use crate::case::Number;
+use crate::report::epsilon::{FLUSHED, is_subnormal};
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
@@ -94,6 +96,7 @@ fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
 fn fixed(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let epsilons = &part.tried[0].epsilons;
     let t = least_t(part, epsilons).map(|e| match part.takes_interval {
+        _ if e.parse() == Ok(0.0) => "no least t: t_min = 0 costs least".to_owned(),
         true => format!("t_min = {}{} on every ray", human(e), unit_of_t(record)),
         false => format!("count a hit only if t >= {}{}", human(e), unit_of_t(record)),
     });
@@ -104,7 +107,14 @@ fn fixed(record: &SceneRecord, part: &SceneKernelPart) -> String {
 fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
-    let mut notes: Vec<String> = meanings.collect();
+    let mut notes: Vec<String> = no_good(record, part);
+    notes.extend(meanings);
+    notes.extend(cracks_of_its_own(record, part));
+    if part.knobs.iter().all(|knob| !knob.is_gate) && part.others.is_empty() {
+        notes.push(
+            "the kernel has no epsilons, so the least t is all that there is to choose".to_owned(),
+        );
+    }
     if record.count < FEW {
         notes.push(format!(
             "from {} rays of each kind only: another seed may name others, up to tenfold",
@@ -130,6 +140,71 @@ fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         _ => notes.extend(accuracy(record)),
     }
     notes
+}
+
+/// A line is no good if more than this share of plain hits is lost, or of rays slips through.
+const TOO_MANY: f64 = 0.01;
+
+/// Whether a count is one of the wrong answers that no scene can live with: hits lost that are aimed at a triangle,
+/// and cracks.
+fn is_plain(count: &CountPart) -> bool {
+    count.stratum == "scene-interior" && count.kind == "miss" || count.kind == "crack"
+}
+
+/// Where even the best numbers are no good: that they are not, why, and what helps.
+fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    let plain = part.counts.iter().zip(&part.tried[0].wrong).filter(|(count, _)| is_plain(count));
+    // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
+    let theirs = plain.filter(|(count, _)| count.kind == "miss" || part.has_edge_epsilon);
+    let worst =
+        theirs.max_by(|(_, a), (_, b)| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0)));
+    let Some((count, rate)) = worst.filter(|(_, rate)| TOO_MANY < rate.rate.unwrap_or(0.0)) else {
+        return Vec::new();
+    };
+    let what = match count.kind.as_str() {
+        "miss" => "the hits at a triangle that are lost",
+        _ => "the rays that slip through shared edges or vertices",
+    };
+    let unit = spaced(&record.unit);
+    let instead = match part.scalar.as_str() {
+        "f32" => "use f64, or start rays nearer",
+        _ => "move the scene to the origin, or start rays nearer",
+    };
+    let why = match record.edge[0] < 32.0 * part.spacing {
+        true => format!(
+            "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {instead}",
+            record.reach,
+            part.scalar,
+            human(&format!("{:.0e}", part.spacing))
+        ),
+        false if part.scalar == "f32" => "use f64 or another kernel".to_owned(),
+        false => "use another kernel".to_owned(),
+    };
+    vec![format!("no numbers are good here: even with these, {} are {what}", share(rate)), why]
+}
+
+/// Of a kernel whose cracks no number closes: that they are most of its cost, and what helps.
+fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    let best = &part.tried[0];
+    let cracks = part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == "crack");
+    let weight = record.costs.iter().find(|cost| cost.name == "crack").map_or(0.0, |c| c.number);
+    let cost: f64 = cracks.map(|(_, rate)| weight * rate.rate.unwrap_or(0.0)).sum();
+    if !part.has_edge_epsilon && 0.5 * best.cost < cost {
+        return vec![
+            format!(
+                "{cost:.2} of its cost of {:.2} are cracks, which no number here closes: give its edge test",
+                best.cost
+            ),
+            "an epsilon, or use a watertight kernel (plucker, woop-watertight)".to_owned(),
+        ];
+    }
+    Vec::new()
+}
+
+/// Whether what is recommended tolerates a little beside the edges.
+fn tolerates(part: &SceneKernelPart) -> bool {
+    let mut pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
+    pairs.any(|(knob, epsilon)| knob.role == "edge" && epsilon.starts_with('-'))
 }
 
 /// What was wanted of the errors of epsilons that keep it; none if nothing was.
@@ -174,6 +249,10 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
         (label(&count.stratum, &count.kind).to_owned(), cells)
     });
     let mut rows: Vec<(String, Vec<String>)> = of_counts.collect();
+    if let Some(place) = part.counts.iter().position(|count| count.stratum == "scene-edges") {
+        let cells = columns(part).map(|tried| share(&tried.doubles)).collect();
+        rows.insert(place + 1, ("at a shared edge: both hit".to_owned(), cells));
+    }
     for (i, count) in part.counts.iter().enumerate() {
         let found: Vec<Option<&Rate>> =
             columns(part).map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of)).collect();
@@ -302,13 +381,21 @@ fn conflict_lines(
     [conflict_line, instead]
 }
 
+/// Which angles almost parallel rays have.
+fn flatness(record: &SceneRecord) -> String {
+    match record.sine {
+        None => "from 7 degrees down to below rounding".to_owned(),
+        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
+    }
+}
+
 /// What the words of the tables mean, a line each.
 pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
     let costs = costs.collect::<Vec<_>>().join(", ");
     let mut lines = vec![
         format!("cost: each share times its weight ({costs}), added up"),
-        "almost parallel: angles from 7 degrees down to below rounding, each halving equally often".to_owned(),
+        format!("almost parallel: angles {}, each halving equally often", flatness(record)),
         "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
             .to_owned(),
         "another seed may name other numbers at nearly the same cost; more rays (-n) bring them closer"
@@ -321,6 +408,10 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         ];
         lines.extend(forms.map(str::to_owned));
     }
+    if record.kernels.iter().any(tolerates) {
+        let both = "both hit: costs nothing here; `hairline audit` calls it a double, and rates such a line lower";
+        lines.push(both.to_owned());
+    }
     if record.kernels.iter().any(|part| !part.limits.is_empty()) {
         let most = "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper";
         lines.push(most.to_owned());
@@ -332,6 +423,11 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
             lines.push(edge.to_owned());
         }
     }
+    let subnormal = record.kernels.iter().flat_map(|part| {
+        let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
+        values.filter(|value| is_subnormal(&part.scalar, value))
+    });
+    lines.extend(subnormal.map(|value| format!("{value} is {FLUSHED}")));
     let is_set = |limit: &LimitPart| limit.set_by.is_some();
     if record.kernels.iter().any(|part| part.limits.iter().any(is_set)) {
         let star = "* set by the scene's own sizes, distances and angles as much as by rounding";

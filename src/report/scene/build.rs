@@ -4,14 +4,14 @@ use super::record::*;
 use super::words::set_by;
 use crate::arith::Float;
 use crate::audit::{Histogram, Trials};
-use crate::case::DirectionLength;
+use crate::case::{DirectionLength, Scene};
 use crate::contract::Extent;
 use crate::epsilon::scale_free_form;
 use crate::epsilon::scene::{
     Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, Proved, SceneStudy,
     Setting, StudiedScene, Tried, Value, fresh_seed,
 };
-use crate::kernel::Scalar;
+use crate::kernel::{Role, Scalar, Tunable};
 use crate::report::epsilon::shortest;
 use crate::report::record::Rate;
 
@@ -29,6 +29,7 @@ pub fn scene_record(
         schema: SCENE_SCHEMA.to_owned(),
         scene: scene.to_string(),
         unit: (*unit).to_owned(),
+        reach: reach(scene),
         mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshPart {
             file: surface.file_name().to_owned(),
             digest: surface.mesh().digest.clone(),
@@ -36,6 +37,7 @@ pub fn scene_record(
         }),
         unit_directions: scene.direction == DirectionLength::Unit,
         edge: scene.edge,
+        sine: scene.sine,
         seed,
         fresh_seed: fresh_seed(seed),
         count,
@@ -46,6 +48,11 @@ pub fn scene_record(
             .collect(),
         kernels,
     }
+}
+
+/// The largest coordinate of a ray's start.
+fn reach(scene: &Scene) -> f64 {
+    scene.largest() + scene.distance[1]
 }
 
 fn named(name: &str, number: f64) -> NamedNumber {
@@ -88,6 +95,11 @@ pub fn kernel_part<F: Scalar>(
         selector: setting.row.entry.selector(),
         scalar: F::NAME.to_owned(),
         contract: setting.row.contract.describe(),
+        has_edge_epsilon: info
+            .gates
+            .iter()
+            .any(|gate| gate.role == Role::Edge && gate.epsilon != Tunable::Fixed),
+        spacing: F::from_f64(reach(setting.scene)).ulp().to_f64(),
         least_shape: setting.mesh.map(|mesh| mesh.least_shape::<F>()),
         takes_interval: setting.row.contract.extent == Extent::Interval,
         knobs: setting.knobs.iter().map(knob_part).collect(),
@@ -198,6 +210,7 @@ fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
         cost: tried.cost,
+        doubles: Rate::new(tried.doubles, true),
         errors: error_parts(&tried.errors),
         exceeded: match is_limited {
             true => tried.exceeded.iter().map(|trials| Rate::new(*trials, true)).collect(),

@@ -35,7 +35,7 @@ pub(super) const STYLE: &str = "
 .scene-plot .grid { stroke: #dcdfe3; fill: none; } .scene-plot .axis { stroke: #575e66; fill: none; }
 .scene-plot .tried { stroke: #575e66; stroke-dasharray: 1 3; fill: none; }
 .scene-plot .this { stroke: #1d2125; stroke-dasharray: none; } .scene-plot text.this { stroke: none; font-weight: 700; }
-.scene-plot .within { fill: #1a6b3a; fill-opacity: .14; }
+.scene-plot .within { fill: #1a6b3a; fill-opacity: .14; } .scene-plot .open { fill-opacity: .06; }
 .scene-plot .line { stroke: currentColor; fill: none; stroke-width: 2; stroke-linejoin: round; }
 .scene-plot .band { fill: currentColor; fill-opacity: .07; }
 .scene-plot .limit { fill: currentColor; stroke: currentColor; } .scene-plot .proved { fill: none; stroke-width: 1.5; }
@@ -299,9 +299,10 @@ impl<'a> Draft<'a> {
                 false => WIDTH - RIGHT,
             });
             let width = (to - from).max(2.0);
+            let open = if is_open([low, high]) { " open" } else { "" };
             let _ = writeln!(
                 drawing,
-                "<rect class=\"within\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{PLOT}\"/>"
+                "<rect class=\"within{open}\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{PLOT}\"/>"
             );
         }
         drawing += &axes(&across, &down, top, bottom);
@@ -394,14 +395,35 @@ impl<'a> Draft<'a> {
             (mark, format!("{} {}: {most}", row.bound, row.what))
         });
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
-        if self.within().is_some() {
-            let mark = "<rect class=\"within\" y=\"-6\" width=\"30\" height=\"12\"/>".to_owned();
-            all.push((mark, "within every limit, 95 % sure of each (beside has none)".to_owned()));
+        if !self.lines.is_empty() {
+            let band = self.lines.iter().map(|line| {
+                format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", line.class())
+            });
+            let mark = band.last().unwrap_or_default();
+            all.push((mark, "around a line: its 95 % interval (Clopper and Pearson)".to_owned()));
+        }
+        if let Some(ends) = self.within() {
+            let [class, text] = match (is_open(ends), ends[0] == f64::NEG_INFINITY) {
+                (false, _) => ["within", "within every limit, 95 % sure of each"],
+                (true, true) => {
+                    ["within open", "below its limits, 95 % sure of each; none from below"]
+                }
+                (true, false) => {
+                    ["within open", "above its limits, 95 % sure of each; none from above"]
+                }
+            };
+            let mark = format!("<rect class=\"{class}\" y=\"-6\" width=\"30\" height=\"12\"/>");
+            all.push((mark, text.to_owned()));
         } else if self.limits().any(|(.., is_proved)| !is_proved) {
             all.push((String::new(), "no value is within every limit".to_owned()));
         }
         all
     }
+}
+
+/// Whether limits are on one side only.
+fn is_open(ends: [f64; 2]) -> bool {
+    ends.iter().any(|end| end.is_infinite())
 }
 
 /// The middle of a text near a place, so that it stays in the panel.

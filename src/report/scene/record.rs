@@ -18,12 +18,16 @@ pub struct SceneRecord {
     pub scene: String,
     /// Its unit of length; empty if it has none.
     pub unit: String,
+    /// The largest coordinate of a ray's start.
+    pub reach: f64,
     /// The mesh that it is, if it is one.
     pub mesh: Option<MeshPart>,
     /// Whether directions have unit length, so that t is a length.
     pub unit_directions: bool,
     /// The shortest and the longest longest edge of a triangle.
     pub edge: [f64; 2],
+    /// The sines of the angles of almost parallel rays; none for those from 1/8 down to below rounding.
+    pub sine: Option<[f64; 2]>,
     /// The seed of the rays from which epsilons are chosen.
     pub seed: u64,
     /// The seed of the fresh rays on which they are tried.
@@ -75,6 +79,10 @@ pub struct SceneKernelPart {
     pub scalar: String,
     /// What it is judged by.
     pub contract: String,
+    /// Whether one of its gates at the edges takes an epsilon.
+    pub has_edge_epsilon: bool,
+    /// How far apart neighbouring numbers of the scalar are where rays start farthest from 0.
+    pub spacing: f64,
     /// Twice the area of the smallest triangle, if the scene is a mesh.
     pub least_shape: Option<f64>,
     /// Whether it takes an interval of t.
@@ -144,6 +152,8 @@ pub struct TriedPart {
     pub wrong: Vec<Rate>,
     /// The sum of their shares, each times its cost.
     pub cost: f64,
+    /// Rays at a shared edge that hit both triangles; they cost nothing.
+    pub doubles: Rate,
     /// The errors of the hits that remain.
     pub errors: Vec<ErrorPart>,
     /// If errors are limited: by count, the hits that remain and are farther off; of none where no hit can

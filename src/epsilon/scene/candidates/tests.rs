@@ -111,9 +111,13 @@ fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign
         (&[7e4, -0.6, 0.0, 3e-3, -12.0], above, below),
         (&[], None, None),
     ] {
-        assert_eq!(round_values(special), expected(special, above, below), "{special:?}");
+        assert_eq!(round_values(special, false), expected(special, above, below), "{special:?}");
     }
-    assert!(round_values(&[1.0f64]).contains(&1e-3) && round_values(&[1.0f64]).contains(&1e3));
+    let [coarse, fine] = [false, true].map(|is_fine| round_values(&[1.0f64, 0.3125], is_fine));
+    assert!(coarse.contains(&1e-3) && coarse.contains(&1e3));
+    // Every number of two digits from 0.0003125 to 1000, and what was given.
+    assert_eq!((fine.len(), fine[1], fine[fine.len() - 1]), (68 + 6 * 90 + 1 + 2, 3.2e-4, 1e3));
+    assert!(fine.contains(&0.3125) && fine.contains(&0.99) && fine.is_sorted());
 }
 
 #[test]

@@ -1,0 +1,81 @@
+//! Stored rays that start on their triangle, such as shadow rays: judged as the family `secondary-ray` is.
+
+use crate::program::{ends, scratch};
+use serde_json::Value;
+use std::fs;
+
+/// The study of a gate on t, of cases that flags name.
+fn gate(folder: &std::path::Path, cases: &[&str]) -> Value {
+    let study = ["epsilon", "--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"];
+    let rest = ["--contract", "no-self-hit", "--format", "json", "-q"];
+    let (out, _) = ends(folder, &[&study[..], cases, &rest[..]].concat(), 0);
+    let record: Value = serde_json::from_str(&out).unwrap();
+    record["result"]["gates"][0].clone()
+}
+
+fn generate(folder: &std::path::Path, count: &str) {
+    let family = ["corpus", "generate", "--family", "secondary-ray", "--seed", "1"];
+    ends(folder, &[&family[..], &["-n", count, "-o", "shadow.jsonl"]].concat(), 0);
+}
+
+#[test]
+fn stored_shadow_rays_give_the_advice_of_the_family() {
+    let folder = scratch("secondary-advice");
+    generate(&folder, "3000");
+    let text = fs::read_to_string(folder.join("shadow.jsonl")).unwrap();
+    assert!(text.lines().all(|line| line.contains(r#""starts":"on-triangle""#)));
+    ends(&folder, &["corpus", "verify", "shadow.jsonl"], 0);
+    let stored = gate(&folder, &["--corpus", "shadow.jsonl"]);
+    let family = gate(&folder, &["--family", "secondary-ray", "-n", "3000"]);
+    assert_eq!(stored["curves"][1]["family"], "corpus-secondary:shadow.jsonl");
+    assert_eq!(stored["curves"][0]["points"], family["curves"][0]["points"]);
+    assert_eq!(stored["curves"][0]["asked"], family["curves"][0]["asked"]);
+    // An epsilon on t can only help here: all that is asked of it is to refuse.
+    let of = |i: usize| stored["curves"][0]["asked"][i].as_u64().unwrap();
+    assert_eq!([of(0), of(1), of(4), of(5)], [0, 3000, 3000, 3000], "{}", stored["curves"][0]);
+
+    // Without the mark half of them have to be hit, which is the wrong direction; a note says so.
+    let plain = text.replace(r#""starts":"on-triangle","#, "");
+    fs::write(folder.join("plain.jsonl"), &plain).unwrap();
+    let asked = gate(&folder, &["--corpus", "plain.jsonl"])["curves"][0]["asked"].clone();
+    assert!(1000 < asked[0].as_u64().unwrap() && asked[4] == 0, "{asked}");
+    let audit = ["audit", "--kernel", "plane-unit-normal", "--scalar", "f32"];
+    let told = |file: &str| {
+        let rest = ["--corpus", file, "--contract", "no-self-hit"];
+        ends(&folder, &[&audit[..], &rest[..]].concat(), 0).1
+    };
+    let note = "no case of plain.jsonl says \"starts\":\"on-triangle\"";
+    assert!(told("plain.jsonl").contains(note) && !told("shadow.jsonl").contains("note:"));
+}
+
+#[test]
+fn a_file_may_hold_both_and_a_case_is_explained_as_it_is_judged() {
+    let folder = scratch("secondary-both");
+    generate(&folder, "40");
+    let shadow = fs::read_to_string(folder.join("shadow.jsonl")).unwrap();
+    let plain = shadow.replace(r#""starts":"on-triangle","#, "").replace("secondary-ray@1", "ray");
+    fs::write(folder.join("both.jsonl"), format!("{plain}{shadow}")).unwrap();
+    let flags = ["--kernel", "plane-unit-normal", "--contract", "no-self-hit", "--corpus"];
+    let audit = ["audit", "--scalar", "f32", "--format", "json", "-q"];
+    let (out, _) = ends(&folder, &[&audit[..], &flags[..], &["both.jsonl"]].concat(), 0);
+    for part in ["corpus:both.jsonl", "corpus-secondary:both.jsonl"] {
+        assert!(out.contains(part), "{part}");
+    }
+    // The parts of a run in pieces add up to the whole.
+    for shard in ["1/2", "2/2"] {
+        let file = format!("{}.json", &shard[..1]);
+        let part = ["--shard", shard, "-o", &file, "both.jsonl"];
+        let before = [&audit[..], &["--epsilon-preset", "zero"], &flags[..]].concat();
+        let (corpus, rest) = (part[4], &part[..4]);
+        ends(&folder, &[&before[..], &[corpus], rest].concat(), 0);
+    }
+    ends(&folder, &["merge", "1.json", "2.json", "-q"], 0);
+    // Where the exact ray crosses its triangle, the mark decides what is owed.
+    let owed = |name: &str| {
+        let all = [&["explain", name], &flags[..], &["both.jsonl"]].concat();
+        ends(&folder, &all, 0).0.contains("must hit")
+    };
+    let names: Vec<String> = (0..40).map(|i| format!("secondary-ray@1/f32/-/1/{i}")).collect();
+    assert!(names.iter().all(|name| !owed(name)));
+    assert!(names.iter().any(|name| owed(&name.replace("secondary-ray@1", "ray"))));
+}
