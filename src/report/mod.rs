@@ -37,7 +37,7 @@ mod screen;
 mod shard;
 mod text;
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     pub mod schema;
 }
 mod verdict;

@@ -26,6 +26,7 @@ mod program;
 mod prove;
 mod rows;
 mod scene;
+mod scene_advice;
 mod screen;
 mod secondary;
 mod shards;

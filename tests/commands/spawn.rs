@@ -2,6 +2,9 @@
 
 use crate::program::{ends, scratch};
 use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 fn json(folder: &std::path::Path, more: &[&str]) -> Value {
     let mut all = vec!["spawn", "--format", "json", "-q"];
@@ -38,6 +41,9 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
     let record = json(&folder, &[&far[..], &["--threads", "1"]].concat());
     assert_eq!(record, json(&folder, &[&far[..], &["--threads", "3"]].concat()));
     assert_eq!(record["schema"], "hairline-spawn/1");
+    let schema = include_str!("../../docs/schema/spawn.json");
+    let schema: Value = serde_json::from_str(schema).unwrap();
+    assert_eq!(crate::json_schema::errors(&schema, &record), [""; 0]);
     assert_eq!(record["scene"], "extent=10,center=100000,edge=1,distance=0..4,direction=unit");
     let points = record["points"].as_array().unwrap();
     assert_eq!(points.len(), 4);
@@ -104,7 +110,7 @@ fn schemes_points_and_walls_are_those_named() {
 #[test]
 fn bad_input_gets_one_clear_line() {
     let folder = scratch("spawn-bad");
-    let flags: [(&[&str], i32, &str); 18] = [
+    let flags: [(&[&str], i32, &str); 26] = [
         (&["--scene", "extent=1,edge=2"], 2, "the longest edge is at most the extent, 1"),
         (&["--scene", "extent=nan"], 2, "'nan' is not a finite number"),
         (&["--scene", "center=inf"], 2, "not a finite number"),
@@ -117,6 +123,14 @@ fn bad_input_gets_one_clear_line() {
         (&["--scheme", "none,none"], 2, "'none' is given twice"),
         (&["--wall", "0"], 2, "--wall: '0' is not a distance above 0"),
         (&["--wall", "nan"], 2, "--wall: 'nan'"),
+        (&["--fold", "0"], 2, "--fold: '0' is not an angle between 0 and 180 degrees"),
+        (&["--fold", "180"], 2, "--fold: '180'"),
+        (&["--fold", "nan"], 2, "--fold: 'nan'"),
+        (&["--scheme-cmd", "./mine"], 2, "write NAME=COMMAND, as mine=./mine"),
+        (&["--scheme-cmd", "a b=./mine"], 2, "'a b' is no name for a scheme"),
+        (&["--scheme-cmd", "none=true"], 2, "there are two schemes of the name 'none'"),
+        (&["--scheme-cmd", "x='"], 2, "a quotation mark or a backslash in it is not closed"),
+        (&["--scheme-cmd", "x=/nowhere/at/all"], 74, "it cannot be started"),
         (&["--point", "st"], 2, "unknown point 'st': there are uv and ray"),
         (&["--scalar", "f16"], 2, "unknown scalar 'f16'"),
         (&["--kernel", "mine"], 2, "unknown kernel 'mine'"),
@@ -131,4 +145,103 @@ fn bad_input_gets_one_clear_line() {
     }
     ends(&folder, &["spawn", "-n", "0"], 2);
     ends(&folder, &["spawn", "-n", "10", "-q", "-o", "/nowhere/at/all"], 74);
+}
+
+#[test]
+fn neighbours_are_passed_where_they_are_folded_up_steeply_enough() {
+    let folder = scratch("spawn-fold");
+    let passed = |fold: &str| {
+        let flags = ["--scheme", "normal=0.1,none", "--point", "uv", "--fold", fold, "-n", "3000"];
+        let part = json(&folder, &flags)["points"][0].clone();
+        assert_eq!(
+            part["schemes"][1]["past_neighbour"]["count"].as_u64().unwrap() / 100,
+            0,
+            "{part}"
+        );
+        part["schemes"][0]["past_neighbour"]["rate"].as_f64().unwrap()
+    };
+    // Starts 0.1 above edges of 0.1 to 1; along the normal nothing passes a right angle.
+    let [flat, corner, right] = ["15", "45", "90"].map(passed);
+    assert!(0.5 < corner && corner < flat && 0.9 < flat, "{flat} {corner}");
+    assert!(right < 0.01, "{right}");
+}
+
+#[test]
+fn a_proved_distance_is_larger_than_any_that_was_needed() {
+    let folder = scratch("spawn-proved");
+    for (scene, scalar) in [("unit", "f32"), ("city", "f64"), ("extent=1e3,edge=900", "f32")] {
+        let flags = ["--scene", scene, "--scalar", scalar, "-n", "20000", "--scheme", "none"];
+        let record = json(&folder, &flags);
+        let [of_weights, of_ray] = [&record["points"][0], &record["points"][1]];
+        assert!(of_ray["proved_normal"].is_null());
+        let proved = of_weights["proved_normal"].as_f64().unwrap();
+        let needed = of_weights["least"]["lengths"]["largest"].as_f64().unwrap();
+        assert!((0.02..1.0).contains(&(needed / proved)), "{scene}: {needed} {proved}");
+        let scheme = format!("normal={proved:e}");
+        let flags = ["--scene", scene, "--scalar", scalar, "-n", "20000", "--scheme", &scheme];
+        assert_eq!(json(&folder, &flags)["points"][0]["schemes"][0]["wrong"]["count"], 0);
+    }
+}
+
+/// The counts of the schemes of a run with hit points from u and v.
+fn counts(folder: &Path, flags: &[&str]) -> Vec<Value> {
+    let all = [&["--point", "uv", "-n", "2500", "--threads", "2"], flags].concat();
+    let record = json(folder, &all);
+    let schemes = record["points"][0]["schemes"].as_array().unwrap();
+    let count = |scheme: &Value| serde_json::json!([scheme["wrong"], scheme["height_in_edges"]]);
+    schemes.iter().map(count).collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn an_offset_in_c_over_a_pipe_does_as_the_same_in_rust() {
+    if Command::new("cc").arg("--version").output().is_err() {
+        return eprintln!("NOT TESTED: there is no 'cc' on this machine");
+    }
+    let folder = scratch("spawn-pipe");
+    let source = "#include \"hairline_spawn.h\"
+static hairline_start hairline_start_of(const hairline_hit *hit) {
+    hairline_start start = {{0, 0, 0}, 0};
+    for (int i = 0; i < 3; i++) {
+        float p = (float)hit->point[i], n = (float)hit->normal[i], offset = n * 1e-3f;
+        start.origin[i] = hit->is_f64 ? hit->point[i] + hit->normal[i] * 1e-3 : p + offset;
+    }
+    return start;
+}
+";
+    fs::write(folder.join("mine.c"), source).unwrap();
+    let include = concat!("-I", env!("CARGO_MANIFEST_DIR"), "/include");
+    let flags = ["-O1", "-ffp-contract=off", "-Wall", "-Werror", include, "-o", "mine", "mine.c"];
+    let built = Command::new("cc").args(flags).arg("-lm").current_dir(&folder).output().unwrap();
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    for scalar in ["f32", "f64"] {
+        let flags = ["--scheme", "normal=1e-3", "--scheme-cmd", "mine=./mine", "--scalar", scalar];
+        let found = counts(&folder, &flags);
+        assert_eq!(found.len(), 2);
+        assert_eq!(found[0], found[1]);
+    }
+    // The command on the screen runs it again, and it stands beside the published ones.
+    let command = ["spawn", "--scheme-cmd", "mine=./mine", "-n", "2000", "-q", "--point", "uv"];
+    let (screen, _) = ends(&folder, &command, 0);
+    assert!(screen.contains("\nmine  ") && screen.contains("\npbrt-v4 "), "{screen}");
+    let alone = [&command[..], &["--scheme", "mine", "--scene", "room"]].concat();
+    let (screen, _) = ends(&folder, &alone, 0);
+    assert!(screen.contains("--scheme-cmd mine=./mine --scheme mine --point uv"), "{screen}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_offset_over_a_pipe_that_answers_wrongly_ends_the_run() {
+    let folder = scratch("spawn-broken");
+    for (command, part) in [
+        ("x=sh -c 'while read x; do echo 1 2; done'", "expected 'X Y Z' or 'X Y Z T_MIN'"),
+        ("x=sh -c 'while read x; do echo 1 2 3; done'", "expected 'end "),
+        ("x=sh -c 'exit 3'", "scheme 'x': it"),
+        ("x=true", "scheme 'x': it"),
+    ] {
+        let flags = ["spawn", "--scheme", "x", "--scheme-cmd", command, "-n", "20", "-q"];
+        let (out, error) = ends(&folder, &[&flags[..], &["--point", "uv"]].concat(), 65);
+        assert!(out.is_empty() && error.lines().count() == 1, "{command}: {error}");
+        assert!(error.contains(part), "{command}: {error}");
+    }
 }

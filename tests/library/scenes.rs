@@ -258,15 +258,24 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
 
 #[test]
 fn limits_are_violated_no_more_often_than_stated() {
-    let (scene, _) = Scene::parse("room").unwrap();
-    let (row, knobs, counts) = tuned("moller-trumbore");
+    for (kernel, scene, epsilons) in [
+        ("moller-trumbore", "room", [1e-9f32, -1e-4, 1e-4]),
+        ("plane-unit-normal", "city", [1e-7, 0.05, -1e-3]),
+        ("woop-watertight", "unit", [-1e-7, 1e-9, 5e-5]),
+    ] {
+        check_limits(kernel, scene, &epsilons);
+    }
+}
+
+fn check_limits(kernel: &str, scene: &str, epsilons: &[f32; 3]) {
+    let (scene, _) = Scene::parse(scene).unwrap();
+    let (row, knobs, counts) = tuned(kernel);
     let setting = setting(&row, &knobs, &counts, &scene);
-    let epsilons = [1e-9f32, -1e-4, 1e-4];
     let (number, runs, many) = (400, 100, 40_000);
     let found: Vec<_> =
-        (1..=runs).map(|seed| limits(&setting, &epsilons, seed, number, &Unobserved)).collect();
+        (1..=runs).map(|seed| limits(&setting, epsilons, seed, number, &Unobserved)).collect();
     let attempts: Vec<Attempt<f32>> =
-        found.iter().flatten().filter_map(|l| Attempt::at_limit(l, &epsilons)).collect();
+        found.iter().flatten().filter_map(|l| Attempt::at_limit(l, epsilons)).collect();
     let mut wrong = count_at(&setting, &attempts, 1 << 40, many, &Unobserved).into_iter();
     let mut violated = std::collections::BTreeMap::<(usize, usize), u32>::new();
     for limit in found.iter().flatten().filter(|limit| limit.value.is_some()) {
@@ -278,7 +287,7 @@ fn limits_are_violated_no_more_often_than_stated() {
             u32::from(stated + noise < share);
     }
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
-    assert!(violated.len() >= 6 && violated.values().all(|n| *n < 12), "{violated:?}");
+    assert!(violated.len() >= 5 && violated.values().all(|n| *n < 12), "{kernel} {violated:?}");
 }
 
 /// t of a hit of a kernel on a case, and how far it is off: in `f64`, of which `f32` needs half the digits.

@@ -73,7 +73,7 @@ fn scene(text: &str) -> Scene {
 
 fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -> Plan<'a> {
     let kind = PointKind::Weights;
-    Plan { row, scene, kind, schemes, wall: 0.01, with_least: true, seed: 1, count }
+    Plan { row, scene, kind, schemes, wall: 0.01, fold: 45.0, with_least: true, seed: 1, count }
 }
 
 fn hit_at(point: [f32; 3], normal: [f32; 3]) -> HitPoint<f32> {
@@ -112,6 +112,17 @@ fn waechter_binder_moves_the_known_case_as_it_was_published() {
     let near = start("waechter-binder", &hit_at([0.0, -0.015625, 0.03125], [0.5, 0.5, 0.5]));
     assert_eq!(near.origin, [small(17), -0.015625 + small(17), 0.03125 + 128.0 * small(28)]);
     assert!(parse("waechter-binder").unwrap().offset::<f64>().is_none());
+}
+
+#[test]
+fn two_published_offsets_do_nothing_in_a_plane_of_two_axes() {
+    let mut hit = hit_at([7.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    hit.vertices = [[8.0, 0.0, 0.0], [8.0, 4.0, 0.0], [4.0, 0.0, 0.0]];
+    for (scheme, height) in
+        [("pbrt-v3", 0.0), ("pbrt-v4", 0.0), ("mitsuba", 0.0), ("waechter-binder", small(16))]
+    {
+        assert_eq!(start(scheme, &hit).origin[2], height, "{scheme}");
+    }
 }
 
 #[test]

@@ -125,7 +125,7 @@ pub fn grid<F: Scalar>(
 }
 
 /// Some values, zero, and round numbers on each side of zero where there are values, from a thousandth of
-/// the smallest to a thousand times the largest: 1, 2, 5, or (fine) every number of two digits.
+/// the smallest to a thousand times the largest: 1, 2, 5, and (fine) every number of two digits.
 pub fn round_values<F: Float>(special: &[F], is_fine: bool) -> Vec<F> {
     let mut values = vec![F::zero()];
     values.extend(special);
@@ -137,7 +137,8 @@ pub fn round_values<F: Float>(special: &[F], is_fine: bool) -> Vec<F> {
         });
         let around = ends.map(|[low, high]| {
             let ends = [low / 1e3, high * 1e3];
-            if is_fine { two_digits::<F>(ends) } else { rounds::<F>(ends, 0) }
+            let more = if is_fine { two_digits::<F>(ends) } else { Vec::new() };
+            [rounds::<F>(ends, 0), more].concat()
         });
         values.extend(around.into_iter().flatten().map(|x| x * sign));
     }

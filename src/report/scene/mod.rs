@@ -3,6 +3,8 @@
 mod answer;
 mod build;
 mod csv;
+mod marks;
+mod notes;
 #[cfg(feature = "cli")]
 mod page;
 mod plot;

@@ -2,7 +2,8 @@
 //! scripts and without a network.
 
 use super::answer::{Answer, answer, legend};
-use super::plot::{self, WIDTH, footer, panels};
+use super::marks::{self, WIDTH};
+use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
 use crate::report::Style;
 use crate::report::html::{STYLE, head_of, style_policy};
@@ -18,7 +19,7 @@ svg.scene-plot { width: 100%; max-width: 34rem; height: auto; }
 
 /// Writes the record.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    let style = format!("{STYLE}{}{OWN_STYLE}", plot::STYLE);
+    let style = format!("{STYLE}{}{OWN_STYLE}", marks::STYLE);
     let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
     let title = answers.first().map_or("no kernel", |answer| answer.title.as_str());
     let page = html! {

@@ -115,8 +115,9 @@ fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign
     }
     let [coarse, fine] = [false, true].map(|is_fine| round_values(&[1.0f64, 0.3125], is_fine));
     assert!(coarse.contains(&1e-3) && coarse.contains(&1e3));
-    // Every number of two digits from 0.0003125 to 1000, and what was given.
-    assert_eq!((fine.len(), fine[1], fine[fine.len() - 1]), (68 + 6 * 90 + 1 + 2, 3.2e-4, 1e3));
+    // Every number of two digits from 0.0003125 to 1000, what was given, and the round number before.
+    assert_eq!((fine.len(), fine[1..3].to_vec()), (68 + 6 * 90 + 1 + 2 + 1, vec![2e-4, 3.2e-4]));
+    assert!(coarse.iter().all(|value| fine.contains(value)));
     assert!(fine.contains(&0.3125) && fine.contains(&0.99) && fine.is_sorted());
 }
 

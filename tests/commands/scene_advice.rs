@@ -1,0 +1,126 @@
+//! What `hairline epsilon` says of a scene beside its numbers: how flat rays are, when no line is good, what a kernel
+//! lacks, and its curves and pictures.
+
+use crate::json_schema;
+use crate::program::{ends, scratch};
+use hairline::internals::report::scene::{CurvePart, SceneRecord};
+use std::fs;
+use std::path::Path;
+
+fn study(folder: &Path, kernel: &str, scene: &str, more: &[&str]) -> String {
+    let all = ["epsilon", "--kernel", kernel, "--scene", scene, "--scalar", "f32", "-q"];
+    ends(folder, &[&all[..], &["-n", "4000"], more].concat(), 0).0
+}
+
+fn record(folder: &Path, kernel: &str, scene: &str, more: &[&str]) -> SceneRecord {
+    let text = study(folder, kernel, scene, &[&["--format", "json"], more].concat());
+    let schema = serde_json::from_str(include_str!("../../docs/schema/scene.json")).unwrap();
+    let document = serde_json::from_str(&text).unwrap();
+    assert_eq!(json_schema::errors(&schema, &document), [""; 0]);
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn a_scene_says_how_flat_its_rays_are() {
+    let folder = scratch("advice-sine");
+    let lost = |sine: &str| {
+        let record = record(&folder, "moller-trumbore", &format!("edge=1,sine={sine}"), &[]);
+        let part = &record.kernels[0];
+        let is_lost = |i: &usize| {
+            let count = &part.counts[*i];
+            count.stratum == "scene-grazing" && count.kind == "miss"
+        };
+        let place = (0..part.counts.len()).find(is_lost).unwrap();
+        let published = part.tried.iter().find(|tried| tried.name == "source").unwrap();
+        published.wrong[place].rate.unwrap()
+    };
+    // The published 1e-6 refuses all rays of a smaller sine, and few of a larger one.
+    assert!(lost("1e-8..1e-7") == 1.0 && lost("1e-4..1e-2") < 0.02);
+    let screen = study(&folder, "moller-trumbore", "edge=1,sine=1e-8..1e-7", &[]);
+    assert!(
+        screen.contains("almost parallel: angles whose sines go from 1e-8 to 1e-7"),
+        "{screen}"
+    );
+    let id = "scene-grazing@1/f32/extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..1e-7/1/7";
+    ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
+}
+
+#[test]
+fn where_no_line_is_good_the_screen_says_so() {
+    let folder = scratch("advice-no-good");
+    let far = study(&folder, "moller-trumbore", "room,distance=1e7", &[]);
+    let lines: Vec<&str> = far.lines().map(str::trim).collect();
+    assert!(lines[2].starts_with("no numbers are good here: even with these, 2"), "{far}");
+    assert!(lines[2].ends_with("% are the hits at a triangle that are lost"), "{far}");
+    let why = "rays start up to 1e7 m away, where the numbers of f32 are 1 m apart: use f64, or start rays nearer";
+    assert_eq!(lines[3], why);
+    assert!(!study(&folder, "moller-trumbore", "room", &[]).contains("no numbers are good"));
+    let wide = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room,distance=1e7", "-q"];
+    let wide = ends(&folder, &[&wide[..], &["--scalar", "f64", "-n", "4000"]].concat(), 0).0;
+    assert!(!wide.contains("no numbers are good"), "{wide}");
+}
+
+#[test]
+fn a_kernel_without_an_epsilon_at_its_edges_hears_what_its_cracks_cost() {
+    let folder = scratch("advice-cracks");
+    let screen = study(&folder, "havel-herout", "room", &[]);
+    for part in [
+        "of its cost of",
+        "are cracks, which no number here closes: give its edge test",
+        "or use a watertight kernel (plucker, woop-watertight)",
+        "the kernel has no epsilons, so the least t is all that there is to choose",
+    ] {
+        assert!(screen.contains(part), "{part}: {screen}");
+    }
+    for kernel in ["moller-trumbore", "woop-watertight"] {
+        let screen = study(&folder, kernel, "room", &[]);
+        assert!(!screen.contains("no number here closes") && !screen.contains("has no epsilons"));
+    }
+    // Where a self-hit costs nothing no least t is the best, in words.
+    let free = study(&folder, "havel-herout", "room", &["--cost", "self-hit=0"]);
+    assert!(free.contains("use  no least t: t_min = 0 costs least"), "{free}");
+}
+
+#[test]
+fn a_subnormal_limit_says_that_machines_may_flush_it() {
+    let folder = scratch("advice-subnormal");
+    let tiny = "extent=1e-9,edge=1e-10..1e-9,distance=0..1e-9";
+    let screen = study(&folder, "half-space", tiny, &[]);
+    let said = "is a subnormal number, which machines that flush to zero take for 0";
+    assert!(screen.contains(said), "{screen}");
+    assert!(!study(&folder, "half-space", "room", &[]).contains(said));
+}
+
+/// Whether every point of the first curve is one of the second.
+fn is_within(few: &CurvePart, many: &CurvePart) -> bool {
+    few.values.iter().enumerate().all(|(i, value)| {
+        let place = many.values.iter().position(|other| other == value);
+        place.is_some_and(|place| {
+            few.counts.iter().zip(&many.counts).all(|(a, b)| a.hits[i] == b.hits[place])
+        })
+    })
+}
+
+#[test]
+fn curves_are_as_full_as_is_asked() {
+    let folder = scratch("advice-curves");
+    let few = record(&folder, "moller-trumbore", "room", &[]);
+    let many = record(&folder, "moller-trumbore", "room", &["--curves"]);
+    for (few, many) in few.kernels[0].curves.iter().zip(&many.kernels[0].curves) {
+        assert!(10 * few.values.len() < many.values.len() && is_within(few, many));
+    }
+}
+
+#[test]
+fn a_picture_says_what_its_band_and_its_shading_are() {
+    let folder = scratch("advice-picture");
+    for format in ["svg", "html"] {
+        let file = format!("room.{format}");
+        study(&folder, "moller-trumbore", "room", &["--format", format, "-o", &file]);
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let panels = text.matches("around a line: its 95 % interval (Clopper and Pearson)").count();
+        assert!(3 <= panels, "{format}: {panels}");
+        assert!(text.contains("below its limits, 95 % sure of each; none from below"), "{format}");
+        assert!(text.contains("class=\"within open\""), "{format}");
+    }
+}
