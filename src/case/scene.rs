@@ -21,6 +21,8 @@ pub struct Scene {
     /// The sines of the angles between almost parallel rays and planes, each halving equally likely; none for those
     /// from 1/8 down to below rounding.
     pub sine: Option<[f64; 2]>,
+    /// Whether all almost parallel rays are aimed inside their triangle; half of them are aimed beside it otherwise.
+    pub aims_inside: bool,
 }
 
 /// How long the directions of a scene's rays are.
@@ -50,7 +52,8 @@ const fn preset(
     distance: [f64; 2],
 ) -> ScenePreset {
     let direction = DirectionLength::Unit;
-    let scene = Scene { extent, center: 0.0, edge, distance, direction, sine: None };
+    let scene =
+        Scene { extent, center: 0.0, edge, distance, direction, sine: None, aims_inside: false };
     ScenePreset { name, unit, scene }
 }
 
@@ -75,7 +78,8 @@ const LEAST_SINE: f64 = 1e-30;
 const OF_MESH: &str = "mesh";
 
 /// The words of a scene, as errors list them.
-const WORDS: &str = "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target, sine=1e-7..0.1";
+const WORDS: &str = "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target, sine=1e-7..0.1, \
+     aim=inside or both";
 
 impl Scene {
     /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
@@ -150,6 +154,13 @@ impl Scene {
             "center" => self.center = number(key, value)?,
             "edge" => self.edge = range(key, value)?,
             "distance" => self.distance = range(key, value)?,
+            "aim" => {
+                self.aims_inside = match value {
+                    "inside" => true,
+                    "both" => false,
+                    _ => return Err(format!("aim={value}: write aim=inside or both")),
+                }
+            }
             "sine" => self.sine = Some(range(key, value)?),
             "direction" => {
                 self.direction = match value {
@@ -299,7 +310,8 @@ impl fmt::Display for Scene {
             write!(f, "center={},", Number(self.center))?;
         }
         write!(f, "edge={edge},distance={distance},direction={direction}")?;
-        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))
+        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))?;
+        if self.aims_inside { f.write_str(",aim=inside") } else { Ok(()) }
     }
 }
 
@@ -314,6 +326,7 @@ mod tests {
             "extent=1e-7,edge=1e-9,distance=5e-9..1e-8,direction=target",
             "extent=10,center=-100000,edge=1,distance=0..4,direction=unit",
             "extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..0.01",
+            "extent=1,edge=1,distance=0..4,direction=unit,aim=inside",
         ] {
             assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
         }
@@ -347,6 +360,7 @@ mod tests {
             ("direction=long", "direction=unit or target"),
             ("sine=0..1", "sines of angles are from 1e-30 to 1"),
             ("sine=0.5..2", "to 1"),
+            ("aim=up", "write aim=inside or both"),
             ("sine=flat", "'flat' is not a finite number"),
             ("extent=1,extent=2", "'extent' is given twice"),
         ] {

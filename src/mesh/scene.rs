@@ -66,6 +66,7 @@ impl SceneMesh {
             distance: [0.0, three_digits((high - low).length(), true)],
             direction: DirectionLength::Unit,
             sine: None,
+            aims_inside: false,
         }
     }
 

@@ -16,8 +16,9 @@ for mesh in icosphere torus; do
     "$hairline" mesh "../../corpora/meshes/$mesh.obj" --quiet --kernel moller-trumbore,plucker,woop-watertight \
         --format html,json -o "out/$mesh.html" -o "out/$mesh.json"
 done
+"$hairline" epsilon --quiet --kernel moller-trumbore --scene room --scalar f32 -n 10000 --format html -o out/scene.html
 test -d node_modules || npm ci
-node --test --test-reporter=spec report.test.mjs mesh.test.mjs
+node --test --test-reporter=spec report.test.mjs mesh.test.mjs scene.test.mjs
 if command -v pdftoppm > /dev/null; then
     pdftoppm -r 70 -png out/audit.pdf out/printed
 fi

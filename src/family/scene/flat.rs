@@ -11,7 +11,9 @@ use glam::DVec3;
 
 pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let (triangle, frame) = setup.triangles.triangle(draw);
-    let weights = if draw.coin() { inside(draw) } else { beside(draw) };
+    // The coin is tossed in any case, so that the other draws stay the same.
+    let is_inside = draw.coin() || setup.scene.aims_inside;
+    let weights = if is_inside { inside(draw) } else { beside(draw) };
     let target = point_of(triangle, weights);
     let sine = match setup.scene.sine {
         Some(range) => between_powers(draw, range) * if draw.coin() { 1.0 } else { -1.0 },

@@ -266,9 +266,10 @@ fn flatness(record: &SceneRecord) -> String {
 pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
     let costs = costs.collect::<Vec<_>>().join(", ");
+    let aim = if record.aims_inside { "; all aimed inside" } else { "" };
     let mut lines = vec![
         format!("cost: each share times its weight ({costs}), added up"),
-        format!("almost parallel: angles {}, each halving equally often", flatness(record)),
+        format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
         "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
             .to_owned(),
         "another seed may name other numbers at nearly the same cost; more rays (-n) bring them closer"

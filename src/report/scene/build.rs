@@ -38,6 +38,7 @@ pub fn scene_record(
         unit_directions: scene.direction == DirectionLength::Unit,
         edge: scene.edge,
         sine: scene.sine,
+        aims_inside: scene.aims_inside,
         seed,
         fresh_seed: fresh_seed(seed),
         count,

@@ -70,7 +70,7 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
                     }
                 }
             }
-            div.scroll {
+            div.scroll tabindex="0" role="group" aria-label="Wrong on fresh rays" {
                 table {
                     caption { "Wrong on fresh rays (seed " (record.fresh_seed) ")" }
                     thead { tr { th scope="col" { "rays" } @for name in &answer.columns { th scope="col" { (name) } } } }
@@ -82,7 +82,7 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
                 }
             }
             @if !answer.limits.is_empty() {
-                div.scroll {
+                div.scroll tabindex="0" role="group" aria-label="Limits" {
                     table {
                         caption { "Each alone may move to (95 % sure, so 1 in 20 fails)" }
                         thead {

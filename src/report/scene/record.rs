@@ -28,6 +28,8 @@ pub struct SceneRecord {
     pub edge: [f64; 2],
     /// The sines of the angles of almost parallel rays; none for those from 1/8 down to below rounding.
     pub sine: Option<[f64; 2]>,
+    /// Whether all almost parallel rays are aimed inside their triangle.
+    pub aims_inside: bool,
     /// The seed of the rays from which epsilons are chosen.
     pub seed: u64,
     /// The seed of the fresh rays on which they are tried.
