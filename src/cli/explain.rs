@@ -65,7 +65,7 @@ where
         if cases.len() > 1 {
             writeln!(out, "triangle {i} of {}", cases.len())?;
         }
-        write_case(out, name, case)?;
+        write_case(out, name, case, secondary)?;
         let truth = oracle::define(case).truth;
         for row in rows {
             write_row(out, case, &truth, secondary, row)?;
@@ -149,7 +149,12 @@ fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
 }
 
-fn write_case<F: Scalar>(out: &mut dyn Write, name: &str, case: &Case<F>) -> io::Result<()>
+fn write_case<F: Scalar>(
+    out: &mut dyn Write,
+    name: &str,
+    case: &Case<F>,
+    is_secondary: bool,
+) -> io::Result<()>
 where
     AnyCase: From<Case<F>>,
 {
@@ -164,7 +169,7 @@ where
     writeln!(out, "    interval   [{}, {}]   {} {}", t_min, t_max, t_min.hex(), t_max.hex())?;
     let definition = oracle::define(case);
     writeln!(out, "truth {}", definition.truth)?;
-    let stored = StoredCase::of(*case);
+    let stored = StoredCase { is_secondary, ..StoredCase::of(*case) };
     let line = serde_json::to_string(&truth_line(&stored)).unwrap_or_default();
     writeln!(out, "    {line}")?;
     if let Some(severity) = exact_severity(case, Extent::Interval) {

@@ -283,13 +283,14 @@ impl SpawnArguments {
             let (name, line) = text.split_once('=').ok_or_else(missing)?;
             let name = name.trim();
             let program = Program::parse(line).map_err(wrong)?;
-            let command = OffsetCommand::start(program).map_err(|error| {
-                let message = format!("{line}: it cannot be started: {error}");
-                Failure::Message(Status::InputOutput, message)
-            })?;
+            let command = OffsetCommand::new(program);
             let scheme = Scheme::own(name).f32(command.clone()).f64(command.clone());
             let flags = format!("--scheme-cmd {} --scheme {name}", shell_word(text));
             register(scheme.chosen_by(flags)).map_err(wrong)?;
+            command.start().map_err(|error| {
+                let message = format!("{line}: it cannot be started: {error}");
+                Failure::Message(Status::InputOutput, message)
+            })?;
             Ok((name.to_owned(), command))
         };
         self.scheme_cmd.iter().map(started).collect()

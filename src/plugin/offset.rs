@@ -33,11 +33,16 @@ struct State {
 }
 
 impl OffsetCommand {
-    /// Starts the command.
-    pub fn start(program: Program) -> io::Result<OffsetCommand> {
-        let idle = vec![program.start(SILENCE)?];
-        let state = Mutex::new(State { idle, fault: None });
-        Ok(OffsetCommand(Arc::new(Inner { program, state })))
+    /// Of a program, which is not started yet.
+    pub fn new(program: Program) -> OffsetCommand {
+        OffsetCommand(Arc::new(Inner { program, state: Mutex::default() }))
+    }
+
+    /// Starts one process, so that what cannot be started shows before the run.
+    pub fn start(&self) -> io::Result<()> {
+        let running = self.0.program.start(SILENCE)?;
+        self.state().idle.push(running);
+        Ok(())
     }
 
     /// Why its answers are worth nothing; one line.

@@ -7,7 +7,7 @@ use std::fs;
 /// The study of a gate on t, of cases that flags name.
 fn gate(folder: &std::path::Path, cases: &[&str]) -> Value {
     let study = ["epsilon", "--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"];
-    let rest = ["--contract", "no-self-hit", "--format", "json", "-q"];
+    let rest = ["--contract", "no-self-hit", "--format", "json", "-q", "--curves"];
     let (out, _) = ends(folder, &[&study[..], cases, &rest[..]].concat(), 0);
     let record: Value = serde_json::from_str(&out).unwrap();
     record["result"]["gates"][0].clone()
@@ -62,18 +62,20 @@ fn a_file_may_hold_both_and_a_case_is_explained_as_it_is_judged() {
         assert!(out.contains(part), "{part}");
     }
     // The parts of a run in pieces add up to the whole.
-    for shard in ["1/2", "2/2"] {
+    for shard in ["0/2", "1/2"] {
         let file = format!("{}.json", &shard[..1]);
         let part = ["--shard", shard, "-o", &file, "both.jsonl"];
         let before = [&audit[..], &["--epsilon-preset", "zero"], &flags[..]].concat();
         let (corpus, rest) = (part[4], &part[..4]);
         ends(&folder, &[&before[..], &[corpus], rest].concat(), 0);
     }
-    ends(&folder, &["merge", "1.json", "2.json", "-q"], 0);
+    ends(&folder, &["merge", "0.json", "1.json", "-q"], 0);
+    let told = [&["explain", "secondary-ray@1/f32/-/1/0"], &flags[..2]].concat();
+    assert!(ends(&folder, &told, 0).0.contains(r#""starts":"on-triangle""#));
     // Where the exact ray crosses its triangle, the mark decides what is owed.
     let owed = |name: &str| {
         let all = [&["explain", name], &flags[..], &["both.jsonl"]].concat();
-        ends(&folder, &all, 0).0.contains("must hit")
+        ends(&folder, &all, 0).0.contains("its contract asks a hit")
     };
     let names: Vec<String> = (0..40).map(|i| format!("secondary-ray@1/f32/-/1/{i}")).collect();
     assert!(names.iter().all(|name| !owed(name)));

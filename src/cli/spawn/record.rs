@@ -273,7 +273,7 @@ impl WrongPart {
         AnyCase: From<Case<F>>,
     {
         let case = new_ray::<F>(plan, scheme, index)?;
-        let line = write_case(&StoredCase::of(case));
+        let line = write_case(&StoredCase { is_secondary: true, ..StoredCase::of(case) });
         Some(WrongPart {
             first_ray: first_ray_id::<F>(plan.scene, plan.seed, index),
             explain: plan.row.explain_command(&quoted(&line)),

@@ -57,6 +57,10 @@ fn is_plain(count: &CountPart) -> bool {
 
 /// Where even the best numbers are no good: that they are not, why, and what helps.
 fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    // Numbers that were not to be chosen may be what is wrong.
+    if part.others.keys().any(|gate| gate != "t") {
+        return Vec::new();
+    }
     let plain = part.counts.iter().zip(&part.tried[0].wrong).filter(|(count, _)| is_plain(count));
     // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
     let theirs = plain.filter(|(count, _)| count.kind == "miss" || part.has_edge_epsilon);
@@ -65,9 +69,9 @@ fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let Some((count, rate)) = worst.filter(|(_, rate)| TOO_MANY < rate.rate.unwrap_or(0.0)) else {
         return Vec::new();
     };
-    let what = match count.kind.as_str() {
-        "miss" => "the hits at a triangle that are lost",
-        _ => "the rays that slip through shared edges or vertices",
+    let what = match (count.kind.as_str(), share(rate)) {
+        ("miss", share) => format!("lose {share} of the hits at a triangle"),
+        (_, share) => format!("let {share} of the rays at shared edges or vertices through"),
     };
     let unit = spaced(&record.unit);
     let instead = match part.scalar.as_str() {
@@ -84,7 +88,7 @@ fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         false if part.scalar == "f32" => "use f64 or another kernel".to_owned(),
         false => "use another kernel".to_owned(),
     };
-    vec![format!("no numbers are good here: even with these, {} are {what}", share(rate)), why]
+    vec![format!("no numbers are good here: even these {what}"), why]
 }
 
 /// Of a kernel whose cracks no number closes: that they are most of its cost, and what helps.
