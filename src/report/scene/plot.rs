@@ -341,11 +341,8 @@ impl<'a> Draft<'a> {
             (mark, format!("{} {}: {most}", row.bound, row.what))
         });
         let mut all: Vec<(String, String)> = lines.chain(limits).collect();
-        if !self.lines.is_empty() {
-            let band = self.lines.iter().map(|line| {
-                format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", line.class())
-            });
-            let mark = band.last().unwrap_or_default();
+        if let Some(line) = self.lines.last() {
+            let mark = format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", line.class());
             all.push((mark, "around a line: its 95 % interval (Clopper and Pearson)".to_owned()));
         }
         if let Some(ends) = self.within() {
