@@ -10,7 +10,7 @@ use crate::case::{Case, Draw, Parameters};
 use crate::engine::{self, Merge, Observer};
 use crate::family::{Family, LATTICE_SIZE, apply, find};
 use crate::kernel::Scalar;
-use crate::oracle::{Layers, define, truth_counted};
+use crate::oracle::{Batch, Layers, define, truth_counted, truths};
 use crate::truth::Truth;
 use integers::Integers;
 use num_traits::ToPrimitive;
@@ -51,15 +51,35 @@ pub struct Check {
     pub layers: Layers,
 }
 
+/// Cases with their indices, and the truths that they should have.
+type Expected<F> = Vec<(u64, Case<F>, Truth)>;
+
 impl Check {
-    fn compare<F: Float>(&mut self, index: u64, case: &Case<F>, expected: Truth) {
-        let found = truth_counted(case, &mut self.layers);
-        self.cases += 1;
-        if found != expected {
-            self.differences += 1;
-            let message =
-                format!("the oracle says '{found}', should say '{expected}': {}", case.hex());
-            self.propose(index, message);
+    /// Compares the truths that the oracle finds one by one, of a slice, and of columns.
+    fn compare<F: Float>(&mut self, expected: &Expected<F>) {
+        let cases: Vec<Case<F>> = expected.iter().map(|(_, case, _)| *case).collect();
+        let mut batch = Batch::new();
+        cases.iter().for_each(|case| batch.push(case));
+        let (mut of_slice, mut of_columns) = (Vec::new(), Vec::new());
+        truths(&cases, &mut of_slice, &mut Layers::default());
+        batch.truths(&mut of_columns, &mut Layers::default());
+        for (i, (index, case, expected)) in expected.iter().enumerate() {
+            let found = [
+                ("", Some(truth_counted(case, &mut self.layers))),
+                (" in a slice", of_slice.get(i).copied()),
+                (" in columns", of_columns.get(i).copied()),
+            ];
+            self.cases += 1;
+            if let Some((place, found)) = found.iter().find(|(_, found)| *found != Some(*expected))
+            {
+                self.differences += 1;
+                let found = found.map_or("nothing".to_owned(), |found| format!("'{found}'"));
+                let hex = case.hex();
+                self.propose(
+                    *index,
+                    format!("the oracle says {found}{place}, should say '{expected}': {hex}"),
+                );
+            }
         }
     }
 
@@ -81,10 +101,16 @@ impl Merge for Check {
     }
 }
 
-/// Runs a check over indices, on all threads.
-fn over(indices: u64, observer: &dyn Observer, check: impl Fn(u64, &mut Check) + Sync) -> Check {
+/// Compares the cases that are made for indices, on all threads.
+fn over<F: Float>(
+    indices: u64,
+    observer: &dyn Observer,
+    make: impl Fn(u64, &mut Expected<F>) + Sync,
+) -> Check {
     let add = |sum: &mut Check, indices: Range<u64>| {
-        indices.for_each(|index| check(index, sum));
+        let mut expected = Vec::new();
+        indices.for_each(|index| make(index, &mut expected));
+        sum.compare(&expected);
     };
     engine::sum(0..indices, 64, observer, Check::default, add)
 }
@@ -99,10 +125,10 @@ pub fn family<F: Scalar>(
     indices: u64,
     observer: &dyn Observer,
 ) -> Check {
-    over(indices, observer, |index, check| {
+    over(indices, observer, |index, expected| {
         let made = family.make::<F>(&Parameters::default(), seed, index);
         for case in made.cases() {
-            compare_cuts(reference, index, case, check);
+            with_cuts(reference, index, case, expected);
             if index % 4 == 1 {
                 let mut draw = Draw::new("scaled", seed, index);
                 let third = F::MAX_EXPONENT.div_euclid(3);
@@ -113,7 +139,7 @@ pub fn family<F: Scalar>(
                 let mut scaled = *case;
                 let parameters = Parameters { scale, scale_direction, ..Parameters::default() };
                 apply(&parameters, &mut scaled);
-                check.compare(index, &scaled, reference.truth(&scaled).0);
+                expected.push((index, scaled, reference.truth(&scaled).0));
             }
         }
     })
@@ -142,7 +168,7 @@ pub fn whole_range<F: Float>(
         smallest.offset_ulps(1 << 20),
         F::from_f64(scale_by_power_of_two(1.0, F::MAX_EXPONENT)),
     ];
-    over(indices, observer, |index, check| {
+    over(indices, observer, |index, expected| {
         let mut draw = Draw::new("whole-range", seed, index);
         let coincide = draw.coin();
         // Few numbers a case: more coincidences.
@@ -159,33 +185,43 @@ pub fn whole_range<F: Float>(
             }
         };
         let [o, d, a, b, c] = std::array::from_fn(|_| std::array::from_fn(|_| number(&mut draw)));
-        compare_cuts(reference, index, &Case::new(o, d, [a, b, c]), check);
+        with_cuts(reference, index, &Case::new(o, d, [a, b, c]), expected);
     })
 }
 
 /// Cases at the thresholds of the oracle's layers, each also on an interval that ends at its crossing.
 pub fn thresholds(reference: Reference, seed: u64, indices: u64, observer: &dyn Observer) -> Check {
-    over(indices, observer, |index, check| {
-        compare_and_cut(reference, index, &thresholds::case(seed, index), check);
+    over(indices, observer, |index, expected| {
+        with_cut(reference, index, &thresholds::case(seed, index), expected);
     })
 }
 
 /// A case, and every fourth on an interval that ends at its crossing or contact.
-fn compare_cuts<F: Float>(reference: Reference, index: u64, case: &Case<F>, check: &mut Check) {
+fn with_cuts<F: Float>(
+    reference: Reference,
+    index: u64,
+    case: &Case<F>,
+    expected: &mut Expected<F>,
+) {
     if index.is_multiple_of(4) {
-        compare_and_cut(reference, index, case, check);
+        with_cut(reference, index, case, expected);
     } else {
-        check.compare(index, case, reference.truth(case).0);
+        expected.push((index, *case, reference.truth(case).0));
     }
 }
 
 /// A case, and the same on an interval that ends at its crossing or contact.
-fn compare_and_cut<F: Float>(reference: Reference, index: u64, case: &Case<F>, check: &mut Check) {
-    let (expected, t) = reference.truth(case);
-    check.compare(index, case, expected);
+fn with_cut<F: Float>(
+    reference: Reference,
+    index: u64,
+    case: &Case<F>,
+    expected: &mut Expected<F>,
+) {
+    let (truth, t) = reference.truth(case);
+    expected.push((index, *case, truth));
     if let Some(t) = t {
         let cut = cut_at(&mut Draw::new("interval", 0, index), case, F::from_f64(t));
-        check.compare(index, &cut, reference.truth(&cut).0);
+        expected.push((index, cut, reference.truth(&cut).0));
     }
 }
 
@@ -202,7 +238,7 @@ fn cut_at<F: Float>(draw: &mut Draw, case: &Case<F>, t: F) -> Case<F> {
 /// All 3^15 lattice cases against 64-bit integers.
 pub fn lattice(observer: &dyn Observer) -> Check {
     let family = find("lattice").expect("a family of that name");
-    over(LATTICE_SIZE, observer, |index, check| {
+    over(LATTICE_SIZE, observer, |index, all| {
         let made = family.make_in_order::<f32>(&Parameters::default(), index);
         let case = made.cases()[0];
         let numbers = case.vectors().map(|v| v.map(|x| x as i64));
@@ -210,7 +246,7 @@ pub fn lattice(observer: &dyn Observer) -> Check {
             [0, 0, 0] => Truth::Invalid,
             _ => Integers::of_lattice(numbers).truth().0,
         };
-        check.compare(index, &case, expected);
+        all.push((index, case, expected));
     })
 }
 
@@ -246,9 +282,8 @@ mod tests {
     fn a_wrong_truth_is_counted_and_the_first_is_kept() {
         let case = Case::<f32>::new([0.0; 3], [1.0, 0.0, 0.0], [[0.0; 3]; 3]);
         let (mut left, mut right) = (Check::default(), Check::default());
-        right.compare(9, &case, Truth::Parallel);
-        right.compare(4, &case, Truth::Parallel);
-        left.compare(5, &case, crate::oracle::truth(&case));
+        right.compare(&vec![(9, case, Truth::Parallel), (4, case, Truth::Parallel)]);
+        left.compare(&vec![(5, case, crate::oracle::truth(&case))]);
         left.merge(right);
         let sum = left;
         assert_eq!((sum.cases, sum.differences), (3, 2));
