@@ -15,24 +15,23 @@ impl Kind {
 
     /// The kind of a truth.
     pub fn of(truth: &Truth) -> Kind {
-        let detail = match truth {
-            Truth::Transversal(crossing) => {
-                let at_end = matches!(crossing.place, Place::AtMin | Place::AtMax);
-                let sign = match crossing.t_sign {
-                    Ordering::Less => 0,
-                    Ordering::Equal => 1,
-                    Ordering::Greater => 2,
-                };
-                u8::from(at_end) | sign << 1
-            }
+        let digits = match truth {
+            Truth::Transversal(Crossing { place, t_sign, .. }) => [
+                matches!(place, Place::AtMin | Place::AtMax),
+                matches!(t_sign, Ordering::Less),
+                matches!(t_sign, Ordering::Equal),
+            ],
             Truth::Coplanar(Contact { kind, meets_ray, meets_line })
             | Truth::Degenerate(Contact { kind, meets_ray, meets_line }) => {
-                let meets_interval = *kind != ContactKind::None;
-                u8::from(meets_interval) | u8::from(*meets_ray) << 1 | u8::from(*meets_line) << 2
+                [matches!(kind, ContactKind::None), *meets_ray, *meets_line]
             }
-            Truth::Parallel | Truth::Invalid => 0,
+            Truth::Parallel | Truth::Invalid => [false; 3],
         };
-        Kind(Class::of(truth).0 << 3 | detail)
+        Kind(
+            digits
+                .into_iter()
+                .fold(Class::of(truth).0, |number, digit| 2 * number + u8::from(digit)),
+        )
     }
 
     /// Its class.

@@ -105,8 +105,7 @@ pub fn nearest_on_segment<R: Real>(numerator: R, denominator: R) -> R {
 pub fn ulp_of_points<F: Float>(case: &Case<F>) -> F {
     let [o, _, a, b, c] = case.vectors();
     let coordinates = [o, a, b, c];
-    let larger = |m: F, x: F| if m < x { x } else { m };
-    coordinates.as_flattened().iter().map(F::abs).fold(F::zero(), larger).ulp()
+    coordinates.as_flattened().iter().map(F::abs).fold(F::zero(), F::larger).ulp()
 }
 
 impl Distances {
@@ -121,7 +120,7 @@ impl Distances {
         let ulp = ulp_of_points(case).to_f64();
         let wide = case.widen();
         // No product of a few numbers of f32 leaves the range of f64.
-        if F::MAX_EXPONENT < 128
+        if size_of::<F>() == size_of::<f32>()
             && let Some(found) = quick(&wide, 0, ulp, &zeros).and_then(Quick::certain)
         {
             return (found, Step::Floats);
@@ -134,7 +133,7 @@ impl Distances {
         let by_bounds = || by_bounds(&near, &found?, &zeros).filter(|_| near.is_exact(&wide));
         match by_bounds() {
             Some(found) => (found, Step::DoubleDoubles),
-            None => (integers::distances(&wide, ulp, &zeros), Step::Integers),
+            None => (integers::distances(&wide, ulp, zeros.along.is_some()), Step::Integers),
         }
     }
 
@@ -193,14 +192,20 @@ pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: 
         BandUnit::Edges => 1.0,
         BandUnit::Ulps => distances.edge_in_ulps,
     };
-    // Distances are right to a thousandth.
-    let relative = distances.nearest_change(truth, contract) * unit / band.size;
-    if (relative - 1.0).abs() > 1.0 / 256.0 {
-        return relative < 1.0;
-    }
-    let (ray, triangle) = case.exact();
-    let squares = Squares::of(&ray, &triangle, truth.crossing().is_some());
-    squares.are_within(band, ulp_of_points(case), truth, contract)
+    is_clearly_less(distances.nearest_change(truth, contract) * unit, band.size).unwrap_or_else(
+        || {
+            let (ray, triangle) = case.exact();
+            let squares = Squares::of(&ray, &triangle, truth.crossing().is_some());
+            squares.are_within(band, ulp_of_points(case), truth, contract)
+        },
+    )
+}
+
+/// Whether one number is less than another, if a difference of 1/256 tells: distances are right to a
+/// thousandth.
+fn is_clearly_less(one: f64, other: f64) -> Option<bool> {
+    let relative = one / other;
+    ((relative - 1.0).abs() > 1.0 / 256.0).then_some(relative < 1.0)
 }
 
 /// The same of a planar convex polygon, given as its fan, with the truth of it as a whole: by the
@@ -228,7 +233,7 @@ pub fn is_polygon_within<F: Float>(
         along: one.along,
     };
     let ulps = cases.iter().map(ulp_of_points);
-    let ulp = ulps.fold(F::zero(), |largest, ulp| if largest < ulp { ulp } else { largest });
+    let ulp = ulps.fold(F::zero(), F::larger);
     let squares = fan.iter().enumerate().map(each).reduce(larger).expect("a triangle");
     squares.are_within(band, ulp, truth, contract)
 }
@@ -329,15 +334,13 @@ struct Quick {
     distances: Distances,
     /// What lengths are divided by.
     unit: f64,
-    /// Edges so near to the line that rounding could matter; none if the distance is certain.
-    edges_in_doubt: [bool; 3],
+    in_space_in_doubt: bool,
     along_in_doubt: bool,
 }
 
 impl Quick {
     fn certain(self) -> Option<Distances> {
-        let doubt = self.along_in_doubt || self.edges_in_doubt != [false; 3];
-        (!doubt).then_some(self.distances)
+        (!self.along_in_doubt && !self.in_space_in_doubt).then_some(self.distances)
     }
 }
 
@@ -359,8 +362,8 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     let offsets = [a, b, c].map(|p| (p - o).cross(d));
     let to_edges = [(0, 1), (1, 2), (2, 0)].map(|(p, q)| {
         let (offset, edge) = (offsets[p], offsets[q] - offsets[p]);
-        let s = (-offset.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        let s = if s.is_nan() { 0.0 } else { s };
+        // Of an edge that is a point, 0/0: the larger of NaN and 0 is 0.
+        let s = (-offset.dot(edge) / edge.length_squared()).clamp(0.0, 1.0).max(0.0);
         (offset + edge * s).length_squared()
     });
     let in_space = to_edges.into_iter().fold(f64::INFINITY, f64::min).sqrt() / length;
@@ -369,12 +372,7 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     // difference of two of these, its product with s and the sum round by less than 40uL|d| together;
     // a rounded s only chooses another point of the edge. In all that is below 2^-46 L|d|.
     let near = scaled(largest, -36);
-    let mut edges_in_doubt = [false; 3];
-    if !zeros.in_space && (in_space < near || in_space.is_nan()) {
-        // An edge beyond twice that is not the nearest.
-        let limit = 2.0 * near * length;
-        edges_in_doubt = to_edges.map(|square| square < limit * limit || square.is_nan());
-    }
+    let in_space_in_doubt = !zeros.in_space && (in_space < near || in_space.is_nan());
     let mut along = [f64::NAN; 3];
     let mut along_in_doubt = false;
     if let Some(at) = zeros.along {
@@ -396,7 +394,7 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     }
     let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
     let distances = Distances { in_space, along, edge_in_ulps: unit / ulp };
-    Some(Quick { distances, unit, edges_in_doubt, along_in_doubt })
+    Some(Quick { distances, unit, in_space_in_doubt, along_in_doubt })
 }
 
 /// What floats left in doubt, in double-doubles with bounds; none where they do not decide.
@@ -404,23 +402,21 @@ fn by_bounds(near: &NearOne, found: &Quick, zeros: &Zeros) -> Option<Distances> 
     let (ray, triangle) = near.case.lift(Bounded::new);
     let mut distances = found.distances;
     let relative = |square: Bounded| Some(square.approximate()?.sqrt() / found.unit);
-    if found.edges_in_doubt != [false; 3] {
+    if found.in_space_in_doubt {
         distances.in_space = f64::INFINITY;
-        for ((p, q), in_doubt) in triangle.edges().into_iter().zip(found.edges_in_doubt) {
-            if in_doubt {
-                let square = bounded(|| line_to_segment(&ray.origin, &ray.direction, p, q))?;
-                distances.in_space = distances.in_space.min(relative(square)?);
-            }
+        for (p, q) in triangle.edges() {
+            let square = bounded(|| line_to_segment(&ray.origin, &ray.direction, p, q))?;
+            distances.in_space = distances.in_space.min(relative(square)?);
         }
     }
     if let (true, Some(at)) = (found.along_in_doubt, zeros.along) {
         let squares = bounded(|| along(&ray, &triangle))?;
-        let ends = [0.0, near.case.ray.t_min, near.case.ray.t_max];
         for (i, square) in squares.into_iter().enumerate() {
             distances.along[i] = match square {
                 _ if at[i] => 0.0,
-                _ if ends[i].is_infinite() => f64::INFINITY,
-                square => relative(square?)?,
+                // The end is infinite.
+                None => f64::INFINITY,
+                Some(square) => relative(square)?,
             };
         }
     }

@@ -66,14 +66,15 @@ type Rim<F> = [[F; 3]; 2];
 /// Where on a triangle's boundary a line meets it; none inside.
 fn rim<F: Float>(case: &Case<F>, feature: Feature) -> Option<Rim<F>> {
     let [_, _, a, b, c] = case.vectors();
-    let (p, q) = match feature {
-        Feature::EdgeAb => (a, b),
-        Feature::EdgeBc => (b, c),
-        Feature::EdgeCa => (c, a),
-        Feature::VertexA => (a, a),
-        Feature::VertexB => (b, b),
-        Feature::VertexC => (c, c),
+    let mut rim = match feature {
+        Feature::EdgeAb => [a, b],
+        Feature::EdgeBc => [b, c],
+        Feature::EdgeCa => [c, a],
+        Feature::VertexA => [a; 2],
+        Feature::VertexB => [b; 2],
+        Feature::VertexC => [c; 2],
         Feature::Interior | Feature::Outside => return None,
     };
-    Some(if p <= q { [p, q] } else { [q, p] })
+    rim.sort_by(|p, q| p.partial_cmp(q).expect("finite"));
+    Some(rim)
 }

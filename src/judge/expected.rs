@@ -69,10 +69,7 @@ pub(crate) fn ask_all<F: Float>(
             };
             cases.map(ask).unzip()
         };
-    let mut free = Vec::new();
-    if counts.iter().any(|(_, asked, _)| *asked == Obligation::Free) {
-        free.extend((0..of.len()).filter(|&i| of[i].obligation() == Obligation::Free));
-    }
+    let free = (0..of.len()).filter(|&i| of[i].obligation() == Obligation::Free).collect();
     Expectations { of, free, counts }
 }
 

@@ -39,8 +39,7 @@ pub fn group_obligation<F: Float>(
     contract: &Contract,
     grouping: Grouping,
 ) -> GroupTruth {
-    let promised = |case: &Case<F>| promises_direction(contract.direction, direction(case));
-    if !cases.first().is_some_and(promised) {
+    if !is_promised(cases, contract) {
         return GroupTruth::Free;
     }
     let truth = group_truth(truths, contract, grouping);
@@ -57,8 +56,11 @@ pub fn group_obligation<F: Float>(
     }
 }
 
-fn direction<F: Float>(case: &Case<F>) -> [F; 3] {
-    case.ray.direction.into()
+/// Whether a contract promises anything for the direction of the ray that all cases of a group share.
+fn is_promised<F: Float>(cases: &[Case<F>], contract: &Contract) -> bool {
+    let promises =
+        |case: &Case<F>| promises_direction::<F>(contract.direction, case.ray.direction.into());
+    cases.first().is_some_and(promises)
 }
 
 /// Whether the triangles of a fan go once around the centre, as seen along a line through it; true if the
@@ -75,9 +77,11 @@ fn goes_around_once<F: Float>(cases: &[Case<F>], truths: &[Truth]) -> bool {
         }
     };
     let spokes: Option<Vec<[[f64; 3]; 2]>> = cases.iter().zip(truths).map(spoke).collect();
-    let Some(spokes) = spokes else { return true };
+    let (Some(case), Some(spokes)) = (cases.first(), spokes) else { return true };
+    let direction: [F; 3] = case.ray.direction.into();
     let ring: Vec<[f64; 3]> = spokes.iter().map(|[_, next]| *next).collect();
-    winds_once(direction(&cases[0]).map(F::to_f64), spokes[0][0], &ring)
+    let winds = |[centre, _]: &[_; 2]| winds_once(direction.map(F::to_f64), *centre, &ring);
+    spokes.first().is_some_and(winds)
 }
 
 /// What the truths of a group demand together, under a contract's extent and sides.
@@ -113,7 +117,7 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
     let on_shared_edge =
         inside == 0 && hits == 2 && met.next().map(|c| c.place) == met.next().map(|c| c.place);
     if grouping == Grouping::SharedEdge && (inside == hits || on_shared_edge) {
-        return GroupTruth::Fold { odd: hits % 2 == 1 };
+        return GroupTruth::Fold { odd: hits == 1 };
     }
     GroupTruth::Free
 }
@@ -149,7 +153,7 @@ pub fn polygon_obligation<F: Float>(
     truths: &[Truth],
     contract: &Contract,
 ) -> Obligation {
-    if !promises_direction(contract.direction, direction(&cases[0])) {
+    if !is_promised(cases, contract) {
         return Obligation::Free;
     }
     let truth = polygon_truth(truths);

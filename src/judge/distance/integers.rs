@@ -7,12 +7,13 @@
 //! (A×d)×(B×d) = (A·(B×d)) d. So three cross products and three determinants are all there is to
 //! round; signs of products with the slope err only where both readings agree to some 2^-50.
 
-use super::{Distances, Zeros};
+use super::Distances;
 use crate::arith::{decompose, scale_by_power_of_two};
 use crate::case::Case;
 use crate::oracle::integer::{Triple, align, cross, dot, minus};
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
+use std::cmp::Ordering;
 
 /// A number that is not negative: a power of two times a float, which is zero, infinite, or from 1 to 2.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -24,7 +25,6 @@ struct Wide {
 impl Wide {
     /// In the order of numbers.
     const ZERO: Wide = Wide { exponent: i64::MIN / 4, float: 0.0 };
-    const INFINITE: Wide = Wide { exponent: i64::MAX / 4, float: f64::INFINITY };
 
     fn new(float: f64, exponent: i64) -> Wide {
         if float == 0.0 {
@@ -52,16 +52,13 @@ impl Wide {
         Wide::new(self.float / other.float, self.exponent - other.exponent)
     }
 
-    fn smaller(self, other: Wide) -> Wide {
-        if other < self { other } else { self }
-    }
-
-    fn larger(self, other: Wide) -> Wide {
-        if self < other { other } else { self }
+    fn compare(&self, other: &Wide) -> Ordering {
+        self.partial_cmp(other).expect("no NaN")
     }
 
     fn to_f64(self) -> f64 {
-        scale_by_power_of_two(self.float, self.exponent.clamp(-3000, 3000) as i32)
+        let [least, most] = [i32::MIN, i32::MAX].map(i64::from);
+        scale_by_power_of_two(self.float, self.exponent.clamp(least, most) as i32)
     }
 }
 
@@ -73,7 +70,7 @@ struct WideVector {
 
 impl WideVector {
     fn of(vector: &Triple<BigInt>, exponent: i64) -> WideVector {
-        let bits = vector.iter().map(BigInt::bits).max().unwrap_or(0);
+        let bits = vector.iter().map(BigInt::bits).max().expect("three components");
         let shift = bits.saturating_sub(64);
         let float = |x: &BigInt| {
             let leading = (x >> shift).to_i128().expect("65 bits");
@@ -93,8 +90,8 @@ impl WideVector {
     }
 }
 
-/// Of a valid case.
-pub(super) fn distances(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Distances {
+/// Of a valid case; `crosses` says whether the line crosses the plane. What is zero comes out as zero.
+pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances {
     let [o, d, a, b, c] = case.vectors();
     let ([o, a, b, c], grid) = align([o, a, b, c]);
     let ([d], direction_grid) = align([d]);
@@ -105,7 +102,7 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Distances 
 
     let edges = [(0, 1), (1, 2), (2, 0)];
     let sides = edges.map(|(p, q)| WideVector::of(&minus(&points[q], &points[p]), grid).length());
-    let longest = sides.into_iter().fold(Wide::ZERO, Wide::larger);
+    let longest = sides.into_iter().max_by(Wide::compare).expect("three edges");
     let unit = if longest == Wide::ZERO { Wide::new(1.0, 0) } else { longest };
     let to_edges = edges.map(|(p, q)| {
         let slope = WideVector::of(&minus(&offsets[q], &offsets[p]), squared);
@@ -114,27 +111,29 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Distances 
             let determinant = dot(&points[p], &offsets[q]);
             Wide::of(&determinant, grid + squared).over(slope.length())
         } else {
-            at_p.length().smaller(at_q.length()).over(length)
+            [at_p.length(), at_q.length()]
+                .into_iter()
+                .min_by(Wide::compare)
+                .expect("two")
+                .over(length)
         }
     });
-    let in_space = to_edges.into_iter().fold(Wide::INFINITE, Wide::smaller);
+    let in_space = to_edges.into_iter().min_by(Wide::compare).expect("three edges");
 
-    let along = zeros.along.map_or([f64::NAN; 3], |at| {
-        let n = cross(&minus(&b, &a), &minus(&c, &a));
-        let (capital_t, capital_d) = (dot(&n, &points[0]), dot(&n, &d));
-        let divisor = Wide::of(&capital_d, grid + squared);
-        let ends = [0.0, case.ray.t_min, case.ray.t_max];
-        std::array::from_fn(|i| match ends[i] {
-            _ if at[i] => 0.0,
-            end if end.is_infinite() => f64::INFINITY,
-            end => {
-                let gap = gap((&capital_t, 3 * grid), (&capital_d, grid + squared), end);
-                gap.over(divisor).times(length).over(unit).to_f64()
-            }
-        })
-    });
+    let [from_a, ..] = &points;
+    let n = cross(&minus(&b, &a), &minus(&c, &a));
+    let (capital_t, capital_d) = (dot(&n, from_a), dot(&n, &d));
+    let to_end = |end: f64| {
+        if end.is_infinite() {
+            return f64::INFINITY;
+        }
+        let gap = gap((&capital_t, 3 * grid), (&capital_d, grid + squared), end);
+        gap.over(Wide::of(&capital_d, grid + squared)).times(length).over(unit).to_f64()
+    };
+    let along =
+        if crosses { [0.0, case.ray.t_min, case.ray.t_max].map(to_end) } else { [f64::NAN; 3] };
     Distances {
-        in_space: if zeros.in_space { 0.0 } else { in_space.over(unit).to_f64() },
+        in_space: in_space.over(unit).to_f64(),
         along,
         edge_in_ulps: unit.over(Wide::new(ulp, 0)).to_f64(),
     }
@@ -143,9 +142,6 @@ pub(super) fn distances(case: &Case<f64>, ulp: f64, zeros: &Zeros) -> Distances 
 /// |T - end·D|; T and D as integers times powers of two.
 fn gap((t, t_exponent): (&BigInt, i64), (d, d_exponent): (&BigInt, i64), end: f64) -> Wide {
     let (digits, exponent) = decompose(end);
-    if digits == 0 {
-        return Wide::of(t, t_exponent);
-    }
     let d_exponent = d_exponent + exponent;
     let common = t_exponent.min(d_exponent);
     let gap = (t << (t_exponent - common)) - ((d * digits) << (d_exponent - common));
@@ -186,10 +182,7 @@ mod tests {
                     if truth == Truth::Invalid {
                         continue;
                     }
-                    // As if nothing were known to be zero.
-                    let crosses = truth.crossing().is_some();
-                    let zeros = Zeros { in_space: false, along: crosses.then_some([false; 3]) };
-                    let found = distances(case, 1.0, &zeros);
+                    let found = distances(case, 1.0, truth.crossing().is_some());
                     let (in_space, along) = by_squares(case, &truth);
                     assert!(near(found.in_space, in_space), "{} {in_space:e}", case.hex());
                     for (found, exact) in found.along.into_iter().zip(along) {

@@ -247,6 +247,21 @@ fn floats_are_certain_of_distances_from_a_share_of_the_largest_coordinate_on() {
 }
 
 #[test]
+fn what_differs_by_a_256th_is_clear_and_what_does_not_is_not() {
+    for (one, expected) in [
+        (1.0 - 1.0 / 256.0, None),
+        (1.0, None),
+        (1.0 + 1.0 / 256.0, None),
+        (1.0 - 1.0 / 255.0, Some(true)),
+        (1.0 + 1.0 / 255.0, Some(false)),
+        (f64::INFINITY, Some(false)),
+        (0.0, Some(true)),
+    ] {
+        assert_eq!(is_clearly_less(3.0 * one, 3.0), expected, "{one}");
+    }
+}
+
+#[test]
 fn edges_whose_squares_could_underflow_are_left_to_integers_but_points_are_not() {
     let step = |edges: [f64; 2]| {
         let [x, y] = edges;
