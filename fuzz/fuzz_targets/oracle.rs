@@ -1,4 +1,4 @@
-//! The fast oracle against its definition in rationals, one by one and in lanes.
+//! The fast oracle against its definition in rationals, one by one, in lanes and in columns.
 #![cfg_attr(fuzzing, no_main)]
 
 use hairline_fuzz::{check_oracle, hold, with_input};

@@ -10,7 +10,7 @@ use hairline::internals::explore::inputs::{Input, of_kernel};
 use hairline::internals::explore::{Signature, mutate};
 use hairline::internals::judge::{self, Obligation};
 use hairline::internals::kernel::{Scalar, Subject, Verdict, refused_by};
-use hairline::internals::oracle::{self, Layers};
+use hairline::internals::oracle::{self, Batch, Layers};
 use hairline::internals::orientation::{
     self, Points, ScaledPoints, default_rows, defined_determinant,
 };
@@ -41,7 +41,7 @@ fn agree<T: PartialEq + fmt::Debug>(
     Err(Contradiction(format!("{about}: {left:?} and {right:?}")))
 }
 
-/// The oracle, one by one and in lanes, gives the truth of its definition in rationals.
+/// The oracle, one by one, in lanes and in columns, gives the truth of its definition in rationals.
 pub fn check_oracle<F: Float>(case: &Case<F>) -> Result<(), Contradiction> {
     let defined = oracle::define(case).truth;
     let about = format!("{} {}", F::NAME, case.hex());
@@ -52,7 +52,11 @@ pub fn check_oracle<F: Float>(case: &Case<F>) -> Result<(), Contradiction> {
     let (mut truths, mut layers) = (Vec::new(), Layers::default());
     oracle::truths(&cases, &mut truths, &mut layers);
     let single: Vec<_> = cases.iter().map(oracle::truth).collect();
-    agree(&format!("truths in lanes and one by one about {about}"), truths, single)
+    agree(&format!("truths in lanes and one by one about {about}"), &truths, &single)?;
+    let mut batch = Batch::new();
+    cases.iter().for_each(|case| batch.push(case));
+    batch.truths(&mut truths, &mut layers);
+    agree(&format!("truths in columns and one by one about {about}"), truths, single)
 }
 
 /// The orientation predicates' exact sign is that of the definition on the points of a case, and
