@@ -334,13 +334,15 @@ struct Quick {
     distances: Distances,
     /// What lengths are divided by.
     unit: f64,
-    in_space_in_doubt: bool,
+    /// Edges so near to the line that rounding could matter; none if the distance is certain.
+    edges_in_doubt: [bool; 3],
     along_in_doubt: bool,
 }
 
 impl Quick {
     fn certain(self) -> Option<Distances> {
-        (!self.along_in_doubt && !self.in_space_in_doubt).then_some(self.distances)
+        let doubt = self.along_in_doubt || self.edges_in_doubt != [false; 3];
+        (!doubt).then_some(self.distances)
     }
 }
 
@@ -372,7 +374,12 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     // difference of two of these, its product with s and the sum round by less than 40uL|d| together;
     // a rounded s only chooses another point of the edge. In all that is below 2^-46 L|d|.
     let near = scaled(largest, -36);
-    let in_space_in_doubt = !zeros.in_space && (in_space < near || in_space.is_nan());
+    let mut edges_in_doubt = [false; 3];
+    if !zeros.in_space && (in_space < near || in_space.is_nan()) {
+        // An edge beyond twice that is not the nearest.
+        let limit = 2.0 * near * length;
+        edges_in_doubt = to_edges.map(|square| square < limit * limit || square.is_nan());
+    }
     let mut along = [f64::NAN; 3];
     let mut along_in_doubt = false;
     if let Some(at) = zeros.along {
@@ -394,7 +401,7 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     }
     let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
     let distances = Distances { in_space, along, edge_in_ulps: unit / ulp };
-    Some(Quick { distances, unit, in_space_in_doubt, along_in_doubt })
+    Some(Quick { distances, unit, edges_in_doubt, along_in_doubt })
 }
 
 /// What floats left in doubt, in double-doubles with bounds; none where they do not decide.
@@ -402,11 +409,13 @@ fn by_bounds(near: &NearOne, found: &Quick, zeros: &Zeros) -> Option<Distances> 
     let (ray, triangle) = near.case.lift(Bounded::new);
     let mut distances = found.distances;
     let relative = |square: Bounded| Some(square.approximate()?.sqrt() / found.unit);
-    if found.in_space_in_doubt {
+    if found.edges_in_doubt != [false; 3] {
         distances.in_space = f64::INFINITY;
-        for (p, q) in triangle.edges() {
-            let square = bounded(|| line_to_segment(&ray.origin, &ray.direction, p, q))?;
-            distances.in_space = distances.in_space.min(relative(square)?);
+        for ((p, q), in_doubt) in triangle.edges().into_iter().zip(found.edges_in_doubt) {
+            if in_doubt {
+                let square = bounded(|| line_to_segment(&ray.origin, &ray.direction, p, q))?;
+                distances.in_space = distances.in_space.min(relative(square)?);
+            }
         }
     }
     if let (true, Some(at)) = (found.along_in_doubt, zeros.along) {
