@@ -6,6 +6,8 @@
 mod expectations;
 mod outcome;
 
+#[cfg(feature = "cli")]
+pub(crate) use expectations::locked;
 pub use outcome::Outcome;
 pub(crate) use outcome::conforms;
 

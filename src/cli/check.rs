@@ -9,6 +9,7 @@ use super::prove::demand;
 use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
+use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
 use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
@@ -158,7 +159,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let file = &arguments.expectations;
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
     let may_be_missing = arguments.bless || !is_demanded;
-    let lock = arguments.bless.then(|| expect::locked(file));
+    let lock = arguments.bless.then(|| locked(file));
     let expected = expect::open(file, may_be_missing, &record, arguments.bless, read_text)?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();

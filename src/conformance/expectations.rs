@@ -4,6 +4,7 @@ use super::PlanError;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError};
 use crate::report::Record;
+use std::fs::File;
 use std::path::Path;
 use std::{env, fs, io, process};
 
@@ -26,7 +27,7 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
     let text = |name: &str| {
         fs::read_to_string(name).map_err(|error| InputError::reading(name, None, &error))
     };
-    let _lock = blesses.then(|| expect::locked(file));
+    let _lock = blesses.then(|| locked(file));
     let said = |error: InputError| PlanError(error.to_string());
     let old = expect::open(file, true, record, blesses, text).map_err(said)?;
     if old.is_none() && !blesses {
@@ -63,6 +64,14 @@ pub(super) fn hold(record: &mut Record, file: &str) -> Result<(), PlanError> {
     }
     record.conformance = Some(compared);
     Ok(())
+}
+
+/// Held while expectations are read and written, so that of two programs that bless at once the second reads what
+/// the first wrote; released when dropped. None where a folder cannot be locked, as on Windows.
+pub(crate) fn locked(file: &str) -> Option<File> {
+    let folder = Path::new(file).parent().filter(|folder| *folder != Path::new(""));
+    let folder = File::open(folder.unwrap_or(Path::new("."))).ok()?;
+    folder.lock().ok().map(|()| folder)
 }
 
 /// Beside its place, and then into it.

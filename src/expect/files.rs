@@ -4,20 +4,11 @@ use super::{Expectations, Lock, Unblessable, bless, read};
 use crate::corpus::InputError;
 use crate::family::{FAMILIES, Stratum};
 use crate::report::{Conformance, Record, disagreements};
-use std::fs::File;
 use std::path::Path;
 
 /// The name of the file of the cases.
 pub fn lock_of(file: &str) -> String {
     format!("{file}.lock")
-}
-
-/// Held while expectations are read and written, so that of two programs that bless at once the second reads what
-/// the first wrote; released when dropped. None where a folder cannot be locked, as on Windows.
-pub fn locked(file: &str) -> Option<File> {
-    let folder = Path::new(file).parent().filter(|folder| *folder != Path::new(""));
-    let folder = File::open(folder.unwrap_or(Path::new("."))).ok()?;
-    folder.lock().ok().map(|()| folder)
 }
 
 /// The expectations for a record, and their cases; none if the file is not there and may be missing. `text`

@@ -22,7 +22,7 @@ pub use bless::{Blessed, Unblessable, bless};
 pub use compare::compare;
 pub use difference::{Comparison, Difference, Trend, difference};
 pub use file::read;
-pub use files::{BlessError, Written, blessed, lock_of, locked, open};
+pub use files::{BlessError, Written, blessed, lock_of, open};
 pub use lock::{Cases, Lock};
 
 use crate::report::Key;
