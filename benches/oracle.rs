@@ -22,8 +22,8 @@ type Maker = fn(&mut Draw) -> Case<f64>;
 
 /// Name, generator, and the ratio to plain that the project sets itself.
 const CLASSES: &[(&str, Maker, f64)] = &[
-    ("generic f64", |draw| random(draw, f64::symmetric), 2.0),
-    ("generic f32", |draw| random(draw, f32::symmetric), 2.0),
+    ("generic f64", |draw| random(draw, f64::symmetric), 1.0),
+    ("generic f32", |draw| random(draw, f32::symmetric), 1.0),
     ("near edge f32", |draw| near_edge(draw, f32::symmetric, 1.0, false), 2.0),
     ("near edge f32, unit d", |draw| near_edge(draw, f32::symmetric, 1.0, true), 2.0),
     ("wide f32 (2^±30)", wide, 2.0),
@@ -147,18 +147,16 @@ fn plain(case: &Case<f64>) -> u8 {
         .fold(0, |bits, x| bits << 2 | u8::from(*x > 0.0) << 1 | u8::from(*x < 0.0))
 }
 
-/// How often each work is timed, in turn: a machine's moods then fall on all of them.
-const ROUNDS: usize = 7;
+/// How often each work is timed.
+const ROUNDS: usize = 9;
 
-/// The fastest rounds, in nanoseconds a case: what else runs on the machine only adds.
-fn fastest<const N: usize>(cases: usize, mut works: [&mut dyn FnMut(); N]) -> [f64; N] {
-    let mut best = [f64::INFINITY; N];
+/// The fastest round, in nanoseconds a case: what else runs on the machine only adds.
+fn fastest(cases: usize, mut work: impl FnMut()) -> f64 {
+    let mut best = f64::INFINITY;
     for _ in 0..ROUNDS {
-        for (work, best) in works.iter_mut().zip(&mut best) {
-            let start = Instant::now();
-            work();
-            *best = best.min(start.elapsed().as_nanos() as f64 / cases as f64);
-        }
+        let start = Instant::now();
+        work();
+        best = best.min(start.elapsed().as_nanos() as f64 / cases as f64);
     }
     best
 }
@@ -169,23 +167,23 @@ const OF_A_FAMILY: u64 = 20_000;
 /// One class: each way of asking, and its ratio to plain.
 fn line<F: Float>(name: &str, cases: &[Case<F>], target: &str) {
     let wide: Vec<Case<f64>> = cases.iter().map(Case::widen).collect();
-    let mut of_plain = || {
+    let plain = fastest(cases.len(), || {
         for case in &wide {
             black_box(plain(black_box(case)));
         }
-    };
-    let mut of_single = || {
+    });
+    let single = fastest(cases.len(), || {
         for case in cases {
             black_box(oracle::truth(black_box(case)));
         }
-    };
+    });
     let mut truths = Vec::new();
-    let mut of_slice = || {
+    let slice = fastest(cases.len(), || {
         for chunk in cases.chunks(1024) {
             oracle::truths(black_box(chunk), &mut truths, &mut Layers::default());
             black_box(&truths);
         }
-    };
+    });
     let chunks: Vec<Batch<Vec<F>>> = cases
         .chunks(1024)
         .map(|chunk| {
@@ -194,24 +192,18 @@ fn line<F: Float>(name: &str, cases: &[Case<F>], target: &str) {
             batch
         })
         .collect();
-    let mut truths = Vec::new();
-    let mut of_columns = || {
+    let columns = fastest(cases.len(), || {
         for chunk in &chunks {
             black_box(chunk).truths(&mut truths, &mut Layers::default());
             black_box(&truths);
         }
-    };
-    let [plain, single, slice, columns] =
-        fastest(cases.len(), [&mut of_plain, &mut of_single, &mut of_slice, &mut of_columns]);
+    });
     let few = &cases[..cases.len().min(50)];
-    let [definition] = fastest(
-        few.len(),
-        [&mut || {
-            for case in few {
-                black_box(oracle::define(black_box(case)));
-            }
-        }],
-    );
+    let definition = fastest(few.len(), || {
+        for case in few {
+            black_box(oracle::define(black_box(case)));
+        }
+    });
     let mut layers = Layers::default();
     oracle::truths(cases, &mut Vec::new(), &mut layers);
     let share = |count: u64| 100.0 * count as f64 / cases.len() as f64;

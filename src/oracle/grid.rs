@@ -20,6 +20,8 @@ use std::ops::{Add, Sub};
 pub(super) trait Width {
     /// Bits of a coordinate.
     const BITS: i32;
+    /// How many numbers are rounded before it is asked whether they are on the grid.
+    const AT_ONCE: usize;
     /// Holds a minor, and a sum of three.
     type Minor: Number + Copy + Add<Output = Self::Minor> + Sub<Output = Self::Minor>;
     /// Holds a determinant.
@@ -50,6 +52,8 @@ pub(super) struct Narrow;
 
 impl Width for Narrow {
     const BITS: i32 = 30;
+    // Vectors.
+    const AT_ONCE: usize = 12;
     type Minor = i64;
     type Determinant = i128;
 
@@ -81,6 +85,8 @@ pub(super) struct Wide;
 
 impl Width for Wide {
     const BITS: i32 = 61;
+    // Most of what is on no grid shows it at its first points.
+    const AT_ONCE: usize = 3;
     type Minor = i128;
     type Determinant = I192;
 
@@ -272,13 +278,18 @@ fn on_grid<W: Width, const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)
     let mut integers = [0; N];
     // The bits of all differences between a number and its integer scaled back, which is zero for a
     // multiple alone: one that underflowed to zero is none, and a NaN or an infinity gives a NaN.
-    let mut differences = 0;
-    for i in 0..N {
-        let (integer, float) = W::rounded(values[i] * scale);
-        differences |= (float * unscale - values[i]).to_bits();
-        integers[i] = integer;
+    for start in (0..N).step_by(W::AT_ONCE) {
+        let mut differences = 0;
+        for i in start..N.min(start + W::AT_ONCE) {
+            let (integer, float) = W::rounded(values[i] * scale);
+            differences |= (float * unscale - values[i]).to_bits();
+            integers[i] = integer;
+        }
+        if differences != 0 {
+            return None;
+        }
     }
-    (differences == 0).then_some((integers, -i64::from(shift)))
+    Some((integers, -i64::from(shift)))
 }
 
 #[inline(always)]
