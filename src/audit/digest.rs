@@ -31,7 +31,7 @@ const STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Digest {
     /// What a place adds to the sum.
-    pub(super) fn hash(place: Place) -> u128 {
+    pub(crate) fn hash(place: Place) -> u128 {
         let triangle = mix(u64::from(place.triangle) ^ STREAM);
         let low = mix(place.index ^ triangle);
         let high = mix(low.wrapping_add(place.index ^ STREAM));
@@ -39,7 +39,7 @@ impl Digest {
     }
 
     /// Adds a place, whose hash is known.
-    pub(super) fn add(&mut self, place: Place, hash: u128) {
+    pub(crate) fn add(&mut self, place: Place, hash: u128) {
         self.sum = self.sum.wrapping_add(hash);
         self.sketch.add((place.index, place.triangle));
     }
@@ -50,12 +50,11 @@ impl Digest {
         self.sketch.merge(&other.sketch);
     }
 
-    /// The first place that this set has and another does not, of a source of so many indices; none if the
-    /// sketches do not show one.
-    pub fn beyond(&self, other: &Digest, indices: u64) -> Option<Place> {
+    /// Places that this set has and another does not, of a source of so many indices: those that the sketches show.
+    pub fn beyond(&self, other: &Digest, indices: u64) -> impl Iterator<Item = Place> {
         let places = self.sketch.beyond(&other.sketch);
         let places = places.map(|(index, triangle)| Place { index, triangle });
-        places.filter(|place| place.index < indices).min()
+        places.filter(move |place| place.index < indices)
     }
 
     /// Whether a place may be in the set, whose source has so many indices; no, if the sketch shows that it is not.
@@ -113,10 +112,10 @@ mod tests {
         assert!(others.iter().all(|places| digest(places) != whole));
         assert_eq!(Digest::try_from(whole.to_string()), Ok(whole.clone()));
         assert_eq!(
-            parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 10),
+            parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 10).min(),
             Some(Place { index: 9, triangle: 3 })
         );
-        assert_eq!(parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 9), None);
+        assert_eq!(parts.beyond(&digest(&[(1, 0), (2, 0), (2, 1)]), 9).min(), None);
         // Index and triangle are not exchangeable, and no small places collide.
         let all = (0..100).flat_map(|i| (0..100).map(move |k| digest(&[(i, k)]).to_string()));
         assert_eq!(all.collect::<BTreeSet<_>>().len(), 10_000);

@@ -1,18 +1,19 @@
 //! `hairline explain`: one case, its exact truth, and what each gate of each kernel made of it.
 
+mod margin;
+
 use super::case::{CaseArguments, Cases, Group};
 use super::exit::{Failure, Status};
 use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
-use crate::arith::{Exact, Float, Real};
+use crate::arith::{Exact, Float};
 use crate::audit::{
     Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
 };
 use crate::case::Case;
 use crate::contract::Extent;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
-use crate::explore::Decimal;
 use crate::family::Grouping;
 use crate::judge::{
     Finding, GroupTruth, Obligation, asked, group_obligation, judge, may_be_elsewhere,
@@ -23,7 +24,7 @@ use crate::oracle;
 use crate::report::epsilon::shortest;
 use crate::truth::{Feature, Truth};
 use clap::Args;
-use std::cmp::Ordering;
+use margin::margin_text;
 use std::io::{self, Write};
 use std::slice;
 
@@ -370,42 +371,4 @@ fn write_errors<F: Scalar>(
         .filter_map(|(name, error)| error.map(|error| format!("{name} by {error:.3e}")))
         .collect();
     if parts.is_empty() { Ok(()) } else { writeln!(out, "    off by ulps: {}", parts.join(", ")) }
-}
-
-/// A margin in seven digits, or in as many as show on which side of the epsilon it lies; where
-/// seventeen do not, as the epsilon and the distance from it. Where it is the epsilon itself and the
-/// gate refuses, the gate accepts only what is below.
-fn margin_text<F: Float>(margin: &Exact, epsilon: F, refuses: bool) -> String {
-    let distance = margin.clone() - Exact::from_f64(epsilon.to_f64());
-    let epsilon = shortest(epsilon);
-    let (Some((sign, size)), Some((side, distance))) =
-        (sign_and_size(margin), sign_and_size(&distance))
-    else {
-        return format!("{:e}", margin.approximate());
-    };
-    if side == Ordering::Equal {
-        return if refuses { format!("below {epsilon}") } else { epsilon };
-    }
-    let epsilon_size = epsilon.trim_start_matches('-').parse().unwrap_or(Decimal::ZERO);
-    let shown_side = |digits: u32| match (sign == Ordering::Less, epsilon.starts_with('-')) {
-        (false, false) => size.rounded(digits).cmp(&epsilon_size),
-        (true, true) => epsilon_size.cmp(&size.rounded(digits)),
-        (true, false) => Ordering::Less,
-        (false, true) => Ordering::Greater,
-    };
-    match [7, 9, 17].into_iter().find(|digits| shown_side(*digits) == side) {
-        Some(digits) => {
-            let minus = if sign == Ordering::Less { "-" } else { "" };
-            format!("{minus}{}", size.with_digits(digits))
-        }
-        None => {
-            let direction = if side == Ordering::Less { '-' } else { '+' };
-            format!("{epsilon} {direction} {}", distance.brief())
-        }
-    }
-}
-
-/// The sign and the size of a finite number.
-fn sign_and_size(number: &Exact) -> Option<(Ordering, Decimal)> {
-    Some((number.sign()?, Decimal::of(&number.abs())?))
 }

@@ -51,7 +51,7 @@ pub fn changed_case(
     }
     let is_source = |scalar: &str, family: &str| scalar == key.scalar && family == key.family;
     let source = result.sources.iter().find(|source| is_source(&source.scalar, &source.family))?;
-    let place = has.beyond(has_not, source.indices)?;
+    let place = has.beyond(has_not, source.indices).min()?;
     let mut id: CaseId = example.case.parse().ok()?;
     // Of a family of single cases another triangle is none: several places were taken for one.
     if id.triangle.is_none() && place.triangle != 0 {

@@ -29,10 +29,10 @@ pub fn compare(
 ) -> Conformance {
     let same_plan = result.plan.hash_of_cases() == expectations.cases;
     let known = Known::of(expectations, same_plan, target, file.unwrap_or_default());
-    let found = known.found(result);
+    let all = known.found(result);
     let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
     let entries = &known.entries;
-    let unlisted = found.iter().filter(|found| !entries.contains_key(&found.key));
+    let unlisted = all.iter().filter(|found| !entries.contains_key(&found.key));
     let comparisons = entries.len() + unlisted.count();
     let judge = Judge { method, tail: ERROR / comparisons.max(1) as f64 / 2.0 };
     let mut conformance = Conformance {
@@ -50,10 +50,10 @@ pub fn compare(
     };
     let planned = Planned::of(result);
     let newly_judged = |found: &Found| {
-        let part = planned.result(&found.key).filter(|_| same_plan)?;
-        not_judged_before(entries, part, planned.indices(&found.key), found)
+        planned.result(&found.key).filter(|_| same_plan)?;
+        not_judged_before(entries, &all, planned.indices(&found.key), found)
     };
-    for found in &found {
+    for found in &all {
         if !entries.contains_key(&found.key) {
             if judge.is_unexpected(found, entries) {
                 let mut deviation = deviation(&found.key, None, &found.rate, Some(found));
@@ -70,7 +70,7 @@ pub fn compare(
             }
         }
     }
-    let found: BTreeMap<&Key, &Found> = found.iter().map(|found| (&found.key, found)).collect();
+    let found: BTreeMap<&Key, &Found> = all.iter().map(|found| (&found.key, found)).collect();
     for (key, entry) in entries {
         let Some(part) = planned.result(key) else {
             if planned.leaves_out(key) {

@@ -3,61 +3,174 @@
 use super::known::Found;
 use super::{Amount, Entry};
 use crate::audit::Digest;
-use crate::report::{KernelResult, Key, rate_of};
+use crate::report::Key;
 use std::collections::BTreeMap;
 
 /// Findings by which a case gets no verdict, and what the kernel did.
 const FAILURES: [(&str, &str); 3] =
     [("crash", "crashed"), ("panic", "panicked"), ("timeout", "gave no answer")];
 
+fn verb(finding: &str) -> Option<&'static str> {
+    FAILURES.iter().find(|(name, _)| *name == finding).map(|(_, verb)| *verb)
+}
+
+/// Whether a failure keeps cases of a class from being judged: one on a triangle also keeps its group.
+fn keeps(failure: &Key, key: &Key) -> bool {
+    let of_place =
+        |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone(), key.family.clone());
+    let is_of_class = match key.class.as_str() {
+        "group" => failure.class != "polygon",
+        class => failure.class == class,
+    };
+    verb(&failure.finding).is_some() && is_of_class && of_place(failure) == of_place(key)
+}
+
+/// How many there were, where that is known.
+fn had(entries: &BTreeMap<Key, Entry>, key: &Key) -> Option<u64> {
+    match entries.get(key).map(|entry| &entry.amount) {
+        None => Some(0),
+        Some(Amount::Count { count, .. }) => Some(*count),
+        Some(Amount::Rate(_)) => None,
+    }
+}
+
 /// What is said of a class if all of its cases that are too many may be such that were not judged before; none
 /// if some are known to be others. Of the same cases only.
 ///
-/// They may be if no more of them came in than failures went. The digests tell some cases of a difference: one
-/// that did not fail before is a regression, and so is a change of cases that were judged.
+/// They may be if no more of the class came in, its findings together, than failures of all kinds went. The digests
+/// tell some cases of a difference: one that did not fail before is a regression, and so is a change of cases that
+/// were judged.
 pub(super) fn not_judged_before(
     entries: &BTreeMap<Key, Entry>,
-    part: &KernelResult,
+    all: &[Found],
     indices: u64,
     found: &Found,
 ) -> Option<String> {
-    let (key, entry) = (&found.key, entries.get(&found.key));
-    let digest = |text: &str| Digest::try_from(text.to_owned()).ok();
-    let (had, before) = match entry.map(|entry| &entry.amount) {
-        None => (0, Some(Digest::default())),
-        Some(Amount::Count { count, cases }) => {
-            (*count, cases.as_ref().and_then(|(_, before)| digest(before)))
-        }
-        Some(Amount::Rate(_)) => return None,
-    };
-    let more = found.rate.count.checked_sub(had).filter(|more| 0 < *more)?;
-    let is_together = matches!(key.class.as_str(), "group" | "polygon");
-    let of_place = |other: &Key| {
-        let is_of_class = is_together || other.class == key.class;
-        Key { finding: other.finding.clone(), class: other.class.clone(), ..key.clone() } == *other
-            && is_of_class
-    };
-    let (mut repaired, mut did, mut failed) = (0, None, Vec::new());
-    for (failure, entry) in entries.iter().filter(|(other, _)| of_place(other)) {
-        let Some((_, verb)) = FAILURES.iter().find(|(name, _)| *name == failure.finding) else {
-            continue;
-        };
-        let Amount::Count { count, cases } = &entry.amount else { continue };
-        let now = rate_of(part, &failure.class, &failure.finding).count;
-        repaired += count.saturating_sub(now);
-        did = did.or(Some(verb));
-        failed.push(cases.as_ref().and_then(|(_, cases)| digest(cases)));
+    let key = &found.key;
+    if verb(&key.finding).is_some() {
+        return None;
     }
-    let did = did.filter(|_| more <= repaired)?;
-    if let (false, Some(before), Some(now)) = (is_together, before, found.digest.and_then(digest)) {
+    let more = found.rate.count.checked_sub(had(entries, key)?).filter(|more| 0 < *more)?;
+    let is_beside = |other: &&Found| {
+        verb(&other.key.finding).is_none()
+            && Key { finding: key.finding.clone(), ..other.key.clone() } == *key
+    };
+    let more_than =
+        |other: &Found| Some(other.rate.count.saturating_sub(had(entries, &other.key)?));
+    let of_class: u64 = all.iter().filter(is_beside).filter_map(more_than).sum();
+    let failing: u64 =
+        all.iter().filter(|other| keeps(&other.key, key)).map(|other| other.rate.count).sum();
+    let failed: Vec<(&Key, &Entry)> =
+        entries.iter().filter(|(other, _)| keeps(other, key)).collect();
+    let failed_before: u64 = failed.iter().filter_map(|(other, _)| had(entries, other)).sum();
+    let repaired = failed_before.saturating_sub(failing);
+    let (first, _) = failed.first().filter(|_| of_class <= repaired)?;
+    let did = verb(&first.finding)?;
+    let digest = |text: &str| Digest::try_from(text.to_owned()).ok();
+    let of_entry = |entry: &Entry| match &entry.amount {
+        Amount::Count { cases, .. } => cases.as_ref().and_then(|(_, cases)| digest(cases)),
+        Amount::Rate(_) => None,
+    };
+    let before = match entries.get(key) {
+        None => Some(Digest::default()),
+        Some(entry) => of_entry(entry),
+    };
+    let is_of_triangles = !matches!(key.class.as_str(), "group" | "polygon");
+    if let (true, Some(before), Some(now)) =
+        (is_of_triangles, before, found.digest.and_then(digest))
+    {
+        let failed: Vec<Option<Digest>> = failed.iter().map(|(_, entry)| of_entry(entry)).collect();
         let is_no_failure = |place| {
             let has = |failed: &Option<Digest>| failed.as_ref().map(|f| f.may_have(place, indices));
             failed.iter().all(|failed| has(failed) == Some(false))
         };
-        let is_other = now.beyond(&before, indices).is_some_and(is_no_failure);
-        if is_other || before.beyond(&now, indices).is_some() {
+        if now.beyond(&before, indices).any(is_no_failure)
+            || before.beyond(&now, indices).next().is_some()
+        {
             return None;
         }
     }
     Some(format!("; {more} more, among {repaired} not judged before: the kernel {did}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::Place;
+    use crate::report::Rate;
+
+    fn key(class: &str, finding: &str) -> Key {
+        let [kernel, set, scalar, family] = ["k", "source", "f32", "edges"].map(str::to_owned);
+        Key { kernel, set, scalar, family, class: class.to_owned(), finding: finding.to_owned() }
+    }
+
+    /// What a set of single triangles is written as.
+    fn written(indices: &[u64]) -> String {
+        let mut digest = Digest::default();
+        for &index in indices {
+            let place = Place { index, triangle: 0 };
+            digest.add(place, Digest::hash(place));
+        }
+        digest.to_string()
+    }
+
+    /// Whether the first of the findings of now is excused, by those of before: class, finding, cases.
+    fn is_excused(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> bool {
+        let entry = |cases: &[u64]| Entry {
+            line: 1,
+            amount: Amount::Count { count: cases.len() as u64, cases: Some((100, written(cases))) },
+            why: None,
+            url: None,
+        };
+        let entries =
+            before.iter().map(|(class, finding, cases)| (key(class, finding), entry(cases)));
+        let texts: Vec<String> = now.iter().map(|(.., cases)| written(cases)).collect();
+        let rate = |count| Rate { count, of: 100, rate: None, interval: None, rays: None };
+        let all: Vec<Found> = now
+            .iter()
+            .zip(&texts)
+            .map(|((class, finding, cases), text)| Found {
+                key: key(class, finding),
+                rate: rate(cases.len() as u64),
+                digest: Some(text),
+                example: None,
+            })
+            .collect();
+        not_judged_before(&entries.collect(), &all, 1000, &all[0]).is_some()
+    }
+
+    #[test]
+    fn what_came_from_repaired_failures_alone_is_excused() {
+        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30, 40]);
+        assert!(is_excused(&[crashed], &[("edge", "false-miss", &[10, 30])]));
+        assert!(!is_excused(&[], &[("edge", "false-miss", &[10, 30])]), "nothing crashed");
+        assert!(!is_excused(&[crashed], &[("vertex", "false-miss", &[10])]), "another class");
+        let five: &[u64] = &[10, 20, 30, 40, 50];
+        assert!(!is_excused(&[crashed], &[("edge", "false-miss", five)]), "more than crashed");
+        // One of them is shown to be another case, though not the first.
+        assert!(!is_excused(&[crashed], &[("edge", "false-miss", &[10, 500, 600])]));
+        // The findings of a class together are no more than what crashed.
+        let beside: (&str, &str, &[u64]) = ("edge", "false-hit", &[20, 40]);
+        assert!(is_excused(&[crashed], &[("edge", "false-miss", &[10, 30]), beside]));
+        assert!(!is_excused(&[crashed], &[("edge", "false-miss", &[10, 20, 30]), beside]));
+    }
+
+    #[test]
+    fn a_failure_of_another_kind_is_no_repair() {
+        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30]);
+        assert!(!is_excused(&[crashed], &[("edge", "panic", &[10, 20, 30])]));
+        let panics: (&str, &str, &[u64]) = ("edge", "panic", &[10, 20]);
+        assert!(is_excused(&[crashed], &[("edge", "false-miss", &[30]), panics]));
+        assert!(!is_excused(&[crashed], &[("edge", "false-miss", &[10, 30]), panics]));
+    }
+
+    #[test]
+    fn groups_wait_for_their_triangles_and_polygons_for_themselves() {
+        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10]);
+        assert!(is_excused(&[crashed], &[("group", "crack", &[10])]));
+        assert!(!is_excused(&[crashed], &[("polygon", "polygon-false-miss", &[10])]));
+        let polygon: (&str, &str, &[u64]) = ("polygon", "crash", &[10]);
+        assert!(is_excused(&[polygon], &[("polygon", "polygon-false-miss", &[10])]));
+        assert!(!is_excused(&[polygon], &[("group", "crack", &[10])]));
+    }
 }

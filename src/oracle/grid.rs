@@ -1,113 +1,14 @@
 //! The layers of machine integers. Where all positions are multiples of one power of two below 2^[`Width::BITS`]
 //! times it, and so are the direction's coordinates of another, every predicate is computed exactly, and zero
-//! is zero. [`Narrow`] is for small lattices; [`Wide`] holds full mantissas of `f64` whose exponents lie near each
+//! is zero. `Narrow` is for small lattices; `Wide` holds full mantissas of `f64` whose exponents lie near each
 //! other.
-//!
-//! With n bits a coordinate is below 2^n, a difference below 2^(n+1), a minor of differences and the normal
-//! below 2^(2n+3), and a determinant of differences below 2^(3n+6).
 
-use super::contact;
+use super::coplanar::coplanar_contact;
 use super::integer::{Interval, Number};
 use super::signs::Signs;
-use super::wide::I192;
+use super::width::Width;
 use crate::case::Case;
-use crate::truth::{Contact, ContactKind, Feature, Truth};
-use num_bigint::BigInt;
-use std::cmp::Ordering;
-use std::ops::{Add, Sub};
-
-/// Integers for coordinates of some bits. Coordinates and differences are `i64`.
-pub(super) trait Width {
-    /// Bits of a coordinate.
-    const BITS: i32;
-    /// How many numbers are rounded before it is asked whether they are on the grid.
-    const AT_ONCE: usize;
-    /// Holds a minor, and a sum of three.
-    type Minor: Number + Copy + Add<Output = Self::Minor> + Sub<Output = Self::Minor>;
-    /// Holds a determinant.
-    type Determinant: Number
-        + Copy
-        + Add<Output = Self::Determinant>
-        + Sub<Output = Self::Determinant>;
-
-    /// A float below 2^[`Width::BITS`] as an integer, and that again as a float: the same if it was one.
-    fn rounded(x: f64) -> (i64, f64);
-    /// The product of two differences.
-    fn product(a: i64, b: i64) -> Self::Minor;
-    /// The product of a difference and a minor.
-    fn wide_product(a: i64, b: Self::Minor) -> Self::Determinant;
-    /// The contact of a line that holds part of the triangle, in whatever integers.
-    fn contact(
-        interval: &Interval,
-        d: [i64; 3],
-        vertices: [[i64; 3]; 3],
-        n: [Self::Minor; 3],
-    ) -> Contact;
-}
-
-/// 30 bits: minors in 64, determinants in 128. What n bits are said to need above is a little more than they do:
-/// products of two differences below 2^31 are below 2^62, the difference of two and the normal, which is one,
-/// below 2^63.
-pub(super) struct Narrow;
-
-impl Width for Narrow {
-    const BITS: i32 = 30;
-    // Vectors.
-    const AT_ONCE: usize = 12;
-    type Minor = i64;
-    type Determinant = i128;
-
-    #[inline(always)]
-    fn rounded(x: f64) -> (i64, f64) {
-        /// Adding and subtracting it rounds a number below 2^51 to an integer; the sum's low bits are it.
-        const TO_INTEGER: f64 = 1.5 * (1u64 << 52) as f64;
-        let shifted = x + TO_INTEGER;
-        let integer = shifted.to_bits().wrapping_sub(TO_INTEGER.to_bits()) as i64;
-        (integer, shifted - TO_INTEGER)
-    }
-    #[inline(always)]
-    fn product(a: i64, b: i64) -> i64 {
-        a * b
-    }
-    #[inline(always)]
-    fn wide_product(a: i64, b: i64) -> i128 {
-        i128::from(a) * i128::from(b)
-    }
-    fn contact(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], n: [i64; 3]) -> Contact {
-        let wide = |v: [i64; 3]| v.map(i128::from);
-        let [a, b, c] = vertices.map(wide);
-        contact::decide(interval, &wide(d), [&a, &b, &c], &wide(n))
-    }
-}
-
-/// 61 bits: minors in 128, determinants in 192.
-pub(super) struct Wide;
-
-impl Width for Wide {
-    const BITS: i32 = 61;
-    // Most of what is on no grid shows it at its first points.
-    const AT_ONCE: usize = 3;
-    type Minor = i128;
-    type Determinant = I192;
-
-    #[inline(always)]
-    fn rounded(x: f64) -> (i64, f64) {
-        let integer = x as i64;
-        (integer, integer as f64)
-    }
-    #[inline(always)]
-    fn product(a: i64, b: i64) -> i128 {
-        i128::from(a) * i128::from(b)
-    }
-    #[inline(always)]
-    fn wide_product(a: i64, b: i128) -> I192 {
-        I192::product(a, b)
-    }
-    fn contact(interval: &Interval, d: [i64; 3], vertices: [[i64; 3]; 3], n: [i128; 3]) -> Contact {
-        let [a, b, c] = vertices.map(|v| v.map(BigInt::from));
-        contact::decide(interval, &d.map(BigInt::from), [&a, &b, &c], &n.map(BigInt::from))
-    }
-}
+use crate::truth::Truth;
 
 /// The truth, if the coordinates lie on such a grid and the case is valid: a NaN, an infinity and a
 /// direction of zero are on no grid.
@@ -166,97 +67,6 @@ fn flat<W: Width>(
     if degenerate { Truth::Degenerate(contact) } else { Truth::Coplanar(contact) }
 }
 
-/// The contact on [0, inf) of a line in the plane of a triangle with area. The line meets the boundary
-/// nowhere, at one vertex, or at two points of different t, so the signs of their t tell all. Tables for
-/// branches: the sides of the vertices are as random as the cases.
-fn coplanar_contact<W: Width>(d: [i64; 3], vertices: [[i64; 3]; 3], n: [W::Minor; 3]) -> Contact {
-    let k = (0..3).find(|&k| !n[k].is_zero()).expect("a triangle with area");
-    let m = (0..3).find(|&m| d[m] != 0).expect("a direction that is not zero");
-    // The side of the line that each vertex is on: component k of d × vertex.
-    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let side = vertices.map(|v| W::product(d[i], v[j]) - W::product(d[j], v[i]));
-    let digit = |sign: Ordering| (sign as i8 + 1) as usize;
-    let [first, second, third] = side.map(|side| digit(side.sign()));
-    let met = &MET[9 * first + 3 * second + third];
-    // t of the point between v and w, from the sides x and y: (y·v - x·w) / (y - x), over d.
-    let t_sign = |(v, w): (usize, usize)| {
-        let (x, y) = (side[v], side[w]);
-        let numerator = W::wide_product(vertices[v][m], y) - W::wide_product(vertices[w][m], x);
-        let sign = [numerator.sign(), (y - x).sign(), d[m].cmp(&0)];
-        sign.iter().map(|sign| *sign as i8).product::<i8>().cmp(&0)
-    };
-    let [first, second] = met.between.map(t_sign);
-    met.contacts[3 * digit(first) + digit(second)]
-}
-
-/// Where a line in the plane meets the boundary of a triangle, and what that makes of the contact.
-#[derive(Clone, Copy)]
-struct Met {
-    /// The points, up to two: each lies between two vertices that are not on one side, at the first if
-    /// that is on the line.
-    between: [(usize, usize); 2],
-    /// By 3 and 1 times 0, 1 or 2 for a point's t below, at and above zero.
-    contacts: [Contact; 9],
-}
-
-/// By the sides of the vertices: 9, 3 and 1 times 0, 1 or 2 for the negative side, the line and the
-/// positive side.
-const MET: [Met; 27] = {
-    const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
-    const EDGES: [Feature; 3] = [Feature::EdgeAb, Feature::EdgeBc, Feature::EdgeCa];
-    let none = Contact { kind: ContactKind::None, meets_ray: false, meets_line: false };
-    let mut all = [Met { between: [(0, 0); 2], contacts: [none; 9] }; 27];
-    let mut sides = 0;
-    while sides < 27 {
-        let side = [sides / 9, sides / 3 % 3, sides % 3];
-        let met = &mut all[sides];
-        let (mut count, mut features) = (0, [Feature::Outside; 2]);
-        let mut v = 0;
-        while v < 3 {
-            // With area, no three vertices are on the line: that entry is never read.
-            let (w, u) = ((v + 1) % 3, (v + 2) % 3);
-            if side[v] == 1 && count < 2 {
-                met.between[count] = (v, if side[w] == 1 { u } else { w });
-                features[count] = VERTICES[v];
-                count += 1;
-            }
-            v += 1;
-        }
-        v = 0;
-        while v < 3 {
-            let w = (v + 1) % 3;
-            if side[v] != 1 && side[w] == 2 - side[v] {
-                met.between[count] = (v, w);
-                features[count] = EDGES[v];
-                count += 1;
-            }
-            v += 1;
-        }
-        let mut t = 0;
-        while t < 9 {
-            let kind = match COMMON[count][t] {
-                0 => ContactKind::None,
-                3 => ContactKind::Segment,
-                point => ContactKind::Point(features[point - 1]),
-            };
-            let meets_ray = !matches!(kind, ContactKind::None);
-            met.contacts[t] = Contact { kind, meets_ray, meets_line: count > 0 };
-            t += 1;
-        }
-        sides += 1;
-    }
-    all
-};
-
-/// What the ray has in common with the triangle (0: nothing, 1: the first point met, 2: the second, 3: a
-/// segment), by the number of points and by the signs of their t as [`Met::contacts`] are.
-const COMMON: [[usize; 9]; 3] = [
-    [0; 9],
-    [0, 0, 0, 1, 1, 1, 1, 1, 1],
-    // Both behind; one behind and one at the origin; else something of the segment between them.
-    [0, 2, 3, 1, 3, 3, 3, 3, 3],
-];
-
 /// Numbers, not all zero, as integers below 2^[`Width::BITS`] times a power of two, and its exponent.
 #[inline(always)]
 fn on_grid<W: Width, const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
@@ -314,6 +124,8 @@ mod tests {
     use super::*;
     use crate::case::Draw;
     use crate::oracle::define;
+    use crate::oracle::width::{Narrow, Wide};
+    use crate::truth::Feature;
 
     #[test]
     fn a_grid_holds_its_bits_and_no_more() {

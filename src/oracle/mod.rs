@@ -13,6 +13,7 @@
 
 mod batch;
 mod contact;
+mod coplanar;
 mod determinant;
 mod determinants;
 mod filter;
@@ -24,6 +25,7 @@ mod resolve;
 mod scaled;
 mod signs;
 mod wide;
+mod width;
 
 pub use batch::{Batch, UnequalColumns};
 pub use rational::{Definition, define};
@@ -31,8 +33,8 @@ pub use rational::{Definition, define};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
-use grid::{Narrow, Wide};
 use serde::{Deserialize, Serialize};
+use width::{Narrow, Wide};
 
 /// A layer of the oracle, the fastest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -188,6 +188,18 @@ fn a_proved_distance_is_larger_than_any_that_was_needed() {
     }
 }
 
+#[test]
+fn nothing_is_proved_where_the_squared_lengths_of_normals_leave_the_range() {
+    let folder = scratch("spawn-unproved");
+    // In f32 they overflow, and `normal=` at the bound is wrong for half of the starts.
+    let scene = "extent=1e11,edge=5e10,distance=0..1e11";
+    for (scalar, is_proved) in [("f32", false), ("f64", true)] {
+        let flags = ["--scene", scene, "--scalar", scalar, "-n", "200", "--scheme", "none"];
+        let record = json(&folder, &flags);
+        assert_eq!(record["points"][0]["proved_normal"].is_number(), is_proved, "{scalar}");
+    }
+}
+
 /// The counts of the schemes of a run with hit points from u and v.
 fn counts(folder: &Path, flags: &[&str]) -> Vec<Value> {
     let all = [&["--point", "uv", "-n", "2500", "--threads", "2"], flags].concat();

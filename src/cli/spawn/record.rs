@@ -201,8 +201,9 @@ impl PointsPart {
                 lengths: LengthsPart::new(&sums.least),
                 ulps: LengthsPart::new(&sums.least_in_ulps),
             },
-            proved_normal: (plan.kind == PointKind::Weights)
-                .then(|| three_digits(proved_normal::<F>(plan.scene), true)),
+            proved_normal: proved_normal::<F>(plan.scene)
+                .filter(|_| plan.kind == PointKind::Weights)
+                .map(|least| three_digits(least, true)),
             lowest_right: right.map(|place| plan.schemes[place].name.clone()),
             best: best.map(|place| {
                 let scheme = plan.schemes[place].name.clone();
