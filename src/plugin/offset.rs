@@ -106,13 +106,15 @@ fn hit_line<F: Float>(hit: &HitPoint<F>) -> String {
 
 /// `X Y Z`, perhaps with a least t.
 fn start_of<F: Float>(line: &str) -> Result<Start<F>, String> {
-    let numbers: Option<Vec<F>> = line.split_ascii_whitespace().map(F::parse).collect();
+    let number = |word| F::parse(word).filter(|x| x.to_f64().is_finite());
+    let numbers: Option<Vec<F>> = line.split_ascii_whitespace().map(number).collect();
     match numbers.as_deref() {
         Some(&[x, y, z]) => Ok(Start::at([x, y, z])),
         Some(&[x, y, z, t_min]) => Ok(Start { origin: [x, y, z], t_min }),
-        _ => {
-            Err(format!("expected 'X Y Z' or 'X Y Z T_MIN' for each hit, found '{}'", shown(line)))
-        }
+        _ => Err(format!(
+            "expected finite numbers 'X Y Z' or 'X Y Z T_MIN' for each hit, found '{}'",
+            shown(line)
+        )),
     }
 }
 

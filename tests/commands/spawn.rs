@@ -251,7 +251,11 @@ static hairline_start hairline_start_of(const hairline_hit *hit) {
 fn an_offset_over_a_pipe_that_answers_wrongly_ends_the_run() {
     let folder = scratch("spawn-broken");
     for (command, part) in [
-        ("x=sh -c 'while read x; do echo 1 2; done'", "expected 'X Y Z' or 'X Y Z T_MIN'"),
+        (
+            "x=sh -c 'while read x; do echo 1 2; done'",
+            "expected finite numbers 'X Y Z' or 'X Y Z T_MIN'",
+        ),
+        ("x=sh -c 'while read x; do echo nan 2 3; done'", "for each hit, found 'nan 2 3'"),
         ("x=sh -c 'while read x; do echo 1 2 3; done'", "expected 'end "),
         ("x=sh -c 'exit 3'", "scheme 'x': it"),
         ("x=true", "scheme 'x': it"),

@@ -200,7 +200,7 @@ fn sentence(price: &PricePart) -> String {
         text.push_str(&match farthest.edges {
             0.0 => ", none farther than the boundary itself".to_owned(),
             edges => format!(
-                ", the farthest {edges:.1e} of its longest edge outside ({:.1e} ulps)",
+                ", the farthest off by {edges:.1e} of its longest edge ({:.1e} ulps)",
                 farthest.ulps
             ),
         });
