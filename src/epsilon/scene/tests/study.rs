@@ -1,0 +1,152 @@
+//! A whole study: what it chooses, names and tries on fresh rays.
+
+use super::*;
+
+/// What a histogram of some errors says.
+fn told(errors: &Histogram) -> (u64, f64, f64) {
+    (errors.count(), errors.largest(), errors.quantile(0.5))
+}
+
+#[test]
+fn a_study_tries_everything_on_fresh_rays() {
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let knobs = tuned.knobs.len();
+        let named = vec![
+            ("one".to_owned(), epsilons[..knobs].to_vec()),
+            ("again".to_owned(), epsilons[..knobs].to_vec()),
+            ("zero".to_owned(), vec![0.0; knobs]),
+        ];
+        let costs = Costs::parse("crack=3,miss=2,hit=0.5").unwrap();
+        let max_error = MaxError::parse("t=0.05,point=0.1").unwrap();
+        let (seed, number) = (6, 300);
+        let setting = tuned.setting();
+        let study =
+            study_scene(&setting, &costs, Some(&max_error), &named, seed, number, &Unobserved)
+                .unwrap();
+        let names: Vec<&str> = study.tried.iter().map(|tried| tried.name.as_str()).collect();
+        assert_eq!(names, ["recommended", "one", "zero"], "{kernel}");
+        assert_eq!(study.tried[0].epsilons, study.best);
+        let cheapest = |max| {
+            cheapest(
+                &setting,
+                &[named[0].1.clone(), named[2].1.clone()],
+                &costs,
+                max,
+                seed,
+                number,
+                &Unobserved,
+            )
+        };
+        let accurate = cheapest(Some(&max_error));
+        assert_eq!(study.is_accurate, accurate.is_some());
+        assert_eq!(study.best, accurate.or_else(|| cheapest(None)).unwrap());
+        let fresh = tuned.all(seed + 1, number);
+        let of = |c: usize| fresh.iter().filter(move |kept| kept.count == c);
+        for tried in &study.tried {
+            let mut cost = 0.0;
+            for (c, count) in tuned.counts.iter().enumerate() {
+                let hits: Vec<&Kept> = of(c).filter(|kept| kept.is_hit(&tried.epsilons)).collect();
+                let all = of(c).count();
+                let wrong = if tuned.is_lost(c) { all - hits.len() } else { hits.len() };
+                let found = tried.wrong[c];
+                assert_eq!(
+                    (found.count, found.of),
+                    (wrong as u64, all as u64),
+                    "{kernel} {count:?}"
+                );
+                assert_eq!(found.products.of_squared, all as u64, "one trial a ray");
+                cost += costs.of(count.kind) * wrong as f64 / all.max(1) as f64;
+                let exceeded = tried.exceeded[c];
+                let mut sums = [Histogram::default(), Histogram::default()];
+                let hits = if tuned.is_miss(c) { hits } else { Vec::new() };
+                for kept in &hits {
+                    let pairs = sums.iter_mut().zip(kept.errors);
+                    pairs.for_each(|(sum, error)| {
+                        error.into_iter().for_each(|error| sum.add(error))
+                    });
+                }
+                let off = hits.iter().filter(|kept| max_error.is_exceeded(&kept.errors)).count();
+                assert_eq!((exceeded.count, exceeded.of), (off as u64, hits.len() as u64));
+                assert_eq!(tried.errors[c].each_ref().map(told), sums.each_ref().map(told));
+            }
+            let at_edges = fresh.iter().filter(|kept| kept.margins.len() == 2);
+            let double = |kept: &&Kept| {
+                let is_hit = |m: &Margins<f32>| tried.epsilons.iter().zip(m).all(|(e, m)| e <= m);
+                kept.margins.iter().all(is_hit)
+            };
+            let doubles = at_edges.clone().filter(double).count();
+            let found = (tried.doubles.count, tried.doubles.of);
+            assert_eq!(found, (doubles as u64, at_edges.count() as u64), "{kernel}");
+            assert!((tried.cost - cost).abs() <= 1e-9, "{kernel} {} {cost}", tried.cost);
+        }
+        let expected = limits(&setting, &study.best, seed, number, &Unobserved);
+        let found: Vec<_> = study.limits.iter().map(|(limit, _)| limit.clone()).collect();
+        assert_eq!(found, expected, "{kernel}");
+        let moved = study.limits.iter().filter_map(|(limit, trials)| {
+            Some((limit.knob, limit.count, limit.is_lower, limit.value?, *trials))
+        });
+        let proofs = study.proved.iter().map(|(proved, trials)| {
+            (proved.knob, proved.count, proved.is_lower, proved.value, *trials)
+        });
+        for (k, c, is_lower, value, trials) in moved.chain(proofs) {
+            let left = |kept: &&Kept| is_lower || kept.is_hit_with(&study.best, k, f32::MIN);
+            let lost = of(c).filter(left).filter(|kept| !kept.is_hit_with(&study.best, k, value));
+            let (lost, all) = (lost.count() as u64, of(c).filter(left).count() as u64);
+            let wrong = if tuned.is_lost(c) { lost } else { all - lost };
+            assert_eq!((trials.count, trials.of), (wrong, all), "{kernel} {k} {c} {value:e}");
+        }
+        for (k, curve) in study.curves.iter().enumerate() {
+            let has = |value: f32| curve.values.contains(&value);
+            assert!(study.tried.iter().all(|tried| has(tried.epsilons[k])) && has(0.0));
+            let of_knob = study.limits.iter().filter(|(limit, _)| limit.knob == k);
+            assert!(of_knob.filter_map(|(limit, _)| limit.value).all(has), "{kernel} {k}");
+            let of_knob = study.proved.iter().filter(|(proved, _)| proved.knob == k);
+            assert!(of_knob.map(|(proved, _)| proved.value).all(has), "{kernel} {k}");
+            for (i, value) in curve.values.iter().enumerate().step_by(5) {
+                for c in 0..tuned.counts.len() {
+                    let hits = of(c).filter(|kept| kept.is_hit_with(&study.best, k, *value));
+                    assert_eq!(curve.hits[c][i], hits.count() as u64, "{kernel} {k} {c} {value:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_form_that_follows_the_size_is_named_if_it_is_a_fifth_cheaper() {
+    for (kernel, scene, expected) in [
+        ("plane-inside-out", "cad-mm", true),
+        ("plane-unit-normal", "city", true),
+        ("moller-trumbore", "room", false),
+        // By a sixth.
+        ("plucker", "room", false),
+    ] {
+        let tuned = Tuned::new(kernel, scene);
+        let setting = tuned.setting();
+        let costs = Costs::default();
+        let study = study_scene(&setting, &costs, None, &[], 1, 300, &Unobserved).unwrap();
+        let relative = Setting { relative: true, ..setting };
+        let followed = cheapest(&relative, &[], &costs, None, 1, 300, &Unobserved).unwrap();
+        let wrong =
+            count_at(&relative, &[Attempt::new(followed.clone())], 2, 300, &Unobserved).remove(0);
+        let cost = costs.total(&tuned.counts, wrong.iter().map(|w| w.share().unwrap_or(0.0)));
+        let is_named = cost < 0.8 * study.tried[0].cost;
+        let told = format!("{kernel} {cost} {}", study.tried[0].cost);
+        assert_eq!((study.relative.is_some(), is_named), (expected, expected), "{told}");
+        assert_eq!(study.relative_limits, limits(&relative, &followed, 1, 300, &Unobserved));
+        if let Some(form) = study.relative {
+            assert_eq!((form.epsilons, form.wrong, form.cost), (followed, wrong, cost));
+        }
+    }
+}
+
+#[test]
+fn epsilons_of_a_row_stand_by_knob() {
+    let tuned = Tuned::new("moller-trumbore", "room");
+    let of_gates = tuned.row.epsilons::<f32>();
+    assert_eq!(own_epsilons(&tuned.row, &tuned.knobs, 0.25), [of_gates[0], of_gates[1], 0.25]);
+    let reversed: Vec<Knob> = tuned.knobs.iter().rev().copied().collect();
+    assert_eq!(own_epsilons(&tuned.row, &reversed, 0.25), [0.25, of_gates[1], of_gates[0]]);
+    assert_eq!([0, 7, u64::MAX].map(fresh_seed), [1, 8, 0]);
+}
