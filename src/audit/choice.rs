@@ -168,8 +168,11 @@ fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
     let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
     let advice = did_you_mean(name, gates, "hairline list kernels");
     let advice = match name {
-        "t_min" => "; it is the start of each ray's interval: `hairline epsilon --scene` takes it"
-            .to_owned(),
+        "t_min" => {
+            "; it is the least t that your code counts: `hairline epsilon --scene` takes it, and \
+            `hairline spawn --scheme t-min=VALUE` tries it on shadow rays"
+                .to_owned()
+        }
         _ => advice,
     };
     PlanError(format!("no selected kernel has a gate '{name}'{advice}"))

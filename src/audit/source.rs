@@ -91,6 +91,22 @@ pub struct CorpusSet {
 }
 
 impl CorpusSet {
+    /// The names of cases whose rays start more than twice the triangle's longest edge from every vertex: no hit
+    /// point on it, unless rounding moved it by that much.
+    pub fn far_starts(&self) -> impl Iterator<Item = &str> {
+        fn is_far(case: &Case<f64>) -> bool {
+            let [origin, _, a, b, c] = case.vectors();
+            let distance = |p: [f64; 3], q: [f64; 3]| {
+                p.iter().zip(q).fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
+            };
+            let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
+            [a, b, c].into_iter().all(|vertex| 2.0 * longest < distance(origin, vertex))
+        }
+        let in_f32 = self.f32.iter().filter(|(_, case)| is_far(&case.widen()));
+        let in_f64 = self.f64.iter().filter(|(_, case)| is_far(case));
+        in_f32.map(|(name, _)| name.as_str()).chain(in_f64.map(|(name, _)| name.as_str()))
+    }
+
     fn get<F: Float>(&self, index: u64) -> (&str, Case<F>) {
         // The scalar of the run is F; its cases are stored in full, so the way through f64 is exact.
         let narrow = |case: Case<f64>| {

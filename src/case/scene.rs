@@ -2,6 +2,7 @@
 //! rays travel.
 
 use crate::arith::{Float, smallest_normal};
+use crate::suggest::nearest_name;
 use std::fmt;
 
 /// What the rays and triangles of a scene measure, in the scene's own unit of length.
@@ -100,6 +101,9 @@ impl Scene {
                 return format!("unknown word '{word}'; there are {WORDS}");
             }
             let names: Vec<&str> = SCENES.iter().map(|preset| preset.name).collect();
+            if let Some(near) = nearest_name(&word.to_lowercase(), names.iter().copied()) {
+                return format!("'{word}' is no scene; did you mean '{near}'?");
+            }
             let names = names.join(", ");
             if word.is_empty() {
                 return format!("nothing stands before or after a comma: write {WORDS}");
@@ -256,7 +260,13 @@ impl Scene {
 /// A finite number.
 fn number(key: &str, text: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
-    number.ok_or_else(|| format!("{key}={text}: '{}' is not a finite number", text.trim()))
+    number.ok_or_else(|| {
+        let (whole, text) = (text, text.trim());
+        let starts_with_digit = text.starts_with(|c: char| c.is_ascii_digit());
+        let has_unit = starts_with_digit && text.ends_with(|c: char| c.is_ascii_alphabetic());
+        let unit = if has_unit { ": write all lengths in one unit, without its name" } else { "" };
+        format!("{key}={whole}: '{text}' is not a finite number{unit}")
+    })
 }
 
 /// Two finite numbers in order; one stands for both.
@@ -362,6 +372,8 @@ mod tests {
             ("sine=0.5..2", "to 1"),
             ("aim=up", "write aim=inside or both"),
             ("sine=flat", "'flat' is not a finite number"),
+            ("extent=4km", "'4km' is not a finite number: write all lengths in one unit"),
+            ("Room", "'Room' is no scene; did you mean 'room'?"),
             ("extent=1,extent=2", "'extent' is given twice"),
         ] {
             let error = Scene::parse(text).unwrap_err();

@@ -2,18 +2,19 @@
 
 mod scene;
 
+use super::before::{
+    note_secondary_rays, scalars_in_use, scalars_with_cases, set_threads, total_indices,
+};
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{
-    SourceArguments, note_corpora_without_secondary_rays, scalars_in_use, set_threads,
-    total_indices,
-};
+use super::sources::SourceArguments;
 use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
+use crate::epsilon::scene::LEAST_T;
 use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
 use crate::family::{FAMILIES, Family};
 use crate::kernel::{Entry, Gate, Scalar, Subject};
@@ -111,9 +112,10 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         eprintln!("left out: {left_out}, whose sizes span the whole range (--family runs them)");
     }
     if !arguments.quiet {
-        note_corpora_without_secondary_rays(&rows, &sources);
+        note_secondary_rays(&rows, &sources);
     }
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
+    let scalars = scalars_with_cases(&sources, scalars);
     // What is wrong with the flags shows before the first study runs.
     let sources = &sources;
     let mut studies: Vec<Planned<'_>> = Vec::new();
@@ -206,6 +208,12 @@ impl EpsilonArguments {
 
     fn no_gate(&self, row: &Row, gates: &[Gate], wanted: &str) -> String {
         let kernel = row.entry.info.name;
+        if wanted == LEAST_T {
+            return format!(
+                "{LEAST_T} is no gate of {kernel}: a least t is chosen for a scene (--scene or --mesh, without \
+                 --family and --corpus), and `hairline spawn --scheme t-min=VALUE` tries one"
+            );
+        }
         if gates.iter().any(|gate| gate.name == wanted) {
             return format!("gate '{wanted}' of {kernel} takes no epsilon");
         }

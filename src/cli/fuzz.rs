@@ -7,12 +7,12 @@ mod summary;
 mod triage;
 mod worst;
 
+use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::chosen_scalars;
 use super::output::{standard_output, write_result};
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{scalars_in_use, set_threads};
 use crate::explore::campaign::{Campaign, Find, Plan, State};
 use clap::{Args, Subcommand};
 use directory::{Begun, CAMPAIGN, Directory, NO_BAND};

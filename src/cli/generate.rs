@@ -1,8 +1,9 @@
 //! `hairline generate`: cases as lines for a kernel that is a filter.
 
+use super::before::total_indices;
 use super::exit::{Failure, Status};
 use super::output::write_result;
-use super::sources::{SourceArguments, total_indices};
+use super::sources::SourceArguments;
 use crate::audit::Source;
 use crate::kernel::Scalar;
 use crate::plugin::text;

@@ -3,12 +3,12 @@
 mod input;
 mod summary;
 
+use super::before::set_threads;
 use super::exit::{Failure, Status};
 use super::flags::unknown;
 use super::orient::check_epsilon;
 use super::output::{paired_outputs, write_results};
 use super::select::KernelArguments;
-use super::sources::set_threads;
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;

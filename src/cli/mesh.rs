@@ -1,5 +1,6 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
+use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::chosen_scalars;
 use super::input::read_mesh;
@@ -7,7 +8,7 @@ use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{rays_at_each, scalars_in_use, set_threads};
+use super::sources::rays_at_each;
 use crate::audit::mesh::{self, Found, Plan};
 use crate::family::MeshFamily;
 use crate::kernel::Scalar;

@@ -11,6 +11,7 @@ macro_rules! eprintln {
 }
 
 mod audit;
+mod before;
 mod case;
 pub(crate) mod check;
 mod corpus;

@@ -1,15 +1,13 @@
 //! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
+use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, RUNNING};
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{
-    SourceArguments, note_corpora_without_secondary_rays, rays_at_each, scalars_in_use,
-    set_threads, total_indices,
-};
+use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Plan, Shard, Source};
 use crate::engine::Unobserved;
 use crate::report::{
@@ -160,7 +158,7 @@ impl RunArguments {
         let threads = rayon::current_num_threads();
         let total = total_indices(&plan.sources, plan.scalars)?;
         if !self.report.quiet {
-            note_corpora_without_secondary_rays(&plan.rows, &plan.sources);
+            note_secondary_rays(&plan.rows, &plan.sources);
             let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");
             let sources =
                 number_of(plan.sources.len() as u64, "source of cases", "sources of cases");

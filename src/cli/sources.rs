@@ -1,10 +1,10 @@
 //! Which cases a command line names, and on how many threads they run.
 
-use super::exit::{Failure, Status};
+use super::exit::Failure;
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
 use super::input::{corpus_files, corpus_sets, read_mesh};
 use crate::arith::Float;
-use crate::audit::{CorpusSet, Row, Source, shell_word};
+use crate::audit::{CorpusSet, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
 use crate::epsilon::scene::StudiedScene;
@@ -334,70 +334,10 @@ fn about_scene(message: String) -> Failure {
     Failure::usage(format!("--scene: {message}"))
 }
 
-/// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no
-/// number of one of them.
-pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
-    let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
-    if used == [false; 2] {
-        let message = "no selected kernel runs in the chosen scalars (see --scalar)".to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
-    }
-    rows.iter().try_for_each(|row| row.check_in(chosen))?;
-    Ok(used)
-}
-
-/// Notes the corpora without a secondary ray of a run that asks about self-hits: nothing more is demanded of them.
-pub fn note_corpora_without_secondary_rays(rows: &[Row], sources: &[Source]) {
-    if !rows.iter().any(|row| row.contract.no_self_hit) {
-        return;
-    }
-    let sets = sources.iter().filter_map(|source| match source {
-        Source::Corpus(set) => Some(set),
-        _ => None,
-    });
-    let marked: Vec<&String> =
-        sets.clone().filter(|set| set.is_secondary).map(|set| &set.file).collect();
-    for set in sets.filter(|set| !marked.contains(&&set.file)) {
-        eprintln!(
-            "note: no case of {} says \"starts\":\"on-triangle\", so no-self-hit demands nothing more of them",
-            set.file
-        );
-    }
-}
-
-/// The indices of a run; an error if there are none.
-pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
-    let count = |source: &Source| {
-        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
-        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
-    };
-    match sources.iter().map(count).sum() {
-        0 => {
-            let message = "nothing to run: the sources have no case in the chosen scalars";
-            Err(Failure::Message(Status::NothingSelected, message.to_owned()))
-        }
-        total => Ok(total),
-    }
-}
-
 /// The most rays at an edge or vertex: their number fits what counts them, for every kernel.
 const MOST_DIRECTIONS: u64 = 65_536;
 
 /// Reads a number of rays at each edge and vertex.
 pub fn rays_at_each() -> impl TypedValueParser<Value = u64> {
     clap::value_parser!(u64).range(1..=MOST_DIRECTIONS)
-}
-
-/// Sets the number of threads, all cores if none is given; returns how many there are.
-pub fn set_threads(threads: Option<usize>) -> Result<usize, Failure> {
-    if let Some(threads) = threads {
-        if threads == 0 || threads > 4096 {
-            return Err(Failure::usage(format!("--threads: {threads} is not from 1 to 4096")));
-        }
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()
-            .map_err(|error| Failure::Message(Status::InputOutput, error.to_string()))?;
-    }
-    Ok(rayon::current_num_threads())
 }

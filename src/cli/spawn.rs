@@ -4,12 +4,12 @@ mod choice;
 mod record;
 mod text;
 
+use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
 use super::output::{paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::{scalars_in_use, set_threads};
 use crate::audit::{Row, shell_word};
 use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;

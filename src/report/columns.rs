@@ -105,14 +105,34 @@ impl Cell {
         let mut cell = Cell::default();
         for result in results {
             let total = &result.total;
-            for rate in [&total.false_misses, &total.false_hits] {
+            let kinds = [("false-miss", &total.false_misses), ("false-hit", &total.false_hits)];
+            // A second hit there changes no nearest hit; the doubles show it.
+            let counted = if is_shared_in_scene(&result.family) { &kinds[..1] } else { &kinds[..] };
+            for (kind, rate) in counted {
                 cell.wrong.merge(&rate.trials());
+                cell.far += far(result, kind);
             }
-            cell.far +=
-                ["false-miss", "false-hit"].map(|kind| far(result, kind)).iter().sum::<u64>();
         }
         cell
     }
+}
+
+/// What is said where a record has such sources: a tolerance that closes cracks makes doubles.
+pub(super) fn doubles_in_scenes(record: &Record) -> Option<&'static str> {
+    let has_some =
+        record.result.plan.sources.iter().any(|source| is_shared_in_scene(&source.family));
+    has_some.then_some(
+        "At a scene's shared edges and vertices only hits that are lost count as wrong: a second triangle that is hit \
+         beside the first makes a double, and the nearest hit is the same.",
+    )
+}
+
+/// Whether a source aims at the shared edges or vertices of a scene.
+fn is_shared_in_scene(family: &str) -> bool {
+    family::find(family).is_some_and(|family| {
+        family.name.starts_with("scene-")
+            && matches!(family.question, Question::Edges | Question::Vertices)
+    })
 }
 
 /// The findings of a kind that are off by [`FAR`] longest edges or more.

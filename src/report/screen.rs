@@ -1,7 +1,7 @@
 //! What `hairline audit` prints: the answer, a table with a column for each question, the worst
 //! findings, and what to do next. Everything else is behind `--details`.
 
-use super::columns::{Across, Cell, Column, short_percent};
+use super::columns::{Across, Cell, Column, doubles_in_scenes, short_percent};
 use super::disagreement::{Key, disagreements};
 use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
@@ -16,10 +16,6 @@ use std::io::{self, Write};
 /// Of no more rows than this the screen shows each by itself.
 const MOST_CLOSE_UPS: usize = 2;
 
-/// Else a line that `hairline epsilon --scene` recommends looks worse than the published one, unexplained.
-const DOUBLES_IN_SCENES: &str = "A ray at a shared edge that hits both triangles is a false hit and a double here; \
-    `hairline epsilon --scene` counts it as right, because the nearest hit is the same.";
-
 /// Writes the screen.
 pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
     let columns = Column::all(record);
@@ -27,8 +23,8 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     write_head(record, out)?;
     write_notes(record, out)?;
     write_answer(record, &columns, &lines, out)?;
-    if record.result.plan.sources.iter().any(|source| source.family.starts_with("scene-")) {
-        write_wrapped(DOUBLES_IN_SCENES, out)?;
+    if let Some(note) = doubles_in_scenes(record) {
+        write_wrapped(note, out)?;
     }
     for scalar in &record.result.plan.scalars {
         let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);

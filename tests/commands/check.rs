@@ -767,7 +767,7 @@ fn a_polygons_finding_has_a_command_that_shows_the_polygon_as_a_whole() {
 
 #[test]
 fn a_scene_is_a_setting_and_a_run_of_none_of_the_expected_cases_is_one_error() {
-    let folder = scratch("check-scene");
+    let folder = scratch("check-scene-setting");
     let settings = "kernel = \"moller-trumbore\"\nscalar = \"f32\"\ncount = 300\n";
     fs::write(folder.join("hairline.toml"), settings).unwrap();
     ends(&folder, &["check", "-q", "--bless", "--scene", "room"], 0);

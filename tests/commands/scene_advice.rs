@@ -87,6 +87,29 @@ fn where_no_line_is_good_the_screen_says_so() {
 }
 
 #[test]
+fn a_limit_that_costs_plain_hits_says_how_many() {
+    let folder = scratch("advice-price");
+    let screen = study(&folder, "moller-trumbore", "cad-mm", &["-n", "10000"]);
+    let price = |line: &&str| line.starts_with("parallel >= ") && line.contains(" loses ");
+    let line = screen.lines().find(price).unwrap_or_else(|| panic!("{screen}"));
+    // The kernel run at that value loses as many.
+    let words: Vec<&str> = line.split(' ').collect();
+    let [value, told] = [words[2], words[4].trim_end_matches('%')];
+    let epsilon = format!("parallel={value},edge=-1e-2");
+    let family = "extent=500,edge=0.05..200,distance=0..1000,direction=unit";
+    let audit =
+        ["audit", "--kernel", "moller-trumbore", "--scene", family, "--scalar", "f32", "-n"];
+    let rest = ["10000", "--epsilon", &epsilon, "-q", "--seed", "2"];
+    let (out, _) = ends(&folder, &[&audit[..], &rest[..]].concat(), 0);
+    let inside = out.lines().find(|line| line.starts_with("inside")).unwrap();
+    let found: f64 = inside.split_whitespace().nth(1).unwrap().parse().unwrap();
+    assert!((found - told.parse::<f64>().unwrap()).abs() < 0.06, "{line}\n{out}");
+    // Of three rays one loss is a large share, but shows nothing.
+    let few = study(&folder, "moller-trumbore", "room", &["-n", "3", "--seed", "5"]);
+    assert!(few.contains("from 3 rays") && !few.contains("no numbers are good"), "{few}");
+}
+
+#[test]
 fn a_kernel_without_an_epsilon_at_its_edges_hears_what_its_cracks_cost() {
     let folder = scratch("advice-cracks");
     let screen = study(&folder, "havel-herout", "room", &[]);

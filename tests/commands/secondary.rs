@@ -44,8 +44,34 @@ fn stored_shadow_rays_give_the_advice_of_the_family() {
         let rest = ["--corpus", file, "--contract", "no-self-hit"];
         ends(&folder, &[&audit[..], &rest[..]].concat(), 0).1
     };
+    // Only f32 has cases, so nothing is said of f64; and the gate's own columns are told apart from `all`.
+    let study = ["epsilon", "--kernel", "cramer", "--gate", "t", "--corpus", "shadow.jsonl"];
+    let (out, _) = ends(&folder, &study, 0);
+    assert!(out.contains("cramer f32, gate t") && !out.contains("f64"), "{out}");
+    assert!(out.contains(
+        "where a ray starts on its triangle, every hit is one that this gate lets through"
+    ));
+    let study = ["epsilon", "--kernel", "moller-trumbore", "--gate", "t_min", "--corpus"];
+    let (_, error) = ends(&folder, &[&study[..], &["shadow.jsonl"]].concat(), 2);
+    assert!(error.contains("a least t is chosen for a scene") && error.lines().count() == 1);
     let note = "no case of plain.jsonl says \"starts\":\"on-triangle\"";
     assert!(told("plain.jsonl").contains(note) && !told("shadow.jsonl").contains("note:"));
+}
+
+#[test]
+fn a_first_ray_that_is_marked_as_a_shadow_ray_is_warned_of() {
+    let folder = scratch("secondary-far");
+    generate(&folder, "20");
+    let audit = ["audit", "--kernel", "cramer", "--scalar", "f32", "--corpus", "shadow.jsonl"];
+    assert!(!ends(&folder, &audit, 0).1.contains("warning"));
+    let ray = r#"{"name":"first","scalar":"f32","origin":[0.25,0.25,8],"direction":[0,0,-1],"#;
+    let rest = r#""a":[0,0,0],"b":[1,0,0],"c":[0,1,0],"starts":"on-triangle"}"#;
+    let shadow = fs::read_to_string(folder.join("shadow.jsonl")).unwrap();
+    fs::write(folder.join("shadow.jsonl"), format!("{shadow}{ray}{rest}\n")).unwrap();
+    let (_, error) = ends(&folder, &audit, 0);
+    assert!(
+        error.contains("warning: 1 case of shadow.jsonl: ") && error.contains(": first first.")
+    );
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use super::{EpsilonArguments, fault, found_margins, tells_margins};
 use crate::audit::Row;
+use crate::cli::before::{scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
-use crate::cli::sources::{scalars_in_use, set_threads};
 use crate::epsilon::scene::{
     Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
     own_epsilons, study_scene,

@@ -2,13 +2,13 @@
 
 use crate::audit::{Observer, quoted};
 use crate::case::Case;
+use crate::cli::before::{scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::flags::{chosen_scalars, unknown};
 use crate::cli::input::open;
 use crate::cli::output::write_result;
 use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
-use crate::cli::sources::{scalars_in_use, set_threads};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
 use crate::kernel::Scalar;

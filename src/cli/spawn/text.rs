@@ -156,7 +156,8 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
     if let Some(proved) = part.proved_normal {
         writeln!(
             out,
-            "proved: normal={proved:e}{unit} or more never has a wrong side here (weights from 0 to 1)"
+            "proved: normal={proved:e}{unit} or more never has a wrong side, on any ray of such a scene (weights from 0 to 1);\n  \
+             what stands after `use` is lower, and was right on the rays that were tried"
         )?;
     }
     let left_out = [
@@ -175,11 +176,13 @@ fn legend(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
         "
-p is the hit point, n the unit normal on the side that the first ray came from, u half an ulp of 1; new rays
-leave to that side, in every direction alike
+p is the hit point, as your code forms it: from u and v, or as o + t*d (--point uv or ray shows one); n the
+unit normal on the side that the first ray came from, u half an ulp of 1; new rays leave to that side, in
+every direction alike
 wrong side   the new ray starts on the exact plane of its triangle or behind it
 self-hits    the kernel says that the new ray hits the triangle which it leaves
-height       of the start over the plane: in longest edges of the triangle, and in ulps of its coordinates
+height       of the start over the plane: in longest edges of the triangle, and in ulps of its coordinates;
+             behind: half of the starts (or 99 %) are not above the plane
 a wall       starts beyond a wall parallel to the triangle, {} of its longest edge in front of it
 a fold       starts behind a neighbour on the edge nearest to p, folded up to {} degrees with the triangle
 times least  the way along the normal over the shortest that is right, where p itself is wrong (median)

@@ -5,7 +5,6 @@ use super::limits::{Limit, alone};
 use super::proved::Proved;
 use super::trials::{Setting, Trial};
 use crate::arith::Float;
-use crate::audit::Trials;
 use crate::engine::{Merge, Observer};
 use crate::kernel::Scalar;
 
@@ -76,13 +75,13 @@ pub fn curves<F: Scalar>(
 pub fn axes<F: Float>(
     tried: &[(String, Vec<F>)],
     limits: &[Limit<F>],
-    proofs: &[(Proved<F>, Trials)],
+    proofs: &[Proved<F>],
     is_fine: bool,
 ) -> Vec<Vec<F>> {
     let of_knob = |knob: usize| {
         let own = tried.iter().map(|(_, epsilons)| epsilons[knob]);
         let limits = limits.iter().filter(|limit| limit.knob == knob);
-        let proofs = proofs.iter().map(|(proved, _)| proved).filter(|proved| proved.knob == knob);
+        let proofs = proofs.iter().filter(|proved| proved.knob == knob);
         let limits = limits.filter_map(|limit| limit.value);
         let special: Vec<F> = own.chain(limits).chain(proofs.map(|proved| proved.value)).collect();
         round_values(&special, is_fine)

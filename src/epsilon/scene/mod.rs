@@ -12,6 +12,7 @@ mod errors;
 mod joint;
 mod knob;
 mod limits;
+mod measure;
 mod proved;
 mod study;
 #[cfg(test)]
@@ -24,8 +25,7 @@ pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_error
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
 pub use limits::{Limit, limits};
+pub use measure::{Attempt, count_at};
 pub use proved::{Proved, proved};
-pub use study::{
-    Attempt, SceneStudy, Tried, cheapest, count_at, fresh_seed, own_epsilons, study_scene,
-};
+pub use study::{OnFresh, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons, study_scene};
 pub use trials::{Count, Kind, Setting, StudiedScene, Trial, counts};

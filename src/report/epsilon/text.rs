@@ -2,6 +2,7 @@
 
 use super::record::*;
 use crate::arith::{Float, smallest_normal};
+use crate::kernel::{self, Role};
 use crate::report::rate::percent;
 use crate::report::record::Rate;
 use crate::report::{Style, group_digits, number_of};
@@ -51,7 +52,19 @@ fn heading(part: &GatePart, sources: usize, out: &mut dyn Write) -> io::Result<(
         let rays = number_of(secondary, "ray starts on its", "rays start on their");
         asked.push_str(&format!(", {rays} triangle"));
     }
-    writeln!(out, "{asked}")
+    writeln!(out, "{asked}")?;
+    let entry = kernel::find(kernel);
+    let is_on_t = entry.is_some_and(|entry| {
+        entry.info.gates.iter().any(|known| known.name == gate && known.role == Role::T)
+    });
+    if secondary != 0 && is_on_t {
+        writeln!(
+            out,
+            "    where a ray starts on its triangle, every hit is one that this gate lets through; `all` is by the exact\n    \
+             answer for the rounded start, which may lie on either side"
+        )?;
+    }
+    Ok(())
 }
 
 /// The largest and smallest epsilons that repair all that can be repaired.

@@ -5,7 +5,8 @@ use super::record::*;
 use super::words::{
     bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
 };
-use crate::case::Number;
+use crate::audit::shell_word;
+use crate::case::{Number, SCENES};
 use crate::report::epsilon::{FLUSHED, is_subnormal};
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
@@ -26,6 +27,10 @@ pub(super) struct Answer {
     pub limits: Vec<LimitRow>,
     /// Limits that do not meet, and what helps.
     pub conflicts: Vec<[String; 2]>,
+    /// Limits that cost much, a sentence each.
+    pub prices: Vec<String>,
+    /// Commands that show more of what is recommended.
+    pub next: Vec<String>,
 }
 
 /// Epsilons to use.
@@ -64,6 +69,8 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         rows: rows(record, part),
         limits: limit_rows(record, part),
         conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
+        prices: prices(record, part),
+        next: next(record, part),
     }
 }
 
@@ -247,11 +254,59 @@ fn conflict_lines(
         (Some([from, to]), Some(form), _) => {
             format!("{form} in its place is within both limits, with e from {from} to {to}")
         }
-        (_, _, "t") => "start the ray off the surface instead".to_owned(),
+        (_, _, "t") => {
+            "start the ray off the surface instead (`hairline spawn` finds how far)".to_owned()
+        }
         _ => "no value is right for such rays: it takes wider numbers (f64) or another kernel"
             .to_owned(),
     };
     [conflict_line, instead]
+}
+
+/// From this share on, a limit's price is said.
+const DEAR: f64 = 0.01;
+
+/// What limits cost that nobody would pay unwarned; those that a conflict names are said there.
+fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    let is_told = |place: &usize| part.conflicts.iter().any(|conflict| conflict.lower == *place);
+    let seen = part.limits.iter().enumerate().filter(|(place, _)| !is_told(place));
+    let seen =
+        seen.map(|(_, limit)| (limit.knob, limit.value.as_ref(), limit.is_lower, &limit.price));
+    let proved = part.proved.iter();
+    let proved = proved.map(|it| (it.knob, Some(&it.value), it.is_lower, &it.price));
+    let sentence =
+        |(knob, value, is_lower, price): (usize, Option<&String>, bool, &Option<PricePart>)| {
+            let PricePart { count, wrong } = price.as_ref()?;
+            let knob = &part.knobs[knob];
+            let bound = bound(Some(value?), is_lower, &unit_of(record, knob));
+            let does = match part.counts[*count].kind.as_str() {
+                "miss" => "loses",
+                _ => "makes false hits of",
+            };
+            let whom = match part.counts[*count].kind.as_str() {
+                "miss" => "of the hits at a triangle",
+                _ => "of the rays beside a triangle",
+            };
+            let is_dear = DEAR < wrong.rate.unwrap_or(0.0);
+            is_dear.then(|| format!("{} {bound} {does} {} {whom}", knob.name, share(wrong)))
+        };
+    seen.chain(proved).filter_map(sentence).collect()
+}
+
+/// Commands that show more of what is recommended.
+fn next(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    let best = &part.tried[0].epsilons;
+    // Of a mesh only the file's name is known.
+    if record.mesh.is_some() {
+        return Vec::new();
+    }
+    let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
+    let scene = preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned());
+    let with = flag(part, best).map_or(String::new(), |flag| format!(" {flag}"));
+    let rest = format!("{}{with} --scene {scene} --scalar {}", part.selector, part.scalar);
+    let has_t = part.knobs.iter().any(|knob| knob.role == "t");
+    let commands = if has_t { &["audit", "spawn"][..] } else { &["audit"] };
+    commands.iter().map(|command| format!("hairline {command} {rest}")).collect()
 }
 
 /// Which angles almost parallel rays have.
@@ -268,7 +323,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = costs.collect::<Vec<_>>().join(", ");
     let aim = if record.aims_inside { "; all aimed inside" } else { "" };
     let mut lines = vec![
-        format!("cost: each share times its weight ({costs}), added up"),
+        format!("cost: each share, of its own row, times its weight ({costs})"),
         format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
         "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
             .to_owned(),
@@ -283,19 +338,21 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         lines.extend(forms.map(str::to_owned));
     }
     if record.kernels.iter().any(tolerates) {
-        let both = "both hit: costs nothing here; `hairline audit` calls it a double, and rates such a line lower";
+        let both = "both hit: costs nothing, because the nearest hit is the same; wrong for counting crossings";
         lines.push(both.to_owned());
+    }
+    for part in &record.kernels {
+        for knob in &part.knobs {
+            let line =
+                |refuses| format!("{} of {} refuses where {refuses}", knob.name, part.kernel);
+            // The same in both scalars.
+            let line = knob.refuses.as_ref().map(line).filter(|line| !lines.contains(line));
+            lines.extend(line);
+        }
     }
     if record.kernels.iter().any(|part| !part.limits.is_empty()) {
         let most = "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper";
         lines.push(most.to_owned());
-        let of_edge = |part: &SceneKernelPart| {
-            part.limits.iter().any(|limit| part.knobs[limit.knob].role == "edge")
-        };
-        if record.kernels.iter().any(of_edge) {
-            let edge = "edge: no limit stands for the rays beside a triangle, which a more negative edge lets hit";
-            lines.push(edge.to_owned());
-        }
     }
     let subnormal = record.kernels.iter().flat_map(|part| {
         let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
@@ -307,7 +364,12 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         let star = "* set by the scene's own sizes, distances and angles as much as by rounding";
         lines.push(star.to_owned());
     }
-    lines
-        .push("beside: within about one triangle's size; every share is of its own row".to_owned());
+    let of_edge =
+        |part: &SceneKernelPart| part.limits.iter().any(|it| part.knobs[it.knob].role == "edge");
+    let beside = match record.kernels.iter().any(of_edge) {
+        true => "beside: within about one triangle's size; a more negative edge hits more of them",
+        false => "beside: within about one triangle's size",
+    };
+    lines.push(beside.to_owned());
     lines
 }

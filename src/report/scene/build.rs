@@ -8,8 +8,8 @@ use crate::case::{DirectionLength, Scene};
 use crate::contract::Extent;
 use crate::epsilon::scale_free_form;
 use crate::epsilon::scene::{
-    Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, Proved, SceneStudy,
-    Setting, StudiedScene, Tried, Value, fresh_seed,
+    Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, OnFresh, Proved,
+    SceneStudy, Setting, StudiedScene, Tried, Value, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
 use crate::report::epsilon::shortest;
@@ -73,13 +73,17 @@ pub fn kernel_part<F: Scalar>(
             name: knob.name(info.gates).to_owned(),
             is_gate: matches!(knob, Knob::Gate(_)),
             role: knob.role(info.gates).name().to_owned(),
+            refuses: match knob {
+                Knob::Gate(gate) => Some(info.gates[*gate].refuses.to_owned()),
+                Knob::LeastT => None,
+            },
             dimension: [dimension.length, dimension.direction],
             form: scale_free_form(dimension),
         }
     };
     let tried_part = |tried| tried_part(tried, max_error.is_some());
     let tried = study.tried.iter().map(tried_part).collect();
-    let limits = study.limits.iter().map(|(limit, trials)| {
+    let limits = study.limits.iter().map(|OnFresh { bound: limit, wrong, price }| {
         let knob = setting.knobs[limit.knob];
         LimitPart {
             knob: limit.knob,
@@ -87,8 +91,9 @@ pub fn kernel_part<F: Scalar>(
             is_lower: limit.is_lower,
             value: limit.value.map(shortest),
             one_in: limit.one_in,
-            fresh: limit.value.map(|_| Rate::new(*trials, true)),
+            fresh: limit.value.map(|_| Rate::new(*wrong, true)),
             set_by: set_by(knob.role(info.gates), setting.counts[limit.count]).map(str::to_owned),
+            price: price_part(*price),
         }
     });
     SceneKernelPart {
@@ -123,7 +128,7 @@ pub fn kernel_part<F: Scalar>(
         is_accurate: max_error.map(|_| study.is_accurate),
         tried,
         limits: limits.collect(),
-        proved: study.proved.iter().map(|(proved, trials)| proved_part(proved, trials)).collect(),
+        proved: study.proved.iter().map(proved_part).collect(),
         curves: study.curves.iter().map(curve_part).collect(),
         conflicts: conflicts(study),
         relative: study.relative.as_ref().map(tried_part),
@@ -132,7 +137,7 @@ pub fn kernel_part<F: Scalar>(
 
 /// Of each knob the highest limit from below and the lowest from above, where they do not meet.
 fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
-    let limits: Vec<&Limit<F>> = study.limits.iter().map(|(limit, _)| limit).collect();
+    let limits: Vec<&Limit<F>> = study.limits.iter().map(|found| &found.bound).collect();
     let strictest = |knob: usize, is_lower: bool| {
         let of_knob = limits.iter().enumerate();
         let of_knob = of_knob.filter(|(_, l)| l.knob == knob && l.is_lower == is_lower);
@@ -164,13 +169,19 @@ fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
     (0..study.best.len()).filter_map(conflict).collect()
 }
 
-fn proved_part<F: Float>(proved: &Proved<F>, trials: &Trials) -> ProvedPart {
+fn price_part(price: Option<(usize, Trials)>) -> Option<PricePart> {
+    price.map(|(count, trials)| PricePart { count, wrong: Rate::new(trials, true) })
+}
+
+fn proved_part<F: Float>(found: &OnFresh<Proved<F>>) -> ProvedPart {
+    let OnFresh { bound: proved, wrong, price } = found;
     ProvedPart {
         knob: proved.knob,
         count: proved.count,
         is_lower: proved.is_lower,
         value: shortest(proved.value),
-        fresh: Rate::new(*trials, true),
+        fresh: Rate::new(*wrong, true),
+        price: price_part(*price),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
 use crate::report::group_digits;
+use crate::report::record::Rate;
 
 /// From fewer rays of each kind the numbers depend on the seed: what is rare decides them.
 const FEW: u64 = 10_000;
@@ -64,9 +65,10 @@ fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let plain = part.counts.iter().zip(&part.tried[0].wrong).filter(|(count, _)| is_plain(count));
     // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
     let theirs = plain.filter(|(count, _)| count.kind == "miss" || part.has_edge_epsilon);
-    let worst =
-        theirs.max_by(|(_, a), (_, b)| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0)));
-    let Some((count, rate)) = worst.filter(|(_, rate)| TOO_MANY < rate.rate.unwrap_or(0.0)) else {
+    // Of few rays a single loss is a large share.
+    let surely = |rate: &Rate| rate.interval.map_or(0.0, |[low, _]| low);
+    let worst = theirs.max_by(|(_, a), (_, b)| surely(a).total_cmp(&surely(b)));
+    let Some((count, rate)) = worst.filter(|(_, rate)| TOO_MANY < surely(rate)) else {
         return Vec::new();
     };
     let what = match (count.kind.as_str(), share(rate)) {

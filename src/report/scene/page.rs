@@ -101,6 +101,9 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
                 }
             }
             @for conflict in &answer.conflicts { p { (conflict.join(" ")) } }
+            @for price in &answer.prices { p { (price) } }
+            @if !answer.next.is_empty() { p { "More:" } }
+            @for command in &answer.next { pre { (command) } }
             @for line in footer(record, part) { p.note { (line) } }
         }
     }

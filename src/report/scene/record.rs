@@ -124,6 +124,8 @@ pub struct KnobPart {
     pub is_gate: bool,
     /// What it is there to refuse: `parallel`, `t`, `edge` or `other`.
     pub role: String,
+    /// What the gate refuses, with the number as `e`; none of `t_min`.
+    pub refuses: Option<String>,
     /// The powers of length and of |d| in what is compared with it.
     pub dimension: [i8; 2],
     /// The form without a unit, if it has one: `e * L^2 * |d|`.
@@ -201,6 +203,19 @@ pub struct LimitPart {
     pub fresh: Option<Rate>,
     /// What in the scene sets the limit, if not the kernel's rounding.
     pub set_by: Option<String>,
+    /// What the value costs, if it is one that loses plain hits or lets rays beside triangles hit.
+    pub price: Option<PricePart>,
+}
+
+/// What a value costs on fresh rays, while the other numbers stay.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PricePart {
+    /// The count's place: hits lost at a triangle, or false hits beside one.
+    pub count: usize,
+    /// Its wrong answers, of all its rays.
+    pub wrong: Rate,
 }
 
 /// A value that is proved for every ray of the scene.
@@ -218,6 +233,8 @@ pub struct ProvedPart {
     pub value: String,
     /// The wrong answers on fresh rays at the value: none, or the proof is wrong.
     pub fresh: Rate,
+    /// What the value costs.
+    pub price: Option<PricePart>,
 }
 
 /// What the values of one knob do on fresh rays while the others stay.

@@ -26,6 +26,9 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
         }
         effects(record, &answer, out)?;
         limits(&answer, out)?;
+        for (i, command) in answer.next.iter().enumerate() {
+            writeln!(out, "{} {command}", if i == 0 { "more:" } else { "     " })?;
+        }
     }
     writeln!(out)?;
     legend(record).iter().try_for_each(|line| writeln!(out, "{line}"))
@@ -67,5 +70,5 @@ fn limits(answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
     for [conflict, instead] in &answer.conflicts {
         writeln!(out, "{conflict}\n  {instead}")?;
     }
-    Ok(())
+    answer.prices.iter().try_for_each(|price| writeln!(out, "{price}"))
 }

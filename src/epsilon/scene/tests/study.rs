@@ -81,28 +81,38 @@ fn a_study_tries_everything_on_fresh_rays() {
             assert!((tried.cost - cost).abs() <= 1e-9, "{kernel} {} {cost}", tried.cost);
         }
         let expected = limits(&setting, &study.best, seed, number, &Unobserved);
-        let found: Vec<_> = study.limits.iter().map(|(limit, _)| limit.clone()).collect();
+        let found: Vec<_> = study.limits.iter().map(|found| found.bound.clone()).collect();
         assert_eq!(found, expected, "{kernel}");
-        let moved = study.limits.iter().filter_map(|(limit, trials)| {
-            Some((limit.knob, limit.count, limit.is_lower, limit.value?, *trials))
+        let moved = study.limits.iter().filter_map(|OnFresh { bound, wrong, price }| {
+            Some((bound.knob, bound.count, bound.is_lower, bound.value?, *wrong, *price))
         });
-        let proofs = study.proved.iter().map(|(proved, trials)| {
-            (proved.knob, proved.count, proved.is_lower, proved.value, *trials)
+        let proofs = study.proved.iter().map(|OnFresh { bound, wrong, price }| {
+            (bound.knob, bound.count, bound.is_lower, bound.value, *wrong, *price)
         });
-        for (k, c, is_lower, value, trials) in moved.chain(proofs) {
+        for (k, c, is_lower, value, trials, price) in moved.chain(proofs) {
             let left = |kept: &&Kept| is_lower || kept.is_hit_with(&study.best, k, f32::MIN);
             let lost = of(c).filter(left).filter(|kept| !kept.is_hit_with(&study.best, k, value));
             let (lost, all) = (lost.count() as u64, of(c).filter(left).count() as u64);
             let wrong = if tuned.is_lost(c) { lost } else { all - lost };
             assert_eq!((trials.count, trials.of), (wrong, all), "{kernel} {k} {c} {value:e}");
+            if let Some((c, trials)) = price {
+                let hits = of(c).filter(|kept| kept.is_hit_with(&study.best, k, value)).count();
+                let wrong = if tuned.is_lost(c) { of(c).count() - hits } else { hits };
+                let expected = (wrong as u64, of(c).count() as u64, is_lower);
+                assert_eq!(
+                    (trials.count, trials.of, tuned.is_lost(c)),
+                    expected,
+                    "{kernel} {value:e}"
+                );
+            }
         }
         for (k, curve) in study.curves.iter().enumerate() {
             let has = |value: f32| curve.values.contains(&value);
             assert!(study.tried.iter().all(|tried| has(tried.epsilons[k])) && has(0.0));
-            let of_knob = study.limits.iter().filter(|(limit, _)| limit.knob == k);
-            assert!(of_knob.filter_map(|(limit, _)| limit.value).all(has), "{kernel} {k}");
-            let of_knob = study.proved.iter().filter(|(proved, _)| proved.knob == k);
-            assert!(of_knob.map(|(proved, _)| proved.value).all(has), "{kernel} {k}");
+            let of_knob = study.limits.iter().filter(|found| found.bound.knob == k);
+            assert!(of_knob.filter_map(|found| found.bound.value).all(has), "{kernel} {k}");
+            let of_knob = study.proved.iter().filter(|found| found.bound.knob == k);
+            assert!(of_knob.map(|found| found.bound.value).all(has), "{kernel} {k}");
             for (i, value) in curve.values.iter().enumerate().step_by(5) {
                 for c in 0..tuned.counts.len() {
                     let hits = of(c).filter(|kept| kept.is_hit_with(&study.best, k, *value));

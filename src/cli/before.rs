@@ -1,0 +1,83 @@
+//! What is decided, and said, before a run starts: its scalars, the number of its indices, its threads, and what is
+//! strange about its stored rays.
+
+use super::exit::{Failure, Status};
+use crate::audit::{CorpusSet, Row, Source};
+use crate::report::number_of;
+
+/// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no
+/// number of one of them.
+pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
+    let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
+    if used == [false; 2] {
+        let message = "no selected kernel runs in the chosen scalars (see --scalar)".to_owned();
+        return Err(Failure::Message(Status::NothingSelected, message));
+    }
+    rows.iter().try_for_each(|row| row.check_in(chosen))?;
+    Ok(used)
+}
+
+/// Notes what is strange about the stored rays that start on their triangle, or should: that there are none though
+/// the run asks about self-hits, and those that start far from it.
+pub fn note_secondary_rays(rows: &[Row], sources: &[Source]) {
+    let sets = sources.iter().filter_map(|source| match source {
+        Source::Corpus(set) => Some(set),
+        _ => None,
+    });
+    let (marked, plain): (Vec<_>, Vec<_>) = sets.partition(|set| set.is_secondary);
+    if rows.iter().any(|row| row.contract.no_self_hit) {
+        let has_none = |set: &&&CorpusSet| !marked.iter().any(|other| other.file == set.file);
+        for set in plain.iter().filter(has_none) {
+            eprintln!(
+                "note: no case of {} says \"starts\":\"on-triangle\", so no-self-hit demands nothing more of them",
+                set.file
+            );
+        }
+    }
+    for set in marked {
+        let mut far = set.far_starts();
+        if let Some(first) = far.next() {
+            eprintln!(
+                "warning: {} of {}: \"starts\":\"on-triangle\", but the ray starts farther from its triangle than \
+                 that is large: {first} first. Is it a first ray?",
+                number_of(1 + far.count() as u64, "case", "cases"),
+                set.file
+            );
+        }
+    }
+}
+
+/// The scalars in which the sources have a case.
+pub fn scalars_with_cases(sources: &[Source], scalars: [bool; 2]) -> [bool; 2] {
+    let has = |count: fn(&Source) -> u64| sources.iter().any(|source| 0 < count(source));
+    [scalars[0] && has(Source::count::<f32>), scalars[1] && has(Source::count::<f64>)]
+}
+
+/// The indices of a run; an error if there are none.
+pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
+    let count = |source: &Source| {
+        let [f32, f64] = [source.count::<f32>(), source.count::<f64>()];
+        u64::from(scalars[0]) * f32 + u64::from(scalars[1]) * f64
+    };
+    match sources.iter().map(count).sum() {
+        0 => {
+            let message = "nothing to run: the sources have no case in the chosen scalars";
+            Err(Failure::Message(Status::NothingSelected, message.to_owned()))
+        }
+        total => Ok(total),
+    }
+}
+
+/// Sets the number of threads, all cores if none is given; returns how many there are.
+pub fn set_threads(threads: Option<usize>) -> Result<usize, Failure> {
+    if let Some(threads) = threads {
+        if threads == 0 || threads > 4096 {
+            return Err(Failure::usage(format!("--threads: {threads} is not from 1 to 4096")));
+        }
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(|error| Failure::Message(Status::InputOutput, error.to_string()))?;
+    }
+    Ok(rayon::current_num_threads())
+}

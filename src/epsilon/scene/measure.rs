@@ -1,0 +1,213 @@
+//! What epsilons do on some rays: wrong answers by their margins, the errors of the hits that remain, and
+//! whether the kernel's own runs agree.
+
+use super::super::axis::largest;
+use super::errors::{ErrorSums, MaxError, errors_of};
+use super::knob::Knob;
+use super::limits::Limit;
+use super::trials::{Count, Kind, Margins, Setting, Trial, accepts, is_unknown};
+use crate::arith::Float;
+use crate::audit::Trials;
+use crate::case::Case;
+use crate::engine::{Merge, Observer};
+use crate::family::Stratum;
+use crate::kernel::{Scalar, Verdict, verdicts_of};
+
+/// Epsilons to try, and on which trials: all, or those that are hits at other epsilons.
+pub struct Attempt<F> {
+    /// By knob.
+    pub epsilons: Vec<F>,
+    /// Only trials that are hits here count.
+    pub among: Option<Vec<F>>,
+}
+
+impl<F: Float> Attempt<F> {
+    /// On all trials.
+    pub fn new(epsilons: Vec<F>) -> Attempt<F> {
+        Attempt { epsilons, among: None }
+    }
+
+    /// A limit, where the other knobs stay; none if it has no value. What the others refuse is no loss
+    /// of this one's.
+    pub fn at_limit(limit: &Limit<F>, others: &[F]) -> Option<Attempt<F>> {
+        Some(Attempt::alone(limit.knob, limit.value?, limit.is_lower, others))
+    }
+
+    pub(super) fn alone(knob: usize, value: F, is_lower: bool, others: &[F]) -> Attempt<F> {
+        let with = |value: F| {
+            let mut epsilons = others.to_vec();
+            epsilons[knob] = value;
+            epsilons
+        };
+        let among = (!is_lower).then(|| with(-largest::<F>()));
+        Attempt { epsilons: with(value), among }
+    }
+}
+
+/// The wrong answers at some attempts.
+pub(super) struct Wrong {
+    /// By attempt, by count.
+    pub trials: Vec<Vec<Trials>>,
+    /// Of the first attempts.
+    pub of_hits: Vec<OfHits>,
+    /// A disagreement between margins and the kernel's run.
+    pub fault: Option<String>,
+}
+
+/// The errors of the hits that remain, by count.
+#[derive(Clone)]
+pub(super) struct OfHits {
+    pub errors: Vec<ErrorSums>,
+    /// Those with larger errors than is wanted.
+    pub exceeded: Vec<Trials>,
+    /// At a shared edge: the rays that hit both triangles.
+    pub doubles: Trials,
+}
+
+impl Merge for OfHits {
+    fn merge(&mut self, other: OfHits) {
+        let errors = self.errors.iter_mut().flatten().zip(other.errors.iter().flatten());
+        errors.for_each(|(sum, more)| sum.merge(more));
+        let exceeded = self.exceeded.iter_mut().zip(&other.exceeded);
+        exceeded.for_each(|(sum, more)| sum.merge(more));
+        self.doubles.merge(&other.doubles);
+    }
+}
+
+impl Merge for Wrong {
+    fn merge(&mut self, other: Wrong) {
+        let counts = self.trials.iter_mut().flatten().zip(other.trials.iter().flatten());
+        counts.for_each(|(sum, more)| sum.merge(more));
+        self.of_hits.iter_mut().zip(other.of_hits).for_each(|(sum, more)| sum.merge(more));
+        self.fault = self.fault.take().or(other.fault);
+    }
+}
+
+impl Wrong {
+    /// Errors are kept of so many attempts.
+    fn new(attempts: usize, with_errors: usize, counts: &[Count]) -> Wrong {
+        let none = vec![Trials::default(); counts.len()];
+        let errors = vec![ErrorSums::default(); counts.len()];
+        let exceeded = none.clone();
+        let of_hits = vec![OfHits { errors, exceeded, doubles: Trials::default() }; with_errors];
+        Wrong { trials: vec![none; attempts], of_hits, fault: None }
+    }
+
+    fn add_errors<F: Scalar>(
+        &mut self,
+        setting: &Setting<'_, F>,
+        attempts: &[Attempt<F>],
+        max_error: Option<&MaxError>,
+        trial: &Trial<'_, F>,
+    ) {
+        let Count { stratum, kind } = setting.counts[trial.count];
+        if stratum == Stratum::Edges {
+            for (attempt, sums) in attempts.iter().zip(&mut self.of_hits) {
+                let hits = trial.margins.iter().filter(|m| accepts(m, &attempt.epsilons));
+                sums.doubles.add_ray(u64::from(1 < hits.count()), 1);
+            }
+        }
+        if kind != Kind::Miss {
+            return;
+        }
+        let errors = errors_of(trial);
+        let attempts = attempts.iter().zip(&mut self.of_hits);
+        for (_, sums) in attempts.filter(|(attempt, _)| trial.is_hit(&attempt.epsilons)) {
+            let pairs = sums.errors[trial.count].iter_mut().zip(errors);
+            pairs.for_each(|(sum, error)| error.into_iter().for_each(|error| sum.add(error)));
+            if let Some(max) = max_error {
+                sums.exceeded[trial.count].add_ray(u64::from(max.is_exceeded(&errors)), 1);
+            }
+        }
+    }
+
+    fn add<F: Scalar>(&mut self, counts: &[Count], attempts: &[Attempt<F>], trial: &Trial<'_, F>) {
+        let if_refused = counts[trial.count].kind.is_wrong_if_refused();
+        for (trials, Attempt { epsilons, among }) in self.trials.iter_mut().zip(attempts) {
+            if among.as_ref().is_some_and(|among| !trial.is_hit(among)) {
+                continue;
+            }
+            let is_wrong = trial.is_hit(epsilons) != if_refused;
+            trials[trial.count].add_ray(u64::from(is_wrong), 1);
+        }
+    }
+}
+
+/// The wrong answers at some epsilons, by their margins: of each attempt, of each count.
+pub fn count_at<F: Scalar>(
+    setting: &Setting<'_, F>,
+    attempts: &[Attempt<F>],
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> Vec<Vec<Trials>> {
+    measure(setting, attempts, 0, None, seed, count, observer, |_, _| None).trials
+}
+
+/// The same, and the errors of the hits of the first attempts; a check may find a fault in a chunk.
+#[expect(clippy::too_many_arguments)]
+pub(super) fn measure<F: Scalar>(
+    setting: &Setting<'_, F>,
+    attempts: &[Attempt<F>],
+    with_errors: usize,
+    max_error: Option<&MaxError>,
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+    check: impl Fn(&[Case<F>], &[Margins<F>]) -> Option<String> + Sync,
+) -> Wrong {
+    let empty = || Wrong::new(attempts.len(), with_errors, setting.counts);
+    let add = |sums: &mut Wrong, trial: Trial<'_, F>| {
+        sums.add(setting.counts, attempts, &trial);
+        if 0 < with_errors {
+            sums.add_errors(setting, attempts, max_error, &trial);
+        }
+    };
+    let look = |sums: &mut Wrong, cases: &[Case<F>], margins: &[Margins<F>]| {
+        sums.fault = sums.fault.take().or_else(|| check(cases, margins));
+    };
+    setting.sum_with(seed, count, observer, empty, add, look)
+}
+
+/// Runs the kernel at some epsilons on a chunk's cases; a fault if it does not do as their margins say.
+pub(super) fn differs<F: Scalar>(
+    setting: &Setting<'_, F>,
+    at: &[Vec<F>],
+) -> impl Fn(&[Case<F>], &[Margins<F>]) -> Option<String> + Sync {
+    let with_least_t = |at: &Vec<F>| {
+        let (mut epsilons, mut least_t) = (setting.row.epsilons::<F>(), -F::infinity());
+        for (knob, epsilon) in setting.knobs.iter().zip(at) {
+            match knob {
+                Knob::Gate(gate) => epsilons[*gate] = *epsilon,
+                Knob::LeastT => least_t = *epsilon,
+            }
+        }
+        (at.clone(), epsilons, least_t)
+    };
+    let all: Vec<_> = at.iter().map(with_least_t).collect();
+    let has_least_t = setting.knobs.contains(&Knob::LeastT);
+    let subject = setting.subject;
+    move |cases, margins| {
+        all.iter().find_map(|(at, epsilons, least_t)| {
+            let mut verdicts = vec![Verdict::miss(None); cases.len()];
+            verdicts_of(subject, cases, epsilons, &mut verdicts);
+            let is_hit =
+                |verdict: &Verdict<F>| verdict.hit && (!has_least_t || *least_t <= verdict.t);
+            let known = cases.iter().zip(margins).zip(&verdicts);
+            let pairs = known.filter(|((_, margins), _)| !is_unknown(margins));
+            let mut faults =
+                pairs.filter(|((_, margins), verdict)| is_hit(verdict) != accepts(margins, at));
+            let ((case, _), verdict) = faults.next()?;
+            let gates = setting.row.entry.info.gates;
+            let at = setting.knobs.iter().zip(at);
+            let at = at.map(|(knob, value)| format!("{}={value:e}", knob.name(gates)));
+            let (together, alone) =
+                if verdict.hit { ("hits", "misses") } else { ("misses", "hits") };
+            Some(format!(
+                "at {} it {together}, but with each of these alone it {alone}, on {}",
+                at.collect::<Vec<_>>().join(","),
+                case.hex()
+            ))
+        })
+    }
+}
