@@ -1,11 +1,13 @@
 //! Many cases at once, as arrays of coordinates (columns) or as a slice of cases; either way the
-//! filter takes them in lanes.
+//! filter takes them in groups.
 
-use super::filter::{self, LANES, Lanes};
+use super::filter::{self, Code};
 use super::{Layer, Layers};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::truth::Truth;
+#[cfg(all(feature = "simd", any(target_arch = "x86", target_arch = "x86_64")))]
+use fearless_simd::{Level, Simd};
 use std::error::Error;
 use std::fmt;
 use std::ops::Deref;
@@ -132,17 +134,49 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
     }
 }
 
+/// Cases that go through the filter together.
+const GROUP: usize = 32;
+
 /// Cases that the filter can take in groups, however they are stored.
 pub(super) trait Stored<F: Float> {
     fn count(&self) -> usize;
+    /// One of them.
+    fn get(&self, index: usize) -> Case<F>;
+    /// The codes of a group.
+    fn codes(&self, group: usize) -> [Code; GROUP];
     /// The layers behind the filter. They are compiled into each way of storing: a case that is handed
     /// over in memory is written in pieces that are not those in which it is read, which costs more than
     /// some of the layers.
     fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth;
-    /// t_min and t_max.
-    fn interval(&self, index: usize) -> (f64, f64);
-    /// o, d, a, b, c of the cases of a group of N, lane by lane.
-    fn lanes<const N: usize>(&self, group: usize) -> [[Lanes<N>; 3]; 5];
+}
+
+/// o, d, a, b, c and the ends of the interval, in the scalar of the filter. Large arrays do not go through `map`
+/// without being written to memory.
+#[inline(always)]
+pub(super) fn widened<F: Float>(case: &Case<F>) -> ([[f64; 3]; 5], [f64; 2]) {
+    let [o, d, a, b, c] = case.vectors();
+    let wide = |[x, y, z]: [F; 3]| [x.to_f64(), y.to_f64(), z.to_f64()];
+    let ends = [case.ray.t_min.to_f64(), case.ray.t_max.to_f64()];
+    ([wide(o), wide(d), wide(a), wide(b), wide(c)], ends)
+}
+
+/// The codes of cases that are columns: a loop without a branch, over as many cases at a time as a vector holds.
+#[inline(always)]
+fn codes_of<F: Float>(vectors: [[&[F; GROUP]; 3]; 5], ends: [&[F; GROUP]; 2]) -> [Code; GROUP] {
+    let mut codes = [Code::NONE; GROUP];
+    for (k, code) in codes.iter_mut().enumerate() {
+        let at = |[x, y, z]: [&[F; GROUP]; 3]| [x[k].to_f64(), y[k].to_f64(), z[k].to_f64()];
+        let [o, d, a, b, c] = vectors;
+        let ends = [ends[0][k].to_f64(), ends[1][k].to_f64()];
+        *code = filter::compute([at(o), at(d), at(a), at(b), at(c)]).code(ends);
+    }
+    codes
+}
+
+/// A group's part of a column.
+#[inline(always)]
+fn part<F>(column: &impl Deref<Target = [F]>, group: usize) -> &[F; GROUP] {
+    &column.as_chunks::<GROUP>().0[group]
 }
 
 impl<F: Float> Stored<F> for [Case<F>] {
@@ -150,26 +184,22 @@ impl<F: Float> Stored<F> for [Case<F>] {
     fn count(&self) -> usize {
         self.len()
     }
+    #[inline(always)]
+    fn get(&self, index: usize) -> Case<F> {
+        self[index]
+    }
+    #[inline(always)]
+    fn codes(&self, group: usize) -> [Code; GROUP] {
+        let mut codes = [Code::NONE; GROUP];
+        for (code, case) in codes.iter_mut().zip(&self.as_chunks::<GROUP>().0[group]) {
+            let (vectors, ends) = widened(case);
+            *code = filter::compute(vectors).code(ends);
+        }
+        codes
+    }
     #[inline(never)]
     fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
         super::behind_the_filter(&self[index], layers)
-    }
-    #[inline(always)]
-    fn interval(&self, index: usize) -> (f64, f64) {
-        (self[index].ray.t_min.to_f64(), self[index].ray.t_max.to_f64())
-    }
-    #[inline(always)]
-    fn lanes<const N: usize>(&self, group: usize) -> [[Lanes<N>; 3]; 5] {
-        let mut all = [[Lanes::of(0.0); 3]; 5];
-        for (k, case) in self.as_chunks::<N>().0[group].iter().enumerate() {
-            let vectors = case.vectors();
-            for (lanes, vector) in all.iter_mut().zip(&vectors) {
-                for (lane, x) in lanes.iter_mut().zip(vector) {
-                    lane.0[k] = x.to_f64();
-                }
-            }
-        }
-        all
     }
 }
 
@@ -178,67 +208,73 @@ impl<F: Float, C: Deref<Target = [F]>> Stored<F> for Batch<C> {
     fn count(&self) -> usize {
         self.len()
     }
+    #[inline(always)]
+    fn get(&self, index: usize) -> Case<F> {
+        self.case(index)
+    }
+    #[inline(always)]
+    fn codes(&self, group: usize) -> [Code; GROUP] {
+        let vectors =
+            self.vectors.each_ref().map(|v| v.each_ref().map(|column| part(column, group)));
+        codes_of(vectors, self.interval.each_ref().map(|column| part(column, group)))
+    }
     #[inline(never)]
     fn behind_the_filter(&self, index: usize, layers: &mut Layers) -> Truth {
         super::behind_the_filter(&self.case(index), layers)
     }
-    #[inline(always)]
-    fn interval(&self, index: usize) -> (f64, f64) {
-        (self.interval[0][index].to_f64(), self.interval[1][index].to_f64())
-    }
-    #[inline(always)]
-    fn lanes<const N: usize>(&self, group: usize) -> [[Lanes<N>; 3]; 5] {
-        let mut all = [[Lanes::of(0.0); 3]; 5];
-        let fill = |lanes: &mut [f64; N], column: &C| {
-            for (lane, x) in lanes.iter_mut().zip(&column.as_chunks::<N>().0[group]) {
-                *lane = x.to_f64();
-            }
-        };
-        for (lanes, columns) in all.iter_mut().zip(&self.vectors) {
-            for (lane, column) in lanes.iter_mut().zip(columns) {
-                fill(&mut lane.0, column);
-            }
-        }
-        all
-    }
 }
 
-/// The truths of stored cases, in groups of [`LANES`] and then one by one.
+/// The truths of stored cases, on the widest vectors that the machine has: the same operations in the same order, none
+/// fused, so that no bit changes.
 pub(super) fn decide_all<F: Float>(
+    cases: &(impl Stored<F> + ?Sized),
+    truths: &mut Vec<Truth>,
+    layers: &mut Layers,
+) {
+    #[cfg(all(feature = "simd", any(target_arch = "x86", target_arch = "x86_64")))]
+    if let Some(avx2) = Level::new().as_avx2() {
+        return avx2.vectorize(
+            #[inline(always)]
+            || decide_groups(cases, truths, layers),
+        );
+    }
+    decide_groups(cases, truths, layers);
+}
+
+/// In groups of [`GROUP`] and then one by one.
+#[inline(always)]
+fn decide_groups<F: Float>(
     cases: &(impl Stored<F> + ?Sized),
     truths: &mut Vec<Truth>,
     layers: &mut Layers,
 ) {
     truths.clear();
     let count = cases.count();
-    for group in 0..count / LANES {
-        decide_group::<F, LANES>(cases, group, layers, |truth| truths.push(truth));
-    }
-    for index in count - count % LANES..count {
-        decide_group::<F, 1>(cases, index, layers, |truth| truths.push(truth));
-    }
-}
-
-/// The truths of the cases of a group of N.
-#[inline(always)]
-pub(super) fn decide_group<F: Float, const N: usize>(
-    cases: &(impl Stored<F> + ?Sized),
-    group: usize,
-    layers: &mut Layers,
-    mut take: impl FnMut(Truth),
-) {
-    let mut decided = [None; N];
-    let first = group * N;
-    filter::decide(cases.lanes::<N>(group), |k| cases.interval(first + k), &mut decided);
-    for (k, decided) in decided.iter().enumerate() {
-        take(match decided {
+    truths.reserve(count);
+    let mut certain = 0;
+    let mut take = |code: Code, index: usize| {
+        let past = || {
+            let (vectors, ends) = widened(&cases.get(index));
+            filter::compute(vectors).past(ends)
+        };
+        truths.push(match code.truth(past) {
             Some(truth) => {
-                layers.count(Layer::Filter, 1);
-                *truth
+                certain += 1;
+                truth
             }
-            None => cases.behind_the_filter(first + k, layers),
+            None => cases.behind_the_filter(index, layers),
         });
+    };
+    let groups = count / GROUP;
+    for group in 0..groups {
+        let codes = cases.codes(group);
+        codes.into_iter().enumerate().for_each(|(k, code)| take(code, group * GROUP + k));
     }
+    for index in groups * GROUP..count {
+        let (vectors, ends) = widened(&cases.get(index));
+        take(filter::compute(vectors).code(ends), index);
+    }
+    layers.count(Layer::Filter, certain);
 }
 
 #[cfg(test)]

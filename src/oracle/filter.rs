@@ -23,165 +23,144 @@
 
 use super::determinants::Determinant;
 use super::signs::Signs;
-use crate::case::Case;
 use crate::truth::Truth;
 use std::cmp::Ordering;
-use std::ops::{Add, Mul, Sub};
 
 const U: f64 = f64::EPSILON / 2.0;
 /// More than underflow can add, relative to a vector's length: 2^-1000.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 
-/// Cases that go through the filter together.
-pub(super) const LANES: usize = 4;
+type Vector = [f64; 3];
 
-/// One number of each of N cases. Plain loops over fixed arrays: compilers make vector instructions
-/// of them (and calls of `map` and `from_fn`).
-#[derive(Clone, Copy)]
-pub(super) struct Lanes<const N: usize>(pub [f64; N]);
-
-impl<const N: usize> Lanes<N> {
-    #[inline(always)]
-    pub fn of(x: f64) -> Self {
-        Lanes([x; N])
-    }
-
-    #[inline(always)]
-    fn abs(mut self) -> Self {
-        for x in &mut self.0 {
-            *x = x.abs();
-        }
-        self
-    }
-}
-
-macro_rules! lane_by_lane {
-    ($trait:ident, $method:ident, $operator:tt) => {
-        impl<const N: usize> $trait for Lanes<N> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(mut self, other: Self) -> Self {
-                for i in 0..N {
-                    self.0[i] $operator other.0[i];
-                }
-                self
-            }
-        }
-    };
-}
-
-lane_by_lane!(Add, add, +=);
-lane_by_lane!(Sub, sub, -=);
-lane_by_lane!(Mul, mul, *=);
-
-type Vector<const N: usize> = [Lanes<N>; 3];
-
-/// The computed predicates of some cases, with bounds of their errors.
-pub(super) struct Computed<const N: usize> {
+/// The computed predicates of a case, with bounds of their errors.
+pub(super) struct Computed {
     /// -U, -V and -W.
-    weights: [Lanes<N>; 3],
-    weight_errors: [Lanes<N>; 3],
-    t: Lanes<N>,
-    t_error: Lanes<N>,
+    weights: [f64; 3],
+    weight_errors: [f64; 3],
+    t: f64,
+    t_error: f64,
     /// D.
-    d: Lanes<N>,
-    d_error: Lanes<N>,
+    d: f64,
+    d_error: f64,
 }
 
+/// Of o, d, a, b, c. A straight line, of which a loop over cases makes vector instructions.
 #[inline(always)]
-fn compute<const N: usize>([o, direction, a, b, c]: [Vector<N>; 5]) -> Computed<N> {
-    let from_origin = |p: Vector<N>| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
+pub(super) fn compute([o, direction, a, b, c]: [Vector; 5]) -> Computed {
+    let from_origin = |p: Vector| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
     let (a, b, c) = (from_origin(a), from_origin(b), from_origin(c));
-    let abs = |v: Vector<N>| [v[0].abs(), v[1].abs(), v[2].abs()];
+    let abs = |v: Vector| [v[0].abs(), v[1].abs(), v[2].abs()];
     let (abs_a, abs_d) = (abs(a), abs(direction));
-    let one = Lanes::of(1.0);
-    let d_underflow = Lanes::of(UNDERFLOW) * (abs_d[0] + abs_d[1] + abs_d[2] + one);
-    let a_underflow = Lanes::of(UNDERFLOW) * (abs_a[0] + abs_a[1] + abs_a[2] + one);
+    let d_underflow = UNDERFLOW * (abs_d[0] + abs_d[1] + abs_d[2] + 1.0);
+    let a_underflow = UNDERFLOW * (abs_a[0] + abs_a[1] + abs_a[2] + 1.0);
     let (bc, bc_permanent) = cross(&b, &c);
     let (ca, ca_permanent) = cross(&c, &a);
     let (ab, ab_permanent) = cross(&a, &b);
     let t = dot(&a, &bc);
-    let t_error = Lanes::of(16.0 * U) * dot(&abs_a, &bc_permanent) + a_underflow;
+    let t_error = 16.0 * U * dot(&abs_a, &bc_permanent) + a_underflow;
     let weights = [dot(&direction, &bc), dot(&direction, &ca), dot(&direction, &ab)];
     let permanents =
         [dot(&abs_d, &bc_permanent), dot(&abs_d, &ca_permanent), dot(&abs_d, &ab_permanent)];
-    let bound = |p: Lanes<N>| Lanes::of(8.0 * U) * p + d_underflow;
+    let bound = |p: f64| 8.0 * U * p + d_underflow;
     let weight_errors = [bound(permanents[0]), bound(permanents[1]), bound(permanents[2])];
     let d = weights[0] + weights[1] + weights[2];
     let all = permanents[0] + permanents[1] + permanents[2];
-    let d_error = Lanes::of(16.0 * U) * all + Lanes::of(4.0) * d_underflow;
+    let d_error = 16.0 * U * all + 4.0 * d_underflow;
     Computed { weights, weight_errors, t, t_error, d, d_error }
 }
 
-/// The truths of the cases of o, d, a, b, c, each if every sign that it depends on is certain. Plain loops: large
-/// arrays do not go through `map` and `from_fn` without calls.
-#[inline(always)]
-pub(super) fn decide<const N: usize>(
-    vectors: [Vector<N>; 5],
-    interval: impl Fn(usize) -> (f64, f64),
-    truths: &mut [Option<Truth>; N],
-) {
-    let computed = compute(vectors);
-    for (k, truth) in truths.iter_mut().enumerate() {
-        *truth = computed.truth(k, interval(k));
+/// What is known of a case: the bits are that t > 0, that the line meets the triangle, that D < 0, that its interval
+/// is from 0 to infinity, and that all these signs are certain.
+#[derive(Clone, Copy)]
+pub(super) struct Code(u64);
+
+const POSITIVE_T: u64 = 1;
+const INSIDE: u64 = 2;
+const FRONT: u64 = 4;
+const RAY: u64 = 8;
+const CERTAIN: u64 = 16;
+const CERTAIN_RAY: u64 = CERTAIN | RAY;
+
+impl Code {
+    pub const NONE: Code = Code(0);
+
+    /// The truth; `past` says whether t lies past each end of the interval, if that is certain.
+    #[inline(always)]
+    pub fn truth(self, past: impl FnOnce() -> Option<[bool; 2]>) -> Option<Truth> {
+        match self.0 & CERTAIN_RAY {
+            // A table, since these signs are as random as the cases.
+            CERTAIN_RAY => Some(OF_A_RAY[self.0 as usize % OF_A_RAY.len()]),
+            CERTAIN => past().map(|[past_min, past_max]| self.on(past_min, !past_max)),
+            _ => None,
+        }
+    }
+
+    /// The truth of a certain case.
+    const fn on(self, past_min: bool, before_max: bool) -> Truth {
+        let Code(code) = self;
+        let (front, inside, positive) =
+            (code & FRONT != 0, code & INSIDE != 0, code & POSITIVE_T != 0);
+        Signs::certain(front, inside, positive, past_min, before_max)
     }
 }
 
-/// The computed predicates of one case.
-pub(super) fn compute_one(case: &Case<f64>) -> Computed<1> {
-    compute(case.vectors().map(|v| v.map(|x| Lanes([x]))))
-}
+/// The truths of certain cases whose interval is from 0 to infinity.
+const OF_A_RAY: [Truth; 8] = {
+    let mut truths = [Truth::Invalid; 8];
+    let mut code = 0;
+    while code < 8 {
+        truths[code] = Code(code as u64).on(code as u64 & POSITIVE_T != 0, true);
+        code += 1;
+    }
+    truths
+};
 
-impl Computed<1> {
+impl Computed {
     /// The sign of a determinant, if it is certain.
     pub fn sign(&self, determinant: Determinant) -> Option<Ordering> {
         let (value, error) = match determinant {
-            Determinant::Weight(k) => (-self.weights[k].0[0], self.weight_errors[k].0[0]),
-            Determinant::D => (self.d.0[0], self.d_error.0[0]),
-            Determinant::T => (self.t.0[0], self.t_error.0[0]),
+            Determinant::Weight(k) => (-self.weights[k], self.weight_errors[k]),
+            Determinant::D => (self.d, self.d_error),
+            Determinant::T => (self.t, self.t_error),
         };
         (value.abs() > error).then(|| value.total_cmp(&0.0))
     }
 
     /// Whether t lies past an end of the interval, if that or its opposite is certain.
     pub fn is_past(&self, end: f64) -> Option<bool> {
-        is_past(end, (self.t.0[0], self.t_error.0[0]), (self.d.0[0], self.d_error.0[0]))
+        is_past(end, (self.t, self.t_error), (self.d, self.d_error))
     }
-}
 
-impl<const N: usize> Computed<N> {
+    /// The same of both ends.
+    pub fn past(&self, [t_min, t_max]: [f64; 2]) -> Option<[bool; 2]> {
+        Some([self.is_past(t_min)?, self.is_past(t_max)?])
+    }
+
+    /// All signs at once, without a branch.
     #[inline(always)]
-    fn truth(&self, k: usize, (t_min, t_max): (f64, f64)) -> Option<Truth> {
-        let at = |lanes: &[Lanes<N>; 3]| [lanes[0].0[k], lanes[1].0[k], lanes[2].0[k]];
-        let ([u, v, w], [u_error, v_error, w_error]) = (at(&self.weights), at(&self.weight_errors));
-        let (t, t_error) = (self.t.0[k], self.t_error.0[k]);
-        let (d, d_error) = (self.d.0[k], self.d_error.0[k]);
+    pub fn code(&self, [t_min, t_max]: [f64; 2]) -> Code {
+        let ([u, v, w], [u_error, v_error, w_error]) = (self.weights, self.weight_errors);
+        let (t, d) = (self.t, self.d);
+        let front = d < 0.0;
+        let one_sign = ((u < 0.0) == (v < 0.0)) & ((v < 0.0) == (w < 0.0));
         let certain = (u.abs() > u_error)
             & (v.abs() > v_error)
             & (w.abs() > w_error)
-            & (t.abs() > t_error)
+            & (t.abs() > self.t_error)
             // With three weights of one sign D has it too, whatever its own bound.
-            & ((d.abs() > d_error) | (same_sign(u, v) & same_sign(v, w)))
+            & ((d.abs() > self.d_error) | one_sign)
             & (t_min <= t_max);
-        if !certain {
-            return None;
-        }
-        let front = d < 0.0;
+        let ray = (t_min == 0.0) & (t_max == f64::INFINITY);
+        let inside = one_sign & ((u < 0.0) == front);
         let positive_t = (t < 0.0) == front;
-        let (past_min, before_max) = if t_min == 0.0 && t_max == f64::INFINITY {
-            (positive_t, true)
-        } else {
-            let compare = |end| is_past(end, (t, t_error), (d, d_error));
-            (compare(t_min)?, !compare(t_max)?)
-        };
-        let inside = [u, v, w].map(|x| (x < 0.0) == front);
-        Some(Signs::certain(front, inside, positive_t, past_min, before_max))
+        Code(
+            u64::from(certain) * CERTAIN
+                | u64::from(ray) * RAY
+                | u64::from(front) * FRONT
+                | u64::from(inside) * INSIDE
+                | u64::from(positive_t) * POSITIVE_T,
+        )
     }
-}
-
-#[inline(always)]
-fn same_sign(x: f64, y: f64) -> bool {
-    (x > 0.0) == (y > 0.0)
 }
 
 /// Whether T/D > end, if that or its opposite is certain.
@@ -201,13 +180,13 @@ fn is_past(end: f64, (t, t_error): (f64, f64), (d, d_error): (f64, f64)) -> Opti
 }
 
 #[inline(always)]
-fn dot<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> Lanes<N> {
+fn dot(a: &Vector, b: &Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The cross product and its permanents.
 #[inline(always)]
-fn cross<const N: usize>(a: &Vector<N>, b: &Vector<N>) -> (Vector<N>, Vector<N>) {
+fn cross(a: &Vector, b: &Vector) -> (Vector, Vector) {
     let (p0, q0) = (a[1] * b[2], a[2] * b[1]);
     let (p1, q1) = (a[2] * b[0], a[0] * b[2]);
     let (p2, q2) = (a[0] * b[1], a[1] * b[0]);

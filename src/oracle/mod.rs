@@ -117,10 +117,15 @@ pub fn truth<F: Float>(case: &Case<F>) -> Truth {
 
 /// The truth of a case, and a count for the layer that decided it.
 pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
-    let mut decided = Truth::Invalid;
-    let case = std::slice::from_ref(case);
-    batch::decide_group::<F, 1>(case, 0, layers, |truth| decided = truth);
-    decided
+    let (vectors, ends) = batch::widened(case);
+    let computed = filter::compute(vectors);
+    match computed.code(ends).truth(|| computed.past(ends)) {
+        Some(truth) => {
+            layers.count(Layer::Filter, 1);
+            truth
+        }
+        None => behind_the_filter(case, layers),
+    }
 }
 
 /// The truths of many cases, in order: somewhat faster a case than one by one. `truths` is cleared

@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 /// The truth of a valid case, and the last layer that it needed.
 pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     let near_one = scaled_axes(case);
-    let computed = filter::compute_one(&near_one);
+    let computed = filter::compute(near_one.vectors());
     let mut deepest = Layer::ScaledFilter;
     let mut scaled = None;
     let mut sign = |wanted: Determinant| {
@@ -52,7 +52,7 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
 /// The signs of t - t_min and t - t_max, where the sign of t or the filter tells.
 fn place(case: &Case<f64>, d: Ordering, t: Ordering) -> Option<(Ordering, Ordering)> {
     let t_sign = if d == Ordering::Less { t.reverse() } else { t };
-    let computed = filter::compute_one(case);
+    let computed = filter::compute(case.vectors());
     let compare = |end: f64| {
         if end == 0.0 {
             return Some(t_sign);

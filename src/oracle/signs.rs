@@ -30,12 +30,12 @@ impl Signs {
         })
     }
 
-    /// The same where no sign is zero, without branches: `front` is D < 0, `inside` says of each
-    /// weight whether it has the sign of their sum, and t is not at an end.
+    /// The same where no sign is zero, without branches: `front` is D < 0, `inside` says whether each
+    /// weight has the sign of their sum, and t is not at an end.
     #[inline(always)]
-    pub fn certain(
+    pub const fn certain(
         front: bool,
-        inside: [bool; 3],
+        inside: bool,
         positive_t: bool,
         past_min: bool,
         before_max: bool,
@@ -46,10 +46,10 @@ impl Signs {
         const SIGNS: [Ordering; 2] = [Ordering::Less, Ordering::Greater];
         const FEATURES: [Feature; 2] = [Feature::Outside, Feature::Interior];
         Truth::Transversal(Crossing {
-            facing: FACINGS[usize::from(front)],
-            place: PLACES[2 * usize::from(past_min) + usize::from(before_max)],
-            t_sign: SIGNS[usize::from(positive_t)],
-            feature: FEATURES[usize::from(inside[0] & inside[1] & inside[2])],
+            facing: FACINGS[front as usize],
+            place: PLACES[2 * past_min as usize + before_max as usize],
+            t_sign: SIGNS[positive_t as usize],
+            feature: FEATURES[inside as usize],
         })
     }
 }

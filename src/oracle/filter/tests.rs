@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::arith::decompose;
-use crate::case::Draw;
+use crate::case::{Case, Draw};
 use crate::oracle::determinants::{ALL, rows};
 use crate::oracle::{Layer, Layers, define, truth_counted};
 use num_bigint::BigInt;
@@ -60,14 +60,12 @@ fn errors_are_below_the_bounds_and_the_bounds_are_those_of_the_proof() {
     let (mut compared, mut at_underflow) = (0, 0);
     for index in 0..3000 {
         let case = any_size(index);
-        let computed = compute_one(&case);
+        let computed = compute(case.vectors());
         for determinant in ALL {
             let (value, error, factor, allowances) = match determinant {
-                Determinant::Weight(k) => {
-                    (-computed.weights[k].0[0], computed.weight_errors[k].0[0], 3, 0)
-                }
-                Determinant::D => (computed.d.0[0], computed.d_error.0[0], 4, 2),
-                Determinant::T => (computed.t.0[0], computed.t_error.0[0], 4, 0),
+                Determinant::Weight(k) => (-computed.weights[k], computed.weight_errors[k], 3, 0),
+                Determinant::D => (computed.d, computed.d_error, 4, 2),
+                Determinant::T => (computed.t, computed.t_error, 4, 0),
             };
             if !error.is_finite() {
                 continue;
@@ -130,7 +128,7 @@ fn a_value_at_its_bound_is_handed_on_and_one_above_it_is_not() {
     for (determinant, e, make) in cases {
         for (e, certain) in [(e, false), (e + 2f64.powi(-52), true)] {
             let case = make(e);
-            let sign = compute_one(&case).sign(determinant);
+            let sign = compute(case.vectors()).sign(determinant);
             assert_eq!(sign.is_some(), certain, "{determinant:?} {e:e}");
             assert_eq!(layer_of(&case) == Layer::Filter, certain, "{determinant:?} {e:e}");
         }
@@ -143,7 +141,7 @@ fn weights_of_one_sign_tell_the_sign_of_d_whatever_its_bound() {
     let x = 1.01 * UNDERFLOW;
     let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let case = Case::<f64>::new([0.0; 3], [x; 3], unit);
-    let computed = compute_one(&case);
+    let computed = compute(case.vectors());
     assert_eq!(computed.sign(Determinant::D), None);
     assert_eq!(layer_of(&case), Layer::Filter);
     // One of the other sign leaves the sign of D open.
