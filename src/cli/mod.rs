@@ -211,6 +211,9 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
             return printed.map_or_else(ended, |()| Status::Success.into());
         }
     };
+    if is_quiet(&matches) {
+        plugins::be_quiet();
+    }
     if let Err(failure) = check_outputs(&self::command(), &matches) {
         return ended(failure);
     }
@@ -241,12 +244,18 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::OfCheck(command) => command.run(),
         Command::KernelHost { file } => return plugin::serve(&file).into(),
     };
-    plugins::print_notes();
+    plugins::finish();
     // A broken kernel of the user's is reported before anything that its verdicts led to.
     match plugins::check().and(outcome) {
         Ok(status) => status.into(),
         Err(failure) => ended(failure),
     }
+}
+
+/// Whether the command line says --quiet.
+fn is_quiet(matches: &ArgMatches) -> bool {
+    let has_flag = matches.try_get_one("quiet").is_ok_and(|quiet| quiet == Some(&true));
+    has_flag || matches.subcommand().is_some_and(|(_, own)| is_quiet(own))
 }
 
 /// Refuses outputs that could not be written, before any work.

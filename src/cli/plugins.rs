@@ -9,6 +9,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The flags that bring kernels along.
@@ -42,6 +43,14 @@ pub struct PluginArguments {
     #[arg(long, help_heading = "Kernels of your own")]
     #[serde(default)]
     require_ieee: bool,
+}
+
+/// Whether nothing is said of a kernel while it runs.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Says nothing of kernels while they run.
+pub fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
 }
 
 /// How long a kernel may be silent by default.
@@ -130,7 +139,11 @@ impl PluginArguments {
             Some(failures) => failures.saturating_add(1),
             None => ((PATIENCE_SECONDS / seconds).ceil() as u64).max(3),
         };
-        let tell: fn(&str) = |line| eprintln!("{line}");
+        let tell: fn(&str) = |line| {
+            if !IS_QUIET.load(Ordering::Relaxed) {
+                eprintln!("{line}");
+            }
+        };
         Ok(Limits { silence, failures, timeouts, tell, require_ieee: self.require_ieee })
     }
 }
@@ -187,9 +200,10 @@ pub fn check() -> Result<(), Failure> {
     Ok(())
 }
 
-/// Prints what should be known of the kernels beside their verdicts.
-pub fn print_notes() {
+/// Ends the kernels' processes, and prints what should be known of them beside their verdicts.
+pub fn finish() {
     for entry in kernel::all() {
+        entry.finish();
         for note in entry.notes() {
             eprintln!("note: kernel '{}': {note}", entry.info.name);
         }

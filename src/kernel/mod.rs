@@ -18,7 +18,10 @@ mod preset;
 mod recording;
 mod registry;
 mod runs;
+#[cfg(feature = "studies")]
+mod shown;
 mod subject;
+#[cfg(feature = "studies")]
 mod variant;
 mod verdict;
 

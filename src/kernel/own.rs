@@ -45,6 +45,7 @@ impl<F: Float, T: Test<F>> Subject<F> for Own<T> {
         }
     }
 
+    #[cfg(feature = "studies")]
     fn margins(
         &self,
         info: &KernelInfo,

@@ -51,6 +51,12 @@ impl Entry {
         notes
     }
 
+    /// Ends what it started; more verdicts start it again.
+    pub(crate) fn finish(&self) {
+        self.f32.into_iter().for_each(|subject| subject.finish());
+        self.f64.into_iter().for_each(|subject| subject.finish());
+    }
+
     /// The same with a subject in `f32`.
     pub const fn with_f32(self, subject: &'static dyn Subject<f32>) -> Entry {
         Entry { f32: Some(subject), ..self }
@@ -236,7 +242,7 @@ pub fn register(entry: Entry) -> Result<&'static Entry, String> {
     Ok(entry)
 }
 
-/// The kernel of a name, `moller-trumbore+fma` included.
+/// The kernel of a name; with the feature `studies` also in another arithmetic, as `moller-trumbore+fma`.
 pub fn find(name: &str) -> Option<&'static Entry> {
     if let Some((kernel, arithmetic)) = name_and_arithmetic(name) {
         return in_arithmetic(find(kernel)?, arithmetic);

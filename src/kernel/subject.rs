@@ -61,6 +61,7 @@ pub trait Subject<F: Float>: Sync {
     ///
     /// Where gates are not shown the kernel runs at many epsilons. Then margins are -inf if it misses whatever
     /// the epsilons are, and NaN if it fails at some.
+    #[cfg(feature = "studies")]
     fn margins(
         &self,
         info: &KernelInfo,
@@ -80,6 +81,9 @@ pub trait Subject<F: Float>: Sync {
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
+
+    /// Ends what it started; more verdicts start it again.
+    fn finish(&self) {}
 
     /// Why its verdicts are invalid from some case on, in one line.
     fn gave_up(&self) -> Option<String> {

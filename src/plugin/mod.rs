@@ -12,10 +12,12 @@ mod exchange;
 mod hello;
 #[cfg(unix)]
 mod host;
+mod inbox;
 mod margins;
 mod offset;
 mod process;
 mod running;
+mod stderr;
 pub mod text;
 
 pub use hello::{Hello, Start};

@@ -40,7 +40,7 @@ impl OffsetCommand {
 
     /// Starts one process, so that what cannot be started shows before the run.
     pub fn start(&self) -> io::Result<()> {
-        let running = self.0.program.start(SILENCE, true)?;
+        let running = self.0.program.start(SILENCE)?;
         self.state().idle.push(running);
         Ok(())
     }
@@ -58,11 +58,9 @@ impl OffsetCommand {
         let idle = self.state().idle.pop();
         let mut running = match idle {
             Some(running) => running,
-            None => self
-                .0
-                .program
-                .start(SILENCE, true)
-                .map_err(|e| format!("it cannot be started: {e}"))?,
+            None => {
+                self.0.program.start(SILENCE).map_err(|e| format!("it cannot be started: {e}"))?
+            }
         };
         let mut lines: String = hits.iter().map(hit_line).collect();
         lines += &end_line(hits.len() as u64);

@@ -7,7 +7,8 @@ use super::binary;
 use super::exchange;
 use super::hello::{Hello, Start};
 use super::margins::{self, MARGINS_AT_ONCE, MarginFailures};
-use super::running::{Lost, Program, Running};
+use super::running::{self, Lost, Program, Running};
+use super::stderr::MOST_LINES;
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
@@ -34,10 +35,6 @@ pub struct Limits {
 /// After how many cases a process that has never answered is given up.
 const NEVER_ANSWERED: u64 = 3;
 
-/// After so many lost processes the standard error of further ones is left out: each has a line or two about how it
-/// ended.
-const LOUD: u64 = 5;
-
 /// Why a kernel's process cannot be used.
 #[derive(Debug)]
 pub enum LoadError {
@@ -50,7 +47,7 @@ pub enum LoadError {
 /// Starts a kernel's process and reads its hello. The entry lives as long as this process; `flag`
 /// chooses it on a command line.
 pub fn load(program: Program, limits: Limits, flag: String) -> Result<Entry, LoadError> {
-    let running = program.start(limits.silence, true).map_err(LoadError::Start)?;
+    let running = program.start(limits.silence).map_err(LoadError::Start)?;
     let (hello, running) = greet(running).map_err(|lost| {
         LoadError::Hello(match lost {
             Lost::Garbled(message) => message,
@@ -114,8 +111,6 @@ struct State {
     idle: Vec<Running>,
     /// Whether any batch was answered.
     has_answered: bool,
-    /// Processes that ended or were silent.
-    lost: u64,
     /// Cases that killed a process, or on which it was silent.
     failures: u64,
     /// Those on which it was silent.
@@ -157,7 +152,7 @@ impl Process {
         } else {
             exchange::in_text(&mut running, cases, epsilons, verdicts)
         };
-        let said = said.inspect_err(|_| self.state().lost += 1)?;
+        let said = said?;
         if let Some(floats) = said.floats {
             self.has_changed_to(floats)?;
         }
@@ -172,13 +167,7 @@ impl Process {
 
     fn another(&self) -> Result<Running, Lost> {
         let cannot = |error| Lost::Garbled(format!("it cannot be started again: {error}"));
-        let is_loud = self.state().lost < LOUD;
-        if !is_loud {
-            self.note(format!(
-                "{LOUD} of its processes have failed; what further ones write to standard error is left out"
-            ));
-        }
-        let started = self.program.start(self.limits.silence, is_loud).map_err(cannot)?;
+        let started = self.program.start(self.limits.silence).map_err(cannot)?;
         let (hello, running) = greet(started)?;
         if hello != self.hello {
             let message = "started again, it announced itself differently".to_owned();
@@ -351,7 +340,17 @@ impl<F: Float> Subject<F> for Process {
         let state = self.state();
         let mut notes = state.notes.clone();
         notes.extend(state.margins.note());
+        if self.program.said.are_too_many() {
+            notes.push(format!(
+                "it writes more than {MOST_LINES} lines to standard error; the rest is left out"
+            ));
+        }
         notes
+    }
+
+    fn finish(&self) {
+        let idle = std::mem::take(&mut self.state().idle);
+        running::finish(idle);
     }
 
     fn gave_up(&self) -> Option<String> {

@@ -4,6 +4,8 @@
 
 #![forbid(unsafe_code)]
 
+use super::inbox::{Inbox, ROOM};
+use super::stderr::Lines;
 use crate::kernel::Failure;
 use std::io::{self, ErrorKind, Read, Write};
 #[cfg(unix)]
@@ -19,12 +21,14 @@ pub struct Program {
     words: Vec<String>,
     /// Whether it is this program as the host of a library.
     is_host: bool,
+    /// What came of it on standard error.
+    pub(super) said: Lines,
 }
 
 impl Program {
     /// This program as the host of a library: its words, the program first.
     pub fn host(words: Vec<String>) -> Program {
-        Program { words, is_host: true }
+        Program { words, is_host: true, said: Lines::default() }
     }
 
     /// From a line, split as a shell splits it. No shell runs it: variables, pipes and && need
@@ -35,27 +39,25 @@ impl Program {
         if words.is_empty() {
             Err("it is empty".to_owned())
         } else {
-            Ok(Program { words, is_host: false })
+            Ok(Program { words, is_host: false, said: Lines::default() })
         }
     }
 
-    /// Starts it; its standard error is this program's, if it may be loud. It is lost when it is silent for this long.
-    pub(super) fn start(&self, silence: Duration, is_loud: bool) -> io::Result<Running> {
+    /// Starts it. It is lost when it is silent for this long.
+    pub(super) fn start(&self, silence: Duration) -> io::Result<Running> {
         let mut command = Command::new(&self.words[0]);
-        command.args(&self.words[1..]);
-        if !is_loud {
-            command.stderr(Stdio::null());
-        }
+        command.args(&self.words[1..]).stderr(Stdio::piped());
         // A group of its own, to be killed with all that it starts.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let (child, link) = match self.is_host {
+        let (mut child, link) = match self.is_host {
             #[cfg(unix)]
             true => socket(command, silence)?,
             _ => pipes(command)?,
         };
-        let (received, spare) = (Vec::new(), Vec::new());
-        Ok(Running { child, link: Some(link), silence, received, taken: 0, spare })
+        let (inbox, spare) = (Inbox::default(), Vec::new());
+        let words = child.stderr.take().map(|stderr| self.said.pass_on(stderr));
+        Ok(Running { child, link: Some(link), silence, inbox, spare, words })
     }
 }
 
@@ -113,15 +115,12 @@ pub(super) struct Running {
     /// None once its output is closed.
     link: Option<Link>,
     silence: Duration,
-    /// What came, of which this much is taken.
-    received: Vec<u8>,
-    taken: usize,
+    inbox: Inbox,
     /// Memory for what is sent next.
     spare: Vec<u8>,
+    /// Gone when all that it wrote to standard error is passed on.
+    words: Option<Receiver<()>>,
 }
-
-/// The most bytes that are read at once.
-const ROOM: usize = 1 << 16;
 
 /// The most bytes of a line.
 const LONGEST_LINE: usize = 1 << 16;
@@ -163,10 +162,10 @@ impl Running {
     pub fn line(&mut self) -> Result<String, Lost> {
         let mut searched = 0;
         loop {
-            let unread = &self.received[self.taken..];
+            let unread = self.inbox.unread();
             if let Some(end) = unread[searched..].iter().position(|byte| *byte == b'\n') {
                 let line = unread[..searched + end].to_vec();
-                self.taken += line.len() + 1;
+                self.inbox.take(line.len() + 1);
                 let not_text = "it wrote a line that is not UTF-8 (if it answers in the binary encoding, its \
                                 hello must say 'encoding binary')";
                 return String::from_utf8(line).map_err(|_| Lost::Garbled(not_text.to_owned()));
@@ -182,47 +181,41 @@ impl Running {
 
     /// The next bytes, this many.
     pub fn bytes(&mut self, count: usize) -> Result<&[u8], Lost> {
-        while self.received.len() - self.taken < count {
+        while self.inbox.unread().len() < count {
             self.receive()?;
         }
-        let start = self.taken;
-        self.taken += count;
-        Ok(&self.received[start..self.taken])
+        Ok(self.inbox.take(count).unwrap_or_default())
     }
 
     /// Whether unexpected output came.
     pub fn has_unread(&mut self) -> bool {
         match &mut self.link {
-            Some(Link::Pipes { from, .. }) => self.received.extend(from.try_iter().flatten()),
+            Some(Link::Pipes { from, .. }) => {
+                from.try_iter().for_each(|more| self.inbox.add(&more));
+            }
             #[cfg(unix)]
             Some(Link::Socket(socket)) => {
                 // An answer that is asked for comes later, so nothing more than one read is needed.
-                let _ = socket
-                    .set_nonblocking(true)
-                    .and_then(|()| read_some(socket, &mut self.received));
+                let _ = socket.set_nonblocking(true).and_then(|()| self.inbox.read(socket));
                 let _ = socket.set_nonblocking(false);
             }
             None => {}
         }
-        self.taken < self.received.len()
+        !self.inbox.unread().is_empty()
     }
 
     fn receive(&mut self) -> Result<(), Lost> {
-        self.received.drain(..self.taken);
-        self.taken = 0;
         let received = match &mut self.link {
             Some(Link::Pipes { from, .. }) => match from.recv_timeout(self.silence) {
                 Ok(more) => {
-                    self.received.extend(more);
+                    self.inbox.add(&more);
                     return Ok(());
                 }
                 Err(RecvTimeoutError::Timeout) => Err(ErrorKind::TimedOut),
                 Err(RecvTimeoutError::Disconnected) => Ok(0),
             },
             #[cfg(unix)]
-            Some(Link::Socket(socket)) => {
-                read_some(socket, &mut self.received).map_err(|error| error.kind())
-            }
+            Some(Link::Socket(socket)) => self.inbox.read(socket).map_err(|error| error.kind()),
             None => Ok(0),
         };
         match received {
@@ -235,26 +228,28 @@ impl Running {
     /// How a process ended whose output is closed.
     fn end(&mut self) -> Failure {
         self.link = None;
-        let start = Instant::now();
-        while start.elapsed() < LAST_WORDS {
-            match self.child.try_wait() {
-                Ok(Some(status)) => return failure_of(status),
-                Ok(None) => thread::sleep(Duration::from_millis(1)),
-                Err(_) => break,
+        self.status(Instant::now()).map_or(Failure::Timeout, failure_of)
+    }
+
+    /// How it ended, if it does in its last words' time from the start.
+    fn status(&mut self, start: Instant) -> Option<ExitStatus> {
+        loop {
+            let status = self.child.try_wait().ok()?;
+            if status.is_some() || LAST_WORDS <= start.elapsed() {
+                return status;
             }
+            thread::sleep(Duration::from_millis(1));
         }
-        Failure::Timeout
     }
 }
 
-/// Appends what one read gives; how many bytes.
-#[cfg(unix)]
-fn read_some(from: &mut impl Read, bytes: &mut Vec<u8>) -> io::Result<usize> {
-    let start = bytes.len();
-    bytes.resize(start + ROOM, 0);
-    let read = from.read(&mut bytes[start..]);
-    bytes.truncate(start + *read.as_ref().unwrap_or(&0));
-    read
+/// Lets processes end by themselves, whose input ends, and passes on what they still say.
+pub(super) fn finish(mut all: Vec<Running>) {
+    all.iter_mut().for_each(|running| running.link = None);
+    let start = Instant::now();
+    for running in &mut all {
+        running.status(start);
+    }
 }
 
 impl Drop for Running {
@@ -263,6 +258,8 @@ impl Drop for Running {
         super::host::kill_group(self.child.id());
         let _ = self.child.kill();
         let _ = self.child.wait();
+        // A process that left the group may hold the other end.
+        let _ = self.words.take().map(|words| words.recv_timeout(LAST_WORDS));
     }
 }
 

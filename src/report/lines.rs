@@ -1,6 +1,7 @@
 //! The lines of the screen and of the summary in Markdown: rows with their cells, and words wrapped.
 
 use super::columns::{Across, Cell, Column};
+use super::group_digits;
 use super::record::*;
 use super::row_view::RowView;
 use std::io::{self, Write};
@@ -52,11 +53,28 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     parts.join("; ")
 }
 
-/// What should be known of the kernels beside their verdicts.
+/// What should be known of the kernels beside their verdicts, and whether their values are good for anything.
 pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()> {
     for (kernel, notes) in &record.provenance.kernel_notes {
         for note in notes {
             write_wrapped(&format!("{kernel}: {note}."), out)?;
+        }
+    }
+    let scalars = record.result.plan.scalars.iter();
+    let rows: Vec<(&String, RowView)> = scalars
+        .flat_map(|scalar| RowView::all(record, scalar).into_iter().map(move |row| (scalar, row)))
+        .collect();
+    for (scalar, row) in rows {
+        let [bad, of] = row.total(|result| Some(&result.total.bad_values)).counts();
+        // Of more than half of them something is wrong with the adapter, not with the arithmetic.
+        if of < bad.saturating_mul(2) {
+            let [bad, of] = [bad, of].map(group_digits);
+            let text = format!(
+                "{} ({}), {scalar}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, \
+                 or with the wrong side (bad-value). Does it write all that it says that it gives?",
+                row.part.kernel, row.part.set
+            );
+            write_wrapped(&text, out)?;
         }
     }
     Ok(())
