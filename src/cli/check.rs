@@ -5,6 +5,7 @@ use super::flags::JUDGING;
 use super::github;
 use super::input::{read_record, read_text};
 use super::output::{write_result, write_results};
+use super::plugins;
 use super::prove::demand;
 use super::reporting::{RunArguments, self_check};
 use super::settings::{self, Given};
@@ -12,7 +13,7 @@ use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
-use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict};
+use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict, number_of};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
@@ -138,6 +139,9 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     for given in &given {
         arguments.set(given)?;
     }
+    if arguments.run.report.quiet {
+        plugins::be_quiet();
+    }
     let is_default_file = arguments.expectations == DEFAULT_FILE;
     if let (true, Some(config)) = (is_default_file, &arguments.config) {
         let beside = Path::new(config).with_file_name(DEFAULT_FILE);
@@ -160,11 +164,14 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
     let may_be_missing = arguments.bless || !is_demanded;
     let lock = arguments.bless.then(|| locked(file));
-    let expected = expect::open(file, may_be_missing, &record, arguments.bless, read_text)?;
+    let expected = expect::open(file, may_be_missing, &record, arguments.bless, read_expected)?;
     let known_file = expected.is_some().then_some(file.as_str());
     let mut expected = expected.unwrap_or_default();
     let (result, target) = (&record.result, record.provenance.target.as_str());
     let mut conformance = expect::compare(result, target, &expected, known_file);
+    if known_file.is_none() && !conformance.unexpected.is_empty() {
+        conformance.note = Some(first_steps(file, conformance.unexpected.len()));
+    }
     if arguments.bless {
         let change = conformance.change;
         if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
@@ -190,6 +197,27 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         Some(Verdict::Stale) => Status::Stale,
         _ => Status::Success,
     })
+}
+
+/// The text of a file of expectations, or of its lock.
+fn read_expected(name: &str) -> Result<String, Failure> {
+    match read_text(name) {
+        Err(Failure::Message(status, message)) if !Path::new(name).exists() => {
+            let message = format!("{message}; with --bless this command writes it");
+            Err(Failure::Message(status, message))
+        }
+        read => read,
+    }
+}
+
+/// What to do as long as there is no file of expectations.
+fn first_steps(file: &str, disagreements: usize) -> String {
+    format!(
+        "the same command with --bless takes the {} below as known: it writes how many are wrong in each family into {file}, \
+         for people to review, and the cases into {}; commit both",
+        number_of(disagreements as u64, "disagreement", "disagreements"),
+        expect::lock_of(file)
+    )
 }
 
 /// A part of a run is written for `merge`, and says nothing about conformance.

@@ -129,6 +129,9 @@ fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) ->
     if let Some(note) = &conformance.note {
         writeln!(f, "{note}")?;
     }
+    for change in &conformance.rows {
+        writeln!(f, "{change}")?;
+    }
     let unexpected = conformance.unexpected.iter().map(|found| ("", found));
     let stale = conformance.stale.iter().map(|found| ("stale: ", found));
     for (what, found) in unexpected.chain(stale).take(SHOWN) {

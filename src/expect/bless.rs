@@ -1,7 +1,8 @@
 //! Writing what a run found as what is expected from now on.
 
-use super::{Amount, Cases, Expectations, Lock, SCHEMA};
-use crate::report::{Conformance, Key, Record, disagreements};
+use super::scene::scene_of;
+use super::{Amount, Expectations, Lock, SCHEMA, Target};
+use crate::report::{Conformance, Key, Record};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -41,31 +42,26 @@ pub fn bless(
         Some(lock) => (BTreeMap::new(), lock.targets),
         None => Default::default(),
     };
+    let now = Target::of(result);
     // What people took out is expected nowhere.
     for target in kept.values_mut() {
-        target.retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
+        let is_planned =
+            |kernel: &String, set: &String| now.rows.contains_key(&[kernel.clone(), set.clone()]);
+        target.rows.retain(|[kernel, set], _| is_planned(kernel, set));
+        target.judged.retain(|[kernel, set, ..], _| is_planned(kernel, set));
+        target.cases.retain(|key, _| old.entries.contains_key(&key.of_all_classes()));
     }
     let mut lock = Lock { cases: cases_of_plan, targets: kept };
-    let cases = disagreements(result).into_iter().map(|found| {
-        let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
-        (found.key, Cases { count, of, digest })
-    });
-    lock.targets.insert(target.clone(), cases.collect());
+    lock.targets.insert(target.clone(), now);
     let dropped = dropped.into_keys().filter(|name| name != target).collect();
-    let sources = record.provenance.plan_flags.as_ref().map(|flags| flags.sources.as_str());
-    Ok(Blessed { file: reviewed(&lock, sources, old, compared), lock: lock.to_string(), dropped })
+    Ok(Blessed { file: reviewed(&lock, record, old, compared), lock: lock.to_string(), dropped })
 }
 
 /// Families, each with its amount, the larger count first.
 type Amounts<'a> = BTreeMap<(Reverse<u64>, &'a str), String>;
 
 /// The file for people: a line for each finding of a kernel row in a scalar, and for each reason.
-fn reviewed(
-    lock: &Lock,
-    sources: Option<&str>,
-    old: &Expectations,
-    compared: &Conformance,
-) -> String {
+fn reviewed(lock: &Lock, record: &Record, old: &Expectations, compared: &Conformance) -> String {
     let mut text = format!(
         "# Known disagreements: what `hairline check` expects beside the default, which is none. The cases are\n\
          # in the .lock file beside this one. `hairline check --bless`, or HAIRLINE_BLESS=1 in a test, writes both,\n\
@@ -75,8 +71,12 @@ fn reviewed(
          schema = \"{SCHEMA}\"\ncases = \"{}\"\n",
         lock.cases
     );
-    if let Some(sources) = sources.filter(|sources| !sources.is_empty()) {
+    let flags = record.provenance.plan_flags.as_ref();
+    if let Some(sources) = flags.map(|flags| &flags.sources).filter(|flags| !flags.is_empty()) {
         let _ = writeln!(text, "sources = {}", quoted(sources));
+    }
+    if let Some(scene) = scene_of(&record.result.plan) {
+        let _ = writeln!(text, "scene = {}", quoted(&scene));
     }
     let exceeded: BTreeSet<Key> = compared.unexpected.iter().map(|found| found.key()).collect();
     let mut most = lock.most();

@@ -2,15 +2,18 @@
 
 use super::changed::{Change, UNSURE, changed_case};
 use super::known::{Found, Known};
-use super::unjudged::not_judged_before;
+use super::order::{Harm, worst_first};
+use super::planned::Planned;
+use super::rows::changed_rows;
+use super::unjudged::{newly_judged_groups, not_judged_before};
 use super::{Amount, Entry, Expectations};
 use crate::audit::{Digest, Interval};
 use crate::judge::Finding;
 use crate::report::{
-    Conformance, Deviation, Example, KernelResult, Key, Method, NetChange, Rate, ResultPart,
-    Verdict, group_digits, rate_of,
+    Conformance, Deviation, Example, Key, Method, NetChange, Rate, ResultPart, Verdict,
+    group_digits, rate_of,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// The probability that at least one of all comparisons by interval reports a difference by chance.
 const ERROR: f64 = 0.05;
@@ -41,6 +44,7 @@ pub fn compare(
         expectations: file.map(str::to_owned),
         note: known.note.clone(),
         change: NetChange::default(),
+        rows: known.target.map_or(Vec::new(), |target| changed_rows(&result.plan, target)),
         unproved: Vec::new(),
         unexpected: Vec::new(),
         stale: Vec::new(),
@@ -50,9 +54,11 @@ pub fn compare(
     };
     let planned = Planned::of(result);
     let newly_judged = |found: &Found| {
-        planned.result(&found.key).filter(|_| same_plan)?;
-        not_judged_before(entries, &all, planned.indices(&found.key), found)
+        let part = planned.result(&found.key).filter(|_| same_plan)?;
+        let groups = newly_judged_groups(known.target, part, &found.key);
+        not_judged_before(entries, &all, (planned.indices(&found.key), groups), found)
     };
+    let mut unexpected = Vec::new();
     for found in &all {
         if !entries.contains_key(&found.key) {
             if judge.is_unexpected(found, entries) {
@@ -62,7 +68,8 @@ pub fn compare(
                     conformance.stale.push(deviation);
                     conformance.change.newly_judged += 1;
                 } else {
-                    conformance.unexpected.push(deviation);
+                    let harm = Harm::of(&found.key.finding, None, &found.rate, same_plan);
+                    unexpected.push((harm, deviation));
                     conformance.change.new += 1;
                 }
             } else {
@@ -112,10 +119,12 @@ pub fn compare(
                     true => &mut conformance.change.other_cases,
                     false => &mut conformance.change.worse,
                 } += 1;
-                conformance.unexpected.push(deviation);
+                let harm = Harm::of(&key.finding, Some(entry), &rate, same_plan);
+                unexpected.push((harm, deviation));
             }
         }
     }
+    conformance.unexpected = worst_first(unexpected);
     conformance.change.better = conformance.stale.len() as u64 - conformance.change.newly_judged;
     conformance.change.unchanged = conformance.known.len() as u64;
     // What is known needs no example: with them a record would be half as large again.
@@ -136,49 +145,6 @@ fn changed(result: &ResultPart, entry: &Entry, found: &Found, change: Change) ->
     let read = |digest: &str| Digest::try_from(digest.to_owned()).ok();
     let (before, now) = (read(expected)?, read(found.digest?)?);
     changed_case(result, &found.key, found.example.as_ref()?, change.of(&before, &now))
-}
-
-/// What the plan holds.
-struct Planned<'a> {
-    results: BTreeMap<[&'a str; 4], &'a KernelResult>,
-    sources: BTreeMap<[&'a str; 2], u64>,
-    kernels: BTreeSet<&'a str>,
-    scalars: BTreeSet<&'a str>,
-    families: BTreeSet<&'a str>,
-}
-
-impl<'a> Planned<'a> {
-    fn of(result: &'a ResultPart) -> Planned<'a> {
-        Planned {
-            results: result.by_place(),
-            sources: result
-                .sources
-                .iter()
-                .map(|source| ([source.scalar.as_str(), &source.family], source.indices))
-                .collect(),
-            kernels: result.plan.rows.iter().map(|row| row.kernel.as_str()).collect(),
-            scalars: result.plan.scalars.iter().map(String::as_str).collect(),
-            families: result.plan.sources.iter().map(|source| source.family.as_str()).collect(),
-        }
-    }
-
-    fn result(&self, key: &Key) -> Option<&'a KernelResult> {
-        self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
-    }
-
-    /// How many indices a key's source has.
-    fn indices(&self, key: &Key) -> u64 {
-        let source = [key.scalar.as_str(), &key.family];
-        self.sources.get(&source).copied().unwrap_or_default()
-    }
-
-    /// Whether the plan leaves out the kernel, the scalar or the family: then the expectation is about
-    /// something else. A kernel that runs with other epsilons only is another matter.
-    fn leaves_out(&self, key: &Key) -> bool {
-        !self.kernels.contains(key.kernel.as_str())
-            || !self.scalars.contains(key.scalar.as_str())
-            || !self.families.contains(key.family.as_str())
-    }
 }
 
 enum Outcome {

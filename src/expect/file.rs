@@ -22,6 +22,7 @@ struct FileText {
     #[serde(default)]
     cases: String,
     sources: Option<String>,
+    scene: Option<String>,
     #[serde(default)]
     known: Vec<RowText>,
 }
@@ -83,7 +84,8 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
             }
         }
     }
-    Ok(Expectations { cases: parsed.cases, sources: parsed.sources, entries, lock: None })
+    let FileText { cases, sources, scene, .. } = parsed;
+    Ok(Expectations { cases, sources, scene, entries, lock: None })
 }
 
 struct Reader<'a> {

@@ -38,6 +38,7 @@ pub fn open<E: From<InputError>>(
     if !blessing {
         expectations.agree(file)?;
         expectations.are_about(record, file)?;
+        expectations.are_of_the_scene(record, file)?;
     }
     Ok(Some(expectations))
 }

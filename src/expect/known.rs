@@ -1,14 +1,16 @@
 //! What is known of a run on a target: of each class where the lock file has the cases, otherwise of all
 //! classes of a family together.
 
-use super::{Amount, Entry, Expectations, Lock};
+use super::{Amount, Entry, Expectations, Lock, Target};
 use crate::report::{Disagreement, Example, Key, Rate, ResultPart, disagreements, rate_of};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What is expected of a run.
-pub(super) struct Known {
+pub(super) struct Known<'a> {
     /// By class, or of all classes together.
     pub entries: BTreeMap<Key, Entry>,
+    /// What the lock file has of the target.
+    pub target: Option<&'a Target>,
     /// What people should know of the comparison, in one line.
     pub note: Option<String>,
 }
@@ -25,13 +27,19 @@ pub(super) struct Found<'a> {
     pub example: Option<Example>,
 }
 
-impl Known {
+impl Known<'_> {
     /// Of a run on a target, on the cases of the expectations or on others; `file` is their name.
-    pub fn of(expectations: &Expectations, same_plan: bool, target: &str, file: &str) -> Known {
+    pub fn of<'a>(
+        expectations: &'a Expectations,
+        same_plan: bool,
+        target: &str,
+        file: &str,
+    ) -> Known<'a> {
         // A lock of other cases says nothing of those of the file and the run.
         let is_of_others = |lock: &&Lock| same_plan && lock.cases != expectations.cases;
         let lock = expectations.lock.as_ref().filter(|lock| !is_of_others(lock));
-        let cases = lock.and_then(|lock| lock.targets.get(target));
+        let known = lock.and_then(|lock| lock.targets.get(target));
+        let cases = known.map(|known| &known.cases);
         let is_rate = |entry: &Entry| matches!(entry.amount, Amount::Rate(_));
         let without_cases = |entry: &&Entry| is_rate(entry) || (cases.is_none() && same_plan);
         let mut entries: BTreeMap<Key, Entry> = expectations
@@ -62,7 +70,7 @@ impl Known {
                 "{lacking}, and the counts of {file} are of other cases: they are not used"
             )),
         };
-        Known { entries, note }
+        Known { entries, target: known, note }
     }
 
     /// What a run found, of each class, or of all together where the expectation is.

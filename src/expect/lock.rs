@@ -1,10 +1,10 @@
-//! The lock file: for each target the cases behind the counts, one line a class, so that a difference of two
-//! versions shows what changed.
+//! The lock file: for each target the rows that ran, and the cases behind the counts, one line a class, so that a
+//! difference of two versions shows what changed.
 
 use super::{Amount, Expectations};
 use crate::audit::Digest;
 use crate::corpus::InputError;
-use crate::report::Key;
+use crate::report::{KernelResult, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
@@ -19,8 +19,64 @@ const WRITER: &str = "`hairline check --bless`, or HAIRLINE_BLESS=1 in a test, w
 pub struct Lock {
     /// The hash of what chooses the cases, which are the same on all targets.
     pub cases: String,
-    /// By target, as a record's provenance names it, and by class of finding.
-    pub targets: BTreeMap<String, BTreeMap<Key, Cases>>,
+    /// By target, as a record's provenance names it.
+    pub targets: BTreeMap<String, Target>,
+}
+
+/// What a run on a target found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Target {
+    /// How its rows were set, by kernel and by what their epsilons are called.
+    pub rows: BTreeMap<[String; 2], Settings>,
+    /// How many crossings and folds of groups were judged, where a kernel failed on some triangles: by kernel,
+    /// epsilons, scalar and family.
+    pub judged: BTreeMap<[String; 4], [u64; 2]>,
+    /// The cases, by class of finding.
+    pub cases: BTreeMap<Key, Cases>,
+}
+
+/// What a row was set to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// As `--epsilon` takes them.
+    pub epsilons: String,
+    /// The contract in words, its band included.
+    pub contract: String,
+}
+
+impl Settings {
+    /// Those of a row.
+    pub fn of(row: &RowPart) -> Settings {
+        let words = row.epsilons.iter().map(|(name, value)| format!("{name}={value}"));
+        Settings { epsilons: words.collect::<Vec<_>>().join(","), contract: row.contract.clone() }
+    }
+}
+
+impl Target {
+    /// What a run found.
+    pub fn of(result: &ResultPart) -> Target {
+        let rows = result.plan.rows.iter();
+        let failed_on_some = |part: &&KernelResult| {
+            let total = &part.total;
+            [&total.panics, &total.crashes, &total.timeouts].into_iter().any(|count| 0 < *count)
+        };
+        let judged = result.results.iter().filter(failed_on_some).filter_map(|part| {
+            let across = part.across.as_ref()?;
+            let place = [&part.kernel, &part.set, &part.scalar, &part.family].map(Clone::clone);
+            Some((place, [across.cracks.of, across.odd_folds.of]))
+        });
+        let cases = disagreements(result).into_iter().map(|found| {
+            let (count, of, digest) = (found.rate.count, found.rate.of, found.digest.to_owned());
+            (found.key, Cases { count, of, digest })
+        });
+        Target {
+            rows: rows
+                .map(|row| ([row.kernel.clone(), row.set.clone()], Settings::of(row)))
+                .collect(),
+            judged: judged.collect(),
+            cases: cases.collect(),
+        }
+    }
 }
 
 /// The cases of one class that show a finding.
@@ -63,9 +119,8 @@ impl Lock {
                 let section = section
                     .as_mut()
                     .ok_or_else(|| wrong("a target, as [x86_64-linux]".to_owned()))?;
-                let (key, cases) = entry(line).map_err(wrong)?;
-                if section.insert(key, cases).is_some() {
-                    return Err(wrong("each class of a finding once".to_owned()));
+                if section.take(line).map_err(wrong)? {
+                    return Err(wrong("each row, and each class of a finding, once".to_owned()));
                 }
             }
         }
@@ -77,7 +132,7 @@ impl Lock {
         let mut most: BTreeMap<Key, u64> = BTreeMap::new();
         for target in self.targets.values() {
             let mut sums: BTreeMap<Key, u64> = BTreeMap::new();
-            for (key, cases) in target {
+            for (key, cases) in &target.cases {
                 let sum = sums.entry(key.of_all_classes()).or_default();
                 *sum = sum.saturating_add(cases.count);
             }
@@ -90,32 +145,58 @@ impl Lock {
     }
 }
 
-fn entry(line: &str) -> Result<(Key, Cases), String> {
-    let shape = || {
-        "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest"
-            .to_owned()
-    };
-    let [kernel, set, scalar, family, class, finding, count, of, digest] =
-        line.split('\t').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
-    let [kernel, set, scalar, family, class, finding] =
-        [kernel, set, scalar, family, class, finding].map(str::to_owned);
-    let number = |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
-    let (count, of) = (number(count)?, number(of)?);
-    if count == 0 || of < count {
-        return Err(format!("a count from 1 to {of}, not {count}"));
+impl Target {
+    /// Takes a line; whether there was one of the same. An error says what was expected.
+    fn take(&mut self, line: &str) -> Result<bool, String> {
+        let words: Vec<String> = line.split('\t').map(str::to_owned).collect();
+        let number =
+            |text: &str| text.parse::<u64>().map_err(|_| format!("a number, not '{text}'"));
+        let words = match <[String; 4]>::try_from(words) {
+            Ok([kernel, set, epsilons, contract]) => {
+                let settings = Settings { epsilons, contract };
+                return Ok(self.rows.insert([kernel, set], settings).is_some());
+            }
+            Err(words) => words,
+        };
+        let words = match <[String; 6]>::try_from(words) {
+            Ok([kernel, set, scalar, family, crossings, folds]) => {
+                let judged = [number(&crossings)?, number(&folds)?];
+                return Ok(self.judged.insert([kernel, set, scalar, family], judged).is_some());
+            }
+            Err(words) => words,
+        };
+        let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
+            <[String; 9]>::try_from(words)
+        else {
+            let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest";
+            return Err(shape.to_owned());
+        };
+        let (count, of) = (number(&count)?, number(&of)?);
+        if count == 0 || of < count {
+            return Err(format!("a count from 1 to {of}, not {count}"));
+        }
+        Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
+        let key = Key { kernel, set, scalar, family, class, finding };
+        Ok(self.cases.insert(key, Cases { count, of, digest }).is_some())
     }
-    let digest = digest.to_owned();
-    Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
-    Ok((Key { kernel, set, scalar, family, class, finding }, Cases { count, of, digest }))
 }
 
 impl fmt::Display for Lock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "# The cases behind the counts, one line a class. {WRITER}.")?;
+        writeln!(
+            f,
+            "# The rows that ran, and the cases behind the counts, one line a class. {WRITER}."
+        )?;
         writeln!(f, "{SCHEMA} cases {}", self.cases)?;
         for (target, entries) in &self.targets {
             writeln!(f, "[{target}]")?;
-            for (Key { kernel, set, scalar, family, class, finding }, cases) in entries {
+            for ([kernel, set], Settings { epsilons, contract }) in &entries.rows {
+                writeln!(f, "{kernel}\t{set}\t{epsilons}\t{contract}")?;
+            }
+            for (place, [crossings, folds]) in &entries.judged {
+                writeln!(f, "{}\t{crossings}\t{folds}", place.join("\t"))?;
+            }
+            for (Key { kernel, set, scalar, family, class, finding }, cases) in &entries.cases {
                 let Cases { count, of, digest } = cases;
                 writeln!(
                     f,
@@ -172,6 +253,8 @@ impl Expectations {
 mod tests {
     use super::*;
 
+    const ROW: &str = "cramer\tsource\tparallel=1e-7\tray, closed";
+    const JUDGED: &str = "cramer\tsource\tf32\tfan\t90\t3";
     const LINE: &str = "cramer\tsource\tf32\ttiny\tparallel\tfalse-hit\t3\t9\t0a:";
 
     fn file(lines: &str) -> String {
@@ -181,7 +264,7 @@ mod tests {
     #[test]
     fn what_is_written_is_read_and_the_target_with_the_most_counts() {
         let more = LINE.replace("parallel", "coplanar");
-        let text = file(&format!("{LINE}\n{more}"))
+        let text = file(&format!("{ROW}\n{JUDGED}\n{LINE}\n{more}"))
             + "[vax-vms]\n"
             + &LINE.replace("\t3\t", "\t5\t")
             + "\n";
@@ -190,6 +273,9 @@ mod tests {
             lock.most().into_iter().map(|(key, n)| (key.to_string(), n)).collect();
         assert_eq!(most, [("cramer (source) f32 tiny: false-hit of any class".to_owned(), 6)]);
         assert_eq!(Lock::read(&lock.to_string(), "e.lock").unwrap().targets, lock.targets);
+        let target = &lock.targets["pdp11-unix"];
+        assert_eq!(target.rows.values().next().unwrap().epsilons, "parallel=1e-7");
+        assert_eq!(target.judged.values().next(), Some(&[90, 3]));
     }
 
     #[test]
@@ -206,7 +292,14 @@ mod tests {
             ("\t3\t", "\t0\t", "e.lock:4: expected a count from 1 to 9, not 0; "),
             ("\t3\t", "\t10\t", "e.lock:4: expected a count from 1 to 9, not 10; "),
             ("0a:", "0a", "e.lock:4: expected the digest of a set of cases; "),
-            (LINE, &format!("{LINE}\n{LINE}"), "e.lock:5: expected each class of a finding once; "),
+            (LINE, &ROW.replace("\tray", " ray"), "e.lock:4: expected 9 words between tabs: "),
+            (LINE, &JUDGED.replace("90", "ninety"), "e.lock:4: expected a number, not 'ninety'; "),
+            (LINE, &format!("{ROW}\n{ROW}"), "e.lock:5: expected each row, and each class of a "),
+            (
+                LINE,
+                &format!("{LINE}\n{LINE}"),
+                "e.lock:5: expected each row, and each class of a finding, once; ",
+            ),
         ] {
             let error =
                 Lock::read(&file(LINE).replace(from, to), "e.lock").unwrap_err().to_string();

@@ -16,6 +16,10 @@ mod file;
 mod files;
 mod known;
 mod lock;
+mod order;
+mod planned;
+mod rows;
+mod scene;
 mod unjudged;
 
 pub use bless::{Blessed, Unblessable, bless};
@@ -23,7 +27,7 @@ pub use compare::compare;
 pub use difference::{Comparison, Difference, Trend, difference};
 pub use file::read;
 pub use files::{BlessError, Written, blessed, lock_of, open};
-pub use lock::{Cases, Lock};
+pub use lock::{Cases, Lock, Settings, Target};
 
 use crate::report::Key;
 use std::collections::BTreeMap;
@@ -38,6 +42,8 @@ pub struct Expectations {
     pub cases: String,
     /// The flags that choose these cases, where a command line wrote the file.
     pub sources: Option<String>,
+    /// The numbers of the scene that these cases come from, as case ids have them.
+    pub scene: Option<String>,
     /// The expectation for each finding on a family, of all classes together. Every other finding is
     /// expected not to occur.
     pub entries: BTreeMap<Key, Entry>,

@@ -1,9 +1,9 @@
 //! Cases that a crash kept from being judged: what a kernel does wrong on them once it is repaired is no regression.
 
 use super::known::Found;
-use super::{Amount, Entry};
+use super::{Amount, Entry, Target};
 use crate::audit::Digest;
-use crate::report::Key;
+use crate::report::{KernelResult, Key};
 use std::collections::BTreeMap;
 
 /// Findings by which a case gets no verdict, and what the kernel did.
@@ -34,16 +34,40 @@ fn had(entries: &BTreeMap<Key, Entry>, key: &Key) -> Option<u64> {
     }
 }
 
+/// Whether a finding is on crossings (0) or folds (1) of groups, whatever class it is counted in.
+fn of_groups(finding: &str) -> Option<usize> {
+    match finding {
+        "crack" | "double" => Some(0),
+        "odd-fold" => Some(1),
+        _ => None,
+    }
+}
+
+/// How many more crossings, or folds, are judged than before, where the kernel failed on some triangles then; none
+/// for findings that are not on groups, and where it is not known.
+pub(super) fn newly_judged_groups(
+    known: Option<&Target>,
+    part: &KernelResult,
+    key: &Key,
+) -> Option<u64> {
+    let Key { kernel, set, scalar, family, .. } = key.clone();
+    let kind = of_groups(&key.finding)?;
+    let (before, across) =
+        (known?.judged.get(&[kernel, set, scalar, family])?, part.across.as_ref()?);
+    Some([across.cracks.of, across.odd_folds.of][kind].saturating_sub(before[kind]))
+}
+
 /// What is said of a class if all of its cases that are too many may be such that were not judged before; none
 /// if some are known to be others. Of the same cases only.
 ///
-/// They may be if no more of the class came in, its findings together, than failures of all kinds went. The digests
+/// They may be if no more of the class came in, its findings together, than failures of all kinds went. Several
+/// failures in one group hid one group, so of groups it is `groups` that counts: how many more are judged. The digests
 /// tell some cases of a difference: one that did not fail before is a regression, and so is a change of cases that
 /// were judged.
 pub(super) fn not_judged_before(
     entries: &BTreeMap<Key, Entry>,
     all: &[Found],
-    indices: u64,
+    (indices, groups): (u64, Option<u64>),
     found: &Found,
 ) -> Option<String> {
     let key = &found.key;
@@ -51,8 +75,10 @@ pub(super) fn not_judged_before(
         return None;
     }
     let more = found.rate.count.checked_sub(had(entries, key)?).filter(|more| 0 < *more)?;
+    let kind = of_groups(&key.finding);
     let is_beside = |other: &&Found| {
         verb(&other.key.finding).is_none()
+            && of_groups(&other.key.finding) == kind
             && Key { finding: key.finding.clone(), ..other.key.clone() } == *key
     };
     let more_than =
@@ -64,6 +90,10 @@ pub(super) fn not_judged_before(
         entries.iter().filter(|(other, _)| keeps(other, key)).collect();
     let failed_before: u64 = failed.iter().filter_map(|(other, _)| had(entries, other)).sum();
     let repaired = failed_before.saturating_sub(failing);
+    let repaired = match kind {
+        Some(_) => repaired.min(groups?),
+        None => repaired,
+    };
     let (first, _) = failed.first().filter(|_| of_class <= repaired)?;
     let did = verb(&first.finding)?;
     let digest = |text: &str| Digest::try_from(text.to_owned()).ok();
@@ -75,7 +105,7 @@ pub(super) fn not_judged_before(
         None => Some(Digest::default()),
         Some(entry) => of_entry(entry),
     };
-    let is_of_triangles = !matches!(key.class.as_str(), "group" | "polygon");
+    let is_of_triangles = kind.is_none() && key.class != "polygon";
     if let (true, Some(before), Some(now)) =
         (is_of_triangles, before, found.digest.and_then(digest))
     {
@@ -116,6 +146,15 @@ mod tests {
 
     /// Whether the first of the findings of now is excused, by those of before: class, finding, cases.
     fn is_excused(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> bool {
+        with_groups(None, before, now)
+    }
+
+    /// The same, where so many more groups are judged than before.
+    fn with_groups(
+        groups: Option<u64>,
+        before: &[(&str, &str, &[u64])],
+        now: &[(&str, &str, &[u64])],
+    ) -> bool {
         let entry = |cases: &[u64]| Entry {
             line: 1,
             amount: Amount::Count { count: cases.len() as u64, cases: Some((100, written(cases))) },
@@ -136,7 +175,7 @@ mod tests {
                 example: None,
             })
             .collect();
-        not_judged_before(&entries.collect(), &all, 1000, &all[0]).is_some()
+        not_judged_before(&entries.collect(), &all, (1000, groups), &all[0]).is_some()
     }
 
     #[test]
@@ -167,10 +206,26 @@ mod tests {
     #[test]
     fn groups_wait_for_their_triangles_and_polygons_for_themselves() {
         let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10]);
-        assert!(is_excused(&[crashed], &[("group", "crack", &[10])]));
+        assert!(with_groups(Some(1), &[crashed], &[("group", "crack", &[10])]));
         assert!(!is_excused(&[crashed], &[("polygon", "polygon-false-miss", &[10])]));
         let polygon: (&str, &str, &[u64]) = ("polygon", "crash", &[10]);
         assert!(is_excused(&[polygon], &[("polygon", "polygon-false-miss", &[10])]));
-        assert!(!is_excused(&[polygon], &[("group", "crack", &[10])]));
+        assert!(!with_groups(Some(1), &[polygon], &[("group", "crack", &[10])]));
+    }
+
+    #[test]
+    fn several_failures_in_one_group_hid_one_group() {
+        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 11, 12, 13]);
+        fn of_groups<'a>(finding: &'a str, cases: &'a [u64]) -> (&'a str, &'a str, &'a [u64]) {
+            ("group", finding, cases)
+        }
+        let two = of_groups("crack", &[10, 20]);
+        assert!(with_groups(Some(2), &[crashed], &[two]));
+        assert!(!with_groups(Some(2), &[crashed], &[of_groups("crack", &[10, 20, 30])]));
+        // A fold is another kind of group; a crossing is cracked or doubled.
+        assert!(!with_groups(Some(2), &[crashed], &[two, of_groups("double", &[30])]));
+        assert!(with_groups(Some(2), &[crashed], &[two, of_groups("odd-fold", &[40])]));
+        // Nobody knows how many were judged before.
+        assert!(!with_groups(None, &[crashed], &[of_groups("crack", &[10])]));
     }
 }

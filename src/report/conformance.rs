@@ -22,6 +22,9 @@ pub struct Conformance {
     /// What changed.
     #[serde(default)]
     pub change: NetChange,
+    /// Kernel rows that are set to something else than what the expectations are of.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rows: Vec<RowChange>,
     /// Proofs that `[proved]` demands and that there are none of.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unproved: Vec<Unproved>,
@@ -87,6 +90,41 @@ impl fmt::Display for NetChange {
         }
         write!(f, "{unchanged} unchanged")
     }
+}
+
+/// A setting of a kernel row that is not what the expectations are of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RowChange {
+    /// `kernel (epsilons)`.
+    pub row: String,
+    /// `epsilon NAME`, `epsilons` if they have another name, or `contract`, its band included.
+    pub what: String,
+    /// As it was.
+    pub before: String,
+    /// As it is.
+    pub now: String,
+}
+
+impl fmt::Display for RowChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let RowChange { row, what, before, now } = self;
+        let is = if what == "epsilons" { "are" } else { "is" };
+        let apart = [apart(now, before, ", "), apart(before, now, ", ")];
+        let [now, before] = apart.map(|words| match words {
+            words if words.is_empty() => "nothing of it".to_owned(),
+            words => words,
+        });
+        write!(f, "{row}: its {what} {is} now {now}; blessed with {before}")
+    }
+}
+
+/// The parts of a list that another list does not have.
+pub(crate) fn apart(list: &str, other: &str, between: &str) -> String {
+    let others: Vec<&str> = other.split(between).collect();
+    let parts = list.split(between).filter(|part| !others.contains(part));
+    parts.collect::<Vec<_>>().join(between)
 }
 
 /// How counts are compared with expectations.

@@ -62,6 +62,9 @@ fn conformance_part(conformance: &Conformance, text: &mut String) {
     if let Some(note) = &conformance.note {
         text.push_str(&format!("\n{}\n", cell(note)));
     }
+    for change in &conformance.rows {
+        text.push_str(&format!("\n{}\n", cell(&change.to_string())));
+    }
     if !conformance.unproved.is_empty() {
         text.push_str("\n### Proofs missing\n\n");
     }

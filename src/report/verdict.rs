@@ -26,6 +26,9 @@ pub(super) fn write(
     if let Some(note) = &conformance.note {
         writeln!(out, "{note}")?;
     }
+    for change in &conformance.rows {
+        writeln!(out, "{change}")?;
+    }
     if 0 < conformance.too_rare_to_tell {
         writeln!(
             out,

@@ -197,6 +197,8 @@ fn a_year_of_a_kernel_in_c() {
     assert!(ran.text.contains("; the case shown is new\n    hairline explain '"), "{}", ran.text);
     assert_eq!(witnesses(&folder, &ran, "first", "worse"), ran.unexpected().len());
     assert!(!ran.text.contains("may have failed before"), "{}", ran.text);
+    let set = "\nmine (own): its epsilon parallel is now 1e-5; blessed with 1e-7\n";
+    assert!(ran.text.contains(set), "{}", ran.text);
 
     // Its record, which CI keeps, is judged in the same way on a machine without the library.
     fs::rename(folder.join("hairline.toml"), folder.join("kept.toml")).unwrap();
@@ -248,6 +250,59 @@ fn what_a_crash_kept_from_being_judged_is_no_regression_once_it_is_repaired() {
         "{error}"
     );
     ends(&folder, &["check", "--quiet"], 0);
+}
+
+#[test]
+fn what_crashed_on_all_triangles_of_a_group_hid_one_group() {
+    let folder = scratch("repaired-groups");
+    let settings = "kernel-lib = \"libmine.so\"\nscalar = \"f32\"\ncount = 1_000\nfamily = \"fan\"\n\
+                    contract = \"own,across=at-least-one\"\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    if !build(&folder, "crash", &["-ffp-contract=off", "-DCRASH_BELOW=4"]) {
+        return;
+    }
+    ends(&folder, &["check", "--bless", "--quiet"], 0);
+    let cracks = |below: &str, code: i32| {
+        build(&folder, "repaired", &["-ffp-contract=off", &format!("-DMISS_BELOW={below}")]);
+        let (out, _) = ends(&folder, &["check", "--quiet"], code);
+        let line = out.lines().find(|line| line.contains("fan: crack of group: ")).expect(&out);
+        line.split_once(" of 1,000, expected ").unwrap().1.to_owned()
+    };
+    // The groups on which it crashed, and four others; it crashed on six times as many triangles.
+    assert_eq!(cracks("4", 3), "none; 11 more, among 11 not judged before: the kernel crashed");
+    assert_eq!(cracks("4.5", 1), "none");
+}
+
+#[test]
+fn the_worst_is_told_first() {
+    let folder = scratch("worst-first");
+    let settings = "kernel-lib = \"libmine.so\"\nscalar = \"f32\"\ncount = 2_000\n\
+                    family = [\"edge-near\", \"interior\", \"tiny\"]\n";
+    fs::write(folder.join("hairline.toml"), settings).unwrap();
+    if !build(&folder, "first", &["-ffp-contract=off"]) {
+        return;
+    }
+    let found = |code: i32| {
+        let words = ["check", "-q", "--format", "json"];
+        let record: Value = serde_json::from_str(&ends(&folder, &words, code).0).unwrap();
+        let unexpected = record["conformance"]["unexpected"].as_array().unwrap().clone();
+        let list = unexpected.iter().map(|found| {
+            let count = found["found"]["count"].as_u64().unwrap();
+            let expected = found["expected"].as_str().unwrap().split(' ').next().unwrap();
+            let more = count - expected.replace(',', "").parse::<u64>().unwrap_or(0);
+            (found["finding"].as_str().unwrap() == "crash", more)
+        });
+        list.collect::<Vec<_>>()
+    };
+    ends(&folder, &["check", "--bless", "--quiet"], 0);
+    build(&folder, "worse", &["-ffp-contract=off", "-DCRASH", "-DEPSILON=\"0.5\""]);
+    // A crash weighs more than any number of wrong verdicts.
+    let mut list = found(1);
+    list.reverse();
+    assert!(list.is_sorted(), "{list:?}");
+    let crashes = list.iter().filter(|(is_crash, _)| *is_crash).count();
+    assert!(1 < crashes && crashes + 1 < list.len(), "{list:?}");
+    assert!(list[crashes..].iter().any(|(_, more)| list[0].1 < *more), "{list:?}");
 }
 
 #[test]

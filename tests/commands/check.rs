@@ -85,6 +85,10 @@ fn without_expectations_every_disagreement_fails_and_names_its_case_and_command(
     let (out, _) = ends(&folder, &["check", "--quiet"], 1);
     for expected in [
         "nothing is expected: there is no file of expectations",
+        "the same command with --bless takes the ",
+        " disagreements below as known: it writes how many are wrong in each family into \
+         hairline.expectations.toml, for people to review, and the cases into \
+         hairline.expectations.toml.lock; commit both\n",
         "moller-trumbore (source) f32 tiny: false-miss of interior/front/within: ",
         ", expected none\n    hairline explain 'tiny@1/f32/-/1/",
         "\n    o=",
@@ -108,6 +112,9 @@ fn a_blessed_run_conforms_and_blessing_again_changes_nothing() {
     // A line for each finding in one file, a line for each class in the other, in order.
     assert_eq!(first[0].matches("scalar = ").count(), 4, "{}", first[0]);
     let lines: Vec<&str> = first[1].lines().skip(3).collect();
+    let (rows, lines) = lines.split_at(2);
+    let row = "moller-trumbore\tsource\tedge=0,parallel=1e-6\tline, both sides, closed, ";
+    assert!(rows[0].starts_with(row) && rows[1].starts_with("woop-watertight\t"), "{rows:?}");
     assert!(10 < lines.len() && lines.is_sorted() && lines.iter().all(|l| l.contains("\tf32\t")));
 }
 
@@ -156,7 +163,7 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
     edit_file(&folder, LOCK, |text| text.replacen("\tf32\t", " f32 ", 1));
     let (_, error) = ends(&folder, &["check", "--quiet"], 65);
     assert!(
-        error.starts_with(&format!("hairline: {LOCK}:4: expected 9 words between tabs: ")),
+        error.starts_with(&format!("hairline: {LOCK}:6: expected 9 words between tabs: ")),
         "{error}"
     );
     assert!(
@@ -640,7 +647,8 @@ fn the_other_exit_codes_come_from_real_commands() {
         ["check", "-q", "--config", "none.toml", "--corpus", "c.jsonl", "--scalar", "f64"];
     fs::write(folder.join("none.toml"), "").unwrap();
     ends(&folder, &nothing, 4);
-    ends(&folder, &["check", "-q", "--expectations", "missing.toml"], 74);
+    let error = ends(&folder, &["check", "-q", "--expectations", "missing.toml"], 74).1;
+    assert!(error.ends_with("; with --bless this command writes it\n"), "{error}");
     ends(&folder, &["check", "-q", "--config", "missing.toml"], 74);
     ends(&folder, &["check", "-q", "-o", "no/such/folder.txt"], 74);
     ends(&folder, &["check", "-q", "--format", "json", "-o", "r.json"], 0);
@@ -808,4 +816,71 @@ fn of_two_programs_that_bless_at_once_one_waits() {
     drop(lock);
     assert_eq!(blesses.wait().unwrap().code(), Some(0));
     assert!(folder.join(FILE).exists() && folder.join(LOCK).exists());
+}
+
+#[test]
+fn another_scene_is_one_error_with_the_numbers_that_changed() {
+    let folder = scratch("check-other-scene");
+    let settings = "kernel = \"moller-trumbore\"\nscalar = \"f32\"\ncount = 300\n";
+    let with = |scene: &str| {
+        fs::write(folder.join("hairline.toml"), format!("{settings}scene = \"{scene}\"\n"))
+            .unwrap();
+    };
+    with("extent=5,edge=0.01..3,distance=0..10");
+    ends(&folder, &["check", "-q", "--bless"], 0);
+    // The same numbers by name, and other cases of the scene.
+    with("room");
+    ends(&folder, &["check", "-q"], 0);
+    ends(&folder, &["check", "-q", "--seed", "2", "-n", "200"], 0);
+    with("extent=5,edge=0.002..3,distance=0..40");
+    let (out, error) = ends(&folder, &["check", "-q"], 65);
+    assert_eq!(
+        (out.as_str(), error.as_str()),
+        (
+            "",
+            "hairline: hairline.expectations.toml: its cases are of a scene with edge=0.01..3,distance=0..10, and \
+             this run's scene has edge=0.002..3,distance=0..40: how many are wrong in one says nothing about the \
+             other; give that scene, or let `hairline check --bless --accept-worse` write what is wrong in this \
+             one\n"
+        )
+    );
+    ends(&folder, &["check", "-q", "--bless", "--accept-worse"], 0);
+    ends(&folder, &["check", "-q"], 0);
+}
+
+/// The lines before the first list.
+fn head(out: &str) -> &str {
+    out.split("\n\n").next().unwrap()
+}
+
+#[test]
+fn what_a_row_is_set_to_since_it_was_blessed_is_told() {
+    let folder = scratch("check-row-changes");
+    let with = |settings: &str| {
+        let text =
+            format!("family = [\"edge-near\", \"fan\"]\nscalar = \"f32\"\ncount = 500\n{settings}");
+        fs::write(folder.join("hairline.toml"), text).unwrap();
+    };
+    let kernels = "kernel = [\"moller-trumbore\", \"woop-watertight\"]\n";
+    with(kernels);
+    ends(&folder, &["check", "-q", "--bless"], 0);
+    assert!(!ends(&folder, &["check", "-q"], 0).0.contains("blessed with"));
+    // Kernels that are fewer are no other kernels.
+    with("kernel = \"woop-watertight\"\n");
+    assert!(!ends(&folder, &["check", "-q"], 0).0.contains("blessed with"));
+    with(&format!("{kernels}band = \"4ulps\"\n"));
+    let out = ends(&folder, &["check", "-q"], 3).0;
+    let line = "\nwoop-watertight (source): its contract is now free within 4ulps of the boundary; blessed with \
+                nothing of it";
+    assert!(head(&out).ends_with(line), "{out}");
+    assert_eq!(head(&out).matches("blessed with").count(), 2, "{out}");
+    with(&format!("{kernels}contract = \"own,boundary=open\"\n"));
+    let out = hairline_with(&folder, &["check", "-q"], &[]).stdout;
+    let line = "\nmoller-trumbore (source): its contract is now open; blessed with closed\n";
+    assert!(String::from_utf8_lossy(&out).contains(line));
+    with("kernel = \"moller-trumbore\"\nepsilon = \"parallel=1e-3,edge=0\"\n");
+    let out = ends(&folder, &["check", "-q"], 1).0;
+    let line = "moller-trumbore (parallel=1e-3,edge=0): its epsilons are now edge=0,parallel=1e-3; blessed with \
+                edge=0,parallel=1e-6";
+    assert!(head(&out).contains(line), "{out}");
 }

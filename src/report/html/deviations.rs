@@ -50,6 +50,7 @@ fn how(conformance: &Conformance) -> Markup {
             }
         }
         @if let Some(note) = &conformance.note { " " (note) "." }
+        @for change in &conformance.rows { " " (change) "." }
         @if 0 < conformance.too_rare_to_tell {
             " " (group_digits(conformance.too_rare_to_tell))
             " classes of disagreement have no entry and are too rare to tell from none."

@@ -1,8 +1,8 @@
 use super::*;
 use crate::report::record::*;
 use crate::report::{
-    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, Unproved,
-    Verdict,
+    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, RowChange,
+    Unproved, Verdict,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -124,6 +124,12 @@ fn conformance(deviations: Vec<Deviation>) -> Conformance {
         expectations: Some(HOSTILE.to_owned()),
         note: Some(HOSTILE.to_owned()),
         change: NetChange::default(),
+        rows: vec![RowChange {
+            row: HOSTILE.to_owned(),
+            what: HOSTILE.to_owned(),
+            before: HOSTILE.to_owned(),
+            now: HOSTILE.to_owned(),
+        }],
         unproved: vec![Unproved {
             kernel: HOSTILE.to_owned(),
             scalar: HOSTILE.to_owned(),

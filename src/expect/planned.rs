@@ -1,0 +1,47 @@
+//! What a plan holds, by the names of expectations.
+
+use crate::report::{KernelResult, Key, ResultPart};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the plan holds.
+pub(super) struct Planned<'a> {
+    results: BTreeMap<[&'a str; 4], &'a KernelResult>,
+    sources: BTreeMap<[&'a str; 2], u64>,
+    kernels: BTreeSet<&'a str>,
+    scalars: BTreeSet<&'a str>,
+    families: BTreeSet<&'a str>,
+}
+
+impl<'a> Planned<'a> {
+    pub fn of(result: &'a ResultPart) -> Planned<'a> {
+        Planned {
+            results: result.by_place(),
+            sources: result
+                .sources
+                .iter()
+                .map(|source| ([source.scalar.as_str(), &source.family], source.indices))
+                .collect(),
+            kernels: result.plan.rows.iter().map(|row| row.kernel.as_str()).collect(),
+            scalars: result.plan.scalars.iter().map(String::as_str).collect(),
+            families: result.plan.sources.iter().map(|source| source.family.as_str()).collect(),
+        }
+    }
+
+    pub fn result(&self, key: &Key) -> Option<&'a KernelResult> {
+        self.results.get(&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]).copied()
+    }
+
+    /// How many indices a key's source has.
+    pub fn indices(&self, key: &Key) -> u64 {
+        let source = [key.scalar.as_str(), &key.family];
+        self.sources.get(&source).copied().unwrap_or_default()
+    }
+
+    /// Whether the plan leaves out the kernel, the scalar or the family: then the expectation is about
+    /// something else. A kernel that runs with other epsilons only is another matter.
+    pub fn leaves_out(&self, key: &Key) -> bool {
+        !self.kernels.contains(key.kernel.as_str())
+            || !self.scalars.contains(key.scalar.as_str())
+            || !self.families.contains(key.family.as_str())
+    }
+}
