@@ -29,6 +29,9 @@ pub struct Module {
     pub group: String,
     /// Files, or folders with a slash at the end.
     pub files: Vec<String>,
+    /// The share of its mutants that may live.
+    #[serde(default)]
+    pub may_live: f64,
 }
 
 impl Module {

@@ -7,7 +7,7 @@ use crate::results::Results;
 /// A line a module, and all together.
 pub fn table(config: &Config, results: &Results, chosen: &[&Mutant], refused: usize) -> String {
     let programs: Vec<&str> = config.programs.iter().map(|program| program.name.as_str()).collect();
-    let others = ["equivalent", "not reached", "lived", "left over"];
+    let others = ["equivalent", "not reached", "lived", "left over", "may live"];
     let titles = ["mutants", "killed"].into_iter().chain(programs.iter().copied()).chain(others);
     let mut text = format!("{:<12}", "module");
     titles.for_each(|title| text += &format!("{title:>12}"));
@@ -33,9 +33,30 @@ pub fn table(config: &Config, results: &Results, chosen: &[&Mutant], refused: us
                 .for_each(|n| text += &format!("{n:>12}"));
             text +=
                 &format!("{:>10.1} %", 100.0 * (not_reached + lived) as f64 / tried.max(1) as f64);
+            let may_live = module.map(|m| format!("{:>10.1} %", 100.0 * m.may_live));
+            text += &may_live.unwrap_or_default();
         }
     }
     text + &format!("\nnot counted: {refused} that do not compile")
+}
+
+/// Whether no module has more survivors than it may, by what `by` notices. An equivalent that was killed is one too
+/// many.
+pub fn is_met(config: &Config, results: &Results, by: &str, chosen: &[&Mutant]) -> bool {
+    config.modules.iter().all(|module| {
+        let of_module = chosen.iter().filter(|mutant| module.has(&mutant.file));
+        let (mut tried, mut lived) = (0, 0);
+        for mutant in of_module {
+            let outcome = results.of(by, mutant, true).map(|line| line.outcome == "killed");
+            match (config.is_equivalent(mutant), outcome) {
+                (true, Some(true)) => return false,
+                (true, _) => tried += 1,
+                (false, Some(killed)) => (tried, lived) = (tried + 1, lived + u32::from(!killed)),
+                (false, None) => {}
+            }
+        }
+        f64::from(lived) <= module.may_live * f64::from(tried)
+    })
 }
 
 /// The mutants that lived or were not reached, without equivalents; and equivalents that were killed.

@@ -146,6 +146,15 @@ fn mutants_of_the_toy_live_and_die_as_they_should() {
     assert_eq!(out.lines().filter(|line| line.starts_with("src/")).count(), 1, "{out}");
     assert_eq!(run(&root, &["--mutant", "src/lib.rs:6:10"]).0, 0);
     assert_eq!(run(&root, &["--mutant", "src/lib.rs:10:13"]).0, 1);
+
+    // One of 35 is left: what a module says may live, or more.
+    assert!(out.contains(&format!("{:>10.1} %{:>10.1} %\n", 2.9, 0.0)), "{out}");
+    for (may_live, met) in [("0.03", 0), ("0.02", 1)] {
+        let config = CONFIG.to_owned() + &format!("may_live = {may_live}\n") + EQUIVALENT;
+        fs::write(root.join("mutants.toml"), config).unwrap();
+        let (code, out, err) = run(&root, &[]);
+        assert_eq!(code, met, "{out}{err}");
+    }
 }
 
 #[test]
