@@ -144,17 +144,17 @@ mod tests {
         digest.to_string()
     }
 
-    /// Whether the first of the findings of now is excused, by those of before: class, finding, cases.
-    fn is_excused(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> bool {
-        with_groups(None, before, now)
+    /// What excuses the first of the findings of now, by those of before: class, finding, cases.
+    fn excuse(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> Option<String> {
+        excuse_with(None, before, now)
     }
 
     /// The same, where so many more groups are judged than before.
-    fn with_groups(
+    fn excuse_with(
         groups: Option<u64>,
         before: &[(&str, &str, &[u64])],
         now: &[(&str, &str, &[u64])],
-    ) -> bool {
+    ) -> Option<String> {
         let entry = |cases: &[u64]| Entry {
             line: 1,
             amount: Amount::Count { count: cases.len() as u64, cases: Some((100, written(cases))) },
@@ -175,7 +175,19 @@ mod tests {
                 example: None,
             })
             .collect();
-        not_judged_before(&entries.collect(), &all, (1000, groups), &all[0]).is_some()
+        not_judged_before(&entries.collect(), &all, (1000, groups), &all[0])
+    }
+
+    fn is_excused(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> bool {
+        excuse(before, now).is_some()
+    }
+
+    fn with_groups(
+        groups: Option<u64>,
+        before: &[(&str, &str, &[u64])],
+        now: &[(&str, &str, &[u64])],
+    ) -> bool {
+        excuse_with(groups, before, now).is_some()
     }
 
     #[test]
@@ -227,5 +239,46 @@ mod tests {
         assert!(with_groups(Some(2), &[crashed], &[two, of_groups("odd-fold", &[40])]));
         // Nobody knows how many were judged before.
         assert!(!with_groups(None, &[crashed], &[of_groups("crack", &[10])]));
+    }
+
+    #[test]
+    fn what_is_said_has_the_count_and_the_failure() {
+        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30]);
+        let text = excuse(&[crashed], &[("edge", "false-miss", &[10, 30])]);
+        let said = "; 2 more, among 3 not judged before: the kernel crashed";
+        assert_eq!(text.as_deref(), Some(said));
+        // One of three still fails.
+        let (late, still): ((&str, &str, &[u64]), (&str, &str, &[u64])) =
+            (("edge", "timeout", &[10, 20, 30]), ("edge", "timeout", &[20]));
+        let text = excuse(&[late], &[("edge", "false-miss", &[10]), still]);
+        let said = "; 1 more, among 2 not judged before: the kernel gave no answer";
+        assert_eq!(text.as_deref(), Some(said));
+    }
+
+    #[test]
+    fn cases_that_were_judged_are_no_excuse() {
+        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30]);
+        let one: (&str, &str, &[u64]) = ("edge", "false-miss", &[70]);
+        assert!(is_excused(&[crashed, one], &[("edge", "false-miss", &[10, 70])]));
+        assert!(!is_excused(&[crashed, one], &[one]), "none more");
+        assert!(!is_excused(&[crashed, one], &[("edge", "false-miss", &[10, 20])]), "70 went");
+        // The places of groups and polygons are not those of triangles.
+        assert!(with_groups(Some(1), &[crashed], &[("group", "crack", &[500])]));
+    }
+
+    #[test]
+    fn failures_elsewhere_and_shares_are_no_excuse() {
+        let (found, failure) = (key("edge", "false-miss"), key("edge", "crash"));
+        assert!(keeps(&failure, &found));
+        let others = [
+            Key { kernel: "other".to_owned(), ..failure.clone() },
+            Key { set: "other".to_owned(), ..failure.clone() },
+            Key { scalar: "f64".to_owned(), ..failure.clone() },
+            Key { family: "other".to_owned(), ..failure.clone() },
+            Key { finding: "false-hit".to_owned(), ..failure.clone() },
+        ];
+        assert!(others.iter().all(|other| !keeps(other, &found)));
+        let share = Entry { line: 1, amount: Amount::Rate(0.5), why: None, url: None };
+        assert_eq!(had(&[(found.clone(), share)].into(), &found), None);
     }
 }

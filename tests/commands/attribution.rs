@@ -1,13 +1,14 @@
 //! Why kernels are wrong: tracked runs are the float runs, and known causes come out.
 
 use hairline::internals::arith::{Arithmetic, Float, Real, Vector};
-use hairline::internals::audit::{Attribution, attribute};
+use hairline::internals::audit::{Attribution, attribute, attribute_by_running};
 use hairline::internals::case::{Case, Draw, Parameters, Ray, Triangle};
 use hairline::internals::contract::{Contract, NAMED};
 use hairline::internals::family::{FAMILIES, find};
 use hairline::internals::judge::{Class, Finding, Obligation, judge, obligation};
 use hairline::internals::kernel::{
-    self, Gate, Generic, Hit, KERNELS, Kernel, KernelInfo, Role, Scalar, Sink, Subject, Verdict,
+    self, Gate, Generic, Hit, KERNELS, Kernel, KernelInfo, Role, Scalar, Sink, Subject, Tunable,
+    Verdict,
 };
 use hairline::internals::oracle::truth;
 use std::collections::BTreeMap;
@@ -155,6 +156,47 @@ fn strict_edges_under_a_closed_contract_are_a_convention() {
         any,
     );
     assert_eq!(only(&counts, Finding::FalseMiss), [Attribution::Convention]);
+}
+
+/// A kernel that does not show its formula.
+struct Hidden(&'static dyn Subject<f64>);
+
+impl Subject<f64> for Hidden {
+    fn run(&self, cases: &[Case<f64>], epsilons: &[f64], verdicts: &mut [Verdict<f64>]) {
+        self.0.run(cases, epsilons, verdicts);
+    }
+}
+
+#[test]
+fn where_nothing_rounds_a_hidden_formula_is_wrong_for_the_reason_that_the_shown_one_is() {
+    // Strict edges and an epsilon that refuses the smaller half of the lattice's determinants.
+    let info = &kernel::find("scalar-triple-two-sided").unwrap().info;
+    let shown = f64::subject(kernel::find("scalar-triple-two-sided").unwrap()).unwrap();
+    let contract = named("closed-line").unwrap();
+    let fixed: Vec<Gate> =
+        info.gates.iter().map(|gate| Gate { epsilon: Tunable::Fixed, ..*gate }).collect();
+    let without_epsilons = KernelInfo { gates: Box::leak(fixed.into()), ..*info };
+    let mut counts = BTreeMap::new();
+    for index in 0..4_000 {
+        let made = find("lattice").unwrap().make::<f64>(&Parameters::default(), 1, index);
+        for (case, epsilons) in made.cases().iter().flat_map(|case| [(case, [1.5]), (case, [0.0])])
+        {
+            let truth = truth(case);
+            let asked = obligation(&truth, &contract, false);
+            let Some(why) = attribute(shown, case, &epsilons, &truth, asked) else { continue };
+            let by_running =
+                |info| attribute_by_running(&Hidden(shown), info, case, &epsilons, &truth, asked);
+            assert_eq!(by_running(&without_epsilons), None);
+            *counts.entry((why, by_running(info))).or_insert(0) += 1;
+        }
+    }
+    let pairs: Vec<_> = counts.keys().copied().collect();
+    let expected = [
+        (Attribution::Convention, Some(Attribution::NotEpsilon)),
+        (Attribution::Epsilon, Some(Attribution::Epsilon)),
+    ];
+    assert_eq!(pairs, expected, "{counts:?}");
+    assert!(counts.values().all(|count| 50 < *count), "{counts:?}");
 }
 
 #[test]

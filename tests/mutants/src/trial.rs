@@ -6,7 +6,9 @@ use crate::find::Mutant;
 use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 use std::fs;
-use std::process::{Command, Stdio};
+use std::io;
+use std::os::unix::process::CommandExt;
+use std::process::{Child, Command, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -160,16 +162,29 @@ fn run(tree: &Tree, command: &[String], variable: (&str, &str), limit: f64) -> R
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
+        .process_group(0)
         .spawn()
         .map_err(|e| format!("{}: {e}", command[0]))?;
+    let end = wait(&mut child, limit).map_err(|e| e.to_string())?;
+    if end != End::Passed {
+        // With the programs that it started, which would run on.
+        let group = format!("-{}", child.id());
+        let kill = ["-c", "kill -s KILL -- \"$1\" 2>/dev/null", "sh", &group];
+        Command::new("sh").args(kill).status().map_err(|e| e.to_string())?;
+        child.kill().and_then(|()| child.wait()).map_err(|e| e.to_string())?;
+    }
+    Ok(end)
+}
+
+/// How a process ends within so many seconds.
+fn wait(child: &mut Child, limit: f64) -> io::Result<End> {
     let begin = Instant::now();
     let mut wait = Duration::from_micros(500);
     loop {
-        if let Some(status) = child.try_wait().map_err(|e| e.to_string())? {
+        if let Some(status) = child.try_wait()? {
             return Ok(if status.success() { End::Passed } else { End::Failed });
         }
         if begin.elapsed().as_secs_f64() > limit {
-            child.kill().and_then(|()| child.wait()).map_err(|e| e.to_string())?;
             return Ok(End::TimedOut);
         }
         std::thread::sleep(wait);

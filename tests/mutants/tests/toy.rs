@@ -55,7 +55,10 @@ mod tests {
 
     #[test]
     fn steps() {
+        let mut child = std::process::Command::new("sleep").arg("86399").spawn().unwrap();
         assert_eq!(count_down(3), 3);
+        child.kill().unwrap();
+        child.wait().unwrap();
     }
 
     #[test]
@@ -133,6 +136,10 @@ fn mutants_of_the_toy_live_and_die_as_they_should() {
     assert!(err.contains("if -> false in {let Some(first)"), "{err}");
     assert!(err.contains("left out: toy: tests::that_fails: fails without a mutant"), "{err}");
     assert!(out.contains("not counted: 3 that do not compile"), "{out}");
+
+    // What a test started ends with it.
+    let sleeping = Command::new("pgrep").args(["-fx", "sleep 86399"]).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&sleeping.stdout), "");
 
     // A second run knows all; an equivalent is no survivor; a new test is tried on survivors only.
     let (_, again, err) = run(&root, &[]);
