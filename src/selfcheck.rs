@@ -265,15 +265,15 @@ mod tests {
         // A layer that hands on what it could decide is only slower, which no truth shows. So whoever
         // changes a bound, an order of layers or these cases puts the new counts here, and says why.
         let counts = [
-            ("invalid", 149),
-            ("filter", 9471),
-            ("grid", 7176),
-            ("wide grid", 18057),
-            ("scaled filter", 2798),
-            ("double-double", 4141),
-            ("robust", 414),
-            ("monomials", 9880),
-            ("big integers", 13191),
+            ("invalid", 145),
+            ("filter", 8904),
+            ("grid", 7377),
+            ("wide grid", 17950),
+            ("scaled filter", 2228),
+            ("double-double", 3745),
+            ("robust", 351),
+            ("monomials", 9639),
+            ("big integers", 15009),
         ];
         assert_eq!(by_integers.layers.named(), counts);
     }

@@ -150,3 +150,32 @@ fn touches<I: Integer>(
         edges: [edge(EDGES[0]), edge(EDGES[1]), edge(EDGES[2])],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::oracle::{define, truth};
+
+    /// The number's last three digits to base three, less one.
+    fn numbers(digits: u32) -> [f64; 3] {
+        [1, 3, 9].map(|power| f64::from(digits / power % 3) - 1.0)
+    }
+
+    #[test]
+    fn in_planes_across_every_axis_contacts_are_those_of_the_definition() {
+        let triangle = [[0.0, -1.0, 0.0], [0.0, 1.0, -1.0], [0.0, 0.0, 1.0]];
+        for digits in 0..81 {
+            let [o_y, o_z, d_y] = numbers(digits % 27);
+            let [d_z, ..] = numbers(digits / 27);
+            for axis in 0..3 {
+                let turned = |mut v: [f64; 3]| {
+                    v.rotate_right(axis);
+                    v
+                };
+                let (o, d) = (turned([0.0, o_y, o_z]), turned([0.0, d_y, d_z]));
+                let case = Case::<f64>::new(o, d, triangle.map(turned)).on(0.5, 2.0);
+                assert_eq!(truth(&case), define(&case).truth, "{case:?}");
+            }
+        }
+    }
+}

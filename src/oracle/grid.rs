@@ -189,6 +189,25 @@ mod tests {
         holds_its_largest_coordinates::<Wide>(2f64.powi(61).next_down());
     }
 
+    /// The origin and two vertices on a line, whose direction has the last bit beside the first.
+    fn reads_the_last_bit_of_a_direction<W: Width>() {
+        let half = 2f64.powi(W::BITS - 1);
+        let on_line = |steps: f64| [steps, (steps - 1.5) * half, 0.0];
+        for [o, a, b] in [[0.0, 1.0, 2.0], [3.0, 1.0, 2.0], [1.0, 0.0, 2.0]] {
+            for sign in [1.0, -1.0] {
+                let triangle = [on_line(a), on_line(b), [0.0, 0.0, half]];
+                let case = Case::<f64>::new(on_line(o), [sign, sign * half, 0.0], triangle);
+                assert_eq!(decide::<W>(&case), Some(define(&case).truth), "{case:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_component_of_one_unit_points_forwards_or_backwards() {
+        reads_the_last_bit_of_a_direction::<Narrow>();
+        reads_the_last_bit_of_a_direction::<Wide>();
+    }
+
     #[test]
     fn wide_integers_agree_with_the_definition_where_determinants_vanish() {
         let (mut flat, mut edges, mut others) = (0, 0, 0);

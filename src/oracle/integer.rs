@@ -184,9 +184,14 @@ mod tests {
         assert_eq!(order(2), (Ordering::Greater, Ordering::Equal));
         assert_eq!(order(3), (Ordering::Equal, Ordering::Less));
         assert_eq!(order(4), (Ordering::Less, Ordering::Less));
-        let all = Interval::new(&case.on(f64::NEG_INFINITY, f64::INFINITY), 0);
-        assert_eq!(all.compare_start(&1i128, &-1), Ordering::Greater);
-        assert_eq!(all.compare_end(&1i128, &-1), Ordering::Less);
+        // Also of a t beyond every float.
+        for exponent in [0, 2000] {
+            let all = Interval::new(&case.on(f64::NEG_INFINITY, f64::INFINITY), exponent);
+            for denominator in [1, -1] {
+                assert_eq!(all.compare_start(&1i128, &denominator), Ordering::Greater);
+                assert_eq!(all.compare_end(&1i128, &denominator), Ordering::Less);
+            }
+        }
         let kinds = |low: f64, high: f64| {
             let interval = Interval::new(&case.on(low, high), 0);
             (interval.is_default(), interval.is_point())

@@ -21,6 +21,7 @@ pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
     let case = match draw.below(8) {
         0 => case.on(1.0, 4.0),
         1 => case.on(-1.0, 1.0),
+        2 => case.on(0.0, 1.0),
         _ => case,
     };
     debug_assert!(case.vectors().as_flattened().iter().all(|x| x.is_finite()), "{}", case.hex());
@@ -155,6 +156,20 @@ fn last_bits(draw: &mut Draw) -> Case<f64> {
         // In the plane, and on it.
         0 => vectors[1] = [0, 1, 2].map(|i| (vectors[2][i] - vectors[3][i]) / 2),
         1 => vectors[4] = [0, 1, 2].map(|i| vectors[2][i] / 2 + vectors[3][i] / 2),
+        // The origin and two vertices on a line, whose direction has the last bit beside the first.
+        2 => {
+            let half = 1i64 << (bits - 1);
+            let mut step = [0; 3].map(|_| draw.pick(&[half, -half]));
+            step[draw.below(3)] = draw.pick(&[1, -1]);
+            let mut on_line = || {
+                let steps = draw.integer(0, 3);
+                step.map(|x| steps * x - (x + x / 2))
+            };
+            vectors[0] = on_line();
+            (vectors[2], vectors[3]) = (on_line(), on_line());
+            vectors[1] = step;
+            vectors[2..].rotate_left(draw.below(3));
+        }
         _ => {}
     }
     let off = draw.below(30);
