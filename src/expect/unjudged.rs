@@ -248,8 +248,8 @@ mod tests {
         let said = "; 2 more, among 3 not judged before: the kernel crashed";
         assert_eq!(text.as_deref(), Some(said));
         // One of three still fails.
-        let (late, still): ((&str, &str, &[u64]), (&str, &str, &[u64])) =
-            (("edge", "timeout", &[10, 20, 30]), ("edge", "timeout", &[20]));
+        let late: (&str, &str, &[u64]) = ("edge", "timeout", &[10, 20, 30]);
+        let still: (&str, &str, &[u64]) = ("edge", "timeout", &[20]);
         let text = excuse(&[late], &[("edge", "false-miss", &[10]), still]);
         let said = "; 1 more, among 2 not judged before: the kernel gave no answer";
         assert_eq!(text.as_deref(), Some(said));

@@ -170,8 +170,8 @@ impl Subject<f64> for Hidden {
 #[test]
 fn where_nothing_rounds_a_hidden_formula_is_wrong_for_the_reason_that_the_shown_one_is() {
     // Strict edges and an epsilon that refuses the smaller half of the lattice's determinants.
-    let info = &kernel::find("scalar-triple-two-sided").unwrap().info;
-    let shown = f64::subject(kernel::find("scalar-triple-two-sided").unwrap()).unwrap();
+    let entry = kernel::find("scalar-triple-two-sided").unwrap();
+    let (info, shown) = (entry.info, f64::subject(entry).unwrap());
     let contract = named("closed-line").unwrap();
     let fixed: Vec<Gate> =
         info.gates.iter().map(|gate| Gate { epsilon: Tunable::Fixed, ..*gate }).collect();
