@@ -169,7 +169,7 @@ fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
     let advice = did_you_mean(name, gates, "hairline list kernels");
     let advice = match name {
         "t_min" => {
-            "; it is the least t that your code counts: `hairline epsilon --scene` takes it, and \
+            "; it is the one that your code counts: `hairline epsilon --scene` takes it, and \
             `hairline spawn --scheme t-min=VALUE` tries it on shadow rays"
                 .to_owned()
         }

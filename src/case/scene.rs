@@ -101,6 +101,9 @@ impl Scene {
                 return format!("unknown word '{word}'; there are {WORDS}");
             }
             let names: Vec<&str> = SCENES.iter().map(|preset| preset.name).collect();
+            if names.contains(&word) {
+                return format!("'{word}' is a preset: it comes first, and there is one at most");
+            }
             if let Some(near) = nearest_name(&word.to_lowercase(), names.iter().copied()) {
                 return format!("'{word}' is no scene; did you mean '{near}'?");
             }
@@ -374,6 +377,7 @@ mod tests {
             ("sine=flat", "'flat' is not a finite number"),
             ("extent=4km", "'4km' is not a finite number: write all lengths in one unit"),
             ("Room", "'Room' is no scene; did you mean 'room'?"),
+            ("edge=1,room", "'room' is a preset: it comes first, and there is one at most"),
             ("extent=1,extent=2", "'extent' is given twice"),
         ] {
             let error = Scene::parse(text).unwrap_err();

@@ -34,6 +34,14 @@ pub fn note_secondary_rays(rows: &[Row], sources: &[Source]) {
             );
         }
     }
+    let asks_nothing = |row: &&Row| !row.contract.no_self_hit;
+    if let (Some(set), Some(row)) = (marked.first(), rows.iter().find(asks_nothing)) {
+        eprintln!(
+            "note: rays of {} start on their triangle; {} is judged by the exact answer for the rounded start, unless \
+             --contract own,no-self-hit makes every hit there wrong",
+            set.file, row.entry.info.name
+        );
+    }
     for set in marked {
         let mut far = set.far_starts();
         if let Some(first) = far.next() {

@@ -153,12 +153,13 @@ impl Computed {
         let ray = (t_min == 0.0) & (t_max == f64::INFINITY);
         let inside = one_sign & ((u < 0.0) == front);
         let positive_t = (t < 0.0) == front;
+        let bit = |is_set: bool, bit: u64| u64::from(is_set) * bit;
         Code(
-            u64::from(certain) * CERTAIN
-                | u64::from(ray) * RAY
-                | u64::from(front) * FRONT
-                | u64::from(inside) * INSIDE
-                | u64::from(positive_t) * POSITIVE_T,
+            bit(certain, CERTAIN)
+                | bit(ray, RAY)
+                | bit(front, FRONT)
+                | bit(inside, INSIDE)
+                | bit(positive_t, POSITIVE_T),
         )
     }
 }

@@ -104,11 +104,14 @@ impl Cell {
     pub(super) fn sum(results: &[&KernelResult]) -> Cell {
         let mut cell = Cell::default();
         for result in results {
+            if let (true, Some(across)) = (is_shared_in_scene(&result.family), &result.across) {
+                cell.wrong.merge(&across.cracks.trials());
+                continue;
+            }
             let total = &result.total;
-            let kinds = [("false-miss", &total.false_misses), ("false-hit", &total.false_hits)];
-            // A second hit there changes no nearest hit; the doubles show it.
-            let counted = if is_shared_in_scene(&result.family) { &kinds[..1] } else { &kinds[..] };
-            for (kind, rate) in counted {
+            for (kind, rate) in
+                [("false-miss", &total.false_misses), ("false-hit", &total.false_hits)]
+            {
                 cell.wrong.merge(&rate.trials());
                 cell.far += far(result, kind);
             }
@@ -117,13 +120,12 @@ impl Cell {
     }
 }
 
-/// What is said where a record has such sources: a tolerance that closes cracks makes doubles.
-pub(super) fn doubles_in_scenes(record: &Record) -> Option<&'static str> {
-    let has_some =
-        record.result.plan.sources.iter().any(|source| is_shared_in_scene(&source.family));
-    has_some.then_some(
-        "At a scene's shared edges and vertices only hits that are lost count as wrong: a second triangle that is hit \
-         beside the first makes a double, and the nearest hit is the same.",
+/// What is said where a record has such sources, in which a neighbour may take a ray that a triangle leaves.
+pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
+    let sources = &record.result.plan.sources;
+    sources.iter().any(|source| is_shared_in_scene(&source.family)).then_some(
+        "At a scene's shared edges and vertices a ray is wrong if no triangle reports it (a crack); which of them does, \
+         and whether two do, changes no nearest hit.",
     )
 }
 

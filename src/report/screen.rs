@@ -1,7 +1,7 @@
 //! What `hairline audit` prints: the answer, a table with a column for each question, the worst
 //! findings, and what to do next. Everything else is behind `--details`.
 
-use super::columns::{Across, Cell, Column, doubles_in_scenes, short_percent};
+use super::columns::{Across, Cell, Column, shared_in_scenes, short_percent};
 use super::disagreement::{Key, disagreements};
 use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
@@ -23,7 +23,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     write_head(record, out)?;
     write_notes(record, out)?;
     write_answer(record, &columns, &lines, out)?;
-    if let Some(note) = doubles_in_scenes(record) {
+    if let Some(note) = shared_in_scenes(record) {
         write_wrapped(note, out)?;
     }
     for scalar in &record.result.plan.scalars {
@@ -351,6 +351,14 @@ fn painted(text: &str, color: &str) -> String {
     if color.is_empty() { text.to_owned() } else { format!("{color}{text}\x1b[0m") }
 }
 
+/// Flags without the families among them.
+fn without_families(flags: &str) -> String {
+    let words: Vec<&str> = flags.split(' ').collect();
+    let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
+    let kept = (0..words.len()).filter(|i| !is_of_family(i)).map(|i| words[i]);
+    kept.collect::<Vec<_>>().join(" ")
+}
+
 /// What to do next.
 fn write_next(
     record: &Record,
@@ -382,8 +390,13 @@ fn write_next(
     writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
     let all_sources = sources.clone();
     if let Some(tuned) = tuned {
-        // `epsilon` knows no rays at a mesh's edges.
+        // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
         let sources = sources.split(" --directions").next().unwrap_or_default();
+        let sources = if sources.contains(" --scene ") {
+            without_families(sources)
+        } else {
+            sources.to_owned()
+        };
         write!(
             out,
             "{bold}Choose an epsilon:{plain} hairline epsilon {}{sources}{after}",

@@ -55,6 +55,9 @@ impl Costs {
     }
 }
 
+/// So many steps of equal cost are a plateau, and no accident of the sample.
+const PLATEAU: usize = 3;
+
 /// What costs at most this share more is as good: another seed may make it the cheapest.
 const NEGLIGIBLE: f64 = 0.01;
 
@@ -228,10 +231,18 @@ impl<F: Scalar> Joint<F> {
             }
         }
         for k in (0..places.len()).filter(|k| !at_zero[*k]) {
-            let as_good = |place: &usize| is_kept(&moved(&places, k, *place), most);
-            let first = (0..places[k]).rev().take_while(as_good).last();
-            let last = (places[k] + 1..self.grid.values[k].len()).take_while(as_good).last();
-            places[k] = (first.unwrap_or(places[k]) + last.unwrap_or(places[k])) / 2;
+            let ends = |from: usize, most: f64| {
+                let as_good = |place: &usize| is_kept(&moved(&places, k, *place), most);
+                let first = (0..from).rev().take_while(as_good).last();
+                let last = (from + 1..self.grid.values[k].len()).take_while(as_good).last();
+                [first.unwrap_or(from), last.unwrap_or(from)]
+            };
+            // Where several values cost the least, they alone: what costs nothing more may do no harm either.
+            let [first, last] = match ends(places[k], cost(&places)) {
+                [first, last] if PLATEAU <= last - first => [first, last],
+                _ => ends(places[k], most),
+            };
+            places[k] = (first + last) / 2;
         }
         Some(self.grid.point(&places))
     }

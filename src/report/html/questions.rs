@@ -4,7 +4,7 @@ use super::heat::{SHADE_NAMES, shade};
 use super::room::Room;
 use super::view::View;
 use super::words::{interval, percent};
-use crate::report::columns::{Across, Cell, Column, doubles_in_scenes};
+use crate::report::columns::{Across, Cell, Column, shared_in_scenes};
 use crate::report::lines::{Line, column_legend};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
@@ -28,7 +28,7 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
                 "misses and false hits, by each row's own contract, with the 95 % interval. The cases are chosen to be "
                 "hard. A star: more than 0.1 % of the verdicts are wrong by over 1/1000 of the triangle's longest edge."
             }
-            @if let Some(note) = doubles_in_scenes(view.record) { p { (note) } }
+            @if let Some(note) = shared_in_scenes(view.record) { p { (note) } }
             (legend())
             div.scroll role="group" aria-label="The table" tabindex="0" {
                 table.heat.few[view.columns.len() < 12] #questions-table {

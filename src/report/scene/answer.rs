@@ -255,7 +255,7 @@ fn conflict_lines(
             format!("{form} in its place is within both limits, with e from {from} to {to}")
         }
         (_, _, "t") => {
-            "start the ray off the surface instead (`hairline spawn` finds how far)".to_owned()
+            "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
         }
         _ => "no value is right for such rays: it takes wider numbers (f64) or another kernel"
             .to_owned(),
@@ -296,17 +296,20 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
 /// Commands that show more of what is recommended.
 fn next(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0].epsilons;
-    // Of a mesh only the file's name is known.
-    if record.mesh.is_some() {
-        return Vec::new();
-    }
     let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
     let scene = preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned());
-    let with = flag(part, best).map_or(String::new(), |flag| format!(" {flag}"));
-    let rest = format!("{}{with} --scene {scene} --scalar {}", part.selector, part.scalar);
+    let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
+    let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
+    let all: Vec<String> = chosen.map(|(gate, value)| format!("{gate}={value}")).collect();
+    let with = if all.is_empty() { String::new() } else { format!(" --epsilon {}", all.join(",")) };
+    let seed = record.fresh_seed;
+    let rest =
+        format!("{}{with} --scene {scene} --scalar {} --seed {seed}", part.selector, part.scalar);
     let has_t = part.knobs.iter().any(|knob| knob.role == "t");
-    let commands = if has_t { &["audit", "spawn"][..] } else { &["audit"] };
-    commands.iter().map(|command| format!("hairline {command} {rest}")).collect()
+    // Of a mesh only the file's name is known, which `audit` would need.
+    let audit = record.mesh.is_none().then_some("audit");
+    let commands = audit.into_iter().chain(has_t.then_some("spawn"));
+    commands.map(|command| format!("hairline {command} {rest}")).collect()
 }
 
 /// Which angles almost parallel rays have.

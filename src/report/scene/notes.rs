@@ -2,6 +2,7 @@
 
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
+use crate::epsilon::scene::{Costs, Kind};
 use crate::report::group_digits;
 use crate::report::record::Rate;
 
@@ -28,10 +29,7 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
     }
     if !part.others.is_empty() {
         let others = part.others.iter().map(|(gate, e)| format!("{gate}={e}"));
-        notes.push(format!(
-            "not chosen here, as published: {}",
-            others.collect::<Vec<_>>().join(", ")
-        ));
+        notes.push(format!("not chosen here: {}", others.collect::<Vec<_>>().join(", ")));
     }
     match part.is_accurate {
         Some(false) => {
@@ -90,7 +88,20 @@ fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         false if part.scalar == "f32" => "use f64 or another kernel".to_owned(),
         false => "use another kernel".to_owned(),
     };
-    vec![format!("no numbers are good here: even these {what}"), why]
+    // With other weights the user may have asked for it.
+    let default = Costs::default();
+    let is_default = |cost: &NamedNumber| {
+        Kind::ALL
+            .into_iter()
+            .any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
+    };
+    match record.costs.iter().all(is_default) {
+        true => vec![format!("no numbers are good here: even these {what}"), why],
+        false => vec![
+            format!("with these costs even the best numbers {what}"),
+            "other weights (--cost) may help".to_owned(),
+        ],
+    }
 }
 
 /// Of a kernel whose cracks no number closes: that they are most of its cost, and what helps.
