@@ -357,7 +357,6 @@ mod tests {
             ("room,", "nothing stands before or after a comma"),
             ("edge=1...2", "two dots, as 0.5..2"),
             ("palace", "begin with one of unit, room, city, cad-mm"),
-            ("edge=1,room", "'room' is no scene"),
             ("size=3", "unknown word 'size'"),
             ("extent=nan", "'nan' is not a finite number"),
             ("extent=inf", "not a finite number"),

@@ -6,9 +6,8 @@ use super::disagreement::{Key, disagreements};
 use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
-use super::{Style, close_up, extremes, group_digits, number_of};
+use super::{Style, close_up, extremes, group_digits, next, number_of};
 use crate::family;
-use crate::kernel;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -46,7 +45,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         write_failures(&rows.collect::<Vec<_>>(), out)?;
     }
     extremes::write(&columns, &lines, style, out)?;
-    write_next(record, &lines, style, out)
+    next::write(record, &lines, style, out)
 }
 
 /// What was run.
@@ -349,61 +348,4 @@ fn colour(style: Style, wrong: u64) -> &'static str {
 
 fn painted(text: &str, color: &str) -> String {
     if color.is_empty() { text.to_owned() } else { format!("{color}{text}\x1b[0m") }
-}
-
-/// Flags without the families among them.
-fn without_families(flags: &str) -> String {
-    let words: Vec<&str> = flags.split(' ').collect();
-    let is_of_family = |i: &usize| words[*i] == "--family" || 0 < *i && words[i - 1] == "--family";
-    let kept = (0..words.len()).filter(|i| !is_of_family(i)).map(|i| words[i]);
-    kept.collect::<Vec<_>>().join(" ")
-}
-
-/// What to do next.
-fn write_next(
-    record: &Record,
-    lines: &[Line],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    // The kernel of `judge` cannot be chosen by a flag.
-    let rows: Vec<&RowPart> =
-        lines.iter().map(|line| line.row.part).filter(|row| !row.selector.is_empty()).collect();
-    let Some(first) = rows.first() else {
-        return writeln!(out, "{bold}Everything:{plain} --details");
-    };
-    let tells_margins = |row: &&&RowPart| {
-        let entry = kernel::find(&row.kernel);
-        !row.epsilons.is_empty() && entry.is_some_and(|entry| entry.tells_margins())
-    };
-    let tuned = rows.iter().find(tells_margins);
-    let sources = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.sources.as_str());
-    let sources = if sources.is_empty() { String::new() } else { format!(" {sources}") };
-    let is_alone = rows.iter().all(|row| row.selector == first.selector);
-    // Many rows leave less room.
-    let after = if is_alone { "\n" } else { "   " };
-    if !is_alone {
-        let one = tuned.unwrap_or(first);
-        write!(out, "{bold}One kernel:{plain} hairline audit {}{sources}{after}", one.selector)?;
-    }
-    writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
-    let all_sources = sources.clone();
-    if let Some(tuned) = tuned {
-        // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
-        let sources = sources.split(" --directions").next().unwrap_or_default();
-        let sources = if sources.contains(" --scene ") {
-            without_families(sources)
-        } else {
-            sources.to_owned()
-        };
-        write!(
-            out,
-            "{bold}Choose an epsilon:{plain} hairline epsilon {}{sources}{after}",
-            tuned.selector
-        )?;
-    }
-    let kernels = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.kernels.as_str());
-    let kernels = if kernels.is_empty() { String::new() } else { format!(" {kernels}") };
-    writeln!(out, "{bold}Gate a CI:{plain} hairline check{kernels}{all_sources} --bless")
 }

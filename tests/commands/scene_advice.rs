@@ -110,6 +110,50 @@ fn a_limit_that_costs_plain_hits_says_how_many() {
 }
 
 #[test]
+fn where_many_values_cost_the_same_the_recommended_one_is_within_its_limits() {
+    let folder = scratch("advice-plateau");
+    for seed in ["1", "2"] {
+        let more = ["--scalar", "f64", "-n", "20000", "--seed", seed, "--format", "json", "-q"];
+        let study = ["epsilon", "--kernel", "woop-watertight", "--scene", "cad-mm"];
+        let (out, _) = ends(&folder, &[&study[..], &more[..]].concat(), 0);
+        let record: SceneRecord = serde_json::from_str(&out).unwrap();
+        let part = &record.kernels[0];
+        let t = part.knobs.iter().position(|knob| knob.name == "t_min").unwrap();
+        let number = |text: &String| text.parse::<f64>().unwrap();
+        let used = number(&part.tried[0].epsilons[t]);
+        let mut found = 0;
+        for limit in part.limits.iter().filter(|limit| limit.knob == t) {
+            let value = number(limit.value.as_ref().unwrap());
+            assert!(if limit.is_lower { value <= used } else { used <= value }, "{used} {limit:?}");
+            found += 1;
+        }
+        assert_eq!(found, 2);
+    }
+}
+
+#[test]
+fn the_commands_that_are_named_run_and_know_what_a_gate_on_t_is_for() {
+    let folder = scratch("advice-more");
+    let screen = study(&folder, "plane-unit-normal", "room", &[]);
+    let more = screen.lines().find_map(|line| line.strip_prefix("more: hairline ")).unwrap();
+    assert!(more.ends_with(" --seed 2 --contract own,no-self-hit"), "{more}");
+    let words: Vec<&str> = more.split(' ').collect();
+    let (out, _) = ends(&folder, &[&words[..], &["-n", "4000", "-q"]].concat(), 0);
+    // The hits on the triangle that a ray starts on are what t is there to refuse.
+    let starts = out.lines().find(|line| line.starts_with("ends ")).unwrap();
+    let share: f64 = starts.split_whitespace().nth(1).unwrap().parse().unwrap_or(0.0);
+    assert!(share < 1.0, "{starts}");
+    // A scene is taken whole by `epsilon`.
+    let audit = ["audit", "--kernel", "moller-trumbore", "--scene", "room", "--family"];
+    let rest = ["scene-edges", "--scalar", "f32", "-n", "400", "-q"];
+    let (out, _) = ends(&folder, &[&audit[..], &rest[..]].concat(), 0);
+    let choose = out.lines().find_map(|line| line.strip_prefix("Choose an epsilon: hairline "));
+    let words: Vec<&str> = choose.unwrap().split(' ').collect();
+    assert!(!words.contains(&"--family"), "{words:?}");
+    ends(&folder, &[&words[..], &["-q"]].concat(), 0);
+}
+
+#[test]
 fn a_kernel_without_an_epsilon_at_its_edges_hears_what_its_cracks_cost() {
     let folder = scratch("advice-cracks");
     let screen = study(&folder, "havel-herout", "room", &[]);

@@ -59,6 +59,18 @@ fn stored_shadow_rays_give_the_advice_of_the_family() {
 }
 
 #[test]
+fn a_contract_that_allows_self_hits_is_noted_for_marked_rays() {
+    let folder = scratch("secondary-note");
+    generate(&folder, "20");
+    let audit =
+        ["audit", "--kernel", "moller-trumbore", "--scalar", "f32", "--corpus", "shadow.jsonl"];
+    let (_, error) = ends(&folder, &audit, 0);
+    assert!(error.contains("note: rays of shadow.jsonl start on their triangle"), "{error}");
+    let asked = [&audit[..], &["--contract", "own,no-self-hit"]].concat();
+    assert!(!ends(&folder, &asked, 0).1.contains("note:"));
+}
+
+#[test]
 fn a_first_ray_that_is_marked_as_a_shadow_ray_is_warned_of() {
     let folder = scratch("secondary-far");
     generate(&folder, "20");

@@ -309,7 +309,13 @@ fn next(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     // Of a mesh only the file's name is known, which `audit` would need.
     let audit = record.mesh.is_none().then_some("audit");
     let commands = audit.into_iter().chain(has_t.then_some("spawn"));
-    commands.map(|command| format!("hairline {command} {rest}")).collect()
+    // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
+    let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
+    let flags = |command| match command == "audit" && guards_start {
+        true => " --contract own,no-self-hit",
+        false => "",
+    };
+    commands.map(|command| format!("hairline {command} {rest}{}", flags(command))).collect()
 }
 
 /// Which angles almost parallel rays have.

@@ -120,7 +120,7 @@ pub(super) fn meaning(
             let size = human(&format!("{:e}", value.abs()));
             Some(match value < 0.0 {
                 true => format!(
-                    "rays up to {size} of a triangle's size beside it (twice that at corners) hit it: at an edge, both"
+                    "rays up to {size} of a triangle's size beside it hit it (corners: twice); at edges both"
                 ),
                 false => format!("rays up to {size} of a triangle's size inside it miss it"),
             })

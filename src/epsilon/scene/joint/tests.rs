@@ -151,18 +151,24 @@ fn expected(
         }
     }
     for k in free {
-        let is_good = |place: usize| {
-            let mut moved = places.clone();
-            moved[k] = place;
-            is_kept(&moved, most)
+        let ends = |most: f64| {
+            let is_good = |place: usize| {
+                let mut moved = places.clone();
+                moved[k] = place;
+                is_kept(&moved, most)
+            };
+            let (mut low, mut high) = (places[k], places[k]);
+            while 0 < low && is_good(low - 1) {
+                low -= 1;
+            }
+            while high + 1 < values[k].len() && is_good(high + 1) {
+                high += 1;
+            }
+            (low, high)
         };
-        let (mut low, mut high) = (places[k], places[k]);
-        while 0 < low && is_good(low - 1) {
-            low -= 1;
-        }
-        while high + 1 < values[k].len() && is_good(high + 1) {
-            high += 1;
-        }
+        // Four values of the least cost or more are taken by themselves.
+        let (low, high) = ends(cost(&places));
+        let (low, high) = if low + 3 <= high { (low, high) } else { ends(most) };
         places[k] = (low + high) / 2;
     }
     Some(places)
