@@ -168,8 +168,8 @@ fn unknown_gate(name: &str, entries: &[&'static Entry]) -> PlanError {
     let gates = entries.iter().flat_map(|entry| entry.info.gates).map(|gate| gate.name);
     let advice = did_you_mean(name, gates, "hairline list kernels");
     let advice = match name {
-        "t_min" => {
-            "; it is the one that your code counts: `hairline epsilon --scene` takes it, and \
+        "t_min" | "t-min" | "tmin" => {
+            "; a least t that your code counts is chosen by `hairline epsilon --scene` (as t_min), and \
             `hairline spawn --scheme t-min=VALUE` tries it on shadow rays"
                 .to_owned()
         }
