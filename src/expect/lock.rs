@@ -168,7 +168,9 @@ impl Target {
         let Ok([kernel, set, scalar, family, class, finding, count, of, digest]) =
             <[String; 9]>::try_from(words)
         else {
-            let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest";
+            let shape = "9 words between tabs: kernel, epsilons, scalar, family, class, finding, count, of, digest; or 4 \
+                         of a row: kernel, name, epsilons, contract; or 6 of groups: kernel, epsilons, scalar, family, \
+                         crossings, folds";
             return Err(shape.to_owned());
         };
         let (count, of) = (number(&count)?, number(&of)?);
