@@ -22,7 +22,7 @@ mod triple;
 
 pub use arithmetic::Arithmetic;
 pub use bounded::{Bounded, bounded};
-pub use digits::three_digits;
+pub use digits::{three_digits, two_digits};
 pub use emulated::Emulated;
 pub use environment::FloatEnvironment;
 pub use exact::Exact;

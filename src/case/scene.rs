@@ -83,8 +83,14 @@ const WORDS: &str = "extent=1000, center=0, edge=0.01..10, distance=0..2000, dir
      aim=inside or both";
 
 impl Scene {
-    /// From words between commas: perhaps a preset's name, then what differs from it; without a name from
-    /// the preset `unit`. Also the unit of length of the preset.
+    /// The same with lengths that are so many times as large.
+    fn grown(self, times: f64) -> Scene {
+        let [edge, distance] = [self.edge, self.distance].map(|range| range.map(|x| x * times));
+        Scene { extent: self.extent * times, edge, distance, ..self }
+    }
+
+    /// From words between commas: perhaps a preset's name, then what differs from it; without a name from the preset
+    /// `unit`, whose lengths grow with the extent. Also the unit of length of the preset.
     pub fn parse(text: &str) -> Result<(Scene, &'static str), String> {
         let mut words = text.split(',').map(str::trim).peekable();
         let first = words.peek().copied().unwrap_or_default();
@@ -94,7 +100,7 @@ impl Scene {
         let preset = SCENES.iter().find(|preset| preset.name == first);
         let (mut scene, unit) = match preset {
             Some(preset) => (preset.scene.clone(), preset.unit),
-            None => (Scene::default(), ""),
+            None => (Scene::default().grown(extent_in(words.clone())), ""),
         };
         scene.set_all(words.skip(usize::from(preset.is_some())), |word, is_key| {
             if is_key {
@@ -214,8 +220,7 @@ impl Scene {
     pub(super) fn check_fit(&self) -> Result<(), String> {
         if self.extent < self.edge[1] {
             return Err(format!(
-                "edge={}: the longest edge is at most the extent, {} (edge and distance that are not given are \
-                 those of a scene of size 1)",
+                "edge={}: the longest edge is at most the extent, {}",
                 Range(self.edge),
                 Number(self.extent)
             ));
@@ -258,6 +263,15 @@ impl Scene {
         }
         Ok(())
     }
+}
+
+/// The extent that words give; 1 if they give none that is a length.
+fn extent_in<'a>(mut words: impl Iterator<Item = &'a str>) -> f64 {
+    let given = |word: &str| {
+        let (_, value) = word.split_once('=').filter(|(key, _)| key.trim() == "extent")?;
+        value.trim().parse().ok().filter(|extent: &f64| extent.is_finite() && 0.0 < *extent)
+    };
+    words.find_map(given).unwrap_or(1.0)
 }
 
 /// A finite number.

@@ -23,7 +23,7 @@ enum Topic {
 impl Column {
     /// The column of a source by its name.
     fn of(family: &str, complete: bool) -> Column {
-        let topic = match family::find(family) {
+        let topic = match family_of(family) {
             Some(family) => Topic::Families(family.question),
             None if is_of_mesh(family) => Topic::Mesh,
             None => Topic::Stored,
@@ -74,6 +74,11 @@ impl Column {
         let of = |part: &&KernelResult| Column::of(&part.family, is_complete(row.sources, part));
         row.results.iter().copied().filter(|part| self == of(part)).collect()
     }
+}
+
+/// The family of a source by its name, in which a mesh's file may follow.
+fn family_of(source: &str) -> Option<&'static family::Family> {
+    family::find(source.split_once(':').map_or(source, |(family, _)| family))
 }
 
 /// Whether a result's source is a whole set rather than a random sample.
@@ -131,7 +136,7 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
 
 /// Whether a source aims at the shared edges or vertices of a scene.
 fn is_shared_in_scene(family: &str) -> bool {
-    family::find(family).is_some_and(|family| {
+    family_of(family).is_some_and(|family| {
         family.name.starts_with("scene-")
             && matches!(family.question, Question::Edges | Question::Vertices)
     })

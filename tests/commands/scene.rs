@@ -11,8 +11,8 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     let (screen, error) = ends(&folder, &study, 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
-    // Of two scalars, and few rays, which each notes; one scalar alone fits 46.
-    assert!(lines.len() <= 81, "{} lines", lines.len());
+    // Of two scalars, and few rays, which each notes; one scalar alone fits 47.
+    assert!(lines.len() <= 83, "{} lines", lines.len());
     assert!(screen.contains(
         "from 4,000 rays of each kind only: another seed may name others, up to tenfold"
     ));
@@ -403,6 +403,11 @@ fn cases_of_a_mesh_explain_themselves() {
     let audit = ["audit", "--scene", "mesh", "--mesh", "box.obj", "--kernel", "moller-trumbore"];
     let further = ["-n", "300", "-q", "--format", "json", "--scalar", "f32"];
     let (record, _) = ends(&folder, &[&audit[..], &further[..]].concat(), 0);
+    // The screen has a column for each kind of ray.
+    let (screen, _) = ends(&folder, &[&audit[..], &further[..3]].concat(), 0);
+    for column in ["\ninside ", "\nedges ", "\nvertex ", "\nflat "] {
+        assert!(screen.contains(column), "{screen}");
+    }
     let is_id = |word: &&str| word.starts_with("scene-") && word.contains("/f32/");
     let mut ids: Vec<&str> = record.split(['"', '\'', ' ']).filter(is_id).collect();
     ids.sort();

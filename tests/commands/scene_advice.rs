@@ -87,6 +87,29 @@ fn where_no_line_is_good_the_screen_says_so() {
 }
 
 #[test]
+fn what_no_scene_can_live_with_is_named_whatever_asked_for_it() {
+    let folder = scratch("advice-flaws");
+    let room = |more: &[&str]| study(&folder, "moller-trumbore", "room", more);
+    let costs = room(&["--cost", "miss=1000"]);
+    let flaw = "with these costs even the best epsilons make false hits of ";
+    assert!(costs.lines().nth(2).unwrap().trim().starts_with(flaw), "{costs}");
+    let errors = room(&["--max-error", "t=1e-3"]);
+    let flaw = "with errors as small as wanted even the best epsilons lose ";
+    assert!(errors.lines().any(|line| line.trim().starts_with(flaw)), "{errors}");
+    // Shadow rays have a remedy of their own.
+    let far = format!("{}/corpora/meshes/far.obj", env!("CARGO_MANIFEST_DIR"));
+    let study_far = ["epsilon", "--kernel", "moller-trumbore", "--mesh", &far, "-q", "-n", "4000"];
+    let (screen, _) = ends(&folder, &study_far, 0);
+    let line = screen.lines().find(|line| line.contains("no numbers are good here")).unwrap();
+    assert!(line.ends_with("% of the shadow rays hit the triangle that they leave"), "{line}");
+    // An absolute number at the edges is too large for small triangles or too small for large ones.
+    let plane = study(&folder, "plane-unit-normal", "cad-mm", &[]);
+    assert!(plane.lines().nth(1).unwrap().starts_with("  use  parallel = "), "{plane}");
+    assert!(plane.contains("no numbers are good here: even these make false hits of "), "{plane}");
+    assert!(plane.contains("(edge 0.05 mm) are hit far beside them"), "{plane}");
+}
+
+#[test]
 fn a_limit_that_costs_plain_hits_says_how_many() {
     let folder = scratch("advice-price");
     let screen = study(&folder, "moller-trumbore", "cad-mm", &["-n", "10000"]);

@@ -16,6 +16,11 @@ fn scenes_survive_their_text() {
     let (city, unit) = Scene::parse("city").unwrap();
     assert_eq!(Scene::parse("extent=1000, edge=0.01..10, distance=0..2000").unwrap().0, city);
     assert_eq!(unit, "m");
+    // What is not given grows with the extent.
+    for text in ["extent=1000", "distance=0..4000, extent = 1000, edge=100..1000"] {
+        let grown = "extent=1000,edge=100..1000,distance=0..4000,direction=unit";
+        assert_eq!(Scene::parse(text).unwrap().0.to_string(), grown);
+    }
     let (near, unit) = Scene::parse("city, distance = 0..20").unwrap();
     assert_eq!((near.distance, near.extent, unit), ([0.0, 20.0], 1000.0, "m"));
 }

@@ -1,4 +1,4 @@
-//! Which scheme to use: the lowest one that never fails.
+//! Which scheme to use: a simple one that never fails and is about as low as any.
 
 use crate::case::Number;
 use crate::spawn::{OfScheme, Scheme, Sums, parse};
@@ -6,15 +6,24 @@ use crate::spawn::{OfScheme, Scheme, Sums, parse};
 /// Offsets that are made for a scene are 2, 4, … times the largest that was needed in the pilot.
 const DOUBLINGS: u32 = 10;
 
-/// Fixed distances along the normal, and others that follow the coordinates, each the double of the one
-/// before: from twice the largest smallest safe offset that a pilot saw.
-pub fn made_for(pilot: &Sums) -> [Vec<Scheme>; 2] {
-    [("normal", &pilot.least), ("ulps", &pilot.least_in_ulps)].map(|(name, least)| {
-        let needed = least.largest();
+/// Distances along the normal, and others that follow the coordinates. Of the first the proved one, if there is one;
+/// of others each is the double of the one before, from twice the largest smallest safe offset that a pilot saw.
+pub fn made_for(pilot: &Sums, proved: Option<f64>) -> [Vec<Scheme>; 2] {
+    let made = |name: &str, needed: f64| -> Vec<Scheme> {
         let times = (1..=DOUBLINGS).filter(|_| 0.0 < needed).map(|k| f64::from(1u32 << k));
         let scheme = |times| parse(&format!("{name}={}", rounded_up(times * needed)));
         times.filter_map(|times| scheme(times).ok()).collect()
-    })
+    };
+    let along_normal = match proved {
+        Some(proved) => parse(&proved_name(proved)).into_iter().collect(),
+        None => made("normal", pilot.least.largest()),
+    };
+    [along_normal, made("ulps", pilot.least_in_ulps.largest())]
+}
+
+/// The scheme of a proved distance along the normal.
+pub fn proved_name(proved: f64) -> String {
+    format!("normal={}", Number(proved))
 }
 
 /// Of such schemes the first of each list without a failure; the last if there is none.
@@ -41,17 +50,32 @@ fn rounded_up(x: f64) -> String {
     Number(all.into_iter().find(|y| x <= *y).unwrap_or(x)).to_string()
 }
 
-/// The scheme with the lowest median height of those that never failed by some count: in the pilot, which
-/// those that are made for a scene were made on, and in the run.
-pub fn lowest(pilot: &Sums, sums: &Sums, failures: impl Fn(&OfScheme) -> u64) -> Option<usize> {
+/// An offset at most this many times as high as the lowest is as good: another seed may turn them round.
+const AS_LOW: f64 = 4.0;
+
+/// The scheme to use of those that never failed: in the pilot, which those that are made for a scene were made on, and
+/// in the run. The first of some preferred ones that is about as low as any; the lowest if none is.
+pub fn best(pilot: &Sums, sums: &Sums, preferred: &[usize]) -> Option<usize> {
     let median =
         |place: &usize| sums.schemes[*place].in_edges.quantile(0.5).unwrap_or(f64::INFINITY);
     let never = |place: &usize| {
         let in_run = [pilot.schemes.get(*place), sums.schemes.get(*place)];
-        0 < sums.schemes[*place].rays && in_run.into_iter().flatten().all(|of| failures(of) == 0)
+        0 < sums.schemes[*place].rays && in_run.into_iter().flatten().all(|of| of.failed == 0)
     };
     let all = (0..sums.schemes.len()).filter(never);
-    all.min_by(|a, b| median(a).total_cmp(&median(b)))
+    let lowest = all.min_by(|a, b| median(a).total_cmp(&median(b)))?;
+    let is_as_good = |place: &&usize| {
+        let is_low = median(place) <= AS_LOW * median(&lowest);
+        never(place) && is_low && !is_too_high(&sums.schemes[**place])
+    };
+    Some(preferred.iter().find(is_as_good).copied().unwrap_or(lowest))
+}
+
+/// Whether half of a scheme's starts are more than a tenth of their triangle's longest edge above it, or one in a
+/// hundred more than the whole.
+pub fn is_too_high(scheme: &OfScheme) -> bool {
+    let is_above = |share, most| scheme.in_edges.quantile(share).is_some_and(|edges| most < edges);
+    is_above(0.5, 0.1) || is_above(0.99, 1.0)
 }
 
 #[cfg(test)]

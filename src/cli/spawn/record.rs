@@ -1,6 +1,6 @@
 //! The versioned record of `spawn`; the same bytes whatever the number of threads.
 
-use super::choice::lowest;
+use super::choice::{best, is_too_high, proved_name};
 use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, shell_word};
 use crate::case::Case;
@@ -68,10 +68,8 @@ pub struct PointsPart {
     pub least: LeastPart,
     /// The distance along the normal, and every larger one, that is proved to have no wrong start.
     pub proved_normal: Option<f64>,
-    /// The lowest scheme with neither a wrong start nor a self-hit.
+    /// A scheme with neither a wrong start nor a self-hit that is about as low as any of them.
     pub best: Option<BestPart>,
-    /// The lowest scheme without a wrong start, if that is another.
-    pub lowest_right: Option<String>,
     /// What each scheme does.
     pub schemes: Vec<SchemePart>,
 }
@@ -113,6 +111,11 @@ pub struct BestPart {
     pub scheme: String,
     /// At most one new ray in this many fails, with a confidence of 95 %.
     pub one_in: u64,
+    /// Whether it is proved to have no wrong start.
+    pub is_proved: bool,
+    /// Whether half of its starts are more than a tenth of their triangle's longest edge above it, or one in a hundred
+    /// more than the whole: then it is no good, and all others that never fail are as bad.
+    pub is_too_high: bool,
     /// Runs this scheme alone.
     pub command: String,
 }
@@ -173,15 +176,21 @@ pub struct WrongPart {
 }
 
 impl PointsPart {
-    /// `words` are the scene's as the user wrote them.
-    pub fn new<F: Scalar>(plan: &Plan<'_>, pilot: &Sums, sums: &Sums, words: &str) -> PointsPart
+    /// `preferred` are places of schemes that come first where they are about as low as any; `words` are the scene's as
+    /// the user wrote them.
+    pub fn new<F: Scalar>(
+        plan: &Plan<'_>,
+        [pilot, sums]: [&Sums; 2],
+        preferred: &[usize],
+        proved_normal: Option<f64>,
+        words: &str,
+    ) -> PointsPart
     where
         AnyCase: From<Case<F>>,
     {
         let needed = sums.least.count() + sums.without_least;
         let schemes = plan.schemes.iter().zip(&sums.schemes);
-        let best = lowest(pilot, sums, |of| of.failed);
-        let right = lowest(pilot, sums, |of| of.wrong).filter(|place| best != Some(*place));
+        let best = best(pilot, sums, preferred);
         let flags = match plan.row.set.as_str() {
             "source" => plan.row.entry.selector(),
             _ => plan.row.flags(),
@@ -201,10 +210,7 @@ impl PointsPart {
                 lengths: LengthsPart::new(&sums.least),
                 ulps: LengthsPart::new(&sums.least_in_ulps),
             },
-            proved_normal: proved_normal::<F>(plan.scene)
-                .filter(|_| plan.kind == PointKind::Weights)
-                .map(|least| three_digits(least, true)),
-            lowest_right: right.map(|place| plan.schemes[place].name.clone()),
+            proved_normal,
             best: best.map(|place| {
                 let scheme = plan.schemes[place].name.clone();
                 let (scene, point) = (shell_word(words), plan.kind.name());
@@ -213,12 +219,25 @@ impl PointsPart {
                     plan.schemes[place].flags,
                     F::NAME
                 );
-                BestPart { one_in: one_in(&sums.schemes[place]), scheme, command }
+                let sums = &sums.schemes[place];
+                BestPart {
+                    one_in: one_in(sums),
+                    is_proved: proved_normal.is_some_and(|proved| scheme == proved_name(proved)),
+                    is_too_high: is_too_high(sums),
+                    scheme,
+                    command,
+                }
             }),
             flags: flags.clone(),
             schemes: schemes.map(|(scheme, of)| SchemePart::new::<F>(plan, scheme, of)).collect(),
         }
     }
+}
+
+/// The least distance along the normal that is proved for points of a kind, rounded up.
+pub fn proved_distance<F: Scalar>(plan: &Plan<'_>) -> Option<f64> {
+    let of_weights = (plan.kind == PointKind::Weights).then(|| proved_normal::<F>(plan.scene))?;
+    of_weights.map(|least| three_digits(least, true))
 }
 
 /// At most one new ray in this many fails, with a confidence of 95 %: two digits, rounded down.

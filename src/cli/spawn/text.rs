@@ -1,6 +1,7 @@
 //! The record of `spawn` for people at a terminal: what to use, then what each scheme does. The layout is not
 //! stable.
 
+use super::choice::proved_name;
 use super::record::{HeightsPart, PointsPart, SchemePart, SpawnRecord};
 use crate::report::{group_digits, interval_of, percent};
 use crate::spawn::describe;
@@ -50,29 +51,39 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
         )?,
         Some(best) => {
             let median = find(&best.scheme).and_then(|scheme| scheme.height_in_edges.median);
+            let median = size(median.unwrap_or(0.0));
+            if best.is_too_high {
+                writeln!(
+                    out,
+                    "  no offset is good here: all that never fail are too high. The lowest is {},\n  and half of its new \
+                     rays start {median} of their triangle's longest edge above it or more: they pass walls",
+                    best.scheme
+                )?;
+                return writeln!(
+                    out,
+                    "  use f64, or triangles that are larger or nearer to the origin; without --scheme, offsets are made for the scene"
+                );
+            }
             writeln!(out, "  use  {}{}", best.scheme, describe(&best.scheme))?;
+            if best.is_proved {
+                writeln!(
+                    out,
+                    "       proved: it never has a wrong side, on any ray of such a scene"
+                )?;
+            }
             writeln!(
                 out,
-                "       the lowest without wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
+                "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
                 group_digits(best.one_in)
             )?;
             writeln!(
                 out,
-                "       half of the new rays start at most {} of their triangle's longest edge above it",
-                size(median.unwrap_or(0.0))
+                "       half of the new rays start at most {median} of their triangle's longest edge above it"
             )?;
             writeln!(out, "       {}", best.command)?;
         }
     }
-    match part.lowest_right.as_ref().and_then(find) {
-        None => Ok(()),
-        Some(right) => writeln!(
-            out,
-            "  with no wrong side alone: {}; the kernel still reports {} of its new rays as self-hits",
-            right.name,
-            percent(right.self_hits.rate.unwrap_or(0.0))
-        ),
-    }
+    Ok(())
 }
 
 /// Three digits at most: `0.0123`, `2.05`, `1.2e-7`.
@@ -156,8 +167,8 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
     if let Some(proved) = part.proved_normal {
         writeln!(
             out,
-            "proved: normal={proved:e}{unit} or more never has a wrong side, on any ray of such a scene (weights from 0 to 1);\n  \
-             what stands after `use` is lower, and was right on the rays that were tried"
+            "proved: {}{unit} or more never has a wrong side, on any ray of such a scene (weights from 0 to 1)",
+            proved_name(proved)
         )?;
     }
     let left_out = [

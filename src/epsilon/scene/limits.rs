@@ -7,7 +7,7 @@
 
 use super::confidence::{KEPT, rank};
 use super::trials::{Count, Kind, Setting, Trial, accepts};
-use crate::arith::{Float, smallest_normal, three_digits};
+use crate::arith::{Float, smallest_normal, two_digits};
 use crate::engine::{Merge, Observer};
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
@@ -110,9 +110,9 @@ pub fn limits<F: Scalar>(
             true if margin == F::infinity() => None,
             // Where too few are accepted at any value, there is nothing to keep out.
             true if !margin.is_finite() => return None,
-            true => Some(three_digits(above(margin), true)),
+            true => Some(two_digits(above(margin), true)),
             false if !margin.is_finite() => return None,
-            false => Some(three_digits(margin, false)),
+            false => Some(two_digits(margin, false)),
         };
         Some(Limit { knob, count, is_lower, value, one_in })
     };

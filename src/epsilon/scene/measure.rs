@@ -10,7 +10,6 @@ use crate::arith::Float;
 use crate::audit::Trials;
 use crate::case::Case;
 use crate::engine::{Merge, Observer};
-use crate::family::Stratum;
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 
 /// Epsilons to try, and on which trials: all, or those that are hits at other epsilons.
@@ -60,8 +59,8 @@ pub(super) struct OfHits {
     pub errors: Vec<ErrorSums>,
     /// Those with larger errors than is wanted.
     pub exceeded: Vec<Trials>,
-    /// At a shared edge: the rays that hit both triangles.
-    pub doubles: Trials,
+    /// Where cracks are counted: the rays that hit more than one triangle.
+    pub doubles: Vec<Trials>,
 }
 
 impl Merge for OfHits {
@@ -70,7 +69,8 @@ impl Merge for OfHits {
         errors.for_each(|(sum, more)| sum.merge(more));
         let exceeded = self.exceeded.iter_mut().zip(&other.exceeded);
         exceeded.for_each(|(sum, more)| sum.merge(more));
-        self.doubles.merge(&other.doubles);
+        let doubles = self.doubles.iter_mut().zip(&other.doubles);
+        doubles.for_each(|(sum, more)| sum.merge(more));
     }
 }
 
@@ -88,8 +88,8 @@ impl Wrong {
     fn new(attempts: usize, with_errors: usize, counts: &[Count]) -> Wrong {
         let none = vec![Trials::default(); counts.len()];
         let errors = vec![ErrorSums::default(); counts.len()];
-        let exceeded = none.clone();
-        let of_hits = vec![OfHits { errors, exceeded, doubles: Trials::default() }; with_errors];
+        let (exceeded, doubles) = (none.clone(), none.clone());
+        let of_hits = vec![OfHits { errors, exceeded, doubles }; with_errors];
         Wrong { trials: vec![none; attempts], of_hits, fault: None }
     }
 
@@ -100,11 +100,11 @@ impl Wrong {
         max_error: Option<&MaxError>,
         trial: &Trial<'_, F>,
     ) {
-        let Count { stratum, kind } = setting.counts[trial.count];
-        if stratum == Stratum::Edges {
+        let kind = setting.counts[trial.count].kind;
+        if kind == Kind::Crack {
             for (attempt, sums) in attempts.iter().zip(&mut self.of_hits) {
                 let hits = trial.margins.iter().filter(|m| accepts(m, &attempt.epsilons));
-                sums.doubles.add_ray(u64::from(1 < hits.count()), 1);
+                sums.doubles[trial.count].add_ray(u64::from(1 < hits.count()), 1);
             }
         }
         if kind != Kind::Miss {

@@ -62,8 +62,8 @@ pub struct Tried<F> {
     pub errors: Vec<ErrorSums>,
     /// By count: of those hits the ones whose errors are larger than is wanted.
     pub exceeded: Vec<Trials>,
-    /// At a shared edge: the rays that hit both triangles, which cost nothing.
-    pub doubles: Trials,
+    /// By count: the rays at a shared edge or vertex that hit more than one triangle, which cost nothing.
+    pub doubles: Vec<Trials>,
 }
 
 /// The seed of the fresh rays: the next one.

@@ -10,7 +10,7 @@ use super::errors::{HitErrors, errors_of};
 use super::joint::Grid;
 use super::trials::Margins;
 use super::*;
-use crate::arith::three_digits;
+use crate::arith::two_digits;
 use crate::audit::{EpsilonChoice, Histogram, Row, Unobserved};
 use crate::case::Scene;
 use crate::contract::{Contract, Extent, Sides};
@@ -195,11 +195,11 @@ fn limits_are_margins_of_their_rank() {
                 }
                 let above = |m: f32| {
                     let next = m.next_up();
-                    three_digits(if 0.0 < next { next.max(f32::MIN_POSITIVE) } else { next }, true)
+                    two_digits(if 0.0 < next { next.max(f32::MIN_POSITIVE) } else { next }, true)
                 };
                 let value = match is_lower {
                     true => (margin < f32::INFINITY).then(|| above(margin)),
-                    false => Some(three_digits(margin, false)),
+                    false => Some(two_digits(margin, false)),
                 };
                 let expected = Limit { knob: k, count: c, is_lower, value, one_in };
                 assert_eq!(found.next(), Some(expected), "{kernel} {knob:?} {count:?}");

@@ -1,6 +1,6 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
-use super::notes::{accuracy, notes, tolerates};
+use super::notes::{accuracy, no_good, notes, tolerates};
 use super::record::*;
 use super::words::{
     bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
@@ -84,16 +84,15 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
 }
 
 fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
+    let best = &part.tried[0];
     let fixed = Use { text: fixed(record, part), notes: notes(record, part) };
-    match &part.relative {
-        Some(relative)
-            if relative.cost < DECISIVE * part.tried[0].cost || part.is_accurate == Some(false) =>
-        {
-            vec![scale_free(record, part, relative), fixed]
-        }
-        Some(relative) => vec![fixed, scale_free(record, part, relative)],
-        None => vec![fixed],
-    }
+    let Some(relative) = &part.relative else { return vec![fixed] };
+    let followed = scale_free(record, part, relative);
+    let is_good = |tried| no_good(record, part, tried).is_empty();
+    let is_better = relative.cost < DECISIVE * best.cost
+        || part.is_accurate == Some(false)
+        || is_good(relative) && !is_good(best);
+    if is_better { vec![followed, fixed] } else { vec![fixed, followed] }
 }
 
 /// Numbers to paste.
@@ -124,14 +123,17 @@ pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
 }
 
 fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
-    let of_counts = part.counts.iter().enumerate().map(|(i, count)| {
+    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
+    for (i, count) in part.counts.iter().enumerate() {
         let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
-        (label(&count.stratum, &count.kind).to_owned(), cells)
-    });
-    let mut rows: Vec<(String, Vec<String>)> = of_counts.collect();
-    if let Some(place) = part.counts.iter().position(|count| count.stratum == "scene-edges") {
-        let cells = columns(part).map(|tried| share(&tried.doubles)).collect();
-        rows.insert(place + 1, ("at a shared edge: both hit".to_owned(), cells));
+        rows.push((label(&count.stratum, &count.kind).to_owned(), cells));
+        let several = match count.stratum.as_str() {
+            "scene-edges" => "at a shared edge: both hit",
+            "scene-vertices" => "at a shared vertex: several hit",
+            _ => continue,
+        };
+        let cells = columns(part).map(|tried| share(&tried.doubles[i])).collect();
+        rows.push((several.to_owned(), cells));
     }
     for (i, count) in part.counts.iter().enumerate() {
         let found: Vec<Option<&Rate>> =
@@ -167,7 +169,7 @@ fn errors(error: &ErrorPart) -> String {
 /// Whether a value is the least that no machine flushes to zero: then every value above zero will do.
 fn is_least(value: &str, scalar: &str) -> bool {
     let least = if scalar == "f32" { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE };
-    value.parse::<f64>().is_ok_and(|value| 0.0 < value && value <= least * 1.01)
+    value.parse::<f64>().is_ok_and(|value| 0.0 < value && value <= least * 1.1)
 }
 
 /// Comparisons that follow each triangle's size.
@@ -179,10 +181,11 @@ fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart
         _ => format!("{} = {e}", knob.name),
     });
     let (least, most) = (relative.cost, part.tried[0].cost);
-    let mut notes = vec![
+    let mut notes = no_good(record, part, relative);
+    notes.extend([
         "epsilons that follow each triangle's size, in the place of fixed ones;".to_owned(),
         format!("they cost {least:.3}, the best fixed ones {most:.3}"),
-    ];
+    ]);
     notes.extend(accuracy(record));
     Use { text: forms.collect::<Vec<_>>().join(", "), notes }
 }
@@ -347,7 +350,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         lines.extend(forms.map(str::to_owned));
     }
     if record.kernels.iter().any(tolerates) {
-        let both = "both hit: costs nothing, because the nearest hit is the same; wrong for counting crossings";
+        let both = "both or several hit: costs nothing, the nearest hit is the same; wrong for counting crossings";
         lines.push(both.to_owned());
     }
     for part in &record.kernels {

@@ -222,7 +222,7 @@ fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
         cost: tried.cost,
-        doubles: Rate::new(tried.doubles, true),
+        doubles: tried.doubles.iter().map(|trials| Rate::new(*trials, true)).collect(),
         errors: error_parts(&tried.errors),
         exceeded: match is_limited {
             true => tried.exceeded.iter().map(|trials| Rate::new(*trials, true)).collect(),

@@ -13,7 +13,7 @@ const FEW: u64 = 10_000;
 pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
-    let mut notes: Vec<String> = no_good(record, part);
+    let mut notes: Vec<String> = no_good(record, part, &part.tried[0]);
     notes.extend(meanings);
     notes.extend(cracks_of_its_own(record, part));
     if part.knobs.iter().all(|knob| !knob.is_gate) && part.others.is_empty() {
@@ -45,63 +45,86 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
     notes
 }
 
-/// A line is no good if more than this share of plain hits is lost, or of rays slips through.
-const TOO_MANY: f64 = 0.01;
-
-/// Whether a count is one of the wrong answers that no scene can live with: hits lost that are aimed at a triangle,
-/// and cracks.
-fn is_plain(count: &CountPart) -> bool {
-    count.stratum == "scene-interior" && count.kind == "miss" || count.kind == "crack"
+/// The share of wrong answers from which on no scene can live with them, by what is counted; none where a scene may
+/// have to.
+fn too_many(part: &SceneKernelPart, count: &CountPart) -> Option<f64> {
+    match (count.stratum.as_str(), count.kind.as_str()) {
+        ("scene-interior", "miss") | (_, "self-hit") => Some(0.01),
+        // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
+        (_, "crack") => part.has_edge_epsilon.then_some(0.01),
+        // About as many as the triangles are made larger.
+        ("scene-outside", _) => Some(0.1),
+        _ => None,
+    }
 }
 
-/// Where even the best numbers are no good: that they are not, why, and what helps.
-fn no_good(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+/// Where even the best epsilons are no good: that they are not, why, and what helps.
+pub(super) fn no_good(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    tried: &TriedPart,
+) -> Vec<String> {
     // Numbers that were not to be chosen may be what is wrong.
     if part.others.keys().any(|gate| gate != "t") {
         return Vec::new();
     }
-    let plain = part.counts.iter().zip(&part.tried[0].wrong).filter(|(count, _)| is_plain(count));
-    // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
-    let theirs = plain.filter(|(count, _)| count.kind == "miss" || part.has_edge_epsilon);
     // Of few rays a single loss is a large share.
     let surely = |rate: &Rate| rate.interval.map_or(0.0, |[low, _]| low);
-    let worst = theirs.max_by(|(_, a), (_, b)| surely(a).total_cmp(&surely(b)));
-    let Some((count, rate)) = worst.filter(|(_, rate)| TOO_MANY < surely(rate)) else {
+    let all = part.counts.iter().zip(&tried.wrong);
+    let excess = |(count, rate)| Some((surely(rate) / too_many(part, count)?, count, rate));
+    let found = all.filter_map(excess).filter(|(excess, ..)| 1.0 < *excess);
+    // Self-hits have a remedy of their own, so they are named where nothing else is wrong.
+    let is_own = |count: &CountPart| count.kind != "self-hit";
+    let worst = found
+        .max_by(|(a, one, _), (b, other, _)| is_own(one).cmp(&is_own(other)).then(a.total_cmp(b)));
+    let Some((_, count, rate)) = worst else {
         return Vec::new();
     };
-    let what = match (count.kind.as_str(), share(rate)) {
-        ("miss", share) => format!("lose {share} of the hits at a triangle"),
-        (_, share) => format!("let {share} of the rays at shared edges or vertices through"),
+    let share = share(rate);
+    let what = match count.kind.as_str() {
+        "miss" => format!("lose {share} of the hits at a triangle"),
+        "crack" => format!("let {share} of the rays at shared edges or vertices through"),
+        "self-hit" => format!("let {share} of the shadow rays hit the triangle that they leave"),
+        _ => format!("make false hits of {share} of the rays beside a triangle"),
     };
-    let unit = spaced(&record.unit);
-    let instead = match part.scalar.as_str() {
-        "f32" => "use f64, or start rays nearer",
-        _ => "move the scene to the origin, or start rays nearer",
-    };
-    let why = match record.edge[0] < 32.0 * part.spacing {
-        true => format!(
-            "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {instead}",
-            record.reach,
-            part.scalar,
-            human(&format!("{:.0e}", part.spacing))
-        ),
-        false if part.scalar == "f32" => "use f64 or another kernel".to_owned(),
-        false => "use another kernel".to_owned(),
-    };
-    // With other weights the user may have asked for it.
+    // With other weights, or a limit of errors, the user may have asked for it.
     let default = Costs::default();
     let is_default = |cost: &NamedNumber| {
-        Kind::ALL
-            .into_iter()
-            .any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
+        let kinds = Kind::ALL.into_iter();
+        kinds.clone().any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
     };
-    match record.costs.iter().all(is_default) {
-        true => vec![format!("no numbers are good here: even these {what}"), why],
-        false => vec![
-            format!("with these costs even the best numbers {what}"),
-            "other weights (--cost) may help".to_owned(),
-        ],
+    if !record.max_error.is_empty() {
+        return vec![
+            format!("with errors as small as wanted even the best epsilons {what}"),
+            "a larger --max-error may help".to_owned(),
+        ];
     }
+    if !record.costs.iter().all(is_default) {
+        return vec![
+            format!("with these costs even the best epsilons {what}"),
+            "other weights (--cost) may help".to_owned(),
+        ];
+    }
+    vec![format!("no numbers are good here: even these {what}"), instead(record, part, &count.kind)]
+}
+
+/// What helps where no numbers are good.
+fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
+    let unit = spaced(&record.unit);
+    if kind == "self-hit" {
+        return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
+    }
+    let is_narrow = part.scalar == "f32";
+    if record.edge[0] < 32.0 * part.spacing {
+        return format!(
+            "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {}, or start rays nearer",
+            record.reach,
+            part.scalar,
+            human(&format!("{:.0e}", part.spacing)),
+            if is_narrow { "use f64" } else { "move the scene to the origin" }
+        );
+    }
+    (if is_narrow { "use f64 or another kernel" } else { "use another kernel" }).to_owned()
 }
 
 /// Of a kernel whose cracks no number closes: that they are most of its cost, and what helps.

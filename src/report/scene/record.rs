@@ -156,8 +156,9 @@ pub struct TriedPart {
     pub wrong: Vec<Rate>,
     /// The sum of their shares, each times its cost.
     pub cost: f64,
-    /// Rays at a shared edge that hit both triangles; they cost nothing.
-    pub doubles: Rate,
+    /// By count: rays at a shared edge or vertex that hit more than one triangle; they cost nothing. Of none where no
+    /// crack is counted.
+    pub doubles: Vec<Rate>,
     /// The errors of the hits that remain.
     pub errors: Vec<ErrorPart>,
     /// If errors are limited: by count, the hits that remain and are farther off; of none where no hit can

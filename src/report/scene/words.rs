@@ -1,6 +1,7 @@
 //! What people call the strata and kinds of a scene, its numbers and its units.
 
 use super::record::*;
+use crate::case::Number;
 use crate::epsilon::scene::{Count, Kind};
 use crate::family::Stratum;
 use crate::kernel::Role;
@@ -128,11 +129,19 @@ pub(super) fn meaning(
         // An absolute number beside what the smallest triangles have.
         ("edge", [length, _]) if 0 < length => {
             let share = value.abs() / record.edge[0].powi(i32::from(length));
-            let what = if value < 0.0 { "hit far beside them" } else { "never hit" };
-            (share > 0.1).then(|| {
-                format!(
-                    "the smallest triangles are {what}: edge is {share:.0e} times their L^{length}"
-                )
+            let size = human(&format!("{share:.0e}"));
+            let whose = format!("the smallest triangles (edge {}{unit})", Number(record.edge[0]));
+            Some(match (value < 0.0, 0.1 < share) {
+                (true, false) => {
+                    format!("rays up to about {size} of their size beside {whose} hit them")
+                }
+                (false, false) => {
+                    format!("rays up to about {size} of their size inside {whose} miss them")
+                }
+                (true, true) => {
+                    format!("{whose} are hit far beside them: by about {size} of their size")
+                }
+                (false, true) => format!("{whose} are never hit"),
             })
         }
         _ => None,

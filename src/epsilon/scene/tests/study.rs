@@ -70,14 +70,15 @@ fn a_study_tries_everything_on_fresh_rays() {
                 assert_eq!((exceeded.count, exceeded.of), (off as u64, hits.len() as u64));
                 assert_eq!(tried.errors[c].each_ref().map(told), sums.each_ref().map(told));
             }
-            let at_edges = fresh.iter().filter(|kept| kept.margins.len() == 2);
-            let double = |kept: &&Kept| {
-                let is_hit = |m: &Margins<f32>| tried.epsilons.iter().zip(m).all(|(e, m)| e <= m);
-                kept.margins.iter().all(is_hit)
-            };
-            let doubles = at_edges.clone().filter(double).count();
-            let found = (tried.doubles.count, tried.doubles.of);
-            assert_eq!(found, (doubles as u64, at_edges.count() as u64), "{kernel}");
+            for (c, found) in tried.doubles.iter().enumerate() {
+                let is_crack = setting.counts[c].kind == Kind::Crack;
+                let rays = fresh.iter().filter(|kept| is_crack && kept.count == c);
+                let accepts =
+                    |m: &&Margins<f32>| tried.epsilons.iter().zip(*m).all(|(e, m)| e <= m);
+                let double = |kept: &&Kept| 1 < kept.margins.iter().filter(accepts).count();
+                let counted = (rays.clone().filter(double).count(), rays.count());
+                assert_eq!((found.count as usize, found.of as usize), counted, "{kernel} {c}");
+            }
             assert!((tried.cost - cost).abs() <= 1e-9, "{kernel} {} {cost}", tried.cost);
         }
         let expected = limits(&setting, &study.best, seed, number, &Unobserved);
