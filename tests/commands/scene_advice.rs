@@ -107,6 +107,10 @@ fn what_no_scene_can_live_with_is_named_whatever_asked_for_it() {
     assert!(plane.lines().nth(1).unwrap().starts_with("  use  parallel = "), "{plane}");
     assert!(plane.contains("no numbers are good here: even these make false hits of "), "{plane}");
     assert!(plane.contains("(edge 0.05 mm) are hit far beside them"), "{plane}");
+    // In f64 some values are within all limits of `parallel`, but lose more hits than they keep out.
+    let woop = ["epsilon", "--kernel", "woop-watertight", "--scene", "cad-mm", "-q", "-n", "4000"];
+    let (screen, _) = ends(&folder, &[&woop[..], &["--scalar", "f64"]].concat(), 0);
+    assert!(screen.contains("parallel=0 costs least, though it is outside its limits"), "{screen}");
 }
 
 #[test]
