@@ -61,6 +61,10 @@ fn the_committed_vectors_are_what_the_command_writes_small_and_with_ids_of_their
     }
     let ids: HashSet<&str> = tests.iter().map(|test| test["id"].as_str().unwrap()).collect();
     assert_eq!(ids.len(), tests.len(), "each test has an id of its own");
+    let published = parse(&repository().join("vectors/published.json"));
+    let reports = published["tests"].as_array().unwrap().iter();
+    let reports: HashSet<&str> = reports.map(|test| test["source"].as_str().unwrap()).collect();
+    assert!(40 <= reports.len(), "{} reports", reports.len());
 }
 
 #[test]
