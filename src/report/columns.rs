@@ -135,7 +135,7 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
 }
 
 /// Whether a source aims at the shared edges or vertices of a scene.
-fn is_shared_in_scene(family: &str) -> bool {
+pub(super) fn is_shared_in_scene(family: &str) -> bool {
     family_of(family).is_some_and(|family| {
         family.name.starts_with("scene-")
             && matches!(family.question, Question::Edges | Question::Vertices)

@@ -1,5 +1,6 @@
 //! A record's findings as one list: what expectations name and formats count by.
 
+use super::columns::is_shared_in_scene;
 use super::record::*;
 use crate::judge::Finding;
 use std::collections::BTreeMap;
@@ -96,7 +97,8 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
         result.plan.rows.iter().map(|row| ((row.kernel.as_str(), row.set.as_str()), row)).collect();
     let mut all = Vec::new();
     for part in &result.results {
-        all.extend(part.findings.iter().map(|finding| Disagreement {
+        let findings = part.findings.iter().filter(|found| counts_alone(part, &found.finding));
+        all.extend(findings.map(|finding| Disagreement {
             key: Key::of(part, &finding.class, &finding.finding),
             rate: &finding.rate,
             digest: &finding.digest,
@@ -118,7 +120,13 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
 /// A finding on groups or polygons: its name, how often, of the set of all, ids of the first.
 pub(super) type Together<'a> = (&'a str, &'a Rate, &'a str, &'a [String]);
 
-/// What the contract promises across triangles, with what came of it.
+/// Whether a finding of a result counts for single triangles. At the shared edges and vertices of a scene a neighbour
+/// may take the ray: there only a ray that none of them takes is wrong.
+pub(crate) fn counts_alone(part: &KernelResult, finding: &str) -> bool {
+    !(is_shared_in_scene(&part.family) && matches!(finding, "false-miss" | "false-hit"))
+}
+
+/// What the contract promises across triangles, and of a scene cracks in any case, with what came of it.
 fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(across) = &part.across else { return Vec::new() };
     let cracks: Together =
@@ -128,6 +136,7 @@ fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let folds: Together =
         ("odd-fold", &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised.as_str() {
+        "nothing" if is_shared_in_scene(&part.family) => vec![cracks],
         "nothing" => Vec::new(),
         "at-least-one" => vec![cracks],
         _ => vec![cracks, doubles, folds],
@@ -157,7 +166,8 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
         let together = across(part).into_iter().chain(polygons(part));
         let together =
             together.filter(|(name, ..)| *name == finding).map(|(_, rate, ..)| rate.clone());
-        return Rate::sum(&together.chain(part.total.rate(finding)).collect::<Vec<_>>());
+        let alone = part.total.rate(finding).filter(|_| counts_alone(part, finding));
+        return Rate::sum(&together.chain(alone).collect::<Vec<_>>());
     }
     let together = match class {
         "group" => across(part),
@@ -167,12 +177,14 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
     if let Some((_, rate, ..)) = together.into_iter().find(|(name, ..)| *name == finding) {
         return rate.clone();
     }
-    part.classes.get(class).and_then(|counts| counts.rate(finding)).unwrap_or_default()
+    let alone = part.classes.get(class).filter(|_| counts_alone(part, finding));
+    alone.and_then(|counts| counts.rate(finding)).unwrap_or_default()
 }
 
 /// The kinds of finding that a result could show.
 pub(super) fn kinds_of(part: &KernelResult) -> Vec<&str> {
-    let mut kinds: Vec<&str> = Finding::ALL.iter().map(|finding| finding.name()).collect();
+    let kinds = Finding::ALL.iter().map(|finding| finding.name());
+    let mut kinds: Vec<&str> = kinds.filter(|finding| counts_alone(part, finding)).collect();
     kinds.extend(across(part).into_iter().map(|(name, ..)| name));
     kinds.extend(polygons(part).into_iter().map(|(name, ..)| name));
     kinds

@@ -47,6 +47,7 @@ mod worst;
 
 pub use build::{Context, build};
 pub use conformance::*;
+pub(crate) use disagreement::counts_alone;
 use disagreement::kinds_of;
 pub use disagreement::{ALL_CLASSES, Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
 #[cfg(feature = "cli")]

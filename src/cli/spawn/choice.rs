@@ -54,8 +54,13 @@ fn rounded_up(x: f64) -> String {
 const AS_LOW: f64 = 4.0;
 
 /// The scheme to use of those that never failed: in the pilot, which those that are made for a scene were made on, and
-/// in the run. The first of some preferred ones that is about as low as any; the lowest if none is.
-pub fn best(pilot: &Sums, sums: &Sums, preferred: &[usize]) -> Option<usize> {
+/// in the run: one that is `proved`; else the first of some preferred ones that is about as low as any; else the lowest.
+pub fn best(
+    pilot: &Sums,
+    sums: &Sums,
+    preferred: &[usize],
+    proved: Option<usize>,
+) -> Option<usize> {
     let median =
         |place: &usize| sums.schemes[*place].in_edges.quantile(0.5).unwrap_or(f64::INFINITY);
     let never = |place: &usize| {
@@ -65,10 +70,10 @@ pub fn best(pilot: &Sums, sums: &Sums, preferred: &[usize]) -> Option<usize> {
     let all = (0..sums.schemes.len()).filter(never);
     let lowest = all.min_by(|a, b| median(a).total_cmp(&median(b)))?;
     let is_as_good = |place: &&usize| {
-        let is_low = median(place) <= AS_LOW * median(&lowest);
+        let is_low = proved == Some(**place) || median(place) <= AS_LOW * median(&lowest);
         never(place) && is_low && !is_too_high(&sums.schemes[**place])
     };
-    Some(preferred.iter().find(is_as_good).copied().unwrap_or(lowest))
+    Some(proved.iter().chain(preferred).find(is_as_good).copied().unwrap_or(lowest))
 }
 
 /// Whether half of a scheme's starts are more than a tenth of their triangle's longest edge above it, or one in a

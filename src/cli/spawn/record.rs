@@ -190,7 +190,11 @@ impl PointsPart {
     {
         let needed = sums.least.count() + sums.without_least;
         let schemes = plan.schemes.iter().zip(&sums.schemes);
-        let best = best(pilot, sums, preferred);
+        let is_proved = |scheme: &Scheme| {
+            proved_normal.is_some_and(|proved| scheme.name == proved_name(proved))
+        };
+        let proved = plan.schemes.iter().position(is_proved);
+        let best = best(pilot, sums, preferred, proved);
         let flags = match plan.row.set.as_str() {
             "source" => plan.row.entry.selector(),
             _ => plan.row.flags(),
@@ -222,7 +226,7 @@ impl PointsPart {
                 let sums = &sums.schemes[place];
                 BestPart {
                     one_in: one_in(sums),
-                    is_proved: proved_normal.is_some_and(|proved| scheme == proved_name(proved)),
+                    is_proved: proved == Some(place),
                     is_too_high: is_too_high(sums),
                     scheme,
                     command,

@@ -55,13 +55,13 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
             if best.is_too_high {
                 writeln!(
                     out,
-                    "  no offset is good here: all that never fail are too high. The lowest is {},\n  and half of its new \
-                     rays start {median} of their triangle's longest edge above it or more: they pass walls",
+                    "  none of these: the lowest that never fails, {}, is too high. Half of its new rays start {median} of\n  \
+                     their triangle's longest edge above it or more, and pass walls",
                     best.scheme
                 )?;
                 return writeln!(
                     out,
-                    "  use f64, or triangles that are larger or nearer to the origin; without --scheme, offsets are made for the scene"
+                    "  leave out --scheme, and offsets are made for the scene; if these are too high as well, use f64"
                 );
             }
             writeln!(out, "  use  {}{}", best.scheme, describe(&best.scheme))?;

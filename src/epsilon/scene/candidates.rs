@@ -180,6 +180,20 @@ fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     all[first..last].iter().map(|(_, value)| *value).collect()
 }
 
+/// The round number in the middle between two of one sign, or the first of them.
+pub fn middle<F: Float>(low: F, high: F) -> F {
+    let ends = [low.to_f64(), high.to_f64()];
+    let far_from_middle =
+        |x: &F| (libm::log(x.to_f64() / ends[0]) - libm::log(ends[1] / x.to_f64())).abs();
+    let within = rounds::<F>(ends, 0).into_iter().filter(|x| low <= *x && *x <= high);
+    within.min_by(|a, b| far_from_middle(a).total_cmp(&far_from_middle(b))).unwrap_or(low)
+}
+
+/// The grid of some values of each knob.
+pub fn of_values<F: Float>(values: impl Iterator<Item = Vec<F>>) -> Grid<F> {
+    Grid::new(values.map(in_order).collect())
+}
+
 /// The grid of all round numbers within a factor of ten of a point, and the point itself.
 pub fn around<F: Float>(point: &[F]) -> Grid<F> {
     let near = |x: &F| {

@@ -248,6 +248,33 @@ impl<F: Scalar> Joint<F> {
     }
 }
 
+impl<F: Scalar> Joint<F> {
+    /// A point of the grid with one knob after the other at another of its values, where that is as good.
+    pub fn moved(
+        &self,
+        counts: &[Count],
+        costs: &Costs,
+        from: &[F],
+        to: &[Option<F>],
+    ) -> Option<Vec<F>> {
+        let place = |k: usize, wanted: F| self.grid.values[k].iter().position(|x| *x == wanted);
+        let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
+        let mut places: Vec<usize> =
+            from.iter().enumerate().map(|(k, value)| place(k, *value)).collect::<Option<_>>()?;
+        let most = cost(&places) * (1.0 + NEGLIGIBLE);
+        let must_be_accurate = self.is_accurate(counts, &places);
+        for (k, value) in to.iter().enumerate() {
+            let mut moved = places.clone();
+            moved[k] = value.and_then(|value| place(k, value)).unwrap_or(places[k]);
+            let is_accurate = !must_be_accurate || self.is_accurate(counts, &moved);
+            if is_accurate && cost(&moved) <= most {
+                places = moved;
+            }
+        }
+        Some(self.grid.point(&places))
+    }
+}
+
 /// The union of boxes from the origin as a sum of boxes with signs, by inclusion and exclusion.
 fn union(boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
     // One that lies in another adds nothing.

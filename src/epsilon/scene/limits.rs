@@ -5,6 +5,7 @@
 //! with confidence P(at least k of n trials are among the lowest share p), which is a binomial
 //! probability, whatever the distribution of margins is (Wilks 1941).
 
+use super::candidates::middle;
 use super::confidence::{KEPT, rank};
 use super::trials::{Count, Kind, Setting, Trial, accepts};
 use crate::arith::{Float, smallest_normal, two_digits};
@@ -117,6 +118,25 @@ pub fn limits<F: Scalar>(
         Some(Limit { knob, count, is_lower, value, one_in })
     };
     tails.into_iter().filter_map(limit).collect()
+}
+
+/// By knob: a round number in the middle between its limits, if they meet and are above zero.
+pub fn between<F: Float>(limits: &[Limit<F>], knobs: usize) -> Vec<Option<F>> {
+    let between = |knob: usize| {
+        let of_side = |is_lower: bool| {
+            let found =
+                limits.iter().filter(|limit| limit.knob == knob && limit.is_lower == is_lower);
+            // None if there is no limit, or one that no value keeps.
+            let values: Option<Vec<F>> = found.map(|limit| limit.value).collect();
+            let stricter = |a: F, b: F| if (a < b) == is_lower { b } else { a };
+            values?.into_iter().reduce(stricter)
+        };
+        let (low, high) = (of_side(true)?, of_side(false)?);
+        // The least normal number stands for any above zero.
+        let is_limit = 2.0 * smallest_normal::<F>() < low.to_f64();
+        (is_limit && low <= high).then(|| middle(low, high))
+    };
+    (0..knobs).map(between).collect()
 }
 
 /// The largest value of one knob at which a trial is a hit while the others stay.

@@ -1,12 +1,12 @@
 //! A study of a scene: the cheapest epsilons together, how far each may move, and what both do on fresh
 //! rays.
 
-use super::candidates::{around, grid};
+use super::candidates::{around, grid, of_values};
 use super::curves::{Curve, axes, curves};
 use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
 use super::knob::Knob;
-use super::limits::{Limit, limits};
+use super::limits::{Limit, between, limits};
 use super::measure::{Attempt, OfHits, Wrong, differs, measure};
 use super::proved::{Proved, proved};
 use super::trials::{Kind, Margins, Setting};
@@ -91,7 +91,7 @@ pub fn study_scene<F: Scalar>(
     let is_accurate = accurate.is_some();
     let best = accurate.or_else(|| cheapest(setting, &given, costs, None, seed, count, observer));
     let best = best.expect("without a limit of errors some point is the cheapest");
-    let found = limits(setting, &best, seed, count, observer);
+    let (best, found) = within_limits(setting, best, costs, max_error, seed, count, observer);
     let mut vectors = vec![("recommended".to_owned(), best.clone())];
     for (name, epsilons) in named {
         if !vectors.iter().any(|(_, known)| known == epsilons) {
@@ -179,6 +179,33 @@ pub fn study_scene<F: Scalar>(
         relative,
         relative_limits,
     })
+}
+
+/// The cheapest epsilons with each knob whose limits meet in the middle between them, where that is as good; and the
+/// limits.
+pub fn within_limits<F: Scalar>(
+    setting: &Setting<'_, F>,
+    best: Vec<F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> (Vec<F>, Vec<Limit<F>>) {
+    let found = limits(setting, &best, seed, count, observer);
+    let middles = between(&found, best.len());
+    let both = best.iter().zip(&middles).map(|(own, middle)| {
+        let values = [Some(*own), *middle];
+        values.into_iter().flatten().collect()
+    });
+    let joint = Joint::count(setting, of_values(both), max_error, seed, count, observer);
+    match joint.moved(setting.counts, costs, &best, &middles).filter(|moved| *moved != best) {
+        Some(moved) => {
+            let found = limits(setting, &moved, seed, count, observer);
+            (moved, found)
+        }
+        None => (best, found),
+    }
 }
 
 /// The count that shows what a bound of a knob costs: hits lost where it must be large, hits beside triangles

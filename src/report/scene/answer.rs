@@ -1,6 +1,6 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
-use super::notes::{accuracy, no_good, notes, tolerates};
+use super::notes::{accuracy, is_coarse, no_good, notes, tolerates};
 use super::record::*;
 use super::words::{
     bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
@@ -257,6 +257,9 @@ fn conflict_lines(
         (Some([from, to]), Some(form), _) => {
             format!("{form} in its place is within both limits, with e from {from} to {to}")
         }
+        (_, _, "t") if is_coarse(record, part) => {
+            "the numbers are too far apart for such triangles: use f64, or move the scene to the origin".to_owned()
+        }
         (_, _, "t") => {
             "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
         }
@@ -308,7 +311,7 @@ fn next(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let seed = record.fresh_seed;
     let rest =
         format!("{}{with} --scene {scene} --scalar {} --seed {seed}", part.selector, part.scalar);
-    let has_t = part.knobs.iter().any(|knob| knob.role == "t");
+    let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
     // Of a mesh only the file's name is known, which `audit` would need.
     let audit = record.mesh.is_none().then_some("audit");
     let commands = audit.into_iter().chain(has_t.then_some("spawn"));

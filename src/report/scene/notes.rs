@@ -3,11 +3,14 @@
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
 use crate::epsilon::scene::{Costs, Kind};
-use crate::report::group_digits;
+use crate::report::number_of;
 use crate::report::record::Rate;
 
 /// From fewer rays of each kind the numbers depend on the seed: what is rare decides them.
 const FEW: u64 = 10_000;
+
+/// From fewer they say nothing.
+const TOO_FEW: u64 = 1_000;
 
 /// What is said of the best fixed numbers, a sentence each.
 pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
@@ -24,8 +27,12 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
     }
     if record.count < FEW {
         notes.push(format!(
-            "from {} rays of each kind only: another seed may name others, up to tenfold",
-            group_digits(record.count)
+            "from {} of each kind only: {}",
+            number_of(record.count, "ray", "rays"),
+            match record.count {
+                ..TOO_FEW => "too few to choose by; leave out -n",
+                _ => "another seed may name quite others",
+            }
         ));
     }
     if !part.others.is_empty() {
@@ -66,6 +73,9 @@ pub(super) fn no_good(
     tried: &TriedPart,
 ) -> Vec<String> {
     // Numbers that were not to be chosen may be what is wrong.
+    if record.count < TOO_FEW {
+        return Vec::new();
+    }
     if part.others.keys().any(|gate| gate != "t") {
         return Vec::new();
     }
@@ -109,14 +119,16 @@ pub(super) fn no_good(
     vec![format!("no numbers are good here: even these {what}"), instead(record, part, &count.kind)]
 }
 
+/// Whether the scalar's numbers are too far apart for the smallest triangles.
+pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+    record.edge[0] < 32.0 * part.spacing
+}
+
 /// What helps where no numbers are good.
 fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
     let unit = spaced(&record.unit);
-    if kind == "self-hit" {
-        return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
-    }
     let is_narrow = part.scalar == "f32";
-    if record.edge[0] < 32.0 * part.spacing {
+    if is_coarse(record, part) {
         return format!(
             "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {}, or start rays nearer",
             record.reach,
@@ -124,6 +136,9 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
             human(&format!("{:.0e}", part.spacing)),
             if is_narrow { "use f64" } else { "move the scene to the origin" }
         );
+    }
+    if kind == "self-hit" {
+        return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
     }
     (if is_narrow { "use f64 or another kernel" } else { "use another kernel" }).to_owned()
 }

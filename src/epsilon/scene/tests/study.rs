@@ -40,7 +40,10 @@ fn a_study_tries_everything_on_fresh_rays() {
         };
         let accurate = cheapest(Some(&max_error));
         assert_eq!(study.is_accurate, accurate.is_some());
-        assert_eq!(study.best, accurate.or_else(|| cheapest(None)).unwrap());
+        let best = accurate.or_else(|| cheapest(None)).unwrap();
+        let max = study.is_accurate.then_some(&max_error);
+        let (best, _) = within_limits(&setting, best, &costs, max, seed, number, &Unobserved);
+        assert_eq!(study.best, best);
         let fresh = tuned.all(seed + 1, number);
         let of = |c: usize| fresh.iter().filter(move |kept| kept.count == c);
         for tried in &study.tried {
