@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub use super::stored_case::{AnyCase, StoredCase};
-pub use super::stored_truth::{Stored, StoredContact, StoredTruth};
+pub use super::stored_truth::StoredTruth;
 use super::text_lines::TextLines;
 use super::{InputError, case_json};
 use std::io::BufRead;

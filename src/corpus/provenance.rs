@@ -2,18 +2,20 @@
 
 #![forbid(unsafe_code)]
 
-use super::json;
+use super::json::{self, Object};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
-use serde_json::{Value, json as value};
 
 /// The field `found` of a corpus line.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Provenance {
     /// The version of hairline that found it.
     pub version: String,
     /// The kernel.
     pub kernel: String,
     /// The epsilons, as `--epsilon` takes them; none if no gate takes one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub epsilons: Option<String>,
     /// The contract's name; `own` for the kernel's own.
     pub contract: String,
@@ -22,77 +24,50 @@ pub struct Provenance {
     /// The signature, as `hairline fuzz shrink` prints it.
     pub signature: String,
     /// The seed of the campaign; none if it comes from elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
     /// The evaluations of the campaign until then.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub evaluations: Option<u64>,
     /// The seconds of the campaign until then.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
     /// The file that it was found from.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub from: Option<String>,
 }
 
 impl Provenance {
     /// From the JSON object that [`Provenance::to_json`] writes.
     pub(super) fn parse(text: &str) -> Result<Provenance, String> {
-        let names = [
-            "version",
-            "kernel",
-            "epsilons",
-            "contract",
-            "finding",
-            "signature",
-            "seed",
-            "evaluations",
-            "seconds",
-            "from",
-        ];
-        let values = json::fields(text, names)?;
-        let named = |field: &str, value| json::string(value).map_err(|m| format!("{field}: {m}"));
-        let needed = |i: usize| named(names[i], json::required(names[i], values[i])?);
-        let text = |i: usize| values[i].map(|value| named(names[i], value)).transpose();
-        let count = |i: usize| values[i].map(|value| number(names[i], value)).transpose();
+        let known =
+            "version kernel epsilons contract finding signature seed evaluations seconds from";
+        let object = Object::parse(text, known)?;
         Ok(Provenance {
-            version: needed(0)?,
-            kernel: needed(1)?,
-            epsilons: text(2)?,
-            contract: needed(3)?,
-            finding: needed(4)?,
-            signature: needed(5)?,
-            seed: count(6)?,
-            evaluations: count(7)?,
-            seconds: values[8].map(|value| number("seconds", value)).transpose()?,
-            from: text(9)?,
+            version: object.required_string("version")?,
+            kernel: object.required_string("kernel")?,
+            epsilons: object.read("epsilons", json::string)?,
+            contract: object.required_string("contract")?,
+            finding: object.required_string("finding")?,
+            signature: object.required_string("signature")?,
+            seed: object.read("seed", number)?,
+            evaluations: object.read("evaluations", number)?,
+            seconds: object.read("seconds", number)?,
+            from: object.read("from", json::string)?,
         })
     }
 
     /// As a JSON object, without the fields that are none.
     pub(super) fn to_json(&self) -> String {
-        let fields: [(&str, Value); 10] = [
-            ("version", value!(self.version)),
-            ("kernel", value!(self.kernel)),
-            ("epsilons", value!(self.epsilons)),
-            ("contract", value!(self.contract)),
-            ("finding", value!(self.finding)),
-            ("signature", value!(self.signature)),
-            ("seed", value!(self.seed)),
-            ("evaluations", value!(self.evaluations)),
-            ("seconds", value!(self.seconds)),
-            ("from", value!(self.from)),
-        ];
-        let given = fields.iter().filter(|(_, value)| !value.is_null());
-        let words: Vec<String> = given.map(|(name, value)| format!("\"{name}\":{value}")).collect();
-        format!("{{{}}}", words.join(","))
+        // Strings and numbers under names that are strings: nothing that could fail.
+        serde_json::to_string(self).unwrap_or_default()
     }
 }
 
 /// A number that is no less than zero.
-fn number<T: serde::de::DeserializeOwned + PartialOrd + Default>(
-    field: &str,
-    value: &RawValue,
-) -> Result<T, String> {
+fn number<T: DeserializeOwned + PartialOrd + Default>(value: &RawValue) -> Result<T, String> {
     let parsed = serde_json::from_str(value.get()).ok().filter(|n| T::default() <= *n);
-    let expected = || format!("{field}: expected a number, found {}", json::excerpt(value.get()));
-    parsed.ok_or_else(expected)
+    parsed.ok_or_else(|| format!("expected a number, found {}", json::excerpt(value.get())))
 }
 
 #[cfg(test)]

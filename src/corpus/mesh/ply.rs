@@ -198,7 +198,10 @@ impl<R: BufRead> File<'_, R> {
             let has_lines = self.encoding == Encoding::Ascii;
             let face = if has_lines { "face".to_owned() } else { format!("face {at}") };
             let message = format!("{face} names vertex {largest}, counted from 0, of {count}");
-            return Err(InputError { line: has_lines.then_some(at as usize), ..self.bad(&message) });
+            return Err(InputError {
+                line: has_lines.then_some(at as usize),
+                ..self.bad(&message)
+            });
         }
         for (corners, number) in self.faces.iter() {
             self.mesh.face(corners, number);
