@@ -7,7 +7,7 @@
 //! numbers into a decision, so it adds their exceptions to the run's. Values that are computed but never
 //! compared, such as those of a hit, do not count.
 
-use super::arithmetic::{Arithmetic, Operation};
+use super::arithmetic::{Arithmetic, Operation, smallest_normal};
 use super::{Emulated, Exact, Float, Real, decompose};
 use std::cell::Cell;
 use std::ops::BitOr;
@@ -28,8 +28,7 @@ impl Exceptions {
     fn of<F: Float>(result: F, exact: impl FnOnce() -> bool) -> Exceptions {
         let overflow = !result.is_finite();
         let inexact = overflow || !exact();
-        let smallest_normal = F::from_place(1 << (F::DIGITS - 1));
-        Exceptions { inexact, overflow, underflow: inexact && result.abs() < smallest_normal }
+        Exceptions { inexact, overflow, underflow: inexact && result.abs() < smallest_normal() }
     }
 }
 

@@ -5,7 +5,7 @@ use super::flags::unknown;
 use super::input::read_text;
 use super::output::write_result;
 use crate::corpus::{InputError, json};
-use crate::report::number_of;
+use crate::report::{number_of, write_json};
 use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{Test, core, digest, json::topic_file};
 use clap::{Args, ValueEnum};
@@ -157,10 +157,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     }
     write_result(&arguments.output, |out| match arguments.format {
         Format::Text => report.write_text(out),
-        Format::Json => {
-            serde_json::to_writer_pretty(&mut *out, &report)?;
-            writeln!(out)
-        }
+        Format::Json => write_json(&report, out),
     })?;
     Ok(if report.wrong.is_empty() { Status::Success } else { Status::Disagreements })
 }

@@ -1,11 +1,9 @@
 //! A case as one JSON object.
 
-#![forbid(unsafe_code)]
-
 use super::json::{self, Object};
 use super::stored_case::{AnyCase, StoredCase};
 use super::stored_truth::StoredTruth;
-use super::{Provenance, number};
+use super::{FoundBy, number};
 use crate::arith::Float;
 use crate::case::Case;
 use serde_json::Value;
@@ -49,7 +47,7 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         line,
         why: object.read("why", json::string)?,
         url: object.read("url", json::string)?,
-        found: object.read("found", |found| Provenance::parse(found.get()))?,
+        found: object.read("found", |found| FoundBy::parse(found.get()))?,
     })
 }
 

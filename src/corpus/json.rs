@@ -1,7 +1,5 @@
 //! JSON objects with known fields, read through `serde_json`, and errors that name the field.
 
-#![forbid(unsafe_code)]
-
 use serde::Deserializer;
 use serde::de::{MapAccess, Visitor};
 use serde_json::error::Category;

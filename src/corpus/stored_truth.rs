@@ -1,7 +1,5 @@
 //! A truth stored beside a case, and its comparison with the true one.
 
-#![forbid(unsafe_code)]
-
 use super::json::{self, Object};
 use super::truth_json::{ContactLine, TruthLine, fraction_text};
 use crate::truth::{Facing, Feature, Place};

@@ -76,33 +76,23 @@ impl Dimension {
     }
 }
 
-/// What a gate is there to refuse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// Rays parallel to the plane and triangles without area; with a sign, the culled side too.
-    Parallel,
-    /// Crossings before and beyond the extent, and with them the triangle that a ray starts on.
-    T,
-    /// Crossings outside the triangle, and whatever has no gate of its own.
-    Edge,
-    /// Something else.
-    Other,
+named! {
+    pub names
+    /// What a gate is there to refuse.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Role {
+        /// Rays parallel to the plane and triangles without area; with a sign, the culled side too.
+        Parallel = "parallel",
+        /// Crossings before and beyond the extent, and with them the triangle that a ray starts on.
+        T = "t",
+        /// Crossings outside the triangle, and whatever has no gate of its own.
+        Edge = "edge",
+        /// Something else.
+        Other = "other",
+    }
 }
 
 impl Role {
-    /// All of them.
-    pub const ALL: [Role; 4] = [Role::Parallel, Role::T, Role::Edge, Role::Other];
-
-    /// The name of a gate of this role, unless the kernel gives it another.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Role::Parallel => "parallel",
-            Role::T => "t",
-            Role::Edge => "edge",
-            Role::Other => "other",
-        }
-    }
-
     /// The role of a name.
     pub fn find(name: &str) -> Option<Role> {
         Role::ALL.into_iter().find(|role| role.name() == name)

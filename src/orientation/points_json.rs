@@ -1,20 +1,13 @@
 //! The points of an orientation predicate as one JSON object.
 
-#![forbid(unsafe_code)]
-
 use super::Points;
 use crate::arith::Float;
+use crate::case::AnyScalar;
 use crate::corpus::{case_json, json};
 use serde_json::value::RawValue;
 
 /// Points in the scalar that they were written for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyPoints {
-    /// In `f32`.
-    F32(Points<f32>),
-    /// In `f64`.
-    F64(Points<f64>),
-}
+pub type AnyPoints = AnyScalar<Points<f32>, Points<f64>>;
 
 /// Three points of the plane or four of space from `{"scalar":"f64","points":[[x,y],...]}`; numbers as
 /// in the files of cases.

@@ -6,8 +6,10 @@ use super::record::*;
 use std::io::{self, Write};
 
 /// All families of one kernel row in one scalar.
+#[derive(Clone)]
 pub(super) struct RowView<'a> {
     pub(super) part: &'a RowPart,
+    pub(super) scalar: &'a str,
     pub(super) total: Option<&'a RowTotal>,
     pub(super) results: Vec<&'a KernelResult>,
     pub(super) sources: &'a [SourcePart],
@@ -15,7 +17,7 @@ pub(super) struct RowView<'a> {
 
 impl<'a> RowView<'a> {
     /// Every row of a record in a scalar.
-    pub(super) fn all(record: &'a Record, scalar: &str) -> Vec<RowView<'a>> {
+    pub(super) fn all(record: &'a Record, scalar: &'a str) -> Vec<RowView<'a>> {
         let of_row = |part: &RowPart, r: &KernelResult| {
             r.scalar == scalar && r.kernel == part.kernel && r.set == part.set
         };
@@ -24,6 +26,7 @@ impl<'a> RowView<'a> {
         };
         let view = |part: &'a RowPart| RowView {
             part,
+            scalar,
             total: record.result.totals.iter().find(|total| total_of(part, total)),
             results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
             sources: &record.result.sources,

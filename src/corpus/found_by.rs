@@ -1,6 +1,4 @@
-//! The provenance of a finding, stored beside its case: the kernel, the finding, and where it came from.
-
-#![forbid(unsafe_code)]
+//! How a finding was found, stored beside its case: the kernel, the finding, and where it came from.
 
 use super::json::{self, Object};
 use serde::Serialize;
@@ -9,7 +7,7 @@ use serde_json::value::RawValue;
 
 /// The field `found` of a corpus line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Provenance {
+pub struct FoundBy {
     /// The version of hairline that found it.
     pub version: String,
     /// The kernel.
@@ -37,13 +35,13 @@ pub struct Provenance {
     pub from: Option<String>,
 }
 
-impl Provenance {
-    /// From the JSON object that [`Provenance::to_json`] writes.
-    pub(super) fn parse(text: &str) -> Result<Provenance, String> {
+impl FoundBy {
+    /// From the JSON object that [`FoundBy::to_json`] writes.
+    pub(super) fn parse(text: &str) -> Result<FoundBy, String> {
         let known =
             "version kernel epsilons contract finding signature seed evaluations seconds from";
         let object = Object::parse(text, known)?;
-        Ok(Provenance {
+        Ok(FoundBy {
             version: object.required_string("version")?,
             kernel: object.required_string("kernel")?,
             epsilons: object.read("epsilons", json::string)?,
@@ -76,7 +74,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_and_errors_name_the_field() {
-        let full = Provenance {
+        let full = FoundBy {
             version: "0.1.0".into(),
             kernel: "cramer".into(),
             epsilons: Some("det=1e-6".into()),
@@ -88,7 +86,7 @@ mod tests {
             seconds: Some(1.5),
             from: Some("crash-1".into()),
         };
-        let bare = Provenance {
+        let bare = FoundBy {
             epsilons: None,
             seed: None,
             evaluations: None,
@@ -97,7 +95,7 @@ mod tests {
             ..full.clone()
         };
         for provenance in [&full, &bare] {
-            assert_eq!(Provenance::parse(&provenance.to_json()).as_ref(), Ok(provenance));
+            assert_eq!(FoundBy::parse(&provenance.to_json()).as_ref(), Ok(provenance));
         }
         for (old, new, message) in [
             ("\"kernel\":\"cramer\",", "", "missing field 'kernel'"),
@@ -106,7 +104,7 @@ mod tests {
             ("\"evaluations\":7", "\"evaluations\":\"7\"", "evaluations: expected a number"),
             ("\"version\"", "\"tool\"", "unknown field 'tool', expected one of version, "),
         ] {
-            let error = Provenance::parse(&full.to_json().replacen(old, new, 1)).unwrap_err();
+            let error = FoundBy::parse(&full.to_json().replacen(old, new, 1)).unwrap_err();
             assert!(error.starts_with(message), "{error}");
         }
     }
