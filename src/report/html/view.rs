@@ -74,9 +74,12 @@ impl<'a> View<'a> {
         let mut rows: Vec<Row> = anchored
             .map(|(i, part)| Row { part, anchor: format!("k{i}"), scalars: Vec::new() })
             .collect();
-        for view in plan.scalars.iter().flat_map(|scalar| RowView::all(record, scalar)) {
-            let row = rows.iter_mut().find(|row| std::ptr::eq(row.part, view.part));
-            row.into_iter().for_each(|row| row.scalars.push(view.clone()));
+        for scalar in &plan.scalars {
+            // In the order of the plan, some left out.
+            let mut views = RowView::all(record, scalar).into_iter().peekable();
+            for row in &mut rows {
+                row.scalars.extend(views.next_if(|view| std::ptr::eq(view.part, row.part)));
+            }
         }
         rows.retain(|row| !row.scalars.is_empty());
         let families = plan.sources.iter().map(|source| source.family.as_str()).collect();
