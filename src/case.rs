@@ -2,10 +2,12 @@
 
 #![forbid(unsafe_code)]
 
+mod any;
 mod bits;
 mod literal;
 mod scene;
 
+pub use any::AnyScalar;
 pub(crate) use literal::{rust_case, rust_list};
 pub(crate) use scene::Number;
 pub use scene::{DirectionLength, SCENES, Scene, ScenePreset};

@@ -76,46 +76,58 @@ impl FromStr for Band {
     }
 }
 
-/// The part of the line that counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Extent {
-    /// All t.
-    Line,
-    /// t ≥ 0.
-    Ray,
-    /// t in `[t_min, t_max]`.
-    Interval,
+named! {
+    pub(crate) names
+    /// The part of the line that counts.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Extent {
+        /// All t.
+        Line = "line",
+        /// t ≥ 0.
+        Ray = "ray",
+        /// t in `[t_min, t_max]`.
+        Interval = "interval",
+    }
 }
 
-/// The sides that can be hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Sides {
-    /// Both.
-    Both,
-    /// Only the front: the back must be missed.
-    Front,
+named! {
+    pub(crate) names
+    /// The sides that can be hit.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Sides {
+        /// Both.
+        Both = "both",
+        /// Only the front: the back must be missed.
+        Front = "front",
+    }
 }
 
-/// What edges and vertices are, or the ends of a ray or an interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Boundary {
-    /// Hits.
-    Closed,
-    /// Misses.
-    Open,
-    /// Either.
-    Free,
+named! {
+    pub(crate) names
+    /// What edges and vertices are, or the ends of a ray or an interval.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Boundary {
+        /// Hits.
+        Closed = "closed",
+        /// Misses.
+        Open = "open",
+        /// Either.
+        Free = "free",
+    }
 }
 
-/// What is demanded of a kernel in a situation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Demand {
-    /// A miss.
-    Miss,
-    /// A hit where there is a common point, else a miss.
-    Hit,
-    /// Nothing.
-    Free,
+named! {
+    pub(crate) names
+    /// What is demanded of a kernel in a situation.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Demand {
+        /// A miss.
+        Miss = "miss",
+        /// A hit where there is a common point, else a miss.
+        Hit = "hit",
+        /// Nothing.
+        Free = "free",
+    }
 }
 
 /// The directions that a kernel promises anything for.
@@ -130,25 +142,17 @@ pub enum Direction {
     },
 }
 
-/// What is promised across triangles that share an edge or a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Across {
-    /// Nothing.
-    Nothing,
-    /// No crack: at least one of the triangles reports the hit.
-    AtLeastOne,
-    /// No crack and no double.
-    ExactlyOne,
-}
-
-impl Across {
-    /// The word in contracts and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Across::Nothing => "nothing",
-            Across::AtLeastOne => "at-least-one",
-            Across::ExactlyOne => "exactly-one",
-        }
+named! {
+    pub names
+    /// What is promised across triangles that share an edge or a vertex.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Across {
+        /// Nothing.
+        Nothing = "nothing",
+        /// No crack: at least one of the triangles reports the hit.
+        AtLeastOne = "at-least-one",
+        /// No crack and no double.
+        ExactlyOne = "exactly-one",
     }
 }
 

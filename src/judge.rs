@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod change;
 mod class;
 mod distance;
 mod elsewhere;
@@ -10,11 +11,10 @@ mod group;
 #[cfg(test)]
 mod tests;
 
+pub use change::exact_to_change;
 pub use class::Class;
 pub(crate) use class::Kind;
-pub use distance::{
-    Distances, Squares, exact_to_change, nearest_on_segment, square, ulp_of_points,
-};
+pub use distance::{Distances, Squares, nearest_on_segment, square, ulp_of_points};
 pub use elsewhere::may_be_elsewhere;
 pub(crate) use expected::{Expectations, Kinds, ask_all, suspects};
 pub(crate) use group::owes_groups_alike;
@@ -40,46 +40,27 @@ pub enum Obligation {
     Free,
 }
 
-/// A disagreement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum Finding {
-    /// It must hit, and missed.
-    FalseMiss,
-    /// It must miss, and hit.
-    FalseHit,
-    /// A hit that is not false, with a value that is not finite or with a wrong facing.
-    BadValue,
-    /// The kernel panicked.
-    Panic,
-    /// The kernel's process died, or it wrote outside its output.
-    Crash,
-    /// The kernel's process gave no answer in time.
-    Timeout,
+named! {
+    pub names
+    /// A disagreement.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    pub enum Finding {
+        /// It must hit, and missed.
+        FalseMiss = "false-miss",
+        /// It must miss, and hit.
+        FalseHit = "false-hit",
+        /// A hit that is not false, with a value that is not finite or with a wrong facing.
+        BadValue = "bad-value",
+        /// The kernel panicked.
+        Panic = "panic",
+        /// The kernel's process died, or it wrote outside its output.
+        Crash = "crash",
+        /// The kernel's process gave no answer in time.
+        Timeout = "timeout",
+    }
 }
 
 impl Finding {
-    /// All of them, in the order of reports.
-    pub const ALL: [Finding; 6] = [
-        Finding::FalseMiss,
-        Finding::FalseHit,
-        Finding::BadValue,
-        Finding::Panic,
-        Finding::Crash,
-        Finding::Timeout,
-    ];
-
-    /// The name in records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Finding::FalseMiss => "false-miss",
-            Finding::FalseHit => "false-hit",
-            Finding::BadValue => "bad-value",
-            Finding::Panic => "panic",
-            Finding::Crash => "crash",
-            Finding::Timeout => "timeout",
-        }
-    }
-
     /// Whether the kernel gave no verdict at all.
     pub fn is_failure(self) -> bool {
         matches!(self, Finding::Panic | Finding::Crash | Finding::Timeout)
@@ -128,7 +109,7 @@ fn in_band<F: Float>(
         Some(band)
             if asked != Obligation::Free
                 && *truth != Truth::Invalid
-                && distance::is_within(band, case, truth, contract) =>
+                && change::is_within(band, case, truth, contract) =>
         {
             Obligation::Free
         }

@@ -26,6 +26,53 @@
 // Some of the modules' items serve only this project's own tests, through `internals`.
 #![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 
+/// An enum whose values have names.
+macro_rules! named {
+    ($methods:vis names $(#[$about:meta])* $visible:vis enum $type:ident {
+        $($(#[$doc:meta])* $value:ident = $name:literal,)*
+    }) => {
+        $(#[$about])*
+        $visible enum $type {
+            $($(#[$doc])* $value,)*
+        }
+
+        impl $type {
+            /// All of them, in their order.
+            $methods const ALL: [$type; [$($name),*].len()] = [$($type::$value),*];
+
+            /// The name in files, in reports and on the command line.
+            $methods const fn name(self) -> &'static str {
+                match self {
+                    $($type::$value => $name,)*
+                }
+            }
+        }
+    };
+}
+
+/// Does the same with whichever scalar's value an [`AnyScalar`](crate::case::AnyScalar) holds.
+macro_rules! either_scalar {
+    ($any:expr, $value:pat => $do:expr) => {
+        match $any {
+            $crate::case::AnyScalar::F32($value) => $do,
+            $crate::case::AnyScalar::F64($value) => $do,
+        }
+    };
+}
+
+/// Does something in the scalar of a name, which is one of the two.
+macro_rules! in_named_scalar {
+    ($name:expr, $scalar:ident => $do:expr) => {
+        if $name == <f32 as $crate::arith::Float>::NAME {
+            type $scalar = f32;
+            $do
+        } else {
+            type $scalar = f64;
+            $do
+        }
+    };
+}
+
 // The floors, from the ground up: each module uses only those above it in this list.
 mod arith;
 mod engine;

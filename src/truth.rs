@@ -34,49 +34,58 @@ pub struct Crossing {
     pub feature: Feature,
 }
 
-/// The side of a triangle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Facing {
-    /// D < 0: the ray comes from the side from which a, b, c run counter-clockwise.
-    Front,
-    /// D > 0.
-    Back,
+named! {
+    pub names
+    /// The side of a triangle.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Facing {
+        /// D < 0: the ray comes from the side from which a, b, c run counter-clockwise.
+        Front = "front",
+        /// D > 0.
+        Back = "back",
+    }
 }
 
-/// Where t lies against `[t_min, t_max]`; with t_min = t_max = t it is at t_min.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Place {
-    /// t < t_min.
-    Before,
-    /// t = t_min.
-    AtMin,
-    /// Between the ends.
-    Within,
-    /// t = t_max.
-    AtMax,
-    /// t > t_max.
-    Beyond,
+named! {
+    pub names
+    /// Where t lies against `[t_min, t_max]`; with t_min = t_max = t it is at t_min.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    pub enum Place {
+        /// t < t_min.
+        Before = "before",
+        /// t = t_min.
+        AtMin = "at_min",
+        /// Between the ends.
+        Within = "within",
+        /// t = t_max.
+        AtMax = "at_max",
+        /// t > t_max.
+        Beyond = "beyond",
+    }
 }
 
-/// Part of a closed triangle, or its outside.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Feature {
-    /// Inside, off the boundary.
-    Interior,
-    /// The open edge from a to b.
-    EdgeAb,
-    /// The open edge from b to c.
-    EdgeBc,
-    /// The open edge from c to a.
-    EdgeCa,
-    /// Vertex a.
-    VertexA,
-    /// Vertex b.
-    VertexB,
-    /// Vertex c.
-    VertexC,
-    /// Not in the closed triangle.
-    Outside,
+named! {
+    pub names
+    /// Part of a closed triangle, or its outside.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Feature {
+        /// Inside, off the boundary.
+        Interior = "interior",
+        /// The open edge from a to b.
+        EdgeAb = "edge_ab",
+        /// The open edge from b to c.
+        EdgeBc = "edge_bc",
+        /// The open edge from c to a.
+        EdgeCa = "edge_ca",
+        /// Vertex a.
+        VertexA = "vertex_a",
+        /// Vertex b.
+        VertexB = "vertex_b",
+        /// Vertex c.
+        VertexC = "vertex_c",
+        /// Not in the closed triangle.
+        Outside = "outside",
+    }
 }
 
 /// How a line in the plane of a triangle, or any line and a triangle without area, meet.
@@ -138,18 +147,6 @@ impl Truth {
 }
 
 impl Feature {
-    /// All of them, in the order of reports.
-    pub const ALL: [Feature; 8] = [
-        Feature::Interior,
-        Feature::EdgeAb,
-        Feature::EdgeBc,
-        Feature::EdgeCa,
-        Feature::VertexA,
-        Feature::VertexB,
-        Feature::VertexC,
-        Feature::Outside,
-    ];
-
     /// From the signs of the weights of a, b and c, divided by the sign of their sum.
     pub fn from_weight_signs(signs: [Ordering; 3]) -> Feature {
         use Ordering::{Equal, Less};
@@ -176,47 +173,6 @@ impl Feature {
     /// Whether this is one of the vertices.
     pub fn is_vertex(self) -> bool {
         matches!(self, Feature::VertexA | Feature::VertexB | Feature::VertexC)
-    }
-
-    /// The name in corpus files and records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Feature::Interior => "interior",
-            Feature::EdgeAb => "edge_ab",
-            Feature::EdgeBc => "edge_bc",
-            Feature::EdgeCa => "edge_ca",
-            Feature::VertexA => "vertex_a",
-            Feature::VertexB => "vertex_b",
-            Feature::VertexC => "vertex_c",
-            Feature::Outside => "outside",
-        }
-    }
-}
-
-impl Place {
-    /// All of them, along the line.
-    pub const ALL: [Place; 5] =
-        [Place::Before, Place::AtMin, Place::Within, Place::AtMax, Place::Beyond];
-
-    /// The name in corpus files and records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Place::Before => "before",
-            Place::AtMin => "at_min",
-            Place::Within => "within",
-            Place::AtMax => "at_max",
-            Place::Beyond => "beyond",
-        }
-    }
-}
-
-impl Facing {
-    /// The name in corpus files and records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Facing::Front => "front",
-            Facing::Back => "back",
-        }
     }
 }
 

@@ -78,7 +78,7 @@ impl Arithmetic {
         } else if margin < F::zero() {
             -smallest
         } else {
-            just_below(smallest)
+            smallest.just_below()
         }
     }
 
@@ -88,17 +88,13 @@ impl Arithmetic {
         match self.flushed {
             true if value.is_zero() => -smallest,
             true if value == smallest => F::zero(),
-            _ => just_below(value),
+            _ => value.just_below(),
         }
     }
 }
 
-fn just_below<F: Float>(value: F) -> F {
-    value.just_below()
-}
-
 /// The smallest positive number that is not subnormal.
-fn smallest_normal<F: Float>() -> F {
+pub(super) fn smallest_normal<F: Float>() -> F {
     F::from_place(1 << (F::DIGITS - 1))
 }
 

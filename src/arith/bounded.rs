@@ -10,7 +10,6 @@
 use super::Real;
 use std::cell::Cell;
 use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 thread_local! {
     /// Whether a comparison of the run on this thread was not decided.
@@ -159,6 +158,18 @@ impl Bounded {
         Bounded::rounded(sum, handed_on, operation)
     }
 
+    fn difference(&self, other: &Bounded) -> Bounded {
+        self.sum(&other.negation())
+    }
+
+    #[inline]
+    fn negation(&self) -> Bounded {
+        if self.high == 0.0 && self.low == 0.0 {
+            return *self;
+        }
+        Bounded { high: -self.high, low: -self.low, ..*self }
+    }
+
     fn product(&self, other: &Bounded) -> Bounded {
         if !(self.is_known() && other.is_known()) {
             return UNKNOWN;
@@ -223,42 +234,7 @@ impl Bounded {
     }
 }
 
-macro_rules! operator {
-    ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
-        impl $trait for Bounded {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: Self) -> Self {
-                let ($a, $b) = (&self, &other);
-                $body
-            }
-        }
-        impl $trait<&Self> for Bounded {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: &Self) -> Self {
-                let ($a, $b) = (&self, other);
-                $body
-            }
-        }
-    };
-}
-
-operator!(Add, add, |a, b| a.sum(b));
-operator!(Sub, sub, |a, b| a.sum(&-*b));
-operator!(Mul, mul, |a, b| a.product(b));
-operator!(Div, div, |a, b| a.quotient(b));
-
-impl Neg for Bounded {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        if self.high == 0.0 && self.low == 0.0 {
-            return self;
-        }
-        Bounded { high: -self.high, low: -self.low, ..self }
-    }
-}
+operators!([] Bounded, std::convert::identity);
 
 /// The answer of a comparison; doubt if there is none.
 #[inline]
@@ -278,7 +254,7 @@ fn compare(a: &Bounded, b: &Bounded) -> Option<Option<Ordering>> {
     if a.is_special() || b.is_special() {
         return Some(a.high.partial_cmp(&b.high));
     }
-    a.sum(&-*b).sign().map(Some)
+    a.difference(b).sign().map(Some)
 }
 
 /// The second of two numbers if its order to the first is `wanted`, or else the first. Where the bounds
@@ -352,15 +328,6 @@ impl Real for Bounded {
     }
     fn infinity() -> Self {
         Bounded::exact(f64::INFINITY)
-    }
-    fn just_below(&self) -> Self {
-        *self
-    }
-    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
-        *a * b - *c * d
-    }
-    fn largest_accepted(_: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
-        exact()
     }
 }
 

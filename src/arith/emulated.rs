@@ -15,7 +15,6 @@
 
 use super::arithmetic::{Arithmetic, Operation};
 use super::{Float, Real};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A float of another machine.
 #[derive(Debug)]
@@ -64,7 +63,7 @@ impl<F: Float> Emulated<F> {
 
     /// The operation that `self + other` is.
     #[inline]
-    pub(super) fn sum(&self, other: &Self) -> Operation<F> {
+    pub(super) fn operation_of_sum(&self, other: &Self) -> Operation<F> {
         match (self.factors, other.factors) {
             (Some([a, b]), _) => Operation::Fused(a, b, other.value),
             (None, Some([a, b])) => Operation::Fused(a, b, self.value),
@@ -83,8 +82,18 @@ impl<F: Float> Emulated<F> {
     }
 
     #[inline(never)]
-    fn plus(&self, other: &Self) -> Self {
-        Emulated::made(self.sum(other), self.arithmetic.and(other.arithmetic))
+    fn sum(&self, other: &Self) -> Self {
+        Emulated::made(self.operation_of_sum(other), self.arithmetic.and(other.arithmetic))
+    }
+
+    fn difference(&self, other: &Self) -> Self {
+        self.sum(&other.negation())
+    }
+
+    #[inline]
+    pub(super) fn negation(&self) -> Self {
+        let factors = self.factors.map(|[a, b]| [-a, b]);
+        Emulated { value: -self.value, factors, ..*self }
     }
 
     #[inline(never)]
@@ -100,41 +109,7 @@ impl<F: Float> Emulated<F> {
     }
 }
 
-/// An operator whose right operand is moved, or borrowed and so a name that is used again.
-macro_rules! operator {
-    ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
-        impl<F: Float> $trait for Emulated<F> {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: Self) -> Self {
-                let ($a, $b) = (self, other);
-                $body
-            }
-        }
-        impl<F: Float> $trait<&Self> for Emulated<F> {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: &Self) -> Self {
-                let ($a, $b) = (self, other.clone());
-                $body
-            }
-        }
-    };
-}
-
-operator!(Add, add, |a, b| a.plus(&b));
-operator!(Sub, sub, |a, b| a.plus(&-b));
-operator!(Mul, mul, |a, b| a.product(&b));
-operator!(Div, div, |a, b| a.quotient(&b));
-
-impl<F: Float> Neg for Emulated<F> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        let factors = self.factors.map(|[a, b]| [-a, b]);
-        Emulated { value: -self.value, factors, ..self }
-    }
-}
+operators!([F: Float] Emulated<F>, Clone::clone);
 
 impl<F: Float> Real for Emulated<F> {
     fn zero() -> Self {

@@ -6,7 +6,6 @@
 use super::{Fraction, Real, scale_by_power_of_two};
 use num_rational::BigRational;
 use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
 /// An exact number of a kernel run. One zero, whose sign bit reads positive.
@@ -129,6 +128,10 @@ impl Exact {
         }
     }
 
+    fn difference(&self, other: &Exact) -> Exact {
+        self.sum(&other.negation())
+    }
+
     fn negation(&self) -> Exact {
         match self {
             Nan => Nan,
@@ -209,36 +212,7 @@ fn same_root(a: &Arc<Fraction>, b: &Arc<Fraction>) -> bool {
     Arc::ptr_eq(a, b) || a.add(&b.negated()).is_zero()
 }
 
-macro_rules! operator {
-    ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
-        impl $trait for Exact {
-            type Output = Exact;
-            fn $method(self, other: Exact) -> Exact {
-                let ($a, $b) = (&self, &other);
-                $body
-            }
-        }
-        impl $trait<&Exact> for Exact {
-            type Output = Exact;
-            fn $method(self, other: &Exact) -> Exact {
-                let ($a, $b) = (&self, other);
-                $body
-            }
-        }
-    };
-}
-
-operator!(Add, add, |a, b| a.sum(b));
-operator!(Sub, sub, |a, b| a.sum(&b.negation()));
-operator!(Mul, mul, |a, b| a.product(b));
-operator!(Div, div, |a, b| a.quotient(b));
-
-impl Neg for Exact {
-    type Output = Exact;
-    fn neg(self) -> Exact {
-        self.negation()
-    }
-}
+operators!([] Exact, std::convert::identity);
 
 impl Real for Exact {
     fn zero() -> Self {
@@ -283,22 +257,13 @@ impl Real for Exact {
     fn infinity() -> Self {
         Infinite(false)
     }
-    fn just_below(&self) -> Self {
-        self.clone()
-    }
-    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
-        a.product(b).sum(&c.product(d).negation())
-    }
-    fn largest_accepted(_: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
-        exact()
-    }
 }
 
 fn compare(a: &Exact, b: &Exact) -> Option<Ordering> {
     match (a, b) {
         (Nan, _) | (_, Nan) => None,
         (Infinite(x), Infinite(y)) => Some(y.cmp(x)),
-        _ => a.sum(&b.negation()).sign(),
+        _ => a.difference(b).sign(),
     }
 }
 

@@ -8,6 +8,44 @@
 
 #![forbid(unsafe_code)]
 
+/// The operators of a number with methods for them on references. How a right operand is taken that is borrowed:
+/// as it is, or as its clone, a name that is used again.
+macro_rules! operators {
+    ($generics:tt $number:ty, $borrowed:path) => {
+        operators!($generics $number, $borrowed, Add add sum);
+        operators!($generics $number, $borrowed, Sub sub difference);
+        operators!($generics $number, $borrowed, Mul mul product);
+        operators!($generics $number, $borrowed, Div div quotient);
+        operators!($generics $number);
+    };
+    ([$($generic:tt)*] $number:ty, $borrowed:path, $trait:ident $method:ident $with:ident) => {
+        impl<$($generic)*> std::ops::$trait for $number {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: Self) -> Self {
+                self.$with(&other)
+            }
+        }
+        impl<$($generic)*> std::ops::$trait<&Self> for $number {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: &Self) -> Self {
+                let other = $borrowed(other);
+                self.$with(&other)
+            }
+        }
+    };
+    ([$($generic:tt)*] $number:ty) => {
+        impl<$($generic)*> std::ops::Neg for $number {
+            type Output = Self;
+            #[inline]
+            fn neg(self) -> Self {
+                self.negation()
+            }
+        }
+    };
+}
+
 mod arithmetic;
 mod bounded;
 mod digits;
@@ -79,7 +117,9 @@ pub trait Real:
     fn infinity() -> Self;
     /// The next number below: for a float the next representable one, for an exact number itself
     /// (read as "anything below").
-    fn just_below(&self) -> Self;
+    fn just_below(&self) -> Self {
+        self.clone()
+    }
     /// The smaller of two numbers; the first where neither is less.
     fn smaller(self, other: Self) -> Self {
         if other.is_less(&self) { other } else { self }
@@ -90,13 +130,17 @@ pub trait Real:
     }
     /// `a*b - c*d` in the wider arithmetic that Woop's fallback needs: `f32` through `f64`, `f64`
     /// by exact products (an addition of this project), exact numbers as they are.
-    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self;
+    fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+        a.clone() * b - c.clone() * d
+    }
     /// The largest epsilon at which `accepts` still holds, for a test in which the source rounds
     /// with the epsilon in it. `accepts` is monotone: once false it stays false as its argument
     /// grows. `exact` is the threshold of the same test without rounding.
     ///
     /// A float searches its ordered bit patterns, outwards from `exact`; an exact number takes `exact`.
-    fn largest_accepted(accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self;
+    fn largest_accepted(_accepts: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
+        exact()
+    }
 }
 
 /// Three [`Real`]s.

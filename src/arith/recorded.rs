@@ -9,7 +9,6 @@
 use super::Real;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A place on the tape.
 pub type Place = u32;
@@ -192,7 +191,7 @@ impl Recorded {
         })
     }
 
-    fn plus(self, other: Recorded) -> Recorded {
+    fn sum(&self, other: &Recorded) -> Recorded {
         let operation = match (self.factors, other.factors) {
             (Some([a, b]), _) => Operation::Fma(a, b, other.place),
             (None, Some([a, b])) => Operation::Fma(a, b, self.place),
@@ -201,50 +200,24 @@ impl Recorded {
         Recorded::at(operation)
     }
 
-    fn less(self, other: Recorded) -> Recorded {
+    fn difference(&self, other: &Recorded) -> Recorded {
         match (self.factors, other.factors) {
             (None, None) => Recorded::at(Operation::Sub(self.place, other.place)),
-            _ => self.plus(-other),
+            _ => self.sum(&other.negation()),
         }
     }
 
-    fn product(self, other: Recorded) -> Recorded {
+    fn product(&self, other: &Recorded) -> Recorded {
         let place = push(Operation::Mul(self.place, other.place));
         let fused = on_tape(|tape| tape.fused);
         Recorded { place, factors: fused.then_some([self.place, other.place]) }
     }
 
-    fn quotient(self, other: Recorded) -> Recorded {
+    fn quotient(&self, other: &Recorded) -> Recorded {
         Recorded::at(Operation::Div(self.place, other.place))
     }
-}
 
-/// An operator whose right operand is moved, or borrowed and so a name that is used again.
-macro_rules! operator {
-    ($trait:ident, $method:ident, $with:ident) => {
-        impl $trait for Recorded {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                self.$with(other)
-            }
-        }
-        impl $trait<&Self> for Recorded {
-            type Output = Self;
-            fn $method(self, other: &Self) -> Self {
-                self.$with(other.clone())
-            }
-        }
-    };
-}
-
-operator!(Add, add, plus);
-operator!(Sub, sub, less);
-operator!(Mul, mul, product);
-operator!(Div, div, quotient);
-
-impl Neg for Recorded {
-    type Output = Self;
-    fn neg(self) -> Self {
+    fn negation(&self) -> Recorded {
         let factors = self.factors.map(|[a, b]| [push(Operation::Neg(a)), b]);
         // The negative of a negative is the number itself.
         let inner = on_tape(|tape| match tape.operations[self.place as usize] {
@@ -255,6 +228,8 @@ impl Neg for Recorded {
         Recorded { place, factors }
     }
 }
+
+operators!([] Recorded, Clone::clone);
 
 impl Real for Recorded {
     fn zero() -> Self {
@@ -304,13 +279,7 @@ impl Real for Recorded {
     fn infinity() -> Self {
         Recorded::at(Operation::INFINITY)
     }
-    fn just_below(&self) -> Self {
-        self.clone()
-    }
     fn difference_of_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
         Recorded::at(Operation::Minor(a.place, b.place, c.place, d.place))
-    }
-    fn largest_accepted(_: impl Fn(&Self) -> bool, exact: impl FnOnce() -> Self) -> Self {
-        exact()
     }
 }

@@ -7,10 +7,10 @@
 //! numbers into a decision, so it adds their exceptions to the run's. Values that are computed but never
 //! compared, such as those of a hit, do not count.
 
-use super::arithmetic::{Arithmetic, Operation};
+use super::arithmetic::{Arithmetic, Operation, smallest_normal};
 use super::{Emulated, Exact, Float, Real, decompose};
 use std::cell::Cell;
-use std::ops::{Add, BitOr, Div, Mul, Neg, Sub};
+use std::ops::BitOr;
 
 /// Which exceptions happened. A division by zero is none of them: its infinity is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,8 +28,7 @@ impl Exceptions {
     fn of<F: Float>(result: F, exact: impl FnOnce() -> bool) -> Exceptions {
         let overflow = !result.is_finite();
         let inexact = overflow || !exact();
-        let smallest_normal = F::from_place(1 << (F::DIGITS - 1));
-        Exceptions { inexact, overflow, underflow: inexact && result.abs() < smallest_normal }
+        Exceptions { inexact, overflow, underflow: inexact && result.abs() < smallest_normal() }
     }
 }
 
@@ -106,7 +105,19 @@ impl<F: Float> Tracked<F> {
             (false, true) => self.raised | other.before,
             (false, false) => self.raised | other.raised,
         };
-        Tracked::made(self.number.sum(&other.number), self.arithmetic_with(other), earlier)
+        Tracked::made(
+            self.number.operation_of_sum(&other.number),
+            self.arithmetic_with(other),
+            earlier,
+        )
+    }
+
+    fn difference(&self, other: &Self) -> Self {
+        self.sum(&other.negation())
+    }
+
+    fn negation(&self) -> Self {
+        Tracked { number: self.number.negation(), ..*self }
     }
 
     #[inline(never)]
@@ -180,37 +191,7 @@ fn is_product<F: Float>(product: F, a: F, b: F) -> bool {
     i128::from(p) == i128::from(a) * i128::from(b) && (p == 0 || i == j + k)
 }
 
-/// An operator whose right operand is moved, or borrowed and so a name that is used again.
-macro_rules! operator {
-    ($trait:ident, $method:ident, |$a:ident, $b:ident| $body:expr) => {
-        impl<F: Float> $trait for Tracked<F> {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                let ($a, $b) = (self, other);
-                $body
-            }
-        }
-        impl<F: Float> $trait<&Self> for Tracked<F> {
-            type Output = Self;
-            fn $method(self, other: &Self) -> Self {
-                let ($a, $b) = (self, other.clone());
-                $body
-            }
-        }
-    };
-}
-
-operator!(Add, add, |a, b| a.sum(&b));
-operator!(Sub, sub, |a, b| a.sum(&-b));
-operator!(Mul, mul, |a, b| a.product(&b));
-operator!(Div, div, |a, b| a.quotient(&b));
-
-impl<F: Float> Neg for Tracked<F> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Tracked { number: -self.number, ..self }
-    }
-}
+operators!([F: Float] Tracked<F>, Clone::clone);
 
 impl<F: Float> Real for Tracked<F> {
     fn zero() -> Self {

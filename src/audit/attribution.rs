@@ -11,43 +11,26 @@ use crate::kernel::{Gated, KernelInfo, Subject, TrackedRun, Tunable, Verdict, ve
 use crate::truth::Truth;
 use std::slice;
 
-/// Why a finding happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Attribution {
-    /// The formula means something else than the contract: even without rounding and without an
-    /// epsilon it gives this finding.
-    Convention,
-    /// The epsilon itself: without rounding the formula is right at zero, and wrong at this epsilon.
-    Epsilon,
-    /// Rounding: the formula is right, epsilon and all.
-    Rounding,
-    /// As rounding, and a number behind the decisions overflowed or lost bits to underflow.
-    Range,
-    /// Not its epsilons: the kernel does not show its formula, and it is wrong with every epsilon 0 too.
-    NotEpsilon,
+named! {
+    pub names
+    /// Why a finding happened.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Attribution {
+        /// The formula means something else than the contract: even without rounding and without an
+        /// epsilon it gives this finding.
+        Convention = "convention",
+        /// The epsilon itself: without rounding the formula is right at zero, and wrong at this epsilon.
+        Epsilon = "epsilon",
+        /// Rounding: the formula is right, epsilon and all.
+        Rounding = "rounding",
+        /// As rounding, and a number behind the decisions overflowed or lost bits to underflow.
+        Range = "range",
+        /// Not its epsilons: the kernel does not show its formula, and it is wrong with every epsilon 0 too.
+        NotEpsilon = "not-epsilon",
+    }
 }
 
 impl Attribution {
-    /// All of them, in the order of reports.
-    pub const ALL: [Attribution; 5] = [
-        Attribution::Convention,
-        Attribution::Epsilon,
-        Attribution::Rounding,
-        Attribution::Range,
-        Attribution::NotEpsilon,
-    ];
-
-    /// The name in records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Attribution::Convention => "convention",
-            Attribution::Epsilon => "epsilon",
-            Attribution::Rounding => "rounding",
-            Attribution::Range => "range",
-            Attribution::NotEpsilon => "not-epsilon",
-        }
-    }
-
     /// The name, and what it means.
     pub fn describe(self) -> &'static str {
         match self {

@@ -143,7 +143,7 @@ impl Source {
             Source::Family { family, .. } => family.name.to_owned(),
             Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
             Source::MeshPart { surface, part, .. } => {
-                format!("{}:{}", part.family(), surface.file_name())
+                format!("{}:{}", part.name(), surface.file_name())
             }
             Source::SceneMesh { mesh, stratum, .. } => {
                 format!("{}:{}", stratum.family().name, mesh.surface().file_name())

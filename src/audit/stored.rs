@@ -136,7 +136,7 @@ impl StoredSource {
             Source::MeshPart { surface, part, parameters, seed, directions } => {
                 StoredSource::MeshPart {
                     path: surface.path().to_owned(),
-                    part: part.family().to_owned(),
+                    part: part.name().to_owned(),
                     parameters: parameters.to_string(),
                     seed: *seed,
                     directions: *directions,

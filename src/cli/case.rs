@@ -1,14 +1,14 @@
 //! The case that a command line names: an id, the name of a stored case, or JSON.
 
 use super::exit::{Failure, Status};
-use super::flags::unknown;
+use super::flags::{find_family, find_kernel, is_f32, unknown};
 use super::input::{corpus_files, name_of, read_corpus, read_mesh};
 use crate::arith::Float;
-use crate::case::{Case, CaseId};
+use crate::case::{AnyScalar, Case, CaseId};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::Mesh;
-use crate::family::{FAMILIES, Family, Grouping, Made, MeshFamily, Stratum, find};
-use crate::kernel::{self, Scalar};
+use crate::family::{Family, Grouping, Made, MeshFamily, Stratum};
+use crate::kernel::Scalar;
 use crate::mesh::{Part, SceneMesh, Surface, Targets, Topology};
 use crate::report::number_of;
 use clap::Args;
@@ -31,22 +31,7 @@ pub struct CaseArguments {
 }
 
 /// Cases in one of the scalars.
-pub enum Cases {
-    /// In `f32`.
-    F32(Group<f32>),
-    /// In `f64`.
-    F64(Group<f64>),
-}
-
-impl Cases {
-    /// Whether they are of `f32`, and whether of `f64`.
-    pub fn scalars(&self) -> [bool; 2] {
-        match self {
-            Cases::F32(_) => [true, false],
-            Cases::F64(_) => [false, true],
-        }
-    }
-}
+pub type Cases = AnyScalar<Group<f32>, Group<f64>>;
 
 /// One case, or the triangles of a group.
 pub struct Group<F: Scalar> {
@@ -78,12 +63,9 @@ impl CaseArguments {
         let id: CaseId = self.case.parse().map_err(|error| {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
         })?;
-        match id.scalar.as_str() {
-            "f32" => Ok(from_id(&id, self.mesh.as_deref()).map(Cases::F32)?),
-            "f64" => Ok(from_id(&id, self.mesh.as_deref()).map(Cases::F64)?),
-            other => Err(Failure::usage(format!(
-                "unknown scalar '{other}' in '{id}': there are f32 and f64"
-            ))),
+        match is_f32(&id.scalar, &format!(" in '{id}'"))? {
+            true => from_id(&id, self.mesh.as_deref()).map(Cases::F32),
+            false => from_id(&id, self.mesh.as_deref()).map(Cases::F64),
         }
     }
 
@@ -125,9 +107,7 @@ fn stored_cases(stored: &StoredCase) -> Cases {
 /// The cases of an id, and how they belong together.
 fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failure> {
     if let Some(name) = &id.parameters.kernel {
-        let names = kernel::all().into_iter().map(|entry| entry.info.name);
-        kernel::find(name)
-            .ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))?;
+        find_kernel(name)?;
     }
     if let Some(digest) = &id.parameters.mesh {
         let path = mesh.ok_or_else(|| {
@@ -214,9 +194,7 @@ fn of_scene_mesh<F: Scalar>(
 
 /// The family of an id, which must be of the version that this program makes.
 pub(super) fn family_of(id: &CaseId, name: &str) -> Result<&'static Family, Failure> {
-    let names = FAMILIES.iter().map(|family| family.name);
-    let family =
-        find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
+    let family = find_family(name)?;
     if family.version != id.version {
         let message = format!(
             "'{id}' is of version {} of family '{name}', this program makes version {}",

@@ -1,16 +1,16 @@
 //! `hairline corpus`: verify or make the stored cases.
 
 use super::exit::{Failure, Status};
-use super::flags::unknown;
+use super::flags::{find_family, is_f32};
 use super::input::{MANIFEST, corpus_files, open, read_corpus};
 use super::output::write_result;
 use crate::case::Parameters;
 use crate::corpus::InputError;
-use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
+use crate::corpus::lines::{StoredCase, write_case};
 use crate::explore;
 use crate::explore::campaign::Find;
 use crate::family::manifest::{self, ManifestLine};
-use crate::family::{FAMILIES, Family, Grouping, find};
+use crate::family::{Family, Grouping};
 use crate::kernel::Scalar;
 use crate::oracle;
 use clap::{Args, Subcommand};
@@ -66,22 +66,13 @@ pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
     match &arguments.command {
         CorpusCommand::Verify { path } => verify(path),
         CorpusCommand::Generate { family: Some(name), scalar, count, seed, output, .. } => {
-            let names = FAMILIES.iter().map(|family| family.name);
-            let family = find(name)
-                .ok_or_else(|| unknown("family", name, names, "hairline list families"))?;
+            let family = find_family(name)?;
             let (seed, count) = (*seed, *count);
-            match scalar.as_str() {
-                "f32" => write_result(output, |out| {
-                    write_family::<f32>(out, family, seed, count, AnyCase::F32)
-                })?,
-                "f64" => write_result(output, |out| {
-                    write_family::<f64>(out, family, seed, count, AnyCase::F64)
-                })?,
-                other => {
-                    let message = format!("unknown scalar '{other}': there are f32 and f64");
-                    return Err(Failure::usage(message));
-                }
-            }
+            is_f32(scalar, "")?;
+            write_result(
+                output,
+                |out| in_named_scalar!(scalar, F => write_family::<F>(out, family, seed, count)),
+            )?;
             Ok(Status::Success)
         }
         CorpusCommand::Generate { path, .. } => generate(Path::new(path)),
@@ -93,7 +84,6 @@ fn write_family<F: Scalar>(
     family: &Family,
     seed: u64,
     count: u64,
-    wrap: fn(crate::case::Case<F>) -> AnyCase,
 ) -> io::Result<()> {
     let parameters = Parameters::default();
     for index in 0..count {
@@ -102,13 +92,12 @@ fn write_family<F: Scalar>(
         for (k, case) in made.cases().iter().enumerate() {
             let mut id = family.id::<F>(&parameters, seed, index);
             id.triangle = several.then_some(k);
-            let mut stored = StoredCase {
+            let stored = StoredCase {
                 name: Some(id.to_string()),
                 is_secondary: family.grouping == Grouping::SecondaryRay,
-                ..StoredCase::of(wrap(*case))
+                ..StoredCase::of(*case)
             };
-            stored.truth = Some(StoredTruth::from(&super::input::truth_line(&stored)));
-            writeln!(out, "{}", write_case(&stored))?;
+            writeln!(out, "{}", write_case(&stored.with_truth()))?;
         }
     }
     Ok(())
@@ -174,10 +163,8 @@ fn verify(path: &str) -> Result<Status, Failure> {
 }
 
 fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
-    let (fast, slow) = match &stored.case {
-        AnyCase::F32(case) => (oracle::truth(case), oracle::define(case).truth),
-        AnyCase::F64(case) => (oracle::truth(case), oracle::define(case).truth),
-    };
+    let (fast, slow) =
+        either_scalar!(&stored.case, case => (oracle::truth(case), oracle::define(case).truth));
     if fast == slow {
         return Ok(());
     }

@@ -4,8 +4,8 @@ use super::exit::{Failure, Status};
 use super::input::read_record;
 use super::output::write_result;
 use crate::expect::{Trend, difference};
+use crate::report::write_json;
 use clap::{Args, ValueEnum};
-use std::io;
 
 /// What to compare, and how to report.
 #[derive(Args)]
@@ -45,10 +45,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
     if !nothing || arguments.output == "-" {
         write_result(&arguments.output, |out| match arguments.format {
             DiffFormat::Text => comparison.write(out),
-            DiffFormat::Json => {
-                serde_json::to_writer_pretty(&mut *out, &comparison).map_err(io::Error::from)?;
-                writeln!(out)
-            }
+            DiffFormat::Json => write_json(&comparison, out),
         })?;
     }
     if nothing {

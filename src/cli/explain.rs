@@ -2,9 +2,8 @@
 
 mod margin;
 
-use super::case::{CaseArguments, Cases, Group};
+use super::case::{CaseArguments, Group};
 use super::exit::{Failure, Status};
-use super::input::truth_line;
 use super::output::write_result;
 use super::select::KernelArguments;
 use crate::arith::{Exact, Float};
@@ -13,7 +12,7 @@ use crate::audit::{
 };
 use crate::case::Case;
 use crate::contract::Extent;
-use crate::corpus::lines::{self, AnyCase, StoredCase};
+use crate::corpus::lines::{self, StoredCase};
 use crate::family::Grouping;
 use crate::judge::{
     Finding, GroupTruth, Obligation, asked, group_obligation, judge, may_be_elsewhere,
@@ -44,10 +43,7 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let cases = arguments.case.cases()?;
     let name = &arguments.case.case;
     rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
-    write_result("-", |out| match &cases {
-        Cases::F32(group) => write_cases(out, name, group, &rows),
-        Cases::F64(group) => write_cases(out, name, group, &rows),
-    })?;
+    write_result("-", |out| either_scalar!(&cases, group => write_cases(out, name, group, &rows)))?;
     Ok(Status::Success)
 }
 
@@ -56,10 +52,7 @@ fn write_cases<F: Scalar>(
     name: &str,
     group: &Group<F>,
     rows: &[Row],
-) -> io::Result<()>
-where
-    AnyCase: From<Case<F>>,
-{
+) -> io::Result<()> {
     let cases = &group.cases;
     let secondary = group.grouping == Grouping::SecondaryRay;
     for (i, case) in cases.iter().enumerate() {
@@ -155,10 +148,7 @@ fn write_case<F: Scalar>(
     name: &str,
     case: &Case<F>,
     is_secondary: bool,
-) -> io::Result<()>
-where
-    AnyCase: From<Case<F>>,
-{
+) -> io::Result<()> {
     writeln!(out, "case {}", if name.trim_start().starts_with('{') { "as given" } else { name })?;
     let labels = ["origin", "direction", "a", "b", "c"];
     for (label, vector) in labels.into_iter().zip(case.vectors()) {
@@ -171,7 +161,7 @@ where
     let definition = oracle::define(case);
     writeln!(out, "truth {}", definition.truth)?;
     let stored = StoredCase { is_secondary, ..StoredCase::of(*case) };
-    let line = serde_json::to_string(&truth_line(&stored)).unwrap_or_default();
+    let line = serde_json::to_string(&stored.truth_line()).unwrap_or_default();
     writeln!(out, "    {line}")?;
     if let Some(severity) = exact_severity(case, Extent::Interval) {
         let (space, ulps) = (severity.in_space, severity.in_space * severity.edge_in_ulps);

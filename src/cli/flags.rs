@@ -1,6 +1,8 @@
 //! What the flags of several commands share: headings of the help, names in tables, numbers.
 
 use super::exit::Failure;
+use crate::family::{self, FAMILIES, Family};
+use crate::kernel::{self, Entry};
 use crate::suggest::did_you_mean;
 use std::fmt::Display;
 
@@ -20,6 +22,27 @@ pub fn unknown<'a>(
     list: &str,
 ) -> Failure {
     Failure::usage(format!("unknown {what} '{name}'{}", did_you_mean(name, names, list)))
+}
+
+/// The family of a name.
+pub fn find_family(name: &str) -> Result<&'static Family, Failure> {
+    let names = FAMILIES.iter().map(|family| family.name);
+    family::find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))
+}
+
+/// The kernel of a name.
+pub fn find_kernel(name: &str) -> Result<&'static Entry, Failure> {
+    let names = || kernel::all().into_iter().map(|entry| entry.info.name);
+    kernel::find(name).ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))
+}
+
+/// Whether a name is that of `f32`; `place` says where it stands.
+pub fn is_f32(name: &str, place: &str) -> Result<bool, Failure> {
+    match name {
+        "f32" => Ok(true),
+        "f64" => Ok(false),
+        _ => Err(Failure::usage(format!("unknown scalar '{name}'{place}: there are f32 and f64"))),
+    }
 }
 
 /// The most cases of one family: beyond it a run would take years.
@@ -44,14 +67,7 @@ pub fn refuse_twice<T: PartialEq + Display>(flag: &str, named: &[T]) -> Result<(
 pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
     let mut scalars = [false; 2];
     for name in names {
-        match name.as_str() {
-            "f32" => scalars[0] = true,
-            "f64" => scalars[1] = true,
-            other => {
-                let message = format!("unknown scalar '{other}': there are f32 and f64");
-                return Err(Failure::usage(message));
-            }
-        }
+        scalars[usize::from(!is_f32(name, "")?)] = true;
     }
     Ok(scalars)
 }

@@ -6,9 +6,7 @@ use crate::audit::CorpusSet;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::corpus::mesh::{self, Mesh};
-use crate::corpus::truth_json::TruthLine;
 use crate::descriptors;
-use crate::oracle;
 use crate::report::{Record, SCHEMA, number_of};
 use serde::Deserialize;
 use std::collections::{HashMap, HashSet};
@@ -165,22 +163,13 @@ pub fn read_corpus(file: &str) -> Result<Vec<StoredCase>, Failure> {
                 return Err(InputError::at(file, stored.line, message));
             }
             if let Some(truth) = &stored.truth {
-                let line = truth_line(&stored);
+                let line = stored.truth_line();
                 truth.check(&line).map_err(|message| InputError::at(file, stored.line, message))?;
             }
             Ok(stored)
         })
         .collect::<Result<_, InputError>>()
         .map_err(Failure::from)
-}
-
-/// The truth of a stored case as the `truth` command prints it.
-pub fn truth_line(stored: &StoredCase) -> TruthLine {
-    let definition = match &stored.case {
-        AnyCase::F32(case) => oracle::define(case),
-        AnyCase::F64(case) => oracle::define(case),
-    };
-    TruthLine::new(stored.name.as_deref(), &definition.truth, &definition.exact)
 }
 
 /// The cases of a corpus file for a run, those that start on their triangle last; unnamed ones are called by file

@@ -123,10 +123,10 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         )));
     }
     let picture = match arguments.input()? {
-        Input::F32(case) => arguments.of_case(&case)?,
-        Input::F64(case) => arguments.of_case(&case)?,
-        Input::PointsF32(points, point) => arguments.of_points(&points, point)?,
-        Input::PointsF64(points, point) => arguments.of_points(&points, point)?,
+        Input::Case(case) => either_scalar!(&case, case => arguments.of_case(case))?,
+        Input::Points(points, point) => {
+            either_scalar!(&points, points => arguments.of_points(points, point))?
+        }
     };
     let quiet = arguments.quiet || wants("text");
     let mut pictures = Vec::new();
@@ -174,10 +174,7 @@ impl MapArguments {
         self.output.iter().map(of).collect()
     }
 
-    fn of_case<F: Scalar>(&self, case: &Case<F>) -> Result<Picture, Failure>
-    where
-        crate::corpus::lines::AnyCase: From<Case<F>>,
-    {
+    fn of_case<F: Scalar>(&self, case: &Case<F>) -> Result<Picture, Failure> {
         let row = self.row()?;
         row.check::<F>()?;
         if self.drawing {

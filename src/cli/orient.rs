@@ -8,14 +8,14 @@ use super::output::write_result;
 use super::progress::Progress;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
-use crate::orientation::points_json::{self, AnyPoints};
+use crate::orientation::points_json;
 use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
     Scalar, build, default_rows, find_family, find_known, show,
 };
+use crate::report::write_json;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use std::io::{self, Write};
 
 /// What to run, and how to report it.
 #[derive(Args)]
@@ -131,11 +131,6 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
     Ok(Status::Success)
 }
 
-fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, value)?;
-    writeln!(out)
-}
-
 /// A family that breaks its own promise is a fault of this tool.
 fn self_check(record: &Record) -> Result<(), Failure> {
     match record.result.sets.iter().find(|set| set.promise_broken > 0) {
@@ -185,10 +180,7 @@ fn given_points(text: &str, rows: &[Row]) -> Result<CasePart, Failure> {
     let points =
         points_json::parse(text).map_err(|error| Failure::usage(format!("--case: {error}")))?;
     let name = "the points given".to_owned();
-    let case = match &points {
-        AnyPoints::F32(points) => show(name, points, rows),
-        AnyPoints::F64(points) => show(name, points, rows),
-    };
+    let case = either_scalar!(&points, points => show(name, points, rows));
     case.ok_or_else(|| Failure::usage("--case: points that are not finite have no orientation"))
 }
 

@@ -9,13 +9,14 @@ mod text;
 mod witnesses;
 
 use super::exit::{Failure, Status};
-use super::flags::{chosen_scalars, unknown};
+use super::flags::{chosen_scalars, find_kernel, unknown};
 use super::input::read_text;
 use super::output::write_result;
 use crate::audit::{EpsilonChoice, shell_word};
 use crate::case;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
+use crate::report::write_json;
 use clap::{Args, ValueEnum};
 use job::{Epsilons, Job, Parts};
 use rayon::prelude::*;
@@ -216,10 +217,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         eprintln!("{path}: {raised} of {} witnesses are new or worse", stored.len());
     }
     write_result(&arguments.output, |out| match arguments.format {
-        OutputFormat::Json => {
-            serde_json::to_writer_pretty(&mut *out, &record)?;
-            writeln!(out)
-        }
+        OutputFormat::Json => write_json(&record, out),
         OutputFormat::Fpcore | OutputFormat::Gappa => unreachable!("handled above"),
         OutputFormat::Text if entries.len() == 1 => {
             text::kernel(&record, scene.as_ref(), &arguments.rays(), out)
@@ -239,12 +237,7 @@ impl ProveArguments {
             let [own, all] = shown;
             return Ok(if own.is_empty() { all } else { own });
         }
-        let find = |name: &String| {
-            let names = || kernel::all().into_iter().map(|entry| entry.info.name);
-            kernel::find(name)
-                .ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))
-        };
-        self.kernel.iter().map(find).collect()
+        self.kernel.iter().map(|name| find_kernel(name)).collect()
     }
 
     /// The flags of `epsilon` that choose rays in such a scene.

@@ -1,7 +1,7 @@
 //! Which kernels, contracts and epsilons a command line names.
 
 use super::exit::Failure;
-use super::flags::{JUDGING, RUNNING, refuse_twice, unknown};
+use super::flags::{JUDGING, RUNNING, find_kernel, refuse_twice};
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
 use crate::audit::{EpsilonChoice, Row, shell_word};
@@ -150,11 +150,8 @@ impl KernelArguments {
         if self.kernel.is_empty() && chosen.is_empty() {
             return Ok(kernel::unnamed());
         }
-        let all = kernel::all();
         for name in &self.kernel {
-            let names = all.iter().map(|entry| entry.info.name);
-            let entry = kernel::find(name)
-                .ok_or_else(|| unknown("kernel", name, names, "hairline list kernels"))?;
+            let entry = find_kernel(name)?;
             if !chosen.iter().any(|other| other.info.name == *name) {
                 chosen.push(entry);
             }

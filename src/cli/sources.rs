@@ -1,14 +1,14 @@
 //! Which cases a command line names, and on how many threads they run.
 
 use super::exit::Failure;
-use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice, unknown};
+use super::flags::{RUNNING, case_count, chosen_scalars, find_family, refuse_twice};
 use super::input::{corpus_files, corpus_sets, read_mesh};
 use crate::arith::Float;
 use crate::audit::{CorpusSet, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
 use crate::epsilon::scene::StudiedScene;
-use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum, find};
+use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum};
 use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
 use clap::builder::TypedValueParser;
@@ -273,13 +273,7 @@ impl SourceArguments {
             });
         }
         refuse_twice("--family", &self.family)?;
-        self.family
-            .iter()
-            .map(|name| {
-                let names = FAMILIES.iter().map(|family| family.name);
-                find(name).ok_or_else(|| unknown("family", name, names, "hairline list families"))
-            })
-            .collect()
+        self.family.iter().map(|name| find_family(name)).collect()
     }
 
     fn parameters(&self) -> Result<Parameters, Failure> {

@@ -1,10 +1,10 @@
 //! `hairline truth`: the exact truth of cases, one JSON line each.
 
 use super::exit::{Failure, Status};
-use super::input::{open, truth_line};
+use super::input::open;
 use super::output::write_result;
 use crate::corpus::InputError;
-use crate::corpus::lines::{self, AnyCase, StoredCase, StoredTruth};
+use crate::corpus::lines::{self, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
 use crate::oracle;
 use clap::Args;
@@ -92,14 +92,11 @@ fn chunk(texts: &mut impl Iterator<Item = Text>) -> Vec<Text> {
 fn line(stored: &StoredCase, exact: bool) -> Result<TruthLine, String> {
     let name = stored.name.as_deref();
     let fast = || {
-        let truth = match &stored.case {
-            AnyCase::F32(case) => oracle::truth(case),
-            AnyCase::F64(case) => oracle::truth(case),
-        };
+        let truth = either_scalar!(&stored.case, case => oracle::truth(case));
         TruthLine::without_fractions(name, &truth)
     };
     let is_stored_exactly = stored.truth.as_ref().is_some_and(StoredTruth::has_fractions);
-    let line = if exact || is_stored_exactly { truth_line(stored) } else { fast() };
+    let line = if exact || is_stored_exactly { stored.truth_line() } else { fast() };
     stored.truth.as_ref().map_or(Ok(()), |truth| truth.check(&line))?;
     Ok(if is_stored_exactly && !exact { fast() } else { line })
 }

@@ -5,15 +5,13 @@ use super::flags::unknown;
 use super::input::read_text;
 use super::output::write_result;
 use crate::corpus::{InputError, json};
-use crate::report::number_of;
+use crate::report::{number_of, write_json};
 use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{Test, core, digest, json::topic_file};
 use clap::{Args, ValueEnum};
-use serde::Deserializer;
-use serde::de::{IgnoredAny, MapAccess, Visitor};
+use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 use std::collections::HashMap;
-use std::fmt;
 use std::io::{self, Write};
 
 /// Which results, and by what they are judged.
@@ -159,10 +157,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     }
     write_result(&arguments.output, |out| match arguments.format {
         Format::Text => report.write_text(out),
-        Format::Json => {
-            serde_json::to_writer_pretty(&mut *out, &report)?;
-            writeln!(out)
-        }
+        Format::Json => write_json(&report, out),
     })?;
     Ok(if report.wrong.is_empty() { Status::Success } else { Status::Disagreements })
 }
@@ -207,46 +202,25 @@ impl<'a> Results<'a> {
         // What is no JSON at all.
         serde_json::from_str::<IgnoredAny>(text)
             .map_err(|error| (Some(error.line()), error.to_string()))?;
-        let names = ["vectors", "product", "results"];
-        let values = json::fields(text, names).map_err(|message| (None, message))?;
-        let at = |i: usize, message: String| {
-            let line = values[i].map(|value| line_of(text, value.get()));
-            (line, format!("{}: {message}", names[i]))
+        let object = json::Object::parse(text, "vectors product results");
+        let object = object.map_err(|message| (None, message))?;
+        let at = |field: &str, message: String| {
+            let line = object.get(field).map(|value| line_of(text, value.get()));
+            (line, format!("{field}: {message}"))
         };
-        let required =
-            |i: usize| json::required(names[i], values[i]).map_err(|message| (None, message));
-        let string = |i: usize| json::string(required(i)?).map_err(|message| at(i, message));
-        let (vectors, product) = (string(0)?, string(1)?);
+        let required = |field: &str| object.required(field).map_err(|message| (None, message));
+        let string =
+            |field: &str| json::string(required(field)?).map_err(|message| at(field, message));
+        let (vectors, product) = (string("vectors")?, string("product")?);
         if vectors != digest {
             let found = json::quoted(&vectors);
             let message =
                 format!("the results are of {found}, but this hairline has the vectors {digest}");
-            return Err(at(0, message));
+            return Err(at("vectors", message));
         }
-        let results = required(2)?.get();
-        let answers = serde_json::Deserializer::from_str(results).deserialize_map(Pairs);
-        let answers = answers
-            .map_err(|_| at(2, format!("expected an object, found {}", json::excerpt(results))))?;
+        let answers = json::pairs(required("results")?.get());
+        let answers = answers.map_err(|message| at("results", message))?;
         Ok(Results { vectors, product, answers })
-    }
-}
-
-/// The fields of an object in their order, duplicates included.
-struct Pairs;
-
-impl<'de> Visitor<'de> for Pairs {
-    type Value = Vec<(String, &'de RawValue)>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an object")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let mut pairs = Vec::new();
-        while let Some(pair) = map.next_entry()? {
-            pairs.push(pair);
-        }
-        Ok(pairs)
     }
 }
 

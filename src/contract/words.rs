@@ -70,31 +70,26 @@ impl Contract {
     /// The `key=value` words that turn another contract into this one.
     fn changes_from(&self, base: &Contract) -> Vec<String> {
         let mut words = Vec::new();
-        let mut change = |same: bool, key: &str, value: String| {
+        let mut change = |same: bool, key: &str, value: &str| {
             if !same {
                 words.push(format!("{key}={value}"));
             }
         };
-        let name = |value: String| value.to_lowercase();
-        change(self.extent == base.extent, "extent", name(format!("{:?}", self.extent)));
-        change(self.sides == base.sides, "sides", name(format!("{:?}", self.sides)));
-        change(self.boundary == base.boundary, "boundary", name(format!("{:?}", self.boundary)));
-        change(self.ends == base.ends, "ends", name(format!("{:?}", self.ends)));
-        change(self.coplanar == base.coplanar, "coplanar", name(format!("{:?}", self.coplanar)));
-        change(
-            self.degenerate == base.degenerate,
-            "degenerate",
-            name(format!("{:?}", self.degenerate)),
-        );
-        change(self.invalid == base.invalid, "invalid", name(format!("{:?}", self.invalid)));
+        change(self.extent == base.extent, "extent", self.extent.name());
+        change(self.sides == base.sides, "sides", self.sides.name());
+        change(self.boundary == base.boundary, "boundary", self.boundary.name());
+        change(self.ends == base.ends, "ends", self.ends.name());
+        change(self.coplanar == base.coplanar, "coplanar", self.coplanar.name());
+        change(self.degenerate == base.degenerate, "degenerate", self.degenerate.name());
+        change(self.invalid == base.invalid, "invalid", self.invalid.name());
         let direction = match self.direction {
             Direction::Any => "any".to_owned(),
             Direction::Unit { ulps } => format!("unit:{ulps}"),
         };
-        change(self.direction == base.direction, "direction", direction);
-        change(self.across == base.across, "across", self.across.name().to_owned());
+        change(self.direction == base.direction, "direction", &direction);
+        change(self.across == base.across, "across", self.across.name());
         if let Some(band) = self.band {
-            change(self.band == base.band, "band", band.to_string());
+            change(self.band == base.band, "band", &band.to_string());
         }
         if self.no_self_hit && !base.no_self_hit {
             words.push("no-self-hit".to_owned());
@@ -104,36 +99,32 @@ impl Contract {
 }
 
 /// One `key=value` of a contract's text: the values of its key.
-fn choice<T: Copy>(word: &str, value: &str, known: &[(&str, T)]) -> Result<T, String> {
-    let found = known.iter().find(|(name, _)| *name == value);
-    found.map(|(_, choice)| *choice).ok_or_else(|| {
-        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-        format!("'{word}': there are {}", names.join(", "))
-    })
+fn choice<T: Copy, const N: usize>(
+    word: &str,
+    value: &str,
+    known: [T; N],
+    name: fn(T) -> &'static str,
+) -> Result<T, String> {
+    known
+        .into_iter()
+        .find(|choice| name(*choice) == value)
+        .ok_or_else(|| format!("'{word}': there are {}", known.map(name).join(", ")))
 }
 
 impl Contract {
     /// Changes what one word of a contract's text says.
     fn change(&mut self, word: &str) -> Result<(), String> {
         let (key, value) = word.split_once('=').unwrap_or((word, ""));
-        let boundaries =
-            [("closed", Boundary::Closed), ("open", Boundary::Open), ("free", Boundary::Free)];
-        let demands = [("miss", Demand::Miss), ("hit", Demand::Hit), ("free", Demand::Free)];
+        let boundary = || choice(word, value, Boundary::ALL, Boundary::name);
+        let demand = || choice(word, value, Demand::ALL, Demand::name);
         match key {
-            "extent" => {
-                let extents =
-                    [("line", Extent::Line), ("ray", Extent::Ray), ("interval", Extent::Interval)];
-                self.extent = choice(word, value, &extents)?;
-            }
-            "sides" => {
-                self.sides =
-                    choice(word, value, &[("both", Sides::Both), ("front", Sides::Front)])?;
-            }
-            "boundary" => self.boundary = choice(word, value, &boundaries)?,
-            "ends" => self.ends = choice(word, value, &boundaries)?,
-            "coplanar" => self.coplanar = choice(word, value, &demands)?,
-            "degenerate" => self.degenerate = choice(word, value, &demands)?,
-            "invalid" => self.invalid = choice(word, value, &demands)?,
+            "extent" => self.extent = choice(word, value, Extent::ALL, Extent::name)?,
+            "sides" => self.sides = choice(word, value, Sides::ALL, Sides::name)?,
+            "boundary" => self.boundary = boundary()?,
+            "ends" => self.ends = boundary()?,
+            "coplanar" => self.coplanar = demand()?,
+            "degenerate" => self.degenerate = demand()?,
+            "invalid" => self.invalid = demand()?,
             "direction" => {
                 let unit = value.strip_prefix("unit:").and_then(|ulps| ulps.parse().ok());
                 self.direction = match (value, unit) {
@@ -142,10 +133,7 @@ impl Contract {
                     _ => return Err(format!("'{word}': there are any, unit:ULPS")),
                 };
             }
-            "across" => {
-                let promises = [Across::Nothing, Across::AtLeastOne, Across::ExactlyOne];
-                self.across = choice(word, value, &promises.map(|across| (across.name(), across)))?;
-            }
+            "across" => self.across = choice(word, value, Across::ALL, Across::name)?,
             "band" => self.band = Some(value.parse()?),
             "no-self-hit" if word == key => self.no_self_hit = true,
             _ => {

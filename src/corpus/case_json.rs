@@ -1,10 +1,9 @@
 //! A case as one JSON object.
 
-#![forbid(unsafe_code)]
-
+use super::json::{self, Object};
 use super::stored_case::{AnyCase, StoredCase};
 use super::stored_truth::StoredTruth;
-use super::{Provenance, json, number};
+use super::{FoundBy, number};
 use crate::arith::Float;
 use crate::case::Case;
 use serde_json::Value;
@@ -14,8 +13,12 @@ use std::fmt;
 /// The fields that are vectors, in the order of [`Case::vectors`].
 const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 
+/// The fields of a line.
+const FIELDS: &str =
+    "name scalar origin direction a b c t_min t_max starts truth bits why url found";
+
 /// The fields of `bits`.
-const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
+const BITS: &str = "origin direction a b c t_min t_max";
 
 /// What the field `starts` says of a ray that starts at a computed hit point on its triangle.
 const ON_TRIANGLE: &str = "on-triangle";
@@ -25,101 +28,53 @@ const LONGEST_NAME: usize = 1000;
 
 /// The case that stands in a line, and what stands beside it.
 pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
-    let [
-        name,
-        scalar,
-        origin,
-        direction,
-        a,
-        b,
-        c,
-        t_min,
-        t_max,
-        starts,
-        truth,
-        bits,
-        why,
-        url,
-        found,
-    ] = json::fields(
-        text,
-        [
-            "name",
-            "scalar",
-            "origin",
-            "direction",
-            "a",
-            "b",
-            "c",
-            "t_min",
-            "t_max",
-            "starts",
-            "truth",
-            "bits",
-            "why",
-            "url",
-            "found",
-        ],
-    )?;
-    let scalar = json::string(json::required("scalar", scalar)?)
-        .map_err(|message| format!("scalar: {message}"))?;
-    let vectors = [origin, direction, a, b, c];
-    let case = match scalar.as_str() {
-        "f32" => AnyCase::F32(parse_case(vectors, [t_min, t_max], bits)?),
-        "f64" => AnyCase::F64(parse_case(vectors, [t_min, t_max], bits)?),
-        other => return Err(format!("scalar: {} is none of f32, f64", json::quoted(other))),
+    let object = Object::parse(text, FIELDS)?;
+    let case = match object.is_f32()? {
+        true => AnyCase::F32(parse_case(&object)?),
+        false => AnyCase::F64(parse_case(&object)?),
     };
-    let text = |field: &str, value: Option<&RawValue>| {
-        value.map(json::string).transpose().map_err(|message| format!("{field}: {message}"))
-    };
-    let starts = text("starts", starts)?;
+    let starts = object.read("starts", json::string)?;
     if let Some(other) = starts.as_deref().filter(|starts| *starts != ON_TRIANGLE) {
         let found = json::quoted(other);
         return Err(format!("starts: expected '{ON_TRIANGLE}', found {found}"));
     }
-    let truth = truth.map(|truth| StoredTruth::parse(truth.get())).transpose();
-    let found = found.map(|found| Provenance::parse(found.get())).transpose();
-    let name = text("name", name)?;
-    name.as_deref().map_or(Ok(()), check_name).map_err(|message| format!("name: {message}"))?;
+    let name = |value| json::string(value).and_then(check_name);
     Ok(StoredCase {
-        name,
+        name: object.read("name", name)?,
         case,
         is_secondary: starts.is_some(),
-        truth: truth.map_err(|message| format!("truth: {message}"))?,
+        truth: object.read("truth", |truth| StoredTruth::parse(truth.get()))?,
         line,
-        why: text("why", why)?,
-        url: text("url", url)?,
-        found: found.map_err(|message| format!("found: {message}"))?,
+        why: object.read("why", json::string)?,
+        url: object.read("url", json::string)?,
+        found: object.read("found", |found| FoundBy::parse(found.get()))?,
     })
 }
 
 /// An error if `hairline explain` does not take a name, or if it breaks a line of a report.
-fn check_name(name: &str) -> Result<(), String> {
+fn check_name(name: String) -> Result<String, String> {
     let wrong = match name.chars().next() {
         None => "it is empty".to_owned(),
         Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),
         Some('-') => "it begins with '-', as a flag does".to_owned(),
         _ if name.contains(char::is_control) => "it has a control character".to_owned(),
         _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
-        _ => return Ok(()),
+        _ => return Ok(name),
     };
-    Err(format!("{} cannot name a case: {wrong}", json::quoted(name)))
+    Err(format!("{} cannot name a case: {wrong}", json::quoted(&name)))
 }
 
-fn parse_case<F: Float>(
-    vectors: [Option<&RawValue>; 5],
-    [t_min, t_max]: [Option<&RawValue>; 2],
-    bits: Option<&RawValue>,
-) -> Result<Case<F>, String> {
-    let bits = bits.map(|bits| json::fields(bits.get(), BITS)).transpose();
-    let bits = bits.map_err(|message| format!("bits: {message}"))?.unwrap_or_default();
+fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
+    let bits = object.read("bits", |bits| Object::parse(bits.get(), BITS))?.unwrap_or_default();
     let mut numbers = [[F::zero(); 3]; 5];
-    for (i, field) in VECTORS.into_iter().enumerate() {
-        numbers[i] = parse_vector(field, json::required(field, vectors[i])?, bits[i])?;
+    for (numbers, field) in numbers.iter_mut().zip(VECTORS) {
+        *numbers = parse_vector(field, object.required(field)?, bits.get(field))?;
     }
-    let t_min = t_min.map_or(Ok(F::zero()), |value| parse_number("t_min", value))?;
-    let t_max = t_max.map_or(Ok(F::infinity()), |value| parse_number("t_max", value))?;
-    let [t_min, t_max] = [agreed("t_min", t_min, bits[5])?, agreed("t_max", t_max, bits[6])?];
+    let end =
+        |field, default| object.get(field).map_or(Ok(default), |value| parse_number(field, value));
+    let (t_min, t_max) = (end("t_min", F::zero())?, end("t_max", F::infinity())?);
+    let t_min = agreed("t_min", t_min, bits.get("t_min"))?;
+    let t_max = agreed("t_max", t_max, bits.get("t_max"))?;
     let [origin, direction, a, b, c] = numbers;
     Ok(Case::new(origin, direction, [a, b, c]).on(t_min, t_max))
 }
@@ -216,16 +171,11 @@ pub(crate) fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
         fields.push(("starts", format!("\"{ON_TRIANGLE}\"")));
     }
     fields.extend(stored.truth.as_ref().map(|truth| ("truth", truth.to_json())));
-    fields.push(("bits", object(&bits)));
+    fields.push(("bits", json::object(bits)));
     fields.extend(stored.why.as_ref().map(|why| ("why", text(why))));
     fields.extend(stored.url.as_ref().map(|url| ("url", text(url))));
     fields.extend(stored.found.as_ref().map(|found| ("found", found.to_json())));
-    object(&fields)
-}
-
-fn object(fields: &[(&str, String)]) -> String {
-    let fields: Vec<_> = fields.iter().map(|(name, json)| format!("\"{name}\":{json}")).collect();
-    format!("{{{}}}", fields.join(","))
+    json::object(fields)
 }
 
 #[cfg(test)]
@@ -254,7 +204,7 @@ mod tests {
         let stored = parse(&all.replace('\n', " "), 1).unwrap();
         assert_eq!(stored.case, AnyCase::F32(plain.on(f32::NEG_INFINITY, f32::from_bits(1))));
         assert_eq!([stored.name, stored.why, stored.url].map(Option::unwrap), ["x", "y", "z"]);
-        assert_eq!(stored.truth.unwrap().feature, Some(Some("vertex_a".to_owned())));
+        assert_eq!(stored.truth.unwrap().to_json(), r#"{"feature":"vertex_a"}"#);
     }
 
     #[test]

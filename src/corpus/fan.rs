@@ -1,14 +1,22 @@
 //! The faces of a mesh: whether a triangle has an area, and whether a polygon's fan folds over.
 //!
-//! Both are decided without error: in `f64` with a bound on the rounding where that suffices, and
-//! in exact numbers where it does not.
+//! Both are decided without error: in double-doubles with a bound where that suffices, and in exact numbers
+//! where it does not.
 
-use crate::arith::Exact;
+use crate::arith::{Bounded, Exact, Real, Triple, Vector, bounded};
 use std::cmp::Ordering;
+
+/// Decides a question in either arithmetic, given how to make a number from a float.
+macro_rules! decide {
+    ($question:ident($($argument:expr),*)) => {
+        bounded(|| $question(Bounded::new, $($argument),*))
+            .unwrap_or_else(|| $question(Exact::from_f64, $($argument),*))
+    };
+}
 
 /// Whether the corners of a triangle lie on one line, or on one point. Coordinates are finite.
 pub(crate) fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
-    decide(normal_is_zero::<Rounded>(&corners), || normal_is_zero::<Exact>(&corners))
+    decide!(normal_is_zero(&corners))
 }
 
 /// Whether the fan of triangles from a polygon's first corner folds over; at least three corners,
@@ -21,28 +29,30 @@ pub(crate) fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
 /// all others. Triangles without area do not count as folds unless an arm turns back on itself; a
 /// polygon wholly without area does not fold.
 pub(super) fn folds(corners: &[[f64; 3]]) -> bool {
-    decide(fan_folds::<Rounded>(corners), || fan_folds::<Exact>(corners))
+    decide!(fan_folds(corners))
 }
 
 /// Whether a closed fan goes once around its centre, as seen along a direction from which all its
 /// triangles face alike. `ring` holds the points around the centre in their order; all finite.
 pub(crate) fn winds_once(direction: [f64; 3], centre: [f64; 3], ring: &[[f64; 3]]) -> bool {
-    decide(turns::<Rounded>(&direction, &centre, ring), || {
-        turns::<Exact>(&direction, &centre, ring)
-    })
+    decide!(turns_once(&direction, &centre, ring))
 }
 
 /// Each step turns the same way, by less than half a turn, so that on which half the points lie,
 /// counted from the first, tells how often they go around.
-fn turns<N: Number>(direction: &[f64; 3], centre: &[f64; 3], ring: &[[f64; 3]]) -> Option<bool> {
-    let zero = [0.0; 3];
-    let direction: [N; 3] = arm(&zero, direction);
-    let arms: Vec<[N; 3]> = ring.iter().map(|point| arm(centre, point)).collect();
-    let side = |from: &[N; 3], to: &[N; 3]| dot(&cross(from, to), &direction).sign();
-    let turn = side(&arms[0], &arms[1])?;
+fn turns_once<R: Real>(
+    number: fn(f64) -> R,
+    direction: &[f64; 3],
+    centre: &[f64; 3],
+    ring: &[[f64; 3]],
+) -> bool {
+    let direction = Triple::from(direction.map(number));
+    let arms: Vec<_> = ring.iter().map(|point| arm(number, centre, point)).collect();
+    let side = |from: &Triple<R>, to: &Triple<R>| sign(&from.cross(to).dot(&direction));
+    let turn = side(&arms[0], &arms[1]);
     let (mut rounds, mut beyond_half) = (1, false);
     for arm in &arms[1..] {
-        let side = side(&arms[0], arm)?;
+        let side = side(&arms[0], arm);
         // On the line of the first point: opposite to it after the first half, at it after the second.
         let first_half = if side == Ordering::Equal { beyond_half } else { side == turn };
         if first_half && beyond_half {
@@ -50,167 +60,59 @@ fn turns<N: Number>(direction: &[f64; 3], centre: &[f64; 3], ring: &[[f64; 3]]) 
         }
         beyond_half = !first_half;
     }
-    Some(rounds == 1)
+    rounds == 1
 }
 
-/// The rounded answer, or else the exact one, which is never missing for finite coordinates.
-fn decide(rounded: Option<bool>, exact: impl FnOnce() -> Option<bool>) -> bool {
-    rounded.or_else(exact).unwrap_or(true)
+fn normal_is_zero<R: Real>(number: fn(f64) -> R, [a, b, c]: &[[f64; 3]; 3]) -> bool {
+    is_zero(&arm(number, a, b).cross(&arm(number, a, c)))
 }
 
-fn normal_is_zero<N: Number>([a, b, c]: &[[f64; 3]; 3]) -> Option<bool> {
-    is_zero(&cross(&arm::<N>(a, b), &arm(a, c)))
-}
-
-fn fan_folds<N: Number>(corners: &[[f64; 3]]) -> Option<bool> {
-    let arms: Vec<[N; 3]> = corners[1..].iter().map(|corner| arm(&corners[0], corner)).collect();
-    let mut area: [N; 3] = arm(&corners[0], &corners[0]);
-    let mut last_normal: Option<[N; 3]> = None;
-    for pair in arms.windows(2) {
-        let normal = cross(&pair[0], &pair[1]);
-        area = std::array::from_fn(|axis| area[axis].plus(&normal[axis]));
-        if is_zero(&normal)? {
-            continue;
-        }
-        if let Some(last) = &last_normal
-            && dot(last, &normal).sign()? != Ordering::Greater
-        {
-            return Some(true);
-        }
-        last_normal = Some(normal);
+fn fan_folds<R: Real>(number: fn(f64) -> R, corners: &[[f64; 3]]) -> bool {
+    let arms: Vec<_> = corners[1..].iter().map(|corner| arm(number, &corners[0], corner)).collect();
+    let normals: Vec<_> = arms.windows(2).map(|pair| pair[0].cross(&pair[1])).collect();
+    let zero = arm(number, &corners[0], &corners[0]);
+    let area = normals.iter().fold(zero, |area, normal| area.plus(normal));
+    let normals: Vec<_> = normals.iter().filter(|normal| !is_zero(normal)).collect();
+    if normals.is_empty() {
+        return false;
     }
-    if last_normal.is_none() {
-        return Some(false);
+    if normals.windows(2).any(|pair| sign(&pair[0].dot(pair[1])) != Ordering::Greater) {
+        return true;
     }
-    let mut turned: Option<(&[N; 3], &[N; 3])> = None;
+    let arms: Vec<_> = arms.iter().filter(|arm| !is_zero(arm)).collect();
     let mut beyond_half = false;
-    for arm in &arms {
-        if is_zero(arm)? {
-            continue;
-        }
-        let Some((first, previous)) = turned else {
-            turned = Some((arm, arm));
-            continue;
-        };
-        turned = Some((first, arm));
-        let step = cross(previous, arm);
-        match dot(&step, &area).sign()? {
+    for pair in arms.windows(2) {
+        let step = pair[0].cross(pair[1]);
+        match sign(&step.dot(&area)) {
             Ordering::Greater => {}
-            Ordering::Less => return Some(true),
-            Ordering::Equal => {
-                let goes_on = is_zero(&step)? && dot(previous, arm).sign()? == Ordering::Greater;
-                if !goes_on {
-                    return Some(true);
-                }
-            }
+            Ordering::Equal
+                if is_zero(&step) && sign(&pair[0].dot(pair[1])) == Ordering::Greater => {}
+            _ => return true,
         }
         // Each step is below half a turn, so a fan that comes back to the first half has gone round.
-        let second_half = dot(&cross(first, arm), &area).sign()? == Ordering::Less;
+        let second_half = sign(&arms[0].cross(pair[1]).dot(&area)) == Ordering::Less;
         if beyond_half && !second_half {
-            return Some(true);
+            return true;
         }
         beyond_half = second_half;
     }
-    Some(false)
+    false
 }
 
-/// A number whose sign may be hidden by rounding.
-trait Number: Clone {
-    fn difference(a: f64, b: f64) -> Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn minus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-    /// None if rounding hides it.
-    fn sign(&self) -> Option<Ordering>;
+fn arm<R: Real>(number: fn(f64) -> R, from: &[f64; 3], to: &[f64; 3]) -> Triple<R> {
+    Triple::from(to.map(number)).minus(&Triple::from(from.map(number)))
 }
 
-fn arm<N: Number>(from: &[f64; 3], to: &[f64; 3]) -> [N; 3] {
-    std::array::from_fn(|axis| N::difference(to[axis], from[axis]))
+fn is_zero<R: Real>(vector: &Triple<R>) -> bool {
+    (0..3).all(|axis| vector.at(axis).is_zero())
 }
 
-fn cross<N: Number>(u: &[N; 3], v: &[N; 3]) -> [N; 3] {
-    std::array::from_fn(|axis| {
-        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-        u[i].times(&v[j]).minus(&u[j].times(&v[i]))
-    })
-}
-
-fn dot<N: Number>(u: &[N; 3], v: &[N; 3]) -> N {
-    u[0].times(&v[0]).plus(&u[1].times(&v[1])).plus(&u[2].times(&v[2]))
-}
-
-fn is_zero<N: Number>(vector: &[N; 3]) -> Option<bool> {
-    let signs = vector.each_ref().map(N::sign);
-    if signs.iter().any(|sign| sign.is_some_and(Ordering::is_ne)) {
-        return Some(false);
-    }
-    signs.iter().all(Option::is_some).then_some(true)
-}
-
-impl Number for Exact {
-    fn difference(a: f64, b: f64) -> Self {
-        Exact::from_f64(a) - Exact::from_f64(b)
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self.clone() + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self.clone() - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self.clone() * other
-    }
-    fn sign(&self) -> Option<Ordering> {
-        Exact::sign(self)
-    }
-}
-
-/// A rounded number and a bound on its error. An overflow makes the error infinite or NaN, and
-/// then the sign is hidden.
-#[derive(Clone, Copy)]
-struct Rounded {
-    value: f64,
-    error: f64,
-}
-
-impl Rounded {
-    /// With a rounding of `value` added to what the operands bring along. Twice the unit roundoff
-    /// and the factor cover the rounding of the bound itself.
-    fn after(value: f64, carried: f64) -> Rounded {
-        Rounded { value, error: carried * (1.0 + 8.0 * f64::EPSILON) + value.abs() * f64::EPSILON }
-    }
-}
-
-impl Number for Rounded {
-    /// The error of a difference is relative to the difference; it is zero for equal numbers only,
-    /// and below the normal numbers there is none.
-    fn difference(a: f64, b: f64) -> Self {
-        Rounded::after(a - b, 0.0)
-    }
-    fn plus(&self, other: &Self) -> Self {
-        Rounded::after(self.value + other.value, self.error + other.error)
-    }
-    fn minus(&self, other: &Self) -> Self {
-        Rounded::after(self.value - other.value, self.error + other.error)
-    }
-    fn times(&self, other: &Self) -> Self {
-        let is_exact_zero = |n: &Self| n.value == 0.0 && n.error == 0.0;
-        if is_exact_zero(self) || is_exact_zero(other) {
-            return Rounded { value: 0.0, error: 0.0 };
-        }
-        let carried = self.value.abs() * other.error
-            + other.value.abs() * self.error
-            + self.error * other.error;
-        let mut product = Rounded::after(self.value * other.value, carried);
-        // Products may underflow, and so may the terms of their bound.
-        product.error += f64::MIN_POSITIVE;
-        product
-    }
-    fn sign(&self) -> Option<Ordering> {
-        if self.value.abs() > self.error || (self.value == 0.0 && self.error == 0.0) {
-            return self.value.partial_cmp(&0.0);
-        }
-        None
+/// Of a number that is not NaN.
+fn sign<R: Real>(number: &R) -> Ordering {
+    match number.is_sign_negative() {
+        true => Ordering::Less,
+        false if number.is_zero() => Ordering::Equal,
+        false => Ordering::Greater,
     }
 }
 
@@ -218,13 +120,10 @@ impl Number for Rounded {
 mod tests {
     use super::*;
 
-    /// The answers of both arithmetics; the rounded one may be missing but not wrong.
+    /// The answers of both arithmetics; the bounded one may be missing but not wrong.
     fn fold_of(corners: &[[f64; 3]]) -> bool {
-        let exact = fan_folds::<Exact>(corners).expect("finite");
-        if let Some(rounded) = fan_folds::<Rounded>(corners) {
-            assert_eq!(rounded, exact, "{corners:?}");
-        }
-        assert_eq!(folds(corners), exact);
+        let exact = fan_folds(Exact::from_f64, corners);
+        assert_eq!(folds(corners), exact, "{corners:?}");
         exact
     }
 
@@ -305,8 +204,8 @@ mod tests {
                 for _ in 0..ring.len() {
                     ring.rotate_left(1);
                     assert_eq!(winds_once(direction, centre, &ring), expected, "{ring:?}");
-                    let exact = turns::<Exact>(&direction, &centre, &ring);
-                    assert_eq!(exact, Some(expected));
+                    let exact = turns_once(Exact::from_f64, &direction, &centre, &ring);
+                    assert_eq!(exact, expected);
                 }
             }
         }
@@ -358,7 +257,6 @@ mod tests {
         let middle: [f64; 3] = std::array::from_fn(|k| a[k] + (b[k] - a[k]) * 0.5);
         // Rounded to the line's neighbourhood, not onto it.
         assert!(!is_without_area([a, b, middle]));
-        assert_eq!(normal_is_zero::<Rounded>(&[a, b, middle]), None);
         let double = |v: [f64; 3]| v.map(|x| 2.0 * x);
         assert!(is_without_area([[0.0; 3], a, double(a)]));
         assert!(is_without_area([a, a, b]));

@@ -1,9 +1,7 @@
 //! JSON objects with known fields, read through `serde_json`, and errors that name the field.
 
-#![forbid(unsafe_code)]
-
 use serde::Deserializer;
-use serde::de::{Error, MapAccess, Visitor};
+use serde::de::{MapAccess, Visitor};
 use serde_json::error::Category;
 use serde_json::value::RawValue;
 use std::fmt;
@@ -11,26 +9,75 @@ use std::fmt;
 /// The most characters of an input that a message repeats.
 const EXCERPT: usize = 40;
 
-/// The values of an object's fields as they stand in the text, in the order of `known`; none where
-/// a field is missing (`null` is a value). Unknown and duplicate fields are errors.
-pub(crate) fn fields<'a, const N: usize>(
-    text: &'a str,
-    known: [&'static str; N],
-) -> Result<[Option<&'a RawValue>; N], String> {
+/// The fields of an object, as they stand in the text.
+#[derive(Default)]
+pub(crate) struct Object<'a>(Vec<(String, &'a RawValue)>);
+
+impl<'a> Object<'a> {
+    /// The fields, whose `known` names stand between blanks. Unknown and duplicate ones are errors.
+    pub fn parse(text: &'a str, known: &'static str) -> Result<Object<'a>, String> {
+        let fields = pairs(text)?;
+        for (i, (name, _)) in fields.iter().enumerate() {
+            if !known.split(' ').any(|known| known == name) {
+                let (name, known) = (quoted(name), known.replace(' ', ", "));
+                return Err(format!("unknown field {name}, expected one of {known}"));
+            }
+            if fields[..i].iter().any(|(other, _)| other == name) {
+                return Err(format!("duplicate field '{name}'"));
+            }
+        }
+        Ok(Object(fields))
+    }
+
+    /// The value of a field, if it is there; `null` is a value.
+    pub fn get(&self, field: &str) -> Option<&'a RawValue> {
+        self.0.iter().find(|(name, _)| name == field).map(|(_, value)| *value)
+    }
+
+    /// The value of a field that must be there.
+    pub fn required(&self, field: &str) -> Result<&'a RawValue, String> {
+        self.get(field).ok_or_else(|| format!("missing field '{field}'"))
+    }
+
+    /// What a field says, if it is there. An error names it.
+    pub fn read<T>(
+        &self,
+        field: &str,
+        read: impl FnOnce(&'a RawValue) -> Result<T, String>,
+    ) -> Result<Option<T>, String> {
+        let read = self.get(field).map(read).transpose();
+        read.map_err(|message| format!("{field}: {message}"))
+    }
+
+    /// The text of a field that must be there.
+    pub fn required_string(&self, field: &str) -> Result<String, String> {
+        string(self.required(field)?).map_err(|message| format!("{field}: {message}"))
+    }
+
+    /// Whether the field `scalar`, which must be there, says `f32`; otherwise it says `f64`.
+    pub fn is_f32(&self) -> Result<bool, String> {
+        match self.required_string("scalar")?.as_str() {
+            "f32" => Ok(true),
+            "f64" => Ok(false),
+            other => Err(format!("scalar: {} is none of f32, f64", quoted(other))),
+        }
+    }
+}
+
+/// The fields of an object in their order, duplicates included.
+pub(crate) fn pairs(text: &str) -> Result<Vec<(String, &RawValue)>, String> {
     if !text.trim_start().starts_with('{') {
         return Err(format!("expected an object, found {}", excerpt(text.trim_start())));
     }
     let mut reader = serde_json::Deserializer::from_str(text);
-    let fields = reader.deserialize_map(Fields(known)).and_then(|f| reader.end().map(|()| f));
-    fields.map_err(|error| plain_message(&error))
+    let pairs = reader.deserialize_map(Pairs).and_then(|pairs| reader.end().map(|()| pairs));
+    pairs.map_err(|error| plain_message(&error))
 }
 
-/// The value of a field that must be there.
-pub(crate) fn required<'a>(
-    field: &str,
-    value: Option<&'a RawValue>,
-) -> Result<&'a RawValue, String> {
-    value.ok_or_else(|| format!("missing field '{field}'"))
+/// An object of fields whose values are JSON already.
+pub(crate) fn object<'a>(fields: impl IntoIterator<Item = (&'a str, String)>) -> String {
+    let fields = fields.into_iter().map(|(name, json)| format!("\"{name}\":{json}"));
+    format!("{{{}}}", fields.collect::<Vec<_>>().join(","))
 }
 
 /// A JSON string.
@@ -72,30 +119,21 @@ pub(crate) fn quoted(text: &str) -> String {
     format!("'{}'", excerpt(text))
 }
 
-struct Fields<const N: usize>([&'static str; N]);
+struct Pairs;
 
-impl<'de, const N: usize> Visitor<'de> for Fields<N> {
-    type Value = [Option<&'de RawValue>; N];
+impl<'de> Visitor<'de> for Pairs {
+    type Value = Vec<(String, &'de RawValue)>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("an object")
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let mut values = [None; N];
-        while let Some(name) = map.next_key::<String>()? {
-            let Some(place) = self.0.iter().position(|known| *known == name) else {
-                let known = self.0.join(", ");
-                let name = quoted(&name);
-                return Err(A::Error::custom(format!(
-                    "unknown field {name}, expected one of {known}"
-                )));
-            };
-            if values[place].replace(map.next_value()?).is_some() {
-                return Err(A::Error::custom(format!("duplicate field '{name}'")));
-            }
+        let mut pairs = Vec::new();
+        while let Some(pair) = map.next_entry()? {
+            pairs.push(pair);
         }
-        Ok(values)
+        Ok(pairs)
     }
 }
 

@@ -1,9 +1,7 @@
 //! Corpus files: one case a line, as a JSON object, with its truth and its bit patterns.
 
-#![forbid(unsafe_code)]
-
 pub use super::stored_case::{AnyCase, StoredCase};
-pub use super::stored_truth::{Stored, StoredContact, StoredTruth};
+pub use super::stored_truth::StoredTruth;
 use super::text_lines::TextLines;
 use super::{InputError, case_json};
 use std::io::BufRead;
@@ -41,10 +39,7 @@ pub fn case_of(text: &str, line: usize, file: &str) -> Result<StoredCase, InputE
 /// A case as one line without its end, with its bit patterns. [`read`] gives the same case back,
 /// every bit of it; `line` is not written, nor an interval that is the default one.
 pub fn write_case(stored: &StoredCase) -> String {
-    match &stored.case {
-        AnyCase::F32(case) => case_json::write(stored, case),
-        AnyCase::F64(case) => case_json::write(stored, case),
-    }
+    either_scalar!(&stored.case, case => case_json::write(stored, case))
 }
 
 #[cfg(test)]

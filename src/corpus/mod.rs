@@ -4,11 +4,11 @@
 
 pub(crate) mod case_json;
 mod fan;
+mod found_by;
 pub(crate) mod json;
 pub mod lines;
 pub mod mesh;
 pub mod number;
-mod provenance;
 pub mod shapes;
 mod stored_case;
 mod stored_truth;
@@ -16,7 +16,7 @@ pub mod text_lines;
 pub mod truth_json;
 
 pub(crate) use fan::{is_without_area, winds_once};
-pub use provenance::Provenance;
+pub use found_by::FoundBy;
 
 use std::{fmt, io};
 

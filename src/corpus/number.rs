@@ -1,7 +1,5 @@
 //! Floats as text: read correctly rounded, written so that every reader gets the same float back.
 
-#![forbid(unsafe_code)]
-
 use super::json::quoted;
 use crate::arith::Float;
 

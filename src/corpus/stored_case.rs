@@ -1,39 +1,22 @@
 //! A case from a corpus file, and what stands beside it.
 
-#![forbid(unsafe_code)]
-
-use super::Provenance;
+use super::FoundBy;
 use super::stored_truth::StoredTruth;
-use crate::case::Case;
+use super::truth_json::TruthLine;
+use crate::arith::Float;
+use crate::case::{AnyScalar, Case};
+use crate::oracle;
 
 /// A case in the scalar that it was written for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyCase {
-    /// In `f32`.
-    F32(Case<f32>),
-    /// In `f64`.
-    F64(Case<f64>),
-}
+pub type AnyCase = AnyScalar<Case<f32>, Case<f64>>;
 
-impl AnyCase {
-    /// Whether it is of `f32`, and whether of `f64`.
-    pub fn scalars(&self) -> [bool; 2] {
-        match self {
-            AnyCase::F32(_) => [true, false],
-            AnyCase::F64(_) => [false, true],
+impl<F: Float> From<Case<F>> for AnyCase {
+    fn from(case: Case<F>) -> AnyCase {
+        let bits = case.bits();
+        match F::NAME == f32::NAME {
+            true => AnyCase::F32(Case::from_bits(&bits)),
+            false => AnyCase::F64(Case::from_bits(&bits)),
         }
-    }
-}
-
-impl From<Case<f32>> for AnyCase {
-    fn from(case: Case<f32>) -> AnyCase {
-        AnyCase::F32(case)
-    }
-}
-
-impl From<Case<f64>> for AnyCase {
-    fn from(case: Case<f64>) -> AnyCase {
-        AnyCase::F64(case)
     }
 }
 
@@ -56,7 +39,7 @@ pub struct StoredCase {
     /// Where it comes from.
     pub url: Option<String>,
     /// Which kernel shows what on it, if it was found by a campaign or by `fuzz triage`.
-    pub found: Option<Provenance>,
+    pub found: Option<FoundBy>,
 }
 
 impl StoredCase {
@@ -73,5 +56,16 @@ impl StoredCase {
             url: None,
             found: None,
         }
+    }
+
+    /// Its truth by definition, as the `truth` command prints it.
+    pub fn truth_line(&self) -> TruthLine {
+        let definition = either_scalar!(&self.case, case => oracle::define(case));
+        TruthLine::new(self.name.as_deref(), &definition.truth, &definition.exact)
+    }
+
+    /// The same with its truth.
+    pub fn with_truth(self) -> StoredCase {
+        StoredCase { truth: Some(StoredTruth::from(&self.truth_line())), ..self }
     }
 }

@@ -1,15 +1,14 @@
 //! A truth stored beside a case, and its comparison with the true one.
 
-#![forbid(unsafe_code)]
-
-use super::json;
+use super::json::{self, Object};
 use super::truth_json::{ContactLine, TruthLine, fraction_text};
 use crate::truth::{Facing, Feature, Place};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
-use serde::Serialize;
+use serde_json::json;
 use serde_json::value::RawValue;
+use std::fmt;
 
 /// The most characters of a fraction. On the whole range of `f64` t has fewer than 4,000.
 const LONGEST_FRACTION: usize = 10_000;
@@ -17,227 +16,178 @@ const LONGEST_FRACTION: usize = 10_000;
 const CLASSES: [&str; 5] = ["transversal", "parallel", "coplanar", "degenerate", "invalid"];
 const CONTACT_KINDS: [&str; 3] = ["none", "point", "segment"];
 
-/// A field of a stored truth: none if it is not stored, `Some(None)` if it is stored as null.
-pub type Stored<T> = Option<Option<T>>;
+const FIELDS: &str = "name class facing t feature contact hits_closed t_exact u_exact v_exact";
+const CONTACT_FIELDS: &str = "kind feature t";
 
-/// The truth beside a case in a corpus file: the fields of [`TruthLine`], any of them. Fractions are
-/// kept as [`TruthLine`] writes them.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct StoredTruth {
-    /// Never compared: the case has a name of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Stored<String>,
-    /// See [`TruthLine::class`]; never null.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub class: Stored<String>,
-    /// See [`TruthLine::facing`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub facing: Stored<String>,
-    /// See [`TruthLine::t`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t: Stored<String>,
-    /// See [`TruthLine::feature`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub feature: Stored<String>,
-    /// See [`TruthLine::contact`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact: Stored<StoredContact>,
-    /// See [`TruthLine::hits_closed`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hits_closed: Stored<bool>,
-    /// See [`TruthLine::t_exact`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t_exact: Stored<String>,
-    /// See [`TruthLine::u_exact`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub u_exact: Stored<String>,
-    /// See [`TruthLine::v_exact`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub v_exact: Stored<String>,
-}
+/// The truth beside a case in a corpus file: the fields of [`TruthLine`] (or of its contact), any of them,
+/// in their order. Fractions are kept as [`TruthLine`] writes them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StoredTruth(Vec<(&'static str, Stored)>);
 
-/// The fields of [`ContactLine`], any of them.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct StoredContact {
-    /// See [`ContactLine::kind`]; never null.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub kind: Stored<String>,
-    /// See [`ContactLine::feature`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub feature: Stored<String>,
-    /// See [`ContactLine::t`].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t: Stored<[String; 2]>,
+/// What a field says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Stored {
+    Null,
+    Text(String),
+    Flag(bool),
+    Ends([String; 2]),
+    Contact(StoredTruth),
 }
 
 impl StoredTruth {
     /// From its JSON. Unknown and duplicate fields, words that no truth has and what is no fraction
     /// are errors, which name the field.
     pub fn parse(text: &str) -> Result<StoredTruth, String> {
-        let [name, class, facing, t, feature, contact, hits_closed, t_exact, u_exact, v_exact] =
-            json::fields(
-                text,
-                [
-                    "name",
-                    "class",
-                    "facing",
-                    "t",
-                    "feature",
-                    "contact",
-                    "hits_closed",
-                    "t_exact",
-                    "u_exact",
-                    "v_exact",
-                ],
-            )?;
-        Ok(StoredTruth {
-            name: stored("name", name, json::string)?,
-            class: never_null("class", word("class", class, &CLASSES)?)?,
-            facing: word("facing", facing, &[Facing::Front, Facing::Back].map(Facing::name))?,
-            t: word("t", t, &Place::ALL.map(Place::name))?,
-            feature: word("feature", feature, &Feature::ALL.map(Feature::name))?,
-            contact: stored("contact", contact, StoredContact::parse)?,
-            hits_closed: stored("hits_closed", hits_closed, boolean)?,
-            t_exact: stored("t_exact", t_exact, fraction)?,
-            u_exact: stored("u_exact", u_exact, fraction)?,
-            v_exact: stored("v_exact", v_exact, fraction)?,
+        StoredTruth::read(text, FIELDS, |field, value| match field {
+            "name" => json::string(value).map(Stored::Text),
+            "class" => word(value, &CLASSES),
+            "facing" => word(value, &[Facing::Front, Facing::Back].map(Facing::name)),
+            "t" => word(value, &Place::ALL.map(Place::name)),
+            "feature" => word(value, &Feature::ALL.map(Feature::name)),
+            "contact" => StoredTruth::parse_contact(value.get()).map(Stored::Contact),
+            "hits_closed" => boolean(value).map(Stored::Flag),
+            _ => fraction(value).map(Stored::Text),
         })
+    }
+
+    fn parse_contact(text: &str) -> Result<StoredTruth, String> {
+        StoredTruth::read(text, CONTACT_FIELDS, |field, value| match field {
+            "kind" => word(value, &CONTACT_KINDS),
+            "feature" => word(value, &Feature::ALL.map(Feature::name)),
+            _ => {
+                let [first, last] = json::array(value, "fractions")?;
+                Ok(Stored::Ends([fraction(first)?, fraction(last)?]))
+            }
+        })
+    }
+
+    fn read(
+        text: &str,
+        known: &'static str,
+        read: impl Fn(&str, &RawValue) -> Result<Stored, String>,
+    ) -> Result<StoredTruth, String> {
+        let object = Object::parse(text, known)?;
+        let stored = known.split(' ').filter_map(|field| {
+            let value = object.read(field, |value| match (value.get(), field) {
+                ("null", "class" | "kind") => Err("cannot be null".to_owned()),
+                ("null", _) => Ok(Stored::Null),
+                _ => read(field, value),
+            });
+            Some(value.transpose()?.map(|value| (field, value)))
+        });
+        stored.collect::<Result<_, _>>().map(StoredTruth)
+    }
+
+    fn of_contact(contact: &ContactLine) -> StoredTruth {
+        let mut fields = vec![
+            ("kind", Stored::Text(contact.kind.to_owned())),
+            ("feature", Stored::word(contact.feature)),
+        ];
+        let ends = |t: &Option<_>| t.clone().map_or(Stored::Null, Stored::Ends);
+        fields.extend(contact.t.as_ref().map(|t| ("t", ends(t))));
+        StoredTruth(fields)
+    }
+
+    fn get(&self, field: &str) -> Option<&Stored> {
+        self.0.iter().find(|(name, _)| *name == field).map(|(_, stored)| stored)
     }
 
     /// The stored fields, on one line.
     pub fn to_json(&self) -> String {
-        // Strings and booleans under names that are strings: nothing that could fail.
-        serde_json::to_string(self).unwrap_or_default()
+        let value = |stored: &Stored| match stored {
+            Stored::Null => "null".to_owned(),
+            Stored::Text(text) => json!(text).to_string(),
+            Stored::Flag(flag) => flag.to_string(),
+            Stored::Ends(ends) => json!(ends).to_string(),
+            Stored::Contact(contact) => contact.to_json(),
+        };
+        json::object(self.0.iter().map(|(field, stored)| (*field, value(stored))))
     }
 
     /// Compares each stored field but the name with what the oracle says.
     pub fn check(&self, line: &TruthLine) -> Result<(), String> {
-        same("class", &self.class, Some(line.class))?;
-        same("facing", &self.facing, line.facing)?;
-        same("t", &self.t, line.t)?;
-        same("feature", &self.feature, line.feature)?;
-        match (&self.contact, &line.contact) {
-            (Some(Some(stored)), Some(contact)) => stored.check(contact)?,
-            (stored, contact) => {
-                let kind = |contact: &StoredContact| match &contact.kind {
-                    Some(Some(kind)) => kind.clone(),
-                    _ => "some".to_owned(),
-                };
-                let stored = stored.as_ref().map(|stored| stored.as_ref().map(kind));
-                same("contact", &stored, contact.as_ref().map(|contact| contact.kind))?;
+        self.compare("", &StoredTruth::from(line))
+    }
+
+    fn compare(&self, path: &str, found: &StoredTruth) -> Result<(), String> {
+        for (field, stored) in self.0.iter().filter(|(field, _)| *field != "name") {
+            match (stored, found.get(field).unwrap_or(&Stored::Null)) {
+                (Stored::Contact(stored), Stored::Contact(found)) => {
+                    stored.compare("contact.", found)?;
+                }
+                (stored, found) if stored != found => {
+                    return Err(format!(
+                        "stored truth is wrong: {path}{field} is {stored}, the oracle says {found}"
+                    ));
+                }
+                _ => {}
             }
         }
-        let hits_closed = self.hits_closed.map(|hits| hits.map(|hits| hits.to_string()));
-        same("hits_closed", &hits_closed, line.hits_closed.map(boolean_name))?;
-        let text = |field: &Stored<String>| field.clone().flatten();
-        same("t_exact", &self.t_exact, text(&line.t_exact).as_deref())?;
-        same("u_exact", &self.u_exact, text(&line.u_exact).as_deref())?;
-        same("v_exact", &self.v_exact, text(&line.v_exact).as_deref())
+        Ok(())
     }
 
     /// Whether a fraction is stored, or null for one.
     pub fn has_fractions(&self) -> bool {
-        let of_contact = self.contact.iter().flatten().any(|contact| contact.t.is_some());
-        of_contact || [&self.t_exact, &self.u_exact, &self.v_exact].into_iter().any(Option::is_some)
+        let has_t = |stored: &Stored| matches!(stored, Stored::Contact(c) if c.get("t").is_some());
+        self.0.iter().any(|(field, stored)| field.ends_with("_exact") || has_t(stored))
     }
 }
 
 impl From<&TruthLine> for StoredTruth {
     /// All fields but the name.
     fn from(line: &TruthLine) -> StoredTruth {
-        let word = |word: Option<&str>| Some(word.map(str::to_owned));
-        StoredTruth {
-            name: None,
-            class: word(Some(line.class)),
-            facing: word(line.facing),
-            t: word(line.t),
-            feature: word(line.feature),
-            contact: Some(line.contact.as_ref().map(|contact| StoredContact {
-                kind: word(Some(contact.kind)),
-                feature: word(contact.feature),
-                t: contact.t.clone(),
-            })),
-            hits_closed: Some(line.hits_closed),
-            t_exact: line.t_exact.clone(),
-            u_exact: line.u_exact.clone(),
-            v_exact: line.v_exact.clone(),
+        let contact = line.contact.as_ref().map(StoredTruth::of_contact);
+        let mut fields = vec![
+            ("class", Stored::word(Some(line.class))),
+            ("facing", Stored::word(line.facing)),
+            ("t", Stored::word(line.t)),
+            ("feature", Stored::word(line.feature)),
+            ("contact", contact.map_or(Stored::Null, Stored::Contact)),
+            ("hits_closed", line.hits_closed.map_or(Stored::Null, Stored::Flag)),
+        ];
+        let fractions =
+            [("t_exact", &line.t_exact), ("u_exact", &line.u_exact), ("v_exact", &line.v_exact)];
+        for (field, fraction) in fractions {
+            let fraction = fraction.as_ref().map(|fraction| Stored::word(fraction.as_deref()));
+            fields.extend(fraction.map(|fraction| (field, fraction)));
+        }
+        StoredTruth(fields)
+    }
+}
+
+impl Stored {
+    fn word(word: Option<&str>) -> Stored {
+        word.map_or(Stored::Null, |word| Stored::Text(word.to_owned()))
+    }
+}
+
+impl fmt::Display for Stored {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stored::Null => f.write_str("null"),
+            Stored::Text(text) => write!(f, "'{text}'"),
+            Stored::Flag(flag) => write!(f, "'{flag}'"),
+            Stored::Ends([first, last]) => write!(f, "'[{first}, {last}]'"),
+            Stored::Contact(contact) => match contact.get("kind") {
+                Some(kind) => write!(f, "{kind}"),
+                None => f.write_str("'some'"),
+            },
         }
     }
 }
 
-impl StoredContact {
-    fn parse(value: &RawValue) -> Result<StoredContact, String> {
-        let [kind, feature, t] = json::fields(value.get(), ["kind", "feature", "t"])?;
-        Ok(StoredContact {
-            kind: never_null("kind", word("kind", kind, &CONTACT_KINDS)?)?,
-            feature: word("feature", feature, &Feature::ALL.map(Feature::name))?,
-            t: stored("t", t, |ends| {
-                let [first, last] = json::array(ends, "fractions")?;
-                Ok([fraction(first)?, fraction(last)?])
-            })?,
-        })
+fn word(value: &RawValue, known: &[&str]) -> Result<Stored, String> {
+    let text = json::string(value)?;
+    if known.contains(&text.as_str()) {
+        return Ok(Stored::Text(text));
     }
-
-    fn check(&self, contact: &ContactLine) -> Result<(), String> {
-        let ends = |t: &[String; 2]| format!("[{}, {}]", t[0], t[1]);
-        same("contact.kind", &self.kind, Some(contact.kind))?;
-        same("contact.feature", &self.feature, contact.feature)?;
-        let t = self.t.as_ref().map(|t| t.as_ref().map(ends));
-        same("contact.t", &t, contact.t.as_ref().and_then(Option::as_ref).map(ends).as_deref())
-    }
-}
-
-/// Whether a field, where it is stored, is what the oracle found.
-fn same(field: &str, stored: &Stored<String>, found: Option<&str>) -> Result<(), String> {
-    let show = |word: Option<&str>| word.map_or("null".to_owned(), |word| format!("'{word}'"));
-    match stored {
-        Some(stored) if stored.as_deref() != found => {
-            let (stored, found) = (show(stored.as_deref()), show(found));
-            Err(format!("stored truth is wrong: {field} is {stored}, the oracle says {found}"))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn stored<'a, T>(
-    field: &str,
-    value: Option<&'a RawValue>,
-    read: impl Fn(&'a RawValue) -> Result<T, String>,
-) -> Result<Stored<T>, String> {
-    let value = value.map(|value| match value.get() {
-        "null" => Ok(None),
-        _ => read(value).map(Some).map_err(|message| format!("{field}: {message}")),
-    });
-    value.transpose()
-}
-
-fn word(field: &str, value: Option<&RawValue>, known: &[&str]) -> Result<Stored<String>, String> {
-    stored(field, value, |value| {
-        let text = json::string(value)?;
-        if known.contains(&text.as_str()) {
-            return Ok(text);
-        }
-        Err(format!("{} is none of {}", json::quoted(&text), known.join(", ")))
-    })
-}
-
-fn never_null<T>(field: &str, stored: Stored<T>) -> Result<Stored<T>, String> {
-    match stored {
-        Some(None) => Err(format!("{field}: cannot be null")),
-        stored => Ok(stored),
-    }
+    Err(format!("{} is none of {}", json::quoted(&text), known.join(", ")))
 }
 
 fn boolean(value: &RawValue) -> Result<bool, String> {
-    match value.get() {
-        "true" => Ok(true),
-        "false" => Ok(false),
-        other => Err(format!("expected true, false or null, found {}", json::excerpt(other))),
-    }
-}
-
-fn boolean_name(value: bool) -> &'static str {
-    if value { "true" } else { "false" }
+    let parsed = value.get().parse();
+    parsed
+        .map_err(|_| format!("expected true, false or null, found {}", json::excerpt(value.get())))
 }
 
 /// `p/q` or an integer, in a string; reduced.
@@ -273,8 +223,9 @@ mod tests {
             let printed = serde_json::to_string(&line).unwrap();
             let stored = StoredTruth::parse(&printed).unwrap();
             assert_eq!(stored.check(&line), Ok(()));
-            assert_eq!(StoredTruth { name: None, ..stored.clone() }, StoredTruth::from(&line));
-            assert_eq!(serde_json::to_string(&stored).unwrap(), printed);
+            assert_eq!(stored.to_json(), printed);
+            assert_eq!(stored.0[0].0, "name");
+            assert_eq!(stored.0[1..], StoredTruth::from(&line).0);
         }
         for part in ["{}", r#"{"name":"other"}"#, r#"{"v_exact":"3","t_exact":"-15/10"}"#] {
             assert_eq!(StoredTruth::parse(part).unwrap().check(&transversal()), Ok(()), "{part}");

@@ -1,7 +1,5 @@
 //! The lines of a text, none longer than a limit: memory stays bounded whatever is read.
 
-#![forbid(unsafe_code)]
-
 use super::InputError;
 use std::io::{self, BufRead, Read};
 

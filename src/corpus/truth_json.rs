@@ -1,7 +1,5 @@
 //! A truth as one JSON object, as the `truth` command prints it.
 
-#![forbid(unsafe_code)]
-
 use crate::truth::{Contact, ContactKind, ExactValues, Truth};
 use num_rational::BigRational;
 use serde::Serialize;

@@ -61,11 +61,7 @@ pub fn changed_case(
     let case = id.to_string();
     let is_plain = id.parameters.mesh.is_none() && id.parameters.scene.is_none();
     let is_of_cases = !example.bits.is_empty() && is_plain;
-    let bits = match &*id.scalar {
-        _ if !is_of_cases => None,
-        "f32" => bits::<f32>(&id),
-        _ => bits::<f64>(&id),
-    };
+    let bits = is_of_cases.then(|| in_named_scalar!(id.scalar, F => bits::<F>(&id))).flatten();
     Some(Example {
         command: example.command.replace(&example.case, &case),
         bits: bits.unwrap_or_default(),

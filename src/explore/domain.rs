@@ -4,32 +4,24 @@
 use crate::arith::{Exact, Float, Real, Vector, scale_by_power_of_two};
 use crate::case::{Case, Ray, Triangle};
 
-/// Which cases count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Domain {
-    /// Ordinary cases:
-    /// - every coordinate zero or from 2^-20 to 2^20 in size, and the default interval;
-    /// - the longest edge at least 2^-10 of the largest coordinate of a point (not far away);
-    /// - the triangle's height over its longest edge at least 2^-6 of that edge (no sliver);
-    /// - the sine of the angle between ray and plane at least 2^-6 (not grazing);
-    /// - the origin at least 2^-6 longest edges from where the line meets the plane.
-    Moderate,
-    /// Every finite case with a direction and an interval that is one.
-    Any,
+named! {
+    pub names
+    /// Which cases count.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Domain {
+        /// Ordinary cases:
+        /// - every coordinate zero or from 2^-20 to 2^20 in size, and the default interval;
+        /// - the longest edge at least 2^-10 of the largest coordinate of a point (not far away);
+        /// - the triangle's height over its longest edge at least 2^-6 of that edge (no sliver);
+        /// - the sine of the angle between ray and plane at least 2^-6 (not grazing);
+        /// - the origin at least 2^-6 longest edges from where the line meets the plane.
+        Moderate = "moderate",
+        /// Every finite case with a direction and an interval that is one.
+        Any = "any",
+    }
 }
 
 impl Domain {
-    /// Both.
-    pub const ALL: [Domain; 2] = [Domain::Moderate, Domain::Any];
-
-    /// The name in the table and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Domain::Moderate => "moderate",
-            Domain::Any => "any",
-        }
-    }
-
     /// The domain of a name.
     pub fn find(name: &str) -> Option<Domain> {
         Domain::ALL.into_iter().find(|domain| domain.name() == name)

@@ -35,37 +35,25 @@ use crate::kernel::{Dimension, KernelInfo, Role, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::Truth;
 
-/// What a search maximises.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Objective {
-    /// The error of what a gate compares with its epsilon.
-    Margin,
-    /// The error of t.
-    T,
-    /// The error of u or v.
-    Uv,
-    /// How far inside a false miss is.
-    FalseMiss,
-    /// How far outside a false hit is.
-    FalseHit,
+named! {
+    pub names
+    /// What a search maximises.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Objective {
+        /// The error of what a gate compares with its epsilon.
+        Margin = "margin",
+        /// The error of t.
+        T = "t",
+        /// The error of u or v.
+        Uv = "uv",
+        /// How far inside a false miss is.
+        FalseMiss = "false-miss",
+        /// How far outside a false hit is.
+        FalseHit = "false-hit",
+    }
 }
 
 impl Objective {
-    /// All of them, in the order of the table.
-    pub const ALL: [Objective; 5] =
-        [Objective::Margin, Objective::T, Objective::Uv, Objective::FalseMiss, Objective::FalseHit];
-
-    /// The name in the table and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Objective::Margin => "margin",
-            Objective::T => "t",
-            Objective::Uv => "uv",
-            Objective::FalseMiss => "false-miss",
-            Objective::FalseHit => "false-hit",
-        }
-    }
-
     /// What a score is counted in.
     pub fn unit(self) -> &'static str {
         match self {

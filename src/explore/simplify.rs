@@ -1,6 +1,6 @@
 //! Which of two cases is simpler, and the single steps towards simpler ones.
 
-use crate::arith::{Float, Vector, scale_by_power_of_two};
+use crate::arith::{Float, Vector, decompose, scale_by_power_of_two};
 use crate::case::{Case, Ray, Triangle};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -57,12 +57,8 @@ pub(super) fn odd_and_exponent<F: Float>(x: F) -> Option<(u64, i32)> {
     if x.is_zero() || !x.is_finite() {
         return None;
     }
-    let bits = x.to_f64().abs().to_bits();
-    let (field, fraction) = ((bits >> 52) as i32, bits & ((1 << 52) - 1));
-    let (digits, exponent) =
-        if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
-    let zeros = digits.trailing_zeros();
-    Some((digits >> zeros, exponent + zeros as i32))
+    let (digits, exponent) = decompose(x.to_f64());
+    Some((digits.unsigned_abs(), exponent as i32))
 }
 
 /// One step. What it makes may be no simpler, or the same case.

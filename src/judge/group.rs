@@ -1,6 +1,6 @@
 //! What a contract demands of the triangles of a group together, and of a polygon as a whole.
 
-use super::distance::{is_polygon_within, is_within};
+use super::change::{is_polygon_within, is_within};
 use super::{Obligation, obligation, promises_direction};
 use crate::arith::Float;
 use crate::case::Case;

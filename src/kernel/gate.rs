@@ -76,33 +76,23 @@ impl Dimension {
     }
 }
 
-/// What a gate is there to refuse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// Rays parallel to the plane and triangles without area; with a sign, the culled side too.
-    Parallel,
-    /// Crossings before and beyond the extent, and with them the triangle that a ray starts on.
-    T,
-    /// Crossings outside the triangle, and whatever has no gate of its own.
-    Edge,
-    /// Something else.
-    Other,
+named! {
+    pub names
+    /// What a gate is there to refuse.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Role {
+        /// Rays parallel to the plane and triangles without area; with a sign, the culled side too.
+        Parallel = "parallel",
+        /// Crossings before and beyond the extent, and with them the triangle that a ray starts on.
+        T = "t",
+        /// Crossings outside the triangle, and whatever has no gate of its own.
+        Edge = "edge",
+        /// Something else.
+        Other = "other",
+    }
 }
 
 impl Role {
-    /// All of them.
-    pub const ALL: [Role; 4] = [Role::Parallel, Role::T, Role::Edge, Role::Other];
-
-    /// The name of a gate of this role, unless the kernel gives it another.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Role::Parallel => "parallel",
-            Role::T => "t",
-            Role::Edge => "edge",
-            Role::Other => "other",
-        }
-    }
-
     /// The role of a name.
     pub fn find(name: &str) -> Option<Role> {
         Role::ALL.into_iter().find(|role| role.name() == name)
@@ -204,22 +194,34 @@ pub trait Sink<R: Real> {
     }
 }
 
-/// The fast sink: compares as the source does and stops at the first refusal.
+/// The fast sink: compares as the source does and stops at the first refusal, unless it watches.
 #[derive(Debug)]
 pub struct Deciding<'a, R> {
     epsilons: &'a [R],
     /// The gate that refused.
     pub refused_by: Option<usize>,
+    /// Where it watches: whether each gate passed; true if the kernel never compared.
+    pub passed: Vec<bool>,
 }
 
 impl<'a, R> Deciding<'a, R> {
     /// With one epsilon a gate.
     pub fn new(epsilons: &'a [R]) -> Self {
-        Deciding { epsilons, refused_by: None }
+        Deciding { epsilons, refused_by: None, passed: Vec::new() }
+    }
+
+    /// The same, but it never stops.
+    #[cfg(feature = "studies")]
+    pub fn watching(epsilons: &'a [R]) -> Self {
+        Deciding { passed: vec![true; epsilons.len()], ..Deciding::new(epsilons) }
     }
 
     #[inline(always)]
     fn record(&mut self, gate: usize, accepts: bool) -> bool {
+        if let Some(passed) = self.passed.get_mut(gate) {
+            *passed &= accepts;
+            return true;
+        }
         if !accepts {
             self.refused_by = Some(gate);
         }
@@ -327,52 +329,6 @@ impl<R: Real> Sink<R> for Measuring<'_, R> {
     #[inline(always)]
     fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
         self.record(gate, if accepts { R::infinity() } else { -R::infinity() })
-    }
-}
-
-/// The watching sink: decides each gate under given epsilons as the source does, and never stops.
-#[derive(Clone, Debug)]
-pub struct Watching<'a, R> {
-    epsilons: &'a [R],
-    /// Whether each gate passed; true if the kernel never compared.
-    pub passed: Vec<bool>,
-}
-
-impl<'a, R> Watching<'a, R> {
-    /// With one epsilon a gate.
-    pub fn new(epsilons: &'a [R]) -> Self {
-        Watching { epsilons, passed: vec![true; epsilons.len()] }
-    }
-
-    fn record(&mut self, gate: usize, accepts: bool) -> bool {
-        self.passed[gate] &= accepts;
-        true
-    }
-}
-
-impl<R: Real> Sink<R> for Watching<'_, R> {
-    fn gate<const M: usize, const N: usize>(
-        &mut self,
-        gate: usize,
-        refuse: Refuse,
-        clauses: [[&R; N]; M],
-    ) -> bool {
-        let accepts = refuse.passes_any(clauses, &self.epsilons[gate]);
-        self.record(gate, accepts)
-    }
-
-    fn rounded(
-        &mut self,
-        gate: usize,
-        accepts: impl Fn(&R) -> bool,
-        _: impl FnOnce() -> R,
-    ) -> bool {
-        let accepts = accepts(&self.epsilons[gate]);
-        self.record(gate, accepts)
-    }
-
-    fn fixed(&mut self, gate: usize, accepts: bool) -> bool {
-        self.record(gate, accepts)
     }
 }
 

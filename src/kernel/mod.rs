@@ -10,6 +10,17 @@
 
 #![forbid(unsafe_code)]
 
+/// What most kernels compute ahead of any ray: nothing.
+macro_rules! stores_triangle {
+    () => {
+        type Prepared<V: Vector> = Triangle<V>;
+
+        fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+            triangle.clone()
+        }
+    };
+}
+
 pub mod gate;
 mod generic;
 mod margins;
@@ -36,9 +47,7 @@ mod plucker;
 mod scalar_triple;
 mod woop_watertight;
 
-pub use gate::{
-    Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, Watching, refused_by,
-};
+pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
 pub(crate) use margins::{by_running, of_miss, open_epsilons, values_of};
 pub use own::Test;

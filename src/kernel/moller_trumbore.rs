@@ -45,11 +45,7 @@ impl Kernel for MollerTrumbore {
         hits_nan: true,
     };
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
@@ -98,11 +94,7 @@ impl Kernel for MollerTrumboreCulling {
         hits_nan: true,
     };
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(

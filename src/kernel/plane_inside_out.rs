@@ -95,20 +95,16 @@ fn inside_out<V: Vector, S: Sink<V::Real>>(
 impl Kernel for PlaneInsideOut {
     const INFO: KernelInfo = info("plane-inside-out", scratchapixel!("full listing"));
 
-    type Prepared<V: Vector> = [V; 3];
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> [V; 3] {
-        triangle.clone().vertices()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
-        vertices: &[V; 3],
+        triangle: &Triangle<V>,
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        let (n, d) = plane(&vertices[0], &vertices[1], &vertices[2]);
-        inside_out(vertices, &n, &d, ray, sink)
+        let (n, d) = plane(&triangle.a, &triangle.b, &triangle.c);
+        inside_out(&triangle.clone().vertices(), &n, &d, ray, sink)
     }
 }
 
@@ -156,15 +152,11 @@ impl Kernel for PlaneInsideOutStrict {
         ..info("plane-inside-out-strict", scratchapixel!("pseudo-code with strict edges"))
     };
 
-    type Prepared<V: Vector> = [V; 3];
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> [V; 3] {
-        triangle.clone().vertices()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
-        [v0, v1, v2]: &[V; 3],
+        Triangle { a: v0, b: v1, c: v2 }: &Triangle<V>,
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
@@ -194,19 +186,15 @@ impl Kernel for ConvexPolygon {
         ..info("convex-polygon", scratchapixel!("last section: any convex polygon"))
     };
 
-    type Prepared<V: Vector> = [V; 3];
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> [V; 3] {
-        triangle.clone().vertices()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
-        vertices: &[V; 3],
+        triangle: &Triangle<V>,
         ray: &Ray<V>,
         sink: &mut S,
     ) -> Option<Hit<V::Real>> {
-        Self::test_polygon(vertices, ray, sink)
+        Self::test_polygon(&triangle.clone().vertices(), ray, sink)
     }
 
     #[inline(always)]

@@ -36,11 +36,7 @@ impl Kernel for PlaneUnitNormal {
         hits_nan: true,
     };
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(

@@ -49,11 +49,7 @@ impl Kernel for Plucker {
         hits_nan: false,
     };
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(

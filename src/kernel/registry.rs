@@ -178,12 +178,7 @@ pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'
     let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
         name: String::leak(name),
         source: String::leak(source),
-        contract: base.contract,
-        gates: base.gates,
-        epsilon_sets: base.epsilon_sets,
-        gives: base.gives,
-        polygons: base.polygons,
-        hits_nan: base.hits_nan,
+        ..*base
     }));
     let variant: &'static Entry = Box::leak(Box::new(Entry {
         info,

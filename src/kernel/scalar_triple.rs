@@ -64,11 +64,7 @@ fn weights<R: Real>(u: R, v: R, w: R) -> Option<Hit<R>> {
 impl Kernel for ScalarTriple {
     const INFO: KernelInfo = info("scalar-triple", lelievre!("first listing"), false);
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
@@ -97,11 +93,7 @@ impl Kernel for ScalarTripleShared {
     const INFO: KernelInfo =
         info("scalar-triple-shared", lelievre!("second listing (one shared cross product)"), false);
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(
@@ -131,11 +123,7 @@ impl Kernel for ScalarTripleTwoSided {
     const INFO: KernelInfo =
         info("scalar-triple-two-sided", lelievre!("listing with SameSign"), true);
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    stores_triangle!();
 
     #[inline(always)]
     fn test<V: Vector, S: Sink<V::Real>>(

@@ -5,7 +5,7 @@ use super::gate::Either;
 use super::recording::{Path, paths};
 use super::runs::{ExactRun, Measured, TrackedRun};
 use super::subject::Gated;
-use super::{Generic, Hit, Kernel, KernelInfo, Measuring, Watching};
+use super::{Deciding, Generic, Hit, Kernel, KernelInfo, Measuring};
 use crate::arith::{Arithmetic, Bounded, Exact, Float, Real, Triple, Vector, bounded};
 use crate::case::{Case, Ray, Triangle};
 
@@ -35,7 +35,7 @@ impl<R: Real> Lifted<R> {
     }
 
     fn run<K: Kernel>(&self) -> ExactRun {
-        let mut watching = Watching::new(&self.epsilons);
+        let mut watching = Deciding::watching(&self.epsilons);
         let values = self.test::<K>(&mut Either::One(&mut watching));
         ExactRun::of(watching.passed, values)
     }
@@ -49,7 +49,7 @@ impl<R: Real> Lifted<R> {
     #[inline(never)]
     fn test<K: Kernel>(
         &self,
-        sink: &mut Either<&mut Watching<R>, &mut Measuring<R>>,
+        sink: &mut Either<&mut Deciding<R>, &mut Measuring<R>>,
     ) -> Option<Hit<R>> {
         K::test(&K::prepare(&self.triangle), &self.ray, sink)
     }

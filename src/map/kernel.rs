@@ -11,28 +11,21 @@ use crate::oracle::{self, Layers};
 use crate::truth::{Crossing, Feature, Truth};
 use rayon::prelude::*;
 
-/// A vector of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// Where the ray starts.
-    Origin,
-    /// Where it goes.
-    Direction,
-    /// The first vertex.
-    A,
-    /// The second vertex.
-    B,
-    /// The third vertex.
-    C,
-}
-
-impl Part {
-    /// All, in the order of [`Case::vectors`].
-    pub const ALL: [Part; 5] = [Part::Origin, Part::Direction, Part::A, Part::B, Part::C];
-
-    /// As case files name it.
-    pub fn name(self) -> &'static str {
-        ["origin", "direction", "a", "b", "c"][self as usize]
+named! {
+    pub names
+    /// A vector of a case.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Part {
+        /// Where the ray starts.
+        Origin = "origin",
+        /// Where it goes.
+        Direction = "direction",
+        /// The first vertex.
+        A = "a",
+        /// The second vertex.
+        B = "b",
+        /// The third vertex.
+        C = "c",
     }
 }
 

@@ -7,30 +7,21 @@ use crate::case::Case;
 use crate::kernel::Scalar;
 use crate::orientation::{Dimension, Points};
 
-/// Where a standard case lies. All coordinates are short decimals, rounded to the scalar.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spot {
-    /// The ray crosses the plane on an edge, not far from a vertex.
-    Edge,
-    /// The ray crosses the plane at a vertex.
-    Vertex,
-    /// The ray crosses an edge at a small angle to the plane.
-    Grazing,
+named! {
+    pub names
+    /// Where a standard case lies. All coordinates are short decimals, rounded to the scalar.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Spot {
+        /// The ray crosses the plane on an edge, not far from a vertex.
+        Edge = "edge",
+        /// The ray crosses the plane at a vertex.
+        Vertex = "vertex",
+        /// The ray crosses an edge at a small angle to the plane.
+        Grazing = "grazing",
+    }
 }
 
 impl Spot {
-    /// All, in the order of reports.
-    pub const ALL: [Spot; 3] = [Spot::Edge, Spot::Vertex, Spot::Grazing];
-
-    /// As the command line has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Spot::Edge => "edge",
-            Spot::Vertex => "vertex",
-            Spot::Grazing => "grazing",
-        }
-    }
-
     /// The case.
     pub fn case<F: Float>(self) -> Case<F> {
         let (origin, direction, triangle) = match self {

@@ -11,30 +11,22 @@ use crate::family::{self, Grouping};
 
 const VERSION: u32 = 1;
 
-/// What rays are aimed at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Part {
-    /// The edges of two faces that are wound consistently.
-    Edges,
-    /// The vertices inside one closed fan.
-    Vertices,
+named! {
+    pub names
+    /// What rays are aimed at.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Part {
+        /// The edges of two faces that are wound consistently.
+        Edges = "mesh-edges",
+        /// The vertices inside one closed fan.
+        Vertices = "mesh-vertices",
+    }
 }
 
 impl Part {
-    /// Both.
-    pub const ALL: [Part; 2] = [Part::Edges, Part::Vertices];
-
-    /// The name in case ids.
-    pub fn family(self) -> &'static str {
-        match self {
-            Part::Edges => "mesh-edges",
-            Part::Vertices => "mesh-vertices",
-        }
-    }
-
     /// The part of a case id's family.
     pub fn of_family(name: &str) -> Option<Part> {
-        Part::ALL.into_iter().find(|part| part.family() == name)
+        Part::ALL.into_iter().find(|part| part.name() == name)
     }
 
     /// The id of an index; it holds the mesh's digest.
@@ -46,7 +38,7 @@ impl Part {
         index: u64,
     ) -> CaseId {
         CaseId {
-            family: self.family().to_owned(),
+            family: self.name().to_owned(),
             version: VERSION,
             scalar: F::NAME.to_owned(),
             parameters: Parameters { mesh: Some(mesh.digest.clone()), ..parameters.clone() },
@@ -169,7 +161,7 @@ impl<'m> Targets<'m> {
     /// The ray of an index, before the parameters.
     fn ray<F: Float>(&self, part: Part, index: u64) -> ([F; 3], [F; 3]) {
         let (target, number) = self.place(part, index);
-        let mut draw = Draw::new(part.family(), self.seed, index);
+        let mut draw = Draw::new(part.name(), self.seed, index);
         let faces = self.faces(part, target);
         let points = self.points(part, target);
         let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));

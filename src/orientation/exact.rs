@@ -47,18 +47,18 @@ fn expand(rows: &[&[BigRational]]) -> BigRational {
 
 /// `digits * 2^exponent`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Dyadic {
+pub struct BigDyadic {
     /// Odd, or 0.
     digits: BigInt,
     /// 0 beside 0.
     exponent: i64,
 }
 
-impl Dyadic {
-    fn new(digits: BigInt, exponent: i64) -> Dyadic {
+impl BigDyadic {
+    fn new(digits: BigInt, exponent: i64) -> BigDyadic {
         match digits.trailing_zeros() {
-            None => Dyadic { digits, exponent: 0 },
-            Some(zeros) => Dyadic { digits: digits >> zeros, exponent: exponent + zeros as i64 },
+            None => BigDyadic { digits, exponent: 0 },
+            Some(zeros) => BigDyadic { digits: digits >> zeros, exponent: exponent + zeros as i64 },
         }
     }
 
@@ -78,7 +78,7 @@ impl Dyadic {
     }
 }
 
-impl fmt::Display for Dyadic {
+impl fmt::Display for BigDyadic {
     /// A fraction in lowest terms, its power of two unexpanded: `3/2^1077`, `5*2^900`, `-7`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.exponent {
@@ -117,7 +117,7 @@ impl ScaledPoints {
     }
 
     /// The determinant, by differences from the last point.
-    pub fn determinant(&self) -> Dyadic {
+    pub fn determinant(&self) -> BigDyadic {
         let (last, others) = self.points.split_last().expect("there are three points or four");
         let rows: Vec<Vec<BigInt>> = others
             .iter()
@@ -131,7 +131,7 @@ impl ScaledPoints {
             }
             _ => unreachable!("there are three points or four"),
         };
-        Dyadic::new(digits, self.grid * rows.len() as i64)
+        BigDyadic::new(digits, self.grid * rows.len() as i64)
     }
 
     /// The largest `abs(coordinate)`, in units of the grid.
@@ -149,11 +149,12 @@ impl ScaledPoints {
 
     /// Whether `abs(determinant) <= 2^power * m^n` of the largest `abs(coordinate)` m and n
     /// dimensions.
-    pub(super) fn is_within(&self, determinant: &Dyadic, power: i64) -> bool {
+    pub(super) fn is_within(&self, determinant: &BigDyadic, power: i64) -> bool {
         let n = self.points[0].len();
-        let bound = Dyadic::new(self.largest().pow(n as u32).into(), self.grid * n as i64 + power);
+        let bound =
+            BigDyadic::new(self.largest().pow(n as u32).into(), self.grid * n as i64 + power);
         let grid = bound.exponent.min(determinant.exponent);
-        let align = |number: &Dyadic| number.digits.abs() << (number.exponent - grid);
+        let align = |number: &BigDyadic| number.digits.abs() << (number.exponent - grid);
         align(determinant) <= align(&bound)
     }
 
@@ -179,7 +180,7 @@ mod tests {
 
     #[test]
     fn determinants_print_as_fractions() {
-        let shown = |digits: i64, exponent| Dyadic::new(digits.into(), exponent).to_string();
+        let shown = |digits: i64, exponent| BigDyadic::new(digits.into(), exponent).to_string();
         assert_eq!(shown(12, -4), "3/2^2");
         assert_eq!(shown(-5, 900), "-5*2^900");
         assert_eq!(shown(-14, -1), "-7");

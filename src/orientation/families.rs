@@ -1,6 +1,6 @@
 //! The families of points, each with a promise that the exact determinant checks on every case.
 
-use super::{Dimension, Dyadic, Points, PointsId, ScaledPoints, predicate::Scalar};
+use super::{BigDyadic, Dimension, Points, PointsId, ScaledPoints, predicate::Scalar};
 use crate::arith::Float;
 use crate::case::Draw;
 use std::any::Any;
@@ -12,22 +12,30 @@ trait Recipe {
     const NAME: &'static str;
     /// Raised whenever the cases change.
     const VERSION: u32 = 1;
-    /// About the points and their determinant, in one line.
-    const PROMISE: &'static str;
     /// One case; `draw` is its own stream.
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F>;
     /// Whether a case keeps the promise.
-    fn keeps<F: Float>(dimension: Dimension, points: &ScaledPoints, determinant: &Dyadic) -> bool;
+    fn keeps<F: Float>(
+        dimension: Dimension,
+        points: &ScaledPoints,
+        determinant: &BigDyadic,
+    ) -> bool;
 }
 
+/// Uniform on the grid 2^-digits in (-1, 1); in its units the determinant is odd, so not 0.
 struct Generic;
+/// Integers on one line (or plane), up to 2^7 or up to 2^digits: the determinant is 0.
 struct Degenerate;
+/// One point is a rounded combination of the others, give or take 2 ulps: abs(det) <= 2^(12-digits) m^n.
 struct Near;
+/// Generic or near, moved away from 0: on some axis the extent is at most 2^-6 of the distance.
 struct Far;
+/// Generic, degenerate or near, scaled to where products of n coordinates underflow.
 struct RangeLow;
+/// Generic, degenerate or near, scaled to where products of n coordinates overflow.
 struct RangeHigh;
 
-type Keeps = fn(Dimension, &ScaledPoints, &Dyadic) -> bool;
+type Keeps = fn(Dimension, &ScaledPoints, &BigDyadic) -> bool;
 
 /// A family in one scalar.
 #[derive(Clone, Copy)]
@@ -42,8 +50,6 @@ pub struct Family {
     pub name: &'static str,
     /// Part of the case ids.
     pub version: u32,
-    /// About the points and their determinant, in one line.
-    pub promise: &'static str,
     in_f32: InScalar<f32>,
     in_f64: InScalar<f64>,
 }
@@ -52,7 +58,6 @@ const fn row<R: Recipe>() -> Family {
     Family {
         name: R::NAME,
         version: R::VERSION,
-        promise: R::PROMISE,
         in_f32: InScalar { make: R::make::<f32>, keeps: R::keeps::<f32> },
         in_f64: InScalar { make: R::make::<f64>, keeps: R::keeps::<f64> },
     }
@@ -85,7 +90,7 @@ impl Family {
         &self,
         dimension: Dimension,
         points: &ScaledPoints,
-        determinant: &Dyadic,
+        determinant: &BigDyadic,
     ) -> bool {
         (self.recipe::<F>().keeps)(dimension, points, determinant)
     }
@@ -117,8 +122,6 @@ fn float<F: Float>(integer: i64) -> F {
 
 impl Recipe for Generic {
     const NAME: &'static str = "generic";
-    const PROMISE: &'static str =
-        "uniform on the grid 2^-digits in (-1, 1); in its units the determinant is odd, so not 0";
 
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F> {
         let bound = (1 << F::DIGITS) - 2;
@@ -134,15 +137,13 @@ impl Recipe for Generic {
         points.scaled(-(F::DIGITS as i32))
     }
 
-    fn keeps<F: Float>(_: Dimension, points: &ScaledPoints, determinant: &Dyadic) -> bool {
+    fn keeps<F: Float>(_: Dimension, points: &ScaledPoints, determinant: &BigDyadic) -> bool {
         determinant.sign() != Ordering::Equal && points.largest_exponent().is_some_and(|k| k < 0)
     }
 }
 
 impl Recipe for Degenerate {
     const NAME: &'static str = "degenerate";
-    const PROMISE: &'static str =
-        "integers on one line (or plane), up to 2^7 or up to 2^digits: the determinant is 0";
 
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F> {
         let digits = i64::from(F::DIGITS);
@@ -160,7 +161,7 @@ impl Recipe for Degenerate {
         })
     }
 
-    fn keeps<F: Float>(_: Dimension, _: &ScaledPoints, determinant: &Dyadic) -> bool {
+    fn keeps<F: Float>(_: Dimension, _: &ScaledPoints, determinant: &BigDyadic) -> bool {
         determinant.sign() == Ordering::Equal
     }
 }
@@ -175,7 +176,6 @@ const NEARNESS: i64 = 12;
 
 impl Recipe for Near {
     const NAME: &'static str = "near";
-    const PROMISE: &'static str = "one point is a rounded combination of the others, give or take 2 ulps: abs(det) <= 2^(12-digits) m^n";
 
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F> {
         let n = dimension.number();
@@ -210,14 +210,13 @@ impl Recipe for Near {
         if dyadic { points.scaled(-bits) } else { points }
     }
 
-    fn keeps<F: Float>(_: Dimension, points: &ScaledPoints, determinant: &Dyadic) -> bool {
+    fn keeps<F: Float>(_: Dimension, points: &ScaledPoints, determinant: &BigDyadic) -> bool {
         points.is_within(determinant, NEARNESS - i64::from(F::DIGITS))
     }
 }
 
 impl Recipe for Far {
     const NAME: &'static str = "far";
-    const PROMISE: &'static str = "generic or near, moved away from 0: on some axis the extent is at most 2^-6 of the distance";
 
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F> {
         let points: Points<F> =
@@ -233,7 +232,7 @@ impl Recipe for Far {
         Points::each(dimension, |i, axis| points.coordinates[i][axis] + offset[axis])
     }
 
-    fn keeps<F: Float>(_: Dimension, points: &ScaledPoints, _: &Dyadic) -> bool {
+    fn keeps<F: Float>(_: Dimension, points: &ScaledPoints, _: &BigDyadic) -> bool {
         points.is_far(6)
     }
 }
@@ -277,14 +276,16 @@ fn high_exponents<F: Float>(dimension: Dimension) -> RangeInclusive<i64> {
 
 impl Recipe for RangeLow {
     const NAME: &'static str = "range-low";
-    const PROMISE: &'static str =
-        "generic, degenerate or near, scaled to where products of n coordinates underflow";
 
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F> {
         in_range(draw, dimension, low_exponents::<F>(dimension))
     }
 
-    fn keeps<F: Float>(dimension: Dimension, points: &ScaledPoints, determinant: &Dyadic) -> bool {
+    fn keeps<F: Float>(
+        dimension: Dimension,
+        points: &ScaledPoints,
+        determinant: &BigDyadic,
+    ) -> bool {
         // Hadamard: abs(det) <= (2 m sqrt(n))^n < (4 m)^n.
         points.largest_exponent().is_some_and(|k| low_exponents::<F>(dimension).contains(&k))
             && points.is_within(determinant, 2 * dimension.number() as i64)
@@ -293,14 +294,16 @@ impl Recipe for RangeLow {
 
 impl Recipe for RangeHigh {
     const NAME: &'static str = "range-high";
-    const PROMISE: &'static str =
-        "generic, degenerate or near, scaled to where products of n coordinates overflow";
 
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F> {
         in_range(draw, dimension, high_exponents::<F>(dimension))
     }
 
-    fn keeps<F: Float>(dimension: Dimension, points: &ScaledPoints, determinant: &Dyadic) -> bool {
+    fn keeps<F: Float>(
+        dimension: Dimension,
+        points: &ScaledPoints,
+        determinant: &BigDyadic,
+    ) -> bool {
         points.largest_exponent().is_some_and(|k| high_exponents::<F>(dimension).contains(&k))
             && points.is_within(determinant, 2 * dimension.number() as i64)
     }

@@ -27,7 +27,7 @@ mod predicate;
 mod record;
 
 pub use audit::{Cell, Counts, Plan, SetSummary, Sums, run};
-pub use exact::{Dyadic, ScaledPoints, defined_determinant};
+pub use exact::{BigDyadic, ScaledPoints, defined_determinant};
 pub use families::{FAMILIES, Family, find_family};
 pub use id::PointsId;
 pub use known::{KNOWN, Known, find_known};
@@ -40,32 +40,24 @@ pub use record::{
 use crate::arith::{Float, scale_by_power_of_two};
 use std::cmp::Ordering;
 
-/// Points in the plane or in space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Dimension {
-    /// The plane: `orient2d` of three points.
-    Two,
-    /// Space: `orient3d` of four points.
-    Three,
+named! {
+    pub names
+    /// Points in the plane or in space.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Dimension {
+        /// The plane: `orient2d` of three points.
+        Two = "orient2d",
+        /// Space: `orient3d` of four points.
+        Three = "orient3d",
+    }
 }
 
 impl Dimension {
-    /// Both, in the order of reports.
-    pub const ALL: [Dimension; 2] = [Dimension::Two, Dimension::Three];
-
     /// 2 or 3: how many coordinates a point has, and how many points there are beside the last.
     pub fn number(self) -> usize {
         match self {
             Dimension::Two => 2,
             Dimension::Three => 3,
-        }
-    }
-
-    /// `orient2d` or `orient3d`, as case ids have it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Dimension::Two => "orient2d",
-            Dimension::Three => "orient3d",
         }
     }
 }
@@ -199,28 +191,17 @@ impl From<Ordering> for Answer {
     }
 }
 
-/// How an answer is wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finding {
-    /// The opposite sign, or no sign (NaN) whatever the truth.
-    WrongSign,
-    /// It said 0, and the determinant is not 0.
-    FalseZero,
-    /// It said - or +, and the determinant is 0.
-    MissedZero,
-}
-
-impl Finding {
-    /// All, in the order of tables.
-    pub const ALL: [Finding; 3] = [Finding::WrongSign, Finding::FalseZero, Finding::MissedZero];
-
-    /// As reports name it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Finding::WrongSign => "wrong-sign",
-            Finding::FalseZero => "false-zero",
-            Finding::MissedZero => "missed-zero",
-        }
+named! {
+    pub names
+    /// How an answer is wrong.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Finding {
+        /// The opposite sign, or no sign (NaN) whatever the truth.
+        WrongSign = "wrong-sign",
+        /// It said 0, and the determinant is not 0.
+        FalseZero = "false-zero",
+        /// It said - or +, and the determinant is 0.
+        MissedZero = "missed-zero",
     }
 }
 

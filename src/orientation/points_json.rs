@@ -1,40 +1,28 @@
 //! The points of an orientation predicate as one JSON object.
 
-#![forbid(unsafe_code)]
-
 use super::Points;
 use crate::arith::Float;
+use crate::case::AnyScalar;
 use crate::corpus::{case_json, json};
 use serde_json::value::RawValue;
 
 /// Points in the scalar that they were written for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyPoints {
-    /// In `f32`.
-    F32(Points<f32>),
-    /// In `f64`.
-    F64(Points<f64>),
-}
+pub type AnyPoints = AnyScalar<Points<f32>, Points<f64>>;
 
 /// Three points of the plane or four of space from `{"scalar":"f64","points":[[x,y],...]}`; numbers as
 /// in the files of cases.
 pub fn parse(text: &str) -> Result<AnyPoints, String> {
-    let [scalar, points] = json::fields(text, ["scalar", "points"])?;
-    let scalar = json::string(json::required("scalar", scalar)?)
-        .map_err(|message| format!("scalar: {message}"))?;
-    let points = json::required("points", points)?;
-    match scalar.as_str() {
-        "f32" => parse_points(points).map(AnyPoints::F32),
-        "f64" => parse_points(points).map(AnyPoints::F64),
-        other => Err(format!("scalar: {} is none of f32, f64", json::quoted(other))),
+    let object = json::Object::parse(text, "scalar points")?;
+    let (is_f32, points) = (object.is_f32()?, object.required("points")?);
+    match is_f32 {
+        true => parse_points(points).map(AnyPoints::F32),
+        false => parse_points(points).map(AnyPoints::F64),
     }
 }
 
 /// Whether an object has a field `points`, as no case has.
 pub fn is_points(text: &str) -> bool {
-    let fields: Result<std::collections::BTreeMap<String, &RawValue>, _> =
-        serde_json::from_str(text);
-    fields.is_ok_and(|fields| fields.contains_key("points"))
+    json::pairs(text).is_ok_and(|fields| fields.iter().any(|(name, _)| name == "points"))
 }
 
 fn parse_points<F: Float>(value: &RawValue) -> Result<Points<F>, String> {

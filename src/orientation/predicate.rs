@@ -7,19 +7,21 @@ use robust::{Coord, Coord3D};
 /// A predicate's determinant: its sign is the answer.
 trait Formula {
     const NAME: &'static str;
-    const SOURCE: &'static str;
     const DIMENSION: Dimension;
     fn determinant<F: Float>(points: &[[F; 3]; 4]) -> F;
 }
 
+/// (a-c)×(b-c), Shewchuk 1997, section 4.2, without its stages.
 struct Plain2d;
+/// `det(a-d, b-d, c-d)` by its column z, Shewchuk 1997, section 4.3, without its stages.
 struct Plain3d;
+/// Crate robust 1.2: Shewchuk's stages with the filter of Ozaki et al.
 struct Robust2d;
+/// Crate robust 1.2: Shewchuk's stages.
 struct Robust3d;
 
 impl Formula for Plain2d {
     const NAME: &'static str = "orient2d";
-    const SOURCE: &'static str = "(a-c)×(b-c), Shewchuk 1997, section 4.2, without its stages";
     const DIMENSION: Dimension = Dimension::Two;
 
     #[inline(always)]
@@ -30,8 +32,6 @@ impl Formula for Plain2d {
 
 impl Formula for Plain3d {
     const NAME: &'static str = "orient3d";
-    const SOURCE: &'static str =
-        "det(a-d, b-d, c-d) by its column z, Shewchuk 1997, section 4.3, without its stages";
     const DIMENSION: Dimension = Dimension::Three;
 
     #[inline(always)]
@@ -46,8 +46,6 @@ impl Formula for Plain3d {
 
 impl Formula for Robust2d {
     const NAME: &'static str = "robust::orient2d";
-    const SOURCE: &'static str =
-        "crate robust 1.2: Shewchuk's stages with the filter of Ozaki et al.";
     const DIMENSION: Dimension = Dimension::Two;
 
     #[inline(always)]
@@ -59,7 +57,6 @@ impl Formula for Robust2d {
 
 impl Formula for Robust3d {
     const NAME: &'static str = "robust::orient3d";
-    const SOURCE: &'static str = "crate robust 1.2: Shewchuk's stages";
     const DIMENSION: Dimension = Dimension::Three;
 
     #[inline(always)]
@@ -85,8 +82,6 @@ fn batch<T: Formula, F: Float>(cases: &[Points<F>], determinants: &mut Vec<F>) {
 pub struct Predicate {
     /// The name in tables.
     pub name: &'static str,
-    /// Where its formula is from.
-    pub source: &'static str,
     /// Points of the plane or of space.
     pub dimension: Dimension,
     /// Whether an epsilon goes with it; without one it is exact where it keeps its promise.
@@ -98,7 +93,6 @@ pub struct Predicate {
 const fn plain<T: Formula>() -> Predicate {
     Predicate {
         name: T::NAME,
-        source: T::SOURCE,
         dimension: T::DIMENSION,
         takes_epsilon: true,
         batch_f32: Some(batch::<T, f32>),
@@ -109,7 +103,6 @@ const fn plain<T: Formula>() -> Predicate {
 const fn only_f64<T: Formula>() -> Predicate {
     Predicate {
         name: T::NAME,
-        source: T::SOURCE,
         dimension: T::DIMENSION,
         takes_epsilon: false,
         batch_f32: None,

@@ -230,11 +230,7 @@ fn set_place(sums: &Sums, set: &super::SetSummary) -> usize {
 fn id(plan: &Plan, sums: &Sums, set: usize, index: u64) -> String {
     let set = &sums.sets[set];
     let family = &FAMILIES[set.family];
-    let id = match set.scalar {
-        "f32" => family.id::<f32>(set.dimension, plan.seed, index),
-        _ => family.id::<f64>(set.dimension, plan.seed, index),
-    };
-    id.to_string()
+    in_named_scalar!(set.scalar, F => family.id::<F>(set.dimension, plan.seed, index)).to_string()
 }
 
 /// By dimension, scalar, row and finding: the first family that shows it, at its lowest index.
@@ -273,10 +269,9 @@ fn made(plan: &Plan, sums: &Sums, set: usize, index: u64, row: &Row) -> Option<C
     let set = &sums.sets[set];
     let family = &FAMILIES[set.family];
     let rows = std::slice::from_ref(row);
-    match set.scalar {
-        "f32" => show::<f32>(id, &family.make(set.dimension, plan.seed, index), rows),
-        _ => show::<f64>(id, &family.make(set.dimension, plan.seed, index), rows),
-    }
+    in_named_scalar!(set.scalar, F => {
+        show::<F>(id, &family.make(set.dimension, plan.seed, index), rows)
+    })
 }
 
 /// One case with the answers of those rows that run on it; none if its points are not finite.

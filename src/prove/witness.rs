@@ -308,13 +308,8 @@ impl<'a, F: Searched> Search<'a, F> {
             Some(*lemma.maximum.corner.get(at)?)
         };
         let signed = |x: f64, minus: Option<bool>| match minus {
-            Some(minus) => {
-                if minus {
-                    -x.abs()
-                } else {
-                    x.abs()
-                }
-            }
+            Some(true) => -x.abs(),
+            Some(false) => x.abs(),
             None => x,
         };
         for axis in 0..3 {

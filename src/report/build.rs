@@ -8,7 +8,7 @@ use crate::audit::{
     Source, SourceSummary, Tally, Trials, exact_severity,
 };
 use crate::case::Case;
-use crate::contract::{Across, Boundary, Extent};
+use crate::contract::{Boundary, Extent};
 use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
@@ -27,13 +27,9 @@ pub struct Context {
 
 /// Makes the record of a run.
 pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
-    let results = audit.cells.par_iter().map(|cell| {
-        if cell.scalar == f32::NAME {
-            kernel_result::<f32>(plan, cell)
-        } else {
-            kernel_result::<f64>(plan, cell)
-        }
-    });
+    let results = audit.cells.par_iter();
+    let results =
+        results.map(|cell| in_named_scalar!(cell.scalar, F => kernel_result::<F>(plan, cell)));
     Record {
         schema: SCHEMA.to_owned(),
         result: ResultPart {
@@ -122,13 +118,7 @@ fn set_of_id(id: &str) -> String {
 
 fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
     let source = &plan.sources[summary.source];
-    let id = |index| {
-        if summary.scalar == f32::NAME {
-            source.id::<f32>(index, None)
-        } else {
-            source.id::<f64>(index, None)
-        }
-    };
+    let id = |index| in_named_scalar!(summary.scalar, F => source.id::<F>(index, None));
     SourcePart {
         scalar: summary.scalar.to_owned(),
         family: source.name(),
@@ -235,21 +225,12 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
     }
 }
 
-/// What a row's contract promises across triangles.
-pub(super) fn promised(row: &Row) -> &'static str {
-    match row.contract.across {
-        Across::Nothing => "nothing",
-        Across::AtLeastOne => "at-least-one",
-        Across::ExactlyOne => "exactly-one",
-    }
-}
-
 fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
     let sample = source.is_sample();
     let elsewhere = matches!(source, Source::MeshPart { .. });
     let ids = |indices: &[u64]| indices.iter().map(|i| source.id::<F>(*i, None)).collect();
     AcrossPart {
-        promised: promised(row).to_owned(),
+        promised: row.contract.across.name().to_owned(),
         cracks: rate(groups.cracks, groups.crossings, sample),
         doubles: rate(groups.doubles, groups.crossings, sample),
         odd_folds: rate(groups.odd_folds, groups.folds, sample),

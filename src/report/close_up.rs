@@ -77,7 +77,7 @@ fn write_line(
     writeln!(
         out,
         "{bold}{:<first$} {:>20}  {:<18} {:>20}  {:<18} {:>10}{plain}",
-        line.scalar,
+        line.row.scalar,
         "false misses, %",
         "cause of most",
         "false hits, %",

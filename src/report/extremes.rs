@@ -40,7 +40,7 @@ pub(super) fn write(
         "{bold}Worst{plain}{place}, in longest edges of the triangle, of different causes and kernels:"
     )?;
     let commands = broken.into_iter().map(|(line, (text, command))| {
-        (format!("{}, {}: {text}", line.label(), line.scalar), command)
+        (format!("{}, {}: {text}", line.label(), line.row.scalar), command)
     });
     let worst =
         worst.iter().map(|extreme| (extreme.describe(), extreme.part.worst.command.clone()));
@@ -161,6 +161,6 @@ impl Extreme<'_> {
             Some(Attribution::Range) => "; cause: overflow or underflow",
             Some(Attribution::NotEpsilon) => "; cause: not its epsilons",
         };
-        format!("{}, {}: {what}{cause}", self.line.label(), self.line.scalar)
+        format!("{}, {}: {what}{cause}", self.line.label(), self.line.row.scalar)
     }
 }

@@ -1,6 +1,7 @@
 //! The record as JSON, one object.
 
 use super::{Record, Style};
+use serde::Serialize;
 use std::io::{self, Write};
 
 /// The JSON Schema of the record. The tests derive it from the types; the program only prints it.
@@ -9,7 +10,12 @@ pub const JSON_SCHEMA: &str = include_str!("../../docs/schema/record.json");
 
 /// Writes the record and a newline.
 pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, record)?;
+    write_json(record, out)
+}
+
+/// Writes one value over several lines, and a newline.
+pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }
 

@@ -11,7 +11,6 @@ const WIDTH: usize = 119;
 
 /// One row in one scalar.
 pub(super) struct Line<'a> {
-    pub(super) scalar: &'a str,
     pub(super) row: RowView<'a>,
     /// One a column.
     pub(super) cells: Vec<Cell>,
@@ -30,7 +29,6 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>>
     let in_scalar = |scalar: &'a String| {
         let rows = RowView::all(record, scalar).into_iter();
         rows.map(move |row| Line {
-            scalar,
             cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
             across: Across::of(&row),
             row,
@@ -61,18 +59,15 @@ pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()
         }
     }
     let scalars = record.result.plan.scalars.iter();
-    let rows: Vec<(&String, RowView)> = scalars
-        .flat_map(|scalar| RowView::all(record, scalar).into_iter().map(move |row| (scalar, row)))
-        .collect();
-    for (scalar, row) in rows {
+    for row in scalars.flat_map(|scalar| RowView::all(record, scalar)) {
         let [bad, of] = row.total(|result| Some(&result.total.bad_values)).counts();
         // Of more than half of them something is wrong with the adapter, not with the arithmetic.
         if of < bad.saturating_mul(2) {
             let [bad, of] = [bad, of].map(group_digits);
             let text = format!(
-                "{} ({}), {scalar}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, \
+                "{} ({}), {}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, \
                  or with the wrong side (bad-value). Does it write all that it says that it gives?",
-                row.part.kernel, row.part.set
+                row.part.kernel, row.part.set, row.scalar
             );
             write_wrapped(&text, out)?;
         }

@@ -108,7 +108,7 @@ fn scalar_part(columns: &[Column], lines: &[Line], scalar: &str, text: &mut Stri
     text.push_str(&format!(
         "\n### {scalar}\n\n| kernel (epsilons) | {heads}cracks | doubles | promised |\n|---|{rule}---:|---:|---|\n"
     ));
-    for line in lines.iter().filter(|line| line.scalar == scalar) {
+    for line in lines.iter().filter(|line| line.row.scalar == scalar) {
         let cells = columns.iter().zip(&line.cells).map(|(column, cell)| {
             let rate = Rate::new(cell.wrong, !column.complete);
             format!("{} | ", share(&rate))

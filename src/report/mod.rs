@@ -55,6 +55,7 @@ pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ResponsePart};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
+pub use json::write_json;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub(crate) use rate::{interval_of, percent};
 pub use record::*;

@@ -3,11 +3,13 @@
 use super::group_digits;
 use super::pool::Pool;
 use super::record::*;
+use std::collections::HashMap;
 use std::io::{self, Write};
 
 /// All families of one kernel row in one scalar.
 pub(super) struct RowView<'a> {
     pub(super) part: &'a RowPart,
+    pub(super) scalar: &'a str,
     pub(super) total: Option<&'a RowTotal>,
     pub(super) results: Vec<&'a KernelResult>,
     pub(super) sources: &'a [SourcePart],
@@ -15,22 +17,22 @@ pub(super) struct RowView<'a> {
 
 impl<'a> RowView<'a> {
     /// Every row of a record in a scalar.
-    pub(super) fn all(record: &'a Record, scalar: &str) -> Vec<RowView<'a>> {
-        let of_row = |part: &RowPart, r: &KernelResult| {
-            r.scalar == scalar && r.kernel == part.kernel && r.set == part.set
-        };
-        let total_of = |part: &RowPart, t: &RowTotal| {
-            t.scalar == scalar && t.kernel == part.kernel && t.set == part.set
-        };
-        let view = |part: &'a RowPart| RowView {
-            part,
-            total: record.result.totals.iter().find(|total| total_of(part, total)),
-            results: record.result.results.iter().filter(|r| of_row(part, r)).collect(),
-            sources: &record.result.sources,
-        };
+    pub(super) fn all(record: &'a Record, scalar: &'a str) -> Vec<RowView<'a>> {
+        let ResultPart { plan, sources, results, totals, .. } = &record.result;
+        let mut by_row: HashMap<[&str; 2], Vec<&KernelResult>> = HashMap::new();
+        for result in results.iter().filter(|result| result.scalar == scalar) {
+            by_row.entry([&result.kernel, &result.set]).or_default().push(result);
+        }
+        let totals = totals.iter().filter(|total| total.scalar == scalar);
+        let totals: HashMap<[&str; 2], &RowTotal> =
+            totals.map(|total| ([&*total.kernel, &*total.set], total)).collect();
         // A kernel of one scalar has nothing to say in the other.
-        let rows = record.result.plan.rows.iter().map(view);
-        rows.filter(|row| !row.results.is_empty()).collect()
+        let view = |part: &'a RowPart| {
+            let key = [&*part.kernel, &*part.set];
+            let (total, results) = (totals.get(&key).copied(), by_row.get(&key)?.clone());
+            Some(RowView { part, scalar, total, results, sources })
+        };
+        plan.rows.iter().filter_map(view).collect()
     }
 
     /// The sum of a rate over the sources.

@@ -2,7 +2,7 @@
 
 use super::{
     Conformance, Deviation, FINDING_KINDS, Key, Rate, Record, Style, UNPROVED, disagreements,
-    group_digits,
+    group_digits, write_json,
 };
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -46,8 +46,7 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
             "properties": { "plan": record.result.plan.hash, "leftOut": left_out },
         }],
     });
-    serde_json::to_writer_pretty(&mut *out, &log)?;
-    writeln!(out)
+    write_json(&log, out)
 }
 
 /// The rules, whose order and names are stable: new ones go to the end.

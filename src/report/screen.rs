@@ -41,7 +41,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         write_wrapped(&column_legend(&columns, &lines), out)?;
     }
     for scalar in &record.result.plan.scalars {
-        let rows = lines.iter().filter(|line| line.scalar == scalar).map(|line| &line.row);
+        let rows = lines.iter().filter(|line| line.row.scalar == scalar).map(|line| &line.row);
         write_failures(&rows.collect::<Vec<_>>(), out)?;
     }
     extremes::write(&columns, &lines, style, out)?;
@@ -296,8 +296,8 @@ fn write_table(
     let has_groups = lines.iter().any(|line| line.across.is_some());
     let mut scalar = "";
     for line in lines {
-        if scalar != line.scalar {
-            scalar = line.scalar;
+        if scalar != line.row.scalar {
+            scalar = line.row.scalar;
             write!(out, "{bold}{:<first$}", format!("{scalar} kernel (epsilons)"))?;
             for (column, width) in columns.iter().zip(&widths) {
                 write!(out, " {:>width$}", format!("{} ", column.label()))?;

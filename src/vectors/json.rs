@@ -3,6 +3,7 @@
 use super::flags::FLAGS;
 use super::number::{Number, nearest};
 use super::{Group, Test, Topic, Triangle, word};
+use crate::corpus::json::object;
 use crate::corpus::number;
 use crate::corpus::truth_json::fraction_text;
 use num_rational::BigRational;
@@ -55,7 +56,7 @@ pub fn line(test: &Test) -> String {
         }
         Some(group) => fields.group(test, group, text),
     }
-    fields.object()
+    object(fields.0)
 }
 
 /// The fields of a test, each with its JSON.
@@ -115,12 +116,6 @@ impl Fields {
         self.add("open", json!(group.counts[1]));
         self.add("parity", json!(group.parity()));
         self.add("where", json!(test.triangles.iter().map(Triangle::place).collect::<Vec<_>>()));
-    }
-
-    fn object(self) -> String {
-        let fields: Vec<String> =
-            self.0.iter().map(|(name, value)| format!("\"{name}\":{value}")).collect();
-        format!("{{{}}}", fields.join(","))
     }
 }
 

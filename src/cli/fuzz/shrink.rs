@@ -2,12 +2,11 @@
 
 use crate::audit::Row;
 use crate::case::Case;
-use crate::cli::case::{CaseArguments, Cases};
+use crate::cli::case::CaseArguments;
 use crate::cli::exit::{Failure, Status};
-use crate::cli::input::truth_line;
 use crate::cli::output::write_result;
 use crate::cli::select::KernelArguments;
-use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth, write_case};
+use crate::corpus::lines::{StoredCase, write_case};
 use crate::explore::{
     SIMPLIFICATIONS, Shrunk, Signature, Size, c_snippet, rust_snippet, shrink_finding,
 };
@@ -31,16 +30,10 @@ pub fn run(arguments: &ShrinkArguments) -> Result<Status, Failure> {
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases()?;
     rows.iter().try_for_each(|row| row.check_in(cases.scalars()))?;
-    match cases {
-        Cases::F32(group) => shrink(&rows, &arguments.case.case, &group.cases),
-        Cases::F64(group) => shrink(&rows, &arguments.case.case, &group.cases),
-    }
+    either_scalar!(cases, group => shrink(&rows, &arguments.case.case, &group.cases))
 }
 
-fn shrink<F: Scalar>(rows: &[Row], name: &str, cases: &[Case<F>]) -> Result<Status, Failure>
-where
-    AnyCase: From<Case<F>>,
-{
+fn shrink<F: Scalar>(rows: &[Row], name: &str, cases: &[Case<F>]) -> Result<Status, Failure> {
     let [case] = cases else {
         let last = cases.len() - 1;
         return Err(Failure::usage(format!(
@@ -86,10 +79,7 @@ fn write<F: Scalar>(
     case: &Case<F>,
     signature: &Signature,
     shrunk: &Shrunk<F>,
-) -> io::Result<()>
-where
-    AnyCase: From<Case<F>>,
-{
+) -> io::Result<()> {
     let (before, after) = (Size::of(case), Size::of(&shrunk.case));
     writeln!(out, "kept     {signature}")?;
     writeln!(out, "contract {}", row.contract.describe())?;
@@ -120,11 +110,7 @@ where
     write!(out, "\nC\n\n{}", c_snippet(row, &shrunk.case, signature))
 }
 
-fn corpus_line<F: Scalar>(case: &Case<F>, signature: &Signature) -> String
-where
-    AnyCase: From<Case<F>>,
-{
-    let mut stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(*case) };
-    stored.truth = Some(StoredTruth::from(&truth_line(&stored)));
-    write_case(&stored)
+fn corpus_line<F: Scalar>(case: &Case<F>, signature: &Signature) -> String {
+    let stored = StoredCase { why: Some(signature.to_string()), ..StoredCase::of(*case) };
+    write_case(&stored.with_truth())
 }

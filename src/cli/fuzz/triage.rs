@@ -10,7 +10,7 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::input::corpus_files;
 use crate::cli::output::write_result;
 use crate::cli::select::KernelArguments;
-use crate::corpus::lines::{self, AnyCase, write_case};
+use crate::corpus::lines::{self, write_case};
 use crate::explore::campaign::Find;
 use crate::explore::shrink_finding;
 use crate::judge::{Class, Finding};
@@ -124,14 +124,9 @@ fn simplest(finds: impl IntoIterator<Item = Find>, one_each: OneEach) -> BTreeMa
 
 /// The same find on a case that no single step makes simpler.
 fn minimised(find: Find) -> Find {
-    let case = match &find.case {
-        AnyCase::F32(case) => {
-            shrink_finding(&find.row, case).map(|(_, shrunk)| AnyCase::F32(shrunk.case))
-        }
-        AnyCase::F64(case) => {
-            shrink_finding(&find.row, case).map(|(_, shrunk)| AnyCase::F64(shrunk.case))
-        }
-    };
+    let case = either_scalar!(&find.case, case => {
+        shrink_finding(&find.row, case).map(|(_, shrunk)| shrunk.case.into())
+    });
     Find { case: case.unwrap_or(find.case), ..find }
 }
 

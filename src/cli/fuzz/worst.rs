@@ -1,7 +1,6 @@
 //! `hairline fuzz worst`: searches for the worst cases, and the table of the worst known.
 
 use crate::audit::{Observer, quoted};
-use crate::case::Case;
 use crate::cli::before::{scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::flags::{chosen_scalars, unknown};
@@ -11,7 +10,6 @@ use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
-use crate::kernel::Scalar;
 use clap::Args;
 use std::fs;
 use std::io::{self, BufReader, Write};
@@ -268,16 +266,10 @@ fn write_entries<'a>(
 
 /// The relative error of t, of an entry about t.
 fn relative_error(entry: &Entry) -> Option<f64> {
-    fn of<F: Scalar>(goal: &Goal, case: &Case<F>) -> Option<f64> {
-        goal.scorer::<F>().relative_error_of_t(case)
-    }
     if entry.goal.target.objective != Objective::T {
         return None;
     }
-    match &entry.case {
-        AnyCase::F32(case) => of(&entry.goal, case),
-        AnyCase::F64(case) => of(&entry.goal, case),
-    }
+    either_scalar!(&entry.case, case => entry.goal.scorer().relative_error_of_t(case))
 }
 
 /// A case as JSON without its bits: its numbers say the same.

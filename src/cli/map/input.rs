@@ -2,23 +2,22 @@
 
 use super::MapArguments;
 use crate::case::Case;
-use crate::cli::case::{CaseArguments, Cases};
+use crate::cli::case::CaseArguments;
 use crate::cli::exit::Failure;
-use crate::cli::flags::unknown;
+use crate::cli::flags::{is_f32, unknown};
 use crate::cli::orient::points_of_id;
 use crate::corpus::InputError;
+use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::map::{self, Spot};
 use crate::orientation::points_json::{self, AnyPoints};
-use crate::orientation::{Dimension, Points, PointsId, find_known};
+use crate::orientation::{Dimension, PointsId, find_known};
 
 /// What is mapped.
 pub enum Input {
-    F32(Case<f32>),
-    F64(Case<f64>),
+    Case(AnyCase),
     /// Points, and which of them is varied by default.
-    PointsF32(Points<f32>, usize),
-    PointsF64(Points<f64>, usize),
+    Points(AnyPoints, usize),
 }
 
 impl MapArguments {
@@ -32,14 +31,12 @@ impl MapArguments {
         if text.starts_with('{') && points_json::is_points(text) {
             let points = points_json::parse(text)
                 .map_err(|message| InputError::at("argument", 1, message))?;
-            return Ok(match points {
-                AnyPoints::F32(points) => Input::PointsF32(points, points.dimension().number()),
-                AnyPoints::F64(points) => Input::PointsF64(points, points.dimension().number()),
-            });
+            let last = either_scalar!(points, points => points.dimension().number());
+            return Ok(Input::Points(points, last));
         }
         if let Some(known) = find_known(text) {
             let points = known.points();
-            return Ok(Input::PointsF64(points, points.dimension().number()));
+            return Ok(Input::Points(AnyPoints::F64(points), points.dimension().number()));
         }
         if Dimension::ALL
             .iter()
@@ -47,13 +44,11 @@ impl MapArguments {
         {
             let id: PointsId = text.parse().map_err(|error: String| Failure::usage(error))?;
             let last = id.dimension.number();
-            return match id.scalar.as_str() {
-                "f32" => Ok(Input::PointsF32(points_of_id(&id)?, last)),
-                "f64" => Ok(Input::PointsF64(points_of_id(&id)?, last)),
-                other => Err(Failure::usage(format!(
-                    "unknown scalar '{other}' in '{id}': there are f32 and f64"
-                ))),
+            let points = match is_f32(&id.scalar, &format!(" in '{id}'"))? {
+                true => AnyPoints::F32(points_of_id(&id)?),
+                false => AnyPoints::F64(points_of_id(&id)?),
             };
+            return Ok(Input::Points(points, last));
         }
         self.case(text)
     }
@@ -64,26 +59,17 @@ impl MapArguments {
             mesh: self.mesh.clone(),
             corpus: self.corpus.clone(),
         };
-        match case.cases()? {
-            Cases::F32(group) => Ok(Input::F32(*one(&group.cases, text)?)),
-            Cases::F64(group) => Ok(Input::F64(*one(&group.cases, text)?)),
-        }
+        either_scalar!(case.cases()?, group => Ok(Input::Case((*one(&group.cases, text)?).into())))
     }
 
     /// The input of `--at`.
     fn standard(&self) -> Result<Input, Failure> {
         let name = self.at.as_deref().unwrap_or(Spot::Edge.name());
-        let scalar = |default| match self.scalar.as_deref().unwrap_or(default) {
-            "f32" => Ok(true),
-            "f64" => Ok(false),
-            other => {
-                Err(Failure::usage(format!("unknown scalar '{other}': there are f32 and f64")))
-            }
-        };
+        let scalar = |default| is_f32(self.scalar.as_deref().unwrap_or(default), "");
         if let Some(spot) = Spot::ALL.into_iter().find(|spot| spot.name() == name) {
             return Ok(match scalar("f32")? {
-                true => Input::F32(spot.case()),
-                false => Input::F64(spot.case()),
+                true => Input::Case(AnyCase::F32(spot.case())),
+                false => Input::Case(AnyCase::F64(spot.case())),
             });
         }
         let dimension = match name {
@@ -96,10 +82,10 @@ impl MapArguments {
         };
         Ok(if scalar("f64")? {
             let (points, point) = map::standard_points(dimension);
-            Input::PointsF32(points, point)
+            Input::Points(AnyPoints::F32(points), point)
         } else {
             let (points, point) = map::standard_points(dimension);
-            Input::PointsF64(points, point)
+            Input::Points(AnyPoints::F64(points), point)
         })
     }
 }

@@ -3,7 +3,7 @@
 use crate::arith::{Exact, Float};
 use crate::audit::{Row, exact_severity, quoted};
 use crate::case::Case;
-use crate::corpus::lines::{AnyCase, StoredCase, write_case};
+use crate::corpus::lines::{StoredCase, write_case};
 use crate::corpus::number;
 use crate::kernel::Scalar;
 use crate::map::{Grid, Ink, Map};
@@ -64,10 +64,7 @@ fn nearest(map: &Map, ink: Ink) -> Option<[usize; 2]> {
 }
 
 /// The command that shows a case with a row.
-pub fn explain<F: Scalar>(case: &Case<F>, row: &Row) -> String
-where
-    AnyCase: From<Case<F>>,
-{
+pub fn explain<F: Scalar>(case: &Case<F>, row: &Row) -> String {
     let stored = StoredCase::of(*case);
     row.explain_command(&quoted(&write_case(&stored)))
 }
@@ -90,10 +87,7 @@ pub fn points<F: orientation::Scalar>(points: &Points<F>, row: &orientation::Row
 }
 
 /// What a drawing shows, and the command that says all about its case.
-pub fn of_drawing<F: Scalar>(case: &Case<F>, row: &Row) -> String
-where
-    AnyCase: From<Case<F>>,
-{
+pub fn of_drawing<F: Scalar>(case: &Case<F>, row: &Row) -> String {
     let definition = oracle::define(case);
     let mut out = format!("{} in {}\n    truth {}", row.label(), F::NAME, definition.truth);
     if let Some(t) = &definition.exact.t {

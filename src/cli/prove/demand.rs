@@ -1,8 +1,8 @@
 //! What `check` demands of proofs: `[proved]` in hairline.toml.
 
 use super::super::exit::Failure;
-use super::super::flags::unknown;
-use crate::kernel::{self, Entry, Scalar};
+use super::super::flags::{find_kernel, unknown};
+use crate::kernel::{Entry, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
 use crate::report::{Unproved, WATERTIGHT};
 
@@ -46,9 +46,7 @@ impl Demand<'_> {
         let (what, value) = text.rsplit_once('=').ok_or_else(wrong)?;
         let [name, scalar, gate] =
             what.split('/').collect::<Vec<_>>().try_into().map_err(|_| wrong())?;
-        let names = || kernel::all().into_iter().map(|entry| entry.info.name);
-        let entry = kernel::find(name)
-            .ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))?;
+        let entry = find_kernel(name)?;
         let is_f64 = match scalar {
             "f32" => false,
             "f64" => true,

@@ -84,10 +84,8 @@ fn checked(file: &str) -> Result<String, Failure> {
     // The checker has read this line.
     let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
     let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
-    let recorded = kernel::find(name).map(|entry| match scalar {
-        "f32" => recorded::<f32>(entry),
-        _ => recorded::<f64>(entry),
-    });
+    let recorded =
+        kernel::find(name).map(|entry| in_named_scalar!(scalar, F => recorded::<F>(entry)));
     let whose = match recorded {
         None => "no kernel of that name is here to compare".to_owned(),
         Some(Err(why)) => format!("not compared with the kernel: {why}"),

@@ -1,11 +1,9 @@
 //! The example that a campaign keeps of one kind of finding: a simplified case, as a line of a corpus file.
 
 use crate::audit::{Attribution, Row};
-use crate::corpus::Provenance;
-use crate::corpus::lines::{AnyCase, StoredCase, StoredTruth};
-use crate::corpus::truth_json::TruthLine;
+use crate::corpus::FoundBy;
+use crate::corpus::lines::{AnyCase, StoredCase};
 use crate::explore::{Signature, Size};
-use crate::oracle;
 use std::fmt;
 
 /// One example of a kind of finding.
@@ -51,10 +49,7 @@ impl Find {
     /// What a row shows on a case; none if its verdict is right.
     pub fn of(row: &Row, case: AnyCase) -> Option<Find> {
         row.check_in(case.scalars()).ok()?;
-        let signature = match &case {
-            AnyCase::F32(case) => Signature::of(row, case),
-            AnyCase::F64(case) => Signature::of(row, case),
-        }?;
+        let signature = either_scalar!(&case, case => Signature::of(row, case))?;
         Some(Find {
             case,
             row: row.clone(),
@@ -74,7 +69,7 @@ impl Find {
         let row = Row::named(&found.kernel, found.epsilons.as_deref(), &found.contract)
             .map_err(|error| wrong(error.0))?;
         row.check_in(stored.case.scalars()).map_err(|error| wrong(error.0))?;
-        let Provenance { signature, version, .. } = found;
+        let FoundBy { signature, version, .. } = found;
         let said = format!("'{signature}', as hairline {version} found");
         let find = Find::of(&row, stored.case)
             .ok_or_else(|| wrong(format!("nothing wrong is shown, not {said}")))?;
@@ -85,20 +80,14 @@ impl Find {
         if finding != found.finding {
             return Err(wrong(format!("finding: it is a {finding}, not a '{}'", found.finding)));
         }
-        let Provenance { version, seed, evaluations, seconds, from, .. } = found.clone();
+        let FoundBy { version, seed, evaluations, seconds, from, .. } = found.clone();
         Ok(Find { version, seed, evaluations, seconds, from, ..find })
     }
 
     /// As a case of a corpus file, its truth included.
     pub fn stored(&self) -> StoredCase {
-        let name = self.name();
-        let definition = match &self.case {
-            AnyCase::F32(case) => oracle::define(case),
-            AnyCase::F64(case) => oracle::define(case),
-        };
-        let truth = TruthLine::new(Some(&name), &definition.truth, &definition.exact);
         let row = self.row.spec();
-        let found = Provenance {
+        let found = FoundBy {
             version: self.version.clone(),
             kernel: row.kernel,
             epsilons: row.epsilons,
@@ -110,12 +99,8 @@ impl Find {
             seconds: self.seconds,
             from: self.from.clone(),
         };
-        StoredCase {
-            name: Some(name),
-            truth: Some(StoredTruth::from(&truth)),
-            found: Some(found),
-            ..StoredCase::of(self.case)
-        }
+        let stored = StoredCase::of(self.case).with_truth();
+        StoredCase { name: Some(self.name()), found: Some(found), ..stored }
     }
 
     /// `found:kernel/scalar/finding/class/gate/gate without rounding/attribution`: a name for each
@@ -135,9 +120,6 @@ impl Find {
 
     /// How simple the case is.
     pub fn size(&self) -> Size {
-        match &self.case {
-            AnyCase::F32(case) => Size::of(case),
-            AnyCase::F64(case) => Size::of(case),
-        }
+        either_scalar!(&self.case, case => Size::of(case))
     }
 }

@@ -39,10 +39,7 @@ pub struct Island<F: Float> {
     known: BTreeSet<Signature>,
 }
 
-impl<F: Scalar> Island<F>
-where
-    AnyCase: From<Case<F>>,
-{
+impl<F: Scalar> Island<F> {
     /// Of a kernel's rows.
     pub fn new(rows: &[&Row], varies: bool) -> Island<F> {
         Island {
@@ -156,10 +153,7 @@ where
     }
 }
 
-impl<F: Scalar> Newcomer<F>
-where
-    AnyCase: From<Case<F>>,
-{
+impl<F: Scalar> Newcomer<F> {
     /// The find: the same kind on a simpler case, as simple as some hundred tries make it.
     pub fn into_find(self, seed: u64, evaluations: u64) -> Find {
         let Newcomer { individual: Individual { case, row }, kind } = self;

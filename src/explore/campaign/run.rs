@@ -123,10 +123,7 @@ fn grow<F: Scalar>(
     seed: u64,
     round: u64,
     share: impl Fn(u64) -> u64 + Sync,
-) -> Vec<Newcomer<F>>
-where
-    AnyCase: From<Case<F>>,
-{
+) -> Vec<Newcomer<F>> {
     let shared = &*islands;
     let mut proposals: Vec<_> = (0..shared.len() as u64 * LANES)
         .into_par_iter()
@@ -142,26 +139,17 @@ where
         .collect()
 }
 
-fn into_finds<F: Scalar>(newcomers: Vec<Newcomer<F>>, seed: u64, evaluations: u64) -> Vec<Find>
-where
-    AnyCase: From<Case<F>>,
-{
+fn into_finds<F: Scalar>(newcomers: Vec<Newcomer<F>>, seed: u64, evaluations: u64) -> Vec<Find> {
     newcomers.into_par_iter().map(|newcomer| newcomer.into_find(seed, evaluations)).collect()
 }
 
-fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explore::Signature)
-where
-    AnyCase: From<Case<F>>,
-{
+fn learn<F: Scalar>(islands: &mut [Island<F>], kernel: &str, kind: crate::explore::Signature) {
     if let Some(island) = islands.iter_mut().find(|island| island.is_of(kernel)) {
         island.learn(kind);
     }
 }
 
-fn restore<F: Scalar>(islands: &mut [Island<F>], saved: &SavedIndividual) -> Result<(), String>
-where
-    AnyCase: From<Case<F>>,
-{
+fn restore<F: Scalar>(islands: &mut [Island<F>], saved: &SavedIndividual) -> Result<(), String> {
     let row = Row::named(&saved.kernel, saved.epsilons.as_deref(), &saved.contract);
     let row = row.map_err(|error| error.0)?;
     row.check::<F>().map_err(|error| error.0)?;

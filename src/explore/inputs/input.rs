@@ -4,7 +4,7 @@ use super::bytes::{Bytes, push_number};
 use super::construction::construct;
 use crate::arith::Float;
 use crate::audit::{EpsilonText, Row};
-use crate::case::{Case, Draw};
+use crate::case::{AnyScalar, Case, Draw};
 use crate::corpus::lines::AnyCase;
 use crate::explore::mutate;
 use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
@@ -31,13 +31,7 @@ pub struct Input<F: Float> {
 }
 
 /// A question in the scalar that its bytes name.
-#[derive(Clone)]
-pub enum AnyInput {
-    /// In `f32`.
-    F32(Input<f32>),
-    /// In `f64`.
-    F64(Input<f64>),
-}
+pub type AnyInput = AnyScalar<Input<f32>, Input<f64>>;
 
 impl AnyInput {
     /// Any bytes are an input.
@@ -61,10 +55,7 @@ impl AnyInput {
 
     /// The case alone.
     pub fn case(&self) -> AnyCase {
-        match self {
-            AnyInput::F32(input) => input.case.into(),
-            AnyInput::F64(input) => input.case.into(),
-        }
+        either_scalar!(self, input => input.case.into())
     }
 
     /// An input one move away; the same draw gives the same one.

@@ -12,8 +12,6 @@
 //! any case has bytes, and moves on cases ([`AnyInput::mutated`]) can be written back. The crate
 //! `arbitrary` reads bytes in the same way, but cannot turn a value into bytes.
 
-#![forbid(unsafe_code)]
-
 mod bytes;
 mod construction;
 mod input;

@@ -3,7 +3,7 @@
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Across, Contract};
-use crate::corpus::lines::{AnyCase, StoredCase, write_case};
+use crate::corpus::lines::{StoredCase, write_case};
 use crate::family::Grouping;
 use crate::judge::{Finding, GroupTruth, asked, group_obligation, judge};
 use crate::kernel::{Gives, Verdict};
@@ -34,10 +34,7 @@ pub fn conforms<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
     contract: &Contract,
     case: &Case<F>,
-) -> Result<(), Disagreement>
-where
-    AnyCase: From<Case<F>>,
-{
+) -> Result<(), Disagreement> {
     let (truth, t) = (oracle::truth(case), kernel(case));
     let asked = asked(case, &truth, contract, false);
     let gives = Gives { t: true, uv: false, facing: false };
@@ -56,10 +53,7 @@ pub fn conforms_together<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
     contract: &Contract,
     cases: &[Case<F>; 2],
-) -> Result<(), Disagreement>
-where
-    AnyCase: From<Case<F>>,
-{
+) -> Result<(), Disagreement> {
     for case in cases {
         conforms(&kernel, contract, case)?;
     }
@@ -83,10 +77,7 @@ fn verdict<F: Float>(t: Option<F>) -> Verdict<F> {
     }
 }
 
-fn describe<F: Float>(case: &Case<F>, truth: &Truth, t: Option<F>) -> String
-where
-    AnyCase: From<Case<F>>,
-{
+fn describe<F: Float>(case: &Case<F>, truth: &Truth, t: Option<F>) -> String {
     let exact = oracle::define(case).exact.t.map_or(String::new(), |t| format!(", t = {t}"));
     let stored = StoredCase::of(*case);
     let kernel = t.map_or("miss".to_owned(), |t| format!("hit, t = {t:e}"));

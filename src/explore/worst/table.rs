@@ -7,17 +7,14 @@
 
 use super::climb::{Goal, exact_score, search};
 use crate::audit::Row;
-use crate::case::Case;
 use crate::corpus::InputError;
-use crate::corpus::lines::{self, AnyCase, StoredCase, StoredTruth};
-use crate::corpus::truth_json::TruthLine;
+use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::decimal::Decimal;
 use crate::explore::domain::Domain;
 use crate::explore::objective::Target;
 use crate::explore::shrink::shrink_scored;
 use crate::explore::simplify::Size;
 use crate::kernel::Scalar;
-use crate::oracle;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
@@ -60,10 +57,7 @@ pub struct Table {
 }
 
 /// Searches, and simplifies what was found: an entry a goal, none where nothing has a score.
-pub fn find_worst<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Option<Entry>>
-where
-    AnyCase: From<Case<F>>,
-{
+pub fn find_worst<F: Scalar>(goals: &[Goal], evaluations: u64, seed: u64) -> Vec<Option<Entry>> {
     let found = search::<F>(goals, evaluations, seed);
     let pairs: Vec<_> = goals.iter().zip(found).collect();
     pairs
@@ -82,32 +76,19 @@ where
 impl Entry {
     /// The name of its case.
     pub fn name(&self) -> String {
-        let name = match &self.case {
-            AnyCase::F32(_) => self.goal.name::<f32>(),
-            AnyCase::F64(_) => self.goal.name::<f64>(),
-        };
+        let name = in_named_scalar!(self.case.scalar(), F => self.goal.name::<F>());
         format!("{PREFIX}{name}")
     }
 
     /// As a case of a corpus file, its truth included.
     pub fn stored(&self) -> StoredCase {
-        let name = self.name();
-        let definition = match &self.case {
-            AnyCase::F32(case) => oracle::define(case),
-            AnyCase::F64(case) => oracle::define(case),
-        };
-        let truth = TruthLine::new(Some(&name), &definition.truth, &definition.exact);
         let Entry { score, found, seed, evaluations, .. } = self;
         let unit = self.goal.target.objective.unit();
         let why = format!(
             "score={score} found={found} seed={seed} evaluations={evaluations} unit={unit}"
         );
-        StoredCase {
-            name: Some(name),
-            truth: Some(StoredTruth::from(&truth)),
-            why: Some(why),
-            ..StoredCase::of(self.case)
-        }
+        let stored = StoredCase::of(self.case).with_truth();
+        StoredCase { name: Some(self.name()), why: Some(why), ..stored }
     }
 
     /// The entry that a stored case is; none if its name says that it is none.
@@ -135,10 +116,7 @@ impl Entry {
 
     /// Whether this entry takes the place of a known one.
     fn replaces(&self, known: &Entry) -> bool {
-        let size = |case: &AnyCase| match case {
-            AnyCase::F32(case) => Size::of(case),
-            AnyCase::F64(case) => Size::of(case),
-        };
+        let size = |case: &AnyCase| either_scalar!(case, case => Size::of(case));
         match self.score.cmp(&known.score) {
             std::cmp::Ordering::Greater => true,
             std::cmp::Ordering::Equal => size(&self.case) < size(&known.case),
@@ -152,9 +130,8 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<Goal, String> {
     let shape = || format!("'{name}' is not kernel/scalar/epsilons/target/domain");
     let parts: [&str; 5] = name.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
     let [kernel, scalar, epsilons, target, domain] = parts;
-    let case_scalar = if matches!(case, AnyCase::F32(_)) { "f32" } else { "f64" };
-    if scalar != case_scalar {
-        return Err(format!("'{name}' is of {scalar}, its case of {case_scalar}"));
+    if scalar != case.scalar() {
+        return Err(format!("'{name}' is of {scalar}, its case of {}", case.scalar()));
     }
     let epsilons = Some(epsilons).filter(|text| *text != "-");
     let row = Row::named(kernel, epsilons, "own").map_err(|error| error.0)?;
@@ -183,11 +160,7 @@ fn parse_why(why: Option<&str>) -> Result<[&str; 4], String> {
 pub fn replay(stored: &StoredCase) -> Result<bool, String> {
     let Some(entry) = Entry::of_stored(stored) else { return Ok(false) };
     let entry = entry?;
-    let score = match &entry.case {
-        AnyCase::F32(case) => exact_score(&entry.goal, case),
-        AnyCase::F64(case) => exact_score(&entry.goal, case),
-    };
-    match score {
+    match either_scalar!(&entry.case, case => exact_score(&entry.goal, case)) {
         Some(score) if score == entry.score => Ok(true),
         Some(score) => Err(format!("its score is {score}, not {}", entry.score)),
         None => {

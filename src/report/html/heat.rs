@@ -1,11 +1,12 @@
 //! Kernels × families: how often each is wrong, in numbers and in shades.
 
 use super::room::Room;
-use super::view::{InScalar, Kind, Row, View};
+use super::view::{Kind, Row, View};
 use super::words::{apart, counts, interval, percent};
 use crate::report::number_of;
 use crate::report::pool::Pool;
 use crate::report::record::Rate;
+use crate::report::row_view::RowView;
 use maud::{Markup, PreEscaped, html};
 use std::collections::HashMap;
 
@@ -26,7 +27,7 @@ pub(super) fn section(view: &View, room: &mut Room) -> Markup {
     let head = columns(view, &mut part);
     let families = &view.families[..view.families.len() - part.left_out as usize];
     let missing = std::mem::take(&mut part.left_out);
-    let lines: Vec<(&Row, &InScalar, Kind)> = view
+    let lines: Vec<(&Row, &RowView, Kind)> = view
         .rows
         .iter()
         .flat_map(|row| row.scalars.iter().map(move |scalar| (row, scalar)))
@@ -92,13 +93,13 @@ fn columns(view: &View, room: &mut Room) -> String {
     text
 }
 
-fn line(families: &[&str], row: &Row, scalar: &InScalar, kind: Kind) -> Markup {
+fn line(families: &[&str], row: &Row, scalar: &RowView, kind: Kind) -> Markup {
     let by_family: HashMap<&str, &Rate> = scalar
         .results
         .iter()
         .map(|result| (result.family.as_str(), kind.rate(&result.total)))
         .collect();
-    let all = scalar.all(kind);
+    let all = kind.pool(scalar);
     html! {
         tr data-kernel={ (row.part.kernel) " (" (row.part.set) ")" } data-scalar=(scalar.scalar) data-finding=(kind.finding()) {
             th scope="row" {

@@ -5,10 +5,11 @@ use super::findings::{self, Depth};
 use super::pictures;
 use super::questions;
 use super::room::Room;
-use super::view::{InScalar, Kind, Row, View};
+use super::view::{Kind, Row, View};
 use super::words::{apart, code, counts, percent, share, shortened};
 use crate::kernel::{self, Gate, Tunable};
 use crate::report::record::*;
+use crate::report::row_view::RowView;
 use crate::report::why::{CauseShare, cause_shares, short};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
@@ -69,7 +70,7 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
                         (scalar.scalar) " "
                         @for kind in Kind::ALL {
                             span class={ "key " (kind.finding()) } {
-                                (scalar.all(kind).rate().rate.map_or("–".to_owned(), percent)) " " (kind.words())
+                                (kind.pool(scalar).rate().rate.map_or("–".to_owned(), percent)) " " (kind.words())
                             } " "
                         }
                         @if let Some(across) = view.across(row, scalar.scalar) { (questions::in_short(across)) }
@@ -149,20 +150,20 @@ fn rates(view: &View, row: &Row) -> Markup {
         ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
         ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
     ];
-    let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.sum(get).counts()[1]);
+    let asked = |get: Get| row.scalars.iter().any(|scalar| 0 < scalar.total(get).counts()[1]);
     let failures: [(&str, Count); 3] = [
         ("panics", |counts| counts.panics),
         ("crashes", |counts| counts.crashes),
         ("timeouts", |counts| counts.timeouts),
     ];
-    let sum = |scalar: &InScalar, count: Count| -> u64 {
+    let sum = |scalar: &RowView, count: Count| -> u64 {
         scalar.results.iter().map(|result| count(&result.total)).sum()
     };
     let failures = failures.into_iter();
     let failures: Vec<_> =
         failures.filter(|(_, n)| row.scalars.iter().any(|s| 0 < sum(s, *n))).collect();
     let label = format!("{} ({})", row.part.kernel, row.part.set);
-    let time = |scalar: &InScalar| {
+    let time = |scalar: &RowView| {
         let times = view.record.provenance.kernel_nanoseconds.get(scalar.scalar)?;
         times.get(&label).map(|time| format!("{time:.1}"))
     };
@@ -179,7 +180,7 @@ fn rates(view: &View, row: &Row) -> Markup {
                         @if asked(get) {
                             tr { th scope="row" { (name) }
                                 @for scalar in &row.scalars {
-                                    @let sum = scalar.sum(get);
+                                    @let sum = scalar.total(get);
                                     td { (share(sum.rate())) small { (counts(sum.rate())) (apart(&sum)) } }
                                 }
                             }
@@ -201,7 +202,7 @@ fn rates(view: &View, row: &Row) -> Markup {
 
 /// Why, as bars and in words.
 fn causes(row: &Row) -> Markup {
-    let shares = |scalar: &InScalar, kind: Kind| cause_shares(&scalar.results, kind.finding(), "");
+    let shares = |scalar: &RowView, kind: Kind| cause_shares(&scalar.results, kind.finding(), "");
     let all = row.scalars.iter().flat_map(|scalar| {
         Kind::ALL.map(|kind| Some((scalar.scalar, kind, shares(scalar, kind)?)))
     });

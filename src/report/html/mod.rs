@@ -15,6 +15,7 @@ pub(super) mod room;
 mod view;
 pub(super) mod words;
 
+use super::record::Provenance;
 use super::{Record, Style, number_of};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -213,6 +214,17 @@ fn guide() -> Markup {
     }
 }
 
+/// Where and how long a run was made, and what should be known of its kernels.
+pub(super) fn made(provenance: &Provenance) -> Markup {
+    html! {
+        dt { "Target" } dd { (shortened(&provenance.target, 200)) }
+        dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
+        @for (kernel, notes) in &provenance.kernel_notes {
+            @for note in notes { dt { "Note" } dd { (shortened(kernel, 200)) ": " (shortened(note, 400)) } }
+        }
+    }
+}
+
 fn foot(record: &Record) -> Markup {
     let (plan, provenance) = (&record.result.plan, &record.provenance);
     html! {
@@ -224,13 +236,7 @@ fn foot(record: &Record) -> Markup {
                 @if let Some(flags) = &provenance.plan_flags {
                     dt { "Run again" } dd { (code(&flags.command(&flags.kernels))) }
                 }
-                dt { "Target" } dd { (shortened(&provenance.target, 200)) }
-                dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
-                @for (kernel, notes) in &provenance.kernel_notes {
-                    @for note in notes {
-                        dt { "Note" } dd { (shortened(kernel, 200)) ": " (shortened(note, 400)) }
-                    }
-                }
+                (made(provenance))
                 @if !provenance.parts.is_empty() {
                     dt { "Merged from" } dd { (number_of(provenance.parts.len() as u64, "shard", "shards")) }
                 }

@@ -1,7 +1,7 @@
 //! Pictures of what goes wrong: maps float by float, and drawings of the worst witnesses.
 
 use super::room::Room;
-use super::view::{InScalar, Kind, Row};
+use super::view::{Kind, Row};
 use super::words::code;
 use crate::audit;
 use crate::case::Case;
@@ -9,6 +9,7 @@ use crate::epsilon::SPANNING;
 use crate::kernel::Scalar;
 use crate::map::{self, Ink};
 use crate::report::record::*;
+use crate::report::row_view::RowView;
 use crate::report::worst::severity;
 use crate::report::{MapPart, Record, group_digits};
 use maud::{Markup, PreEscaped, html};
@@ -111,10 +112,7 @@ fn drawings(row: &Row) -> Vec<Markup> {
             if run.contract.no_self_hit && is_secondary {
                 continue;
             }
-            let svg = match scalar.scalar {
-                "f32" => drawn::<f32>(&run, &part.worst.bits),
-                _ => drawn::<f64>(&run, &part.worst.bits),
-            };
+            let svg = in_named_scalar!(scalar.scalar, F => drawn::<F>(&run, &part.worst.bits));
             all.extend(svg.map(|svg| {
                 html! {
                     figure {
@@ -133,7 +131,7 @@ fn drawings(row: &Row) -> Vec<Markup> {
 
 /// The worst finding of a kind that has a place to show: of a ray that crosses the plane, in a family of
 /// moderate sizes if there is one.
-fn worst<'a>(scalar: &InScalar<'a>, kind: Kind) -> Option<(&'a str, &'a FindingPart)> {
+fn worst<'a>(scalar: &RowView<'a>, kind: Kind) -> Option<(&'a str, &'a FindingPart)> {
     let crossing = |class: &str| class.contains('/');
     let all = scalar
         .results

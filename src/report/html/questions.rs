@@ -73,7 +73,7 @@ fn row(view: &View, line: &Line, has_groups: bool) -> Markup {
                     Some(row) => { a href={ "#" (row.anchor) } { (part.kernel) } },
                     None => (part.kernel),
                 }
-                " " span.set { "(" (part.set) ")" } " " span.what { (line.scalar) }
+                " " span.set { "(" (part.set) ")" } " " span.what { (line.row.scalar) }
             }
             @if has_groups { (across(line.across.as_ref())) }
             @for (column, cell) in view.columns.iter().zip(&line.cells) { (share_of(*column, cell)) }

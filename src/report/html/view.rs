@@ -4,7 +4,7 @@ use crate::report::columns::{Across, Column};
 use crate::report::lines::{Line, lines};
 use crate::report::pool::Pool;
 use crate::report::record::*;
-use std::collections::HashMap;
+use crate::report::row_view::RowView;
 
 /// The record by row.
 pub(super) struct View<'a> {
@@ -24,15 +24,8 @@ pub(super) struct Row<'a> {
     pub part: &'a RowPart,
     /// The fragment that leads to it.
     pub anchor: String,
-    pub scalars: Vec<InScalar<'a>>,
-}
-
-/// A row in one scalar.
-pub(super) struct InScalar<'a> {
-    pub scalar: &'a str,
-    pub total: Option<&'a RowTotal>,
-    /// In the order of the record.
-    pub results: Vec<&'a KernelResult>,
+    /// In each scalar that it ran in.
+    pub scalars: Vec<RowView<'a>>,
 }
 
 /// Which of the two ways to be wrong.
@@ -67,34 +60,28 @@ impl Kind {
             Kind::Hit => &counts.false_hits,
         }
     }
+
+    /// The sum over the sources of a row in a scalar.
+    pub fn pool(self, row: &RowView) -> Pool {
+        row.total(|result| Some(self.rate(&result.total)))
+    }
 }
 
 impl<'a> View<'a> {
     pub fn new(record: &'a Record) -> View<'a> {
-        type Key<'a> = [&'a str; 3];
-        let mut results: HashMap<Key, Vec<&KernelResult>> = HashMap::new();
-        for part in &record.result.results {
-            results.entry([&part.kernel, &part.set, &part.scalar]).or_default().push(part);
-        }
-        let totals: HashMap<Key, &RowTotal> = record
-            .result
-            .totals
-            .iter()
-            .map(|total| ([total.kernel.as_str(), &total.set, &total.scalar], total))
-            .collect();
         let plan = &record.result.plan;
-        let mut rows = Vec::new();
-        for (i, part) in plan.rows.iter().enumerate() {
-            let in_scalar = |scalar: &'a String| {
-                let key = [part.kernel.as_str(), part.set.as_str(), scalar.as_str()];
-                let results = results.remove(&key)?;
-                Some(InScalar { scalar, total: totals.get(&key).copied(), results })
-            };
-            let scalars: Vec<_> = plan.scalars.iter().filter_map(in_scalar).collect();
-            if !scalars.is_empty() {
-                rows.push(Row { part, anchor: format!("k{i}"), scalars });
+        let anchored = plan.rows.iter().enumerate();
+        let mut rows: Vec<Row> = anchored
+            .map(|(i, part)| Row { part, anchor: format!("k{i}"), scalars: Vec::new() })
+            .collect();
+        for scalar in &plan.scalars {
+            // In the order of the plan, some left out.
+            let mut views = RowView::all(record, scalar).into_iter().peekable();
+            for row in &mut rows {
+                row.scalars.extend(views.next_if(|view| std::ptr::eq(view.part, row.part)));
             }
         }
+        rows.retain(|row| !row.scalars.is_empty());
         let families = plan.sources.iter().map(|source| source.family.as_str()).collect();
         let columns = Column::all(record);
         let lines = lines(record, &columns);
@@ -105,7 +92,8 @@ impl<'a> View<'a> {
 impl View<'_> {
     /// What the triangles of groups did together, of a row in a scalar.
     pub fn across(&self, row: &Row, scalar: &str) -> Option<&Across> {
-        let is_of = |line: &&Line| line.scalar == scalar && std::ptr::eq(line.row.part, row.part);
+        let is_of =
+            |line: &&Line| line.row.scalar == scalar && std::ptr::eq(line.row.part, row.part);
         self.lines.iter().find(is_of)?.across.as_ref()
     }
 }
@@ -123,17 +111,5 @@ impl Row<'_> {
                 + counts.timeouts
         };
         self.scalars.iter().flat_map(|part| &part.results).map(|result| of(&result.total)).sum()
-    }
-}
-
-impl InScalar<'_> {
-    /// The sum of a rate over the sources.
-    pub fn sum(&self, rate: impl Fn(&KernelResult) -> Option<&Rate>) -> Pool {
-        Pool::of(self.results.iter().filter_map(|result| rate(result)))
-    }
-
-    /// The sum of one kind.
-    pub fn all(&self, kind: Kind) -> Pool {
-        self.sum(|result| Some(kind.rate(&result.total)))
     }
 }

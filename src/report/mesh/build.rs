@@ -6,7 +6,7 @@ use crate::arith::Float;
 use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
 use crate::audit::{GroupCount, Row, Trials, quoted};
 use crate::mesh::{Noted, Part, Surface, Targets, Topology};
-use crate::report::build::{kernel_notes, promised, provenance_of, row_part};
+use crate::report::build::{kernel_notes, provenance_of, row_part};
 use crate::report::{Context, Rate};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
@@ -22,11 +22,7 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
     let mut provenance = provenance_of(context);
     provenance.kernel_notes = kernel_notes(&plan.rows);
     for found in found {
-        if found.scalar == f32::NAME {
-            add_scalar::<f32>(surface, plan, found, &mut parts);
-        } else {
-            add_scalar::<f64>(surface, plan, found, &mut parts);
-        }
+        in_named_scalar!(found.scalar, F => add_scalar::<F>(surface, plan, found, &mut parts));
         let layers = found.layers.named().map(|(name, count)| (name.to_owned(), count));
         provenance.oracle_layers.insert(found.scalar.to_owned(), BTreeMap::from(layers));
         let time = |row: &RowFound| {
@@ -136,7 +132,7 @@ impl<F: Float> Builder<'_, F> {
         MeshRowResult {
             kernel: row.entry.info.name.to_owned(),
             set: row.set.clone(),
-            promised: promised(row),
+            promised: row.contract.across.name(),
             edges: part(Part::Edges),
             vertices: part(Part::Vertices),
         }

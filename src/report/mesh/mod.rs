@@ -21,7 +21,7 @@ pub use record::*;
 
 #[cfg(feature = "cli")]
 use super::HTML;
-use super::Style;
+use super::{Style, write_json};
 use std::io::{self, Write};
 
 /// A format of a mesh audit.
@@ -35,14 +35,9 @@ pub struct MeshFormat {
 /// One row per format.
 pub const MESH_FORMATS: &[MeshFormat] = &[
     MeshFormat { name: "text", write: text::write },
-    MeshFormat { name: "json", write: json },
+    MeshFormat { name: "json", write: |report, _, out| write_json(&report.record, out) },
     #[cfg(feature = "cli")]
     MeshFormat { name: HTML, write: page::write },
     MeshFormat { name: "ply", write: geometry::write_ply },
     MeshFormat { name: "obj", write: geometry::write_obj },
 ];
-
-fn json(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, &report.record)?;
-    writeln!(out)
-}

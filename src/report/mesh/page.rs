@@ -6,7 +6,7 @@ use super::shown::{Shown, shown};
 use super::stage;
 use super::text::topology_lines;
 use crate::report::html::words::{counts, interval, percent, shortened};
-use crate::report::html::{SHARED, STYLE, head_of, policy, shade};
+use crate::report::html::{SHARED, STYLE, head_of, made, policy, shade};
 use crate::report::{Rate, Style, group_digits, number_of};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
@@ -200,11 +200,7 @@ fn foot(record: &MeshRecord) -> Markup {
                         @for (name, line) in topology_lines(&part.topology) { br; (name) " " (line) }
                     }
                 }
-                dt { "Target" } dd { (shortened(&provenance.target, 200)) }
-                dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
-                @for (kernel, notes) in &provenance.kernel_notes {
-                    @for note in notes { dt { "Note" } dd { (shortened(kernel, 200)) ": " (shortened(note, 400)) } }
-                }
+                (made(provenance))
             }
             p {
                 "Every number of this page is in the JSON record, and every place where a row goes wrong in the PLY file: add "

@@ -60,10 +60,9 @@ fn read_file(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Fai
         return Ok(());
     }
     if !is_corpus && WITH_INPUTS.contains(&&*target) {
-        let (row, case) = match AnyInput::from_bytes(&bytes) {
-            AnyInput::F32(input) => (input.row(), AnyCase::F32(input.case)),
-            AnyInput::F64(input) => (input.row(), AnyCase::F64(input.case)),
-        };
+        let (row, case) = either_scalar!(AnyInput::from_bytes(&bytes), input => {
+            (input.row(), AnyCase::from(input.case))
+        });
         finds.extend(of_rows(&[row], case, &name));
         return Ok(());
     }
