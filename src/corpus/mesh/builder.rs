@@ -132,56 +132,6 @@ impl Builder {
     }
 }
 
-/// The faces of a file in which they may stand before their vertices.
-#[derive(Default)]
-pub(super) struct Faces {
-    corners: Vec<u32>,
-    /// How many corners a face has, and its line or number.
-    sizes: Vec<(u32, u32)>,
-    /// What the faces make, if none is left out.
-    triangles: usize,
-    /// The largest vertex, counted from 1, and the line or number of the first face that names it.
-    largest: (i64, u32),
-}
-
-impl Faces {
-    /// Adds a face of at least three vertices, counted from 0; an error if that makes too many triangles.
-    pub fn add(&mut self, corners: &[i64], number: u32, limit: usize) -> Result<(), String> {
-        self.triangles += corners.len() - 2;
-        if self.triangles > limit {
-            return Err(format!("more than {limit} triangles"));
-        }
-        for corner in corners {
-            if *corner >= self.largest.0 {
-                self.largest = (corner + 1, number);
-            }
-            self.corners.push(*corner as u32);
-        }
-        self.sizes.push((corners.len() as u32, number));
-        Ok(())
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.sizes.len()
-    }
-
-    /// The largest vertex, counted from 1, if there are fewer, and the first face that names it.
-    pub fn beyond(&self, vertices: usize) -> Option<(i64, u32)> {
-        Some(self.largest).filter(|(largest, _)| *largest > vertices as i64)
-    }
-
-    /// Each face's vertices, and its line or number.
-    pub fn iter(&self) -> impl Iterator<Item = (&[u32], u32)> {
-        let mut rest = self.corners.as_slice();
-        self.sizes.iter().map(move |(size, number)| {
-            let (face, after) = rest.split_at(*size as usize);
-            rest = after;
-            (face, *number)
-        })
-    }
-}
-
 fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> String {
     let mut hash = Sha256::new();
     for coordinate in wide.as_flattened() {
