@@ -320,6 +320,10 @@ mod tests {
                 let sum = (0..3).map(|i| total(i, question)).sum::<u64>();
                 assert_eq!(all.curve(question).total, sum, "{question:?}");
             }
+            for other in gates {
+                let refused = (0..3).map(|i| run[i].gates[n].refused_by_others[other]);
+                assert_eq!(all.refused_by_others[other], refused.sum::<u64>(), "{other}");
+            }
         }
     }
 

@@ -142,6 +142,7 @@ impl Computed {
         let ([u, v, w], [u_error, v_error, w_error]) = (self.weights, self.weight_errors);
         let (t, d) = (self.t, self.d);
         let front = d < 0.0;
+        // Weights of one sign have that of their sum: the line meets the triangle.
         let one_sign = ((u < 0.0) == (v < 0.0)) & ((v < 0.0) == (w < 0.0));
         let certain = (u.abs() > u_error)
             & (v.abs() > v_error)
@@ -151,14 +152,13 @@ impl Computed {
             & ((d.abs() > self.d_error) | one_sign)
             & (t_min <= t_max);
         let ray = (t_min == 0.0) & (t_max == f64::INFINITY);
-        let inside = one_sign & ((u < 0.0) == front);
         let positive_t = (t < 0.0) == front;
         let bit = |is_set: bool, bit: u64| u64::from(is_set) * bit;
         Code(
             bit(certain, CERTAIN)
                 | bit(ray, RAY)
                 | bit(front, FRONT)
-                | bit(inside, INSIDE)
+                | bit(one_sign, INSIDE)
                 | bit(positive_t, POSITIVE_T),
         )
     }

@@ -122,6 +122,14 @@ fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign
 }
 
 #[test]
+fn numbers_of_two_digits_come_once_each_with_both_ends_of_their_range() {
+    let below = (12..100).map(|digits| format!("0.0{digits}"));
+    let above = (10..=12).map(|digits| format!("0.{digits}"));
+    let expected: Vec<f64> = below.chain(above).map(|text| text.parse().unwrap()).collect();
+    assert_eq!(two_digits::<f64>([0.012, 0.12]), expected);
+}
+
+#[test]
 fn around_a_point_are_the_round_numbers_within_a_factor_of_ten_of_its_sign() {
     let grid = around(&[3.0f32, -0.07, 0.0]);
     let expected: [&[f32]; 3] = [
