@@ -171,7 +171,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let mut conformance = expect::compare(result, target, &expected, known_file);
     if known_file.is_none() && !conformance.unexpected.is_empty() {
         conformance.note = Some(first_steps(file, conformance.unexpected.len()));
-    } else if !arguments.bless && !conformance.unexpected.is_empty() {
+    } else if !arguments.bless && conformance.note.is_none() && !conformance.unexpected.is_empty() {
         let wanted = "if what is unexpected is wanted, the same command with --bless --accept-worse takes it as known";
         conformance.note = Some(wanted.to_owned());
     }

@@ -506,7 +506,7 @@ fn an_epsilon_that_does_not_refuse_more_as_it_grows_is_found_out() {
 fn crashes_while_margins_are_asked_for_end_nothing() {
     let source = PathBuf::from(HERE).join("tests/kernels/year.c");
     let Some(library) = library(&source, "crashing", &["-DCRASH"]) else { return };
-    let output = hairline(&["epsilon", "--kernel-lib", &library, "--scene", "room", "-n", "1000"]);
+    let output = hairline(&["epsilon", "--kernel-lib", &library, "--scene", "room", "-n", "700"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert!(text(&output.stdout).contains("use  --epsilon parallel="));
     let note = "note: kernel 'mine': on ";

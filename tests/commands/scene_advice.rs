@@ -244,3 +244,25 @@ fn a_picture_says_what_its_band_and_its_shading_are() {
         assert!(text.contains("class=\"within open\""), "{format}");
     }
 }
+
+#[test]
+fn where_its_limits_meet_a_number_is_well_inside_them_under_every_seed() {
+    let folder = scratch("advice-middle");
+    for seed in ["1", "4", "6", "7"] {
+        let more = ["--scalar", "f64", "-n", "10000", "--seed", seed, "--format", "json", "-q"];
+        let study = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room"];
+        let (out, _) = ends(&folder, &[&study[..], &more[..]].concat(), 0);
+        let record: SceneRecord = serde_json::from_str(&out).unwrap();
+        let part = &record.kernels[0];
+        let t = part.knobs.iter().position(|knob| knob.name == "t_min").unwrap();
+        let number = |text: &String| text.parse::<f64>().unwrap();
+        let used = number(&part.tried[0].epsilons[t]);
+        let of_t = part.limits.iter().filter(|limit| limit.knob == t);
+        let limits: Vec<_> = of_t.map(|it| (it.is_lower, it.value.as_ref().unwrap())).collect();
+        assert_eq!(limits.len(), 2);
+        for (is_lower, limit) in limits {
+            let ratio = used / number(limit);
+            assert!(if is_lower { 100.0 < ratio } else { ratio < 0.01 }, "{seed}: {used} {limit}");
+        }
+    }
+}

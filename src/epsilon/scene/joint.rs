@@ -249,7 +249,7 @@ impl<F: Scalar> Joint<F> {
 }
 
 impl<F: Scalar> Joint<F> {
-    /// A point of the grid with one knob after the other at another of its values, where that is as good.
+    /// A point of the grid with one knob after the other at another of its values, where that costs nothing more.
     pub fn moved(
         &self,
         counts: &[Count],
@@ -261,7 +261,7 @@ impl<F: Scalar> Joint<F> {
         let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
         let mut places: Vec<usize> =
             from.iter().enumerate().map(|(k, value)| place(k, *value)).collect::<Option<_>>()?;
-        let most = cost(&places) * (1.0 + NEGLIGIBLE);
+        let most = cost(&places);
         let must_be_accurate = self.is_accurate(counts, &places);
         for (k, value) in to.iter().enumerate() {
             let mut moved = places.clone();

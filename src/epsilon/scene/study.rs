@@ -181,8 +181,8 @@ pub fn study_scene<F: Scalar>(
     })
 }
 
-/// The cheapest epsilons with each knob whose limits meet in the middle between them, where that is as good; and the
-/// limits.
+/// The cheapest epsilons with each knob that is not 0 and whose limits meet in the middle between them, where that
+/// costs nothing more; and the limits.
 pub fn within_limits<F: Scalar>(
     setting: &Setting<'_, F>,
     best: Vec<F>,
@@ -193,11 +193,15 @@ pub fn within_limits<F: Scalar>(
     observer: &dyn Observer,
 ) -> (Vec<F>, Vec<Limit<F>>) {
     let found = limits(setting, &best, seed, count, observer);
-    let middles = between(&found, best.len());
-    let both = best.iter().zip(&middles).map(|(own, middle)| {
-        let values = [Some(*own), *middle];
-        values.into_iter().flatten().collect()
-    });
+    let pairs = between(&found, best.len()).into_iter().zip(&best);
+    let middles: Vec<Option<F>> = pairs
+        .map(|(middle, own)| middle.filter(|middle| !own.is_zero() && middle != own))
+        .collect();
+    if middles.iter().all(Option::is_none) {
+        return (best, found);
+    }
+    let both = best.iter().zip(&middles);
+    let both = both.map(|(own, middle)| [Some(*own), *middle].into_iter().flatten().collect());
     let joint = Joint::count(setting, of_values(both), max_error, seed, count, observer);
     match joint.moved(setting.counts, costs, &best, &middles).filter(|moved| *moved != best) {
         Some(moved) => {
