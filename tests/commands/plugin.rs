@@ -502,6 +502,29 @@ fn an_epsilon_that_does_not_refuse_more_as_it_grows_is_found_out() {
     assert!(error.contains("Raising an epsilon must only refuse more"), "{error}");
 }
 
+/// A neighbour may take a ray at a shared edge, so a scene's check counts what none of them takes.
+#[test]
+fn a_tolerance_that_closes_cracks_is_better_in_the_check_of_a_scene() {
+    let source = PathBuf::from(HERE).join("tests/kernels/year.c");
+    let Some(strict) = library(&source, "strict", &[]) else { return };
+    let tolerant = library(&source, "tolerant", &["-DEDGE=1e-3f"]).unwrap();
+    let folder = crate::program::scratch("plugin-scene-check");
+    let check = |library: &str, more: &[&str], code: i32| {
+        let run = ["check", "--kernel-lib", library, "--scene", "room", "--scalar", "f32"];
+        crate::program::ends(&folder, &[&run[..], &["-n", "2000", "-q"], more].concat(), code).0
+    };
+    check(&strict, &["--bless"], 0);
+    let file = fs::read_to_string(folder.join("hairline.expectations.toml.lock")).unwrap();
+    let of_shared = |line: &&str| line.contains("scene-edges") || line.contains("scene-vertices");
+    let shared: Vec<&str> = file.lines().filter(of_shared).collect();
+    assert!(shared.len() == 2 && shared.iter().all(|line| line.contains("crack")), "{shared:?}");
+    let out = check(&tolerant, &[], 1);
+    for family in ["scene-edges", "scene-vertices"] {
+        assert!(!out.contains(&format!("{family}: false-")), "{out}");
+        assert!(out.contains(&format!("{family}: crack of group: 0 of ")), "{out}");
+    }
+}
+
 #[test]
 fn crashes_while_margins_are_asked_for_end_nothing() {
     let source = PathBuf::from(HERE).join("tests/kernels/year.c");

@@ -78,7 +78,7 @@ fn where_no_line_is_good_the_screen_says_so() {
     assert!(lines[2].ends_with("% of the hits at a triangle"), "{far}");
     let only_t = study(&folder, "moller-trumbore", "city", &["--gate", "t_min"]);
     assert!(!only_t.contains("no numbers are good"), "{only_t}");
-    let why = "rays start up to 1e7 m away, where the numbers of f32 are 1 m apart: use f64, or start rays nearer";
+    let why = "rays start up to 1e7 m away, where the numbers of f32 are 1 m apart: use f64, or bring scene and rays nearer to 0";
     assert_eq!(lines[3], why);
     assert!(!study(&folder, "moller-trumbore", "room", &[]).contains("no numbers are good"));
     let wide = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room,distance=1e7", "-q"];

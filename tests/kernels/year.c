@@ -1,5 +1,5 @@
 /* A project's kernel over a year, for tests/commands/action.rs: Moller and Trumbore's test in float, and what
- * becomes of it with -DREFACTORED, -DEPSILON=..., -DWIDE and -DCRASH; with -DBACKWARDS its epsilon is none; with
+ * becomes of it with -DREFACTORED, -DEPSILON=..., -DEDGE=..., -DWIDE and -DCRASH; with -DBACKWARDS its epsilon is none; with
  * -DASSERTING it ends at a large one. With -DCRASH_BELOW=x and -DMISS_BELOW=x it crashes, or misses, whatever the
  * triangle, if the first coordinate of the origin is from 0 to x. */
 #include "hairline.h"
@@ -8,6 +8,11 @@
 
 #ifndef EPSILON
 #define EPSILON "1e-7"
+#endif
+
+/* How far beside an edge a hit still counts. */
+#ifndef EDGE
+#define EDGE 0
 #endif
 
 #ifdef WIDE
@@ -82,7 +87,7 @@ void hairline_test_f32(const hairline_case_f32 *cases, size_t count, const float
 #endif
         number inverse = 1 / det;
         number u = dot(s, p) * inverse, v = dot(direction, q) * inverse;
-        if (u < 0 || v < 0 || u + v > 1) continue;
+        if (u < -EDGE || v < -EDGE || u + v > 1 + EDGE) continue;
         *verdict = (hairline_verdict_f32){1, 0, dot(edge2, q) * inverse, u, v};
     }
 }

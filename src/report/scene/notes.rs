@@ -130,11 +130,11 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
     let is_narrow = part.scalar == "f32";
     if is_coarse(record, part) {
         return format!(
-            "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {}, or start rays nearer",
+            "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {}bring scene and rays nearer to 0",
             record.reach,
             part.scalar,
             human(&format!("{:.0e}", part.spacing)),
-            if is_narrow { "use f64" } else { "move the scene to the origin" }
+            if is_narrow { "use f64, or " } else { "" }
         );
     }
     if kind == "self-hit" {
