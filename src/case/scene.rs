@@ -89,6 +89,20 @@ impl Scene {
         Scene { extent: self.extent * times, edge, distance, ..self }
     }
 
+    /// The lengths that the words of a scene leave out, as words; none where a preset's name has them.
+    pub fn left_out(&self, text: &str) -> Option<String> {
+        let keys: Vec<&str> =
+            text.split(',').map(|word| word.split('=').next().unwrap_or("").trim()).collect();
+        if SCENES.iter().any(|preset| preset.name == keys[0]) {
+            return None;
+        }
+        let lengths = [("edge", self.edge), ("distance", self.distance)];
+        let left = lengths.into_iter().filter(|(key, _)| !keys.contains(key));
+        let left: Vec<String> =
+            left.map(|(key, range)| format!("{key}={}", Range(range))).collect();
+        (!left.is_empty()).then(|| left.join(" and "))
+    }
+
     /// From words between commas: perhaps a preset's name, then what differs from it; without a name from the preset
     /// `unit`, whose lengths grow with the extent. Also the unit of length of the preset.
     pub fn parse(text: &str) -> Result<(Scene, &'static str), String> {

@@ -129,6 +129,9 @@ impl SourceArguments {
             return Ok(StudiedScene { scene, unit: "", mesh: Some(mesh) });
         }
         let (scene, unit) = self.scene()?.unwrap_or_default();
+        if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
+            note_left_out(&scene, text);
+        }
         Ok(StudiedScene { scene, unit, mesh: None })
     }
 
@@ -321,6 +324,13 @@ impl SourceArguments {
             Some(other) => Err(about_scene(format!("'{other}' is no part of a scene"))),
             None => Ok(()),
         }
+    }
+}
+
+/// Says which lengths of a scene its words leave out.
+pub(super) fn note_left_out(scene: &Scene, text: &str) {
+    if let Some(left) = scene.left_out(text) {
+        eprintln!("note: --scene does not say {left}: these are those of `unit`, times the extent");
     }
 }
 

@@ -10,6 +10,7 @@ use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
 use super::output::{paired_outputs, write_results};
 use super::progress::Progress;
 use super::select::KernelArguments;
+use super::sources::note_left_out;
 use crate::audit::{Row, shell_word};
 use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;
@@ -118,6 +119,9 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
     let (scene, unit) = arguments.scene(scalars)?;
+    if !arguments.quiet {
+        note_left_out(&scene, &arguments.scene);
+    }
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
     let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;

@@ -21,6 +21,15 @@ fn scenes_survive_their_text() {
         let grown = "extent=1000,edge=100..1000,distance=0..4000,direction=unit";
         assert_eq!(Scene::parse(text).unwrap().0.to_string(), grown);
     }
+    for (text, left) in [
+        ("extent=10", Some("edge=1..10 and distance=0..40")),
+        ("extent=10, edge=1", Some("distance=0..40")),
+        ("extent=10,distance=3,edge=1", None),
+        ("room,extent=10", None),
+    ] {
+        let (scene, _) = Scene::parse(text).unwrap();
+        assert_eq!(scene.left_out(text).as_deref(), left, "{text}");
+    }
     let (near, unit) = Scene::parse("city, distance = 0..20").unwrap();
     assert_eq!((near.distance, near.extent, unit), ([0.0, 20.0], 1000.0, "m"));
 }

@@ -246,9 +246,7 @@ impl<F: Scalar> Joint<F> {
         }
         Some(self.grid.point(&places))
     }
-}
 
-impl<F: Scalar> Joint<F> {
     /// A point of the grid with one knob after the other at another of its values, where that costs nothing more.
     pub fn moved(
         &self,
