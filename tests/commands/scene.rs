@@ -408,6 +408,8 @@ fn cases_of_a_mesh_explain_themselves() {
     for column in ["\ninside ", "\nedges ", "\nvertex ", "\nflat "] {
         assert!(screen.contains(column), "{screen}");
     }
+    // Nothing is promised, so no crack breaks a promise.
+    assert!(screen.contains("% cracks and ") && !screen.contains("promises: crack"), "{screen}");
     let is_id = |word: &&str| word.starts_with("scene-") && word.contains("/f32/");
     let mut ids: Vec<&str> = record.split(['"', '\'', ' ']).filter(is_id).collect();
     ids.sort();
