@@ -201,6 +201,33 @@ mod tests {
         assert_eq!(above(-f32::from_bits(1)), 0.0);
     }
 
+    #[test]
+    fn between_limits_that_meet_is_a_round_number() {
+        let limit = |is_lower, value| Limit { knob: 1, count: 0, is_lower, value, one_in: 9 };
+        let (low, high) = (limit(true, Some(7.9e-12)), limit(false, Some(3.6e-4)));
+        for (limits, middle) in [
+            (vec![low.clone(), high.clone()], Some(5e-8)),
+            // The strictest of each side: 1.4e-7 is in the middle.
+            (
+                vec![
+                    limit(true, Some(1e-12)),
+                    low.clone(),
+                    limit(false, Some(2.5e-3)),
+                    limit(false, Some(2.5e-3)),
+                ],
+                Some(1e-7),
+            ),
+            (vec![low.clone(), limit(false, Some(1.0)), high.clone()], Some(5e-8)),
+            (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.3e-6))], Some(3.1e-6)),
+            (vec![limit(true, Some(4e-6)), limit(false, Some(3.3e-6))], None),
+            (vec![low.clone(), limit(false, None)], None),
+            (vec![low.clone()], None),
+            (vec![limit(true, Some(f64::MIN_POSITIVE)), high.clone()], None),
+        ] {
+            assert_eq!(between(&limits, 2), [None, middle], "{limits:?}");
+        }
+    }
+
     /// Of a distribution whose quantiles are known: the uniform one.
     #[test]
     fn limits_are_violated_no_more_often_than_stated() {
