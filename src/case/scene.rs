@@ -306,6 +306,9 @@ fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
     if high.starts_with('.') {
         return Err(format!("{key}={text}: write a range with two dots, as 0.5..2"));
     }
+    if low.trim().is_empty() || high.trim().is_empty() {
+        return Err(format!("{key}={text}: write both ends, as 0.5..2, or one number"));
+    }
     let [low, high] = [number(key, low)?, number(key, high)?];
     if high < low {
         return Err(format!("{key}={text}: the range is empty; write the smaller number first"));

@@ -170,10 +170,12 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     let (result, target) = (&record.result, record.provenance.target.as_str());
     let mut conformance = expect::compare(result, target, &expected, known_file);
     if known_file.is_none() && !conformance.unexpected.is_empty() {
-        conformance.note = Some(first_steps(file, conformance.unexpected.len()));
-    } else if !arguments.bless && conformance.note.is_none() && !conformance.unexpected.is_empty() {
+        let has_settings = arguments.config.is_some() || Path::new(settings::FILE).exists();
+        conformance.note = Some(first_steps(file, conformance.unexpected.len(), has_settings));
+    } else if !arguments.bless && !conformance.unexpected.is_empty() {
         let wanted = "if what is unexpected is wanted, the same command with --bless --accept-worse takes it as known";
-        conformance.note = Some(wanted.to_owned());
+        let note = conformance.note.map_or(String::new(), |note| note + "; ");
+        conformance.note = Some(note + wanted);
     }
     if arguments.bless {
         let change = conformance.change;
@@ -214,9 +216,15 @@ fn read_expected(name: &str) -> Result<String, Failure> {
 }
 
 /// What to do as long as there is no file of expectations.
-fn first_steps(file: &str, disagreements: usize) -> String {
+fn first_steps(file: &str, disagreements: usize, has_settings: bool) -> String {
+    let settings = match has_settings {
+        true => String::new(),
+        false => {
+            format!("there is no {} here, so flags alone say which kernels ran; ", settings::FILE)
+        }
+    };
     format!(
-        "the same command with --bless takes the {} below as known: it writes how many are wrong in each family into {file}, \
+        "{settings}the same command with --bless takes the {} below as known: it writes how many are wrong in each family into {file}, \
          for people to review, and the cases into {}; commit both",
         number_of(disagreements as u64, "disagreement", "disagreements"),
         expect::lock_of(file)

@@ -7,6 +7,7 @@ use super::output::write_result;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{StoredCase, write_case};
+use crate::corpus::truth_json::TruthLine;
 use crate::explore;
 use crate::explore::campaign::Find;
 use crate::family::manifest::{self, ManifestLine};
@@ -108,7 +109,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
     for file in corpus_files(path)? {
         let stored = read_corpus(&file)?;
         let with_truth = stored.iter().filter(|stored| stored.truth.is_some()).count();
-        // read_corpus holds the stored truths to the definition; the fast oracle must agree.
+        // read_corpus holds the stored truths to the fast oracle, which must agree with the definition.
         let (mut scores, mut finds) = (0, 0);
         for case in &stored {
             agree(&file, case)?;
@@ -163,14 +164,18 @@ fn verify(path: &str) -> Result<Status, Failure> {
 }
 
 fn agree(file: &str, stored: &StoredCase) -> Result<(), Failure> {
-    let (fast, slow) =
-        either_scalar!(&stored.case, case => (oracle::truth(case), oracle::define(case).truth));
+    let slow = either_scalar!(&stored.case, case => oracle::define(case));
+    let slow = TruthLine::new(stored.name.as_deref(), &slow.truth, Some(&slow.exact));
+    let fast = stored.truth_line(true);
     if fast == slow {
         return Ok(());
     }
+    let text = |line| serde_json::to_string(line).unwrap_or_default();
     let message = format!(
-        "{file}:{}: self-check: the oracle says '{fast}', its definition '{slow}'",
-        stored.line
+        "{file}:{}: self-check: the oracle says {}, its definition {}",
+        stored.line,
+        text(&fast),
+        text(&slow)
     );
     Err(Failure::Message(Status::SelfCheck, message))
 }

@@ -161,7 +161,7 @@ fn write_case<F: Scalar>(
     let definition = oracle::define(case);
     writeln!(out, "truth {}", definition.truth)?;
     let stored = StoredCase { is_secondary, ..StoredCase::of(*case) };
-    let line = serde_json::to_string(&stored.truth_line()).unwrap_or_default();
+    let line = serde_json::to_string(&stored.truth_line(true)).unwrap_or_default();
     writeln!(out, "    {line}")?;
     if let Some(severity) = exact_severity(case, Extent::Interval) {
         let (space, ulps) = (severity.in_space, severity.in_space * severity.edge_in_ulps);

@@ -163,7 +163,7 @@ pub fn read_corpus(file: &str) -> Result<Vec<StoredCase>, Failure> {
                 return Err(InputError::at(file, stored.line, message));
             }
             if let Some(truth) = &stored.truth {
-                let line = stored.truth_line();
+                let line = stored.truth_line(truth.has_fractions());
                 truth.check(&line).map_err(|message| InputError::at(file, stored.line, message))?;
             }
             Ok(stored)

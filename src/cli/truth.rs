@@ -3,13 +3,12 @@
 use super::exit::{Failure, Status};
 use super::input::open;
 use super::output::write_result;
-use crate::corpus::InputError;
-use crate::corpus::lines::{self, StoredCase, StoredTruth};
+use crate::corpus::lines::{self, LONGEST_LINE, StoredCase, StoredTruth};
 use crate::corpus::truth_json::TruthLine;
-use crate::oracle;
+use crate::corpus::{InputError, text_lines::TextLines};
 use clap::Args;
 use rayon::prelude::*;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
 
 /// Which cases.
 #[derive(Args)]
@@ -18,7 +17,7 @@ pub struct TruthArguments {
     #[arg(value_name = "FILE")]
     file: String,
 
-    /// Add t, u and v, and the ends of contacts, as exact fractions; some twenty times slower
+    /// Add t, u and v, and the ends of contacts, as exact fractions; some five times slower
     #[arg(long)]
     exact: bool,
 
@@ -27,76 +26,129 @@ pub struct TruthArguments {
     output: String,
 }
 
-/// Lines that are decided at once, by all threads: at most this many, and about as many bytes.
-const CHUNK: usize = 4096;
-const CHUNK_BYTES: usize = 1 << 21;
+/// The bytes that one thread decides at once, or a line more.
+const BLOCK: u64 = 1 << 16;
+/// The blocks that are read before they are decided, by all threads.
+const BLOCKS: usize = 64;
 
 /// Runs the command. A line that is no case ends it with an error; a stored truth is checked.
 pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
     let file = &arguments.file;
-    let mut texts = lines::texts(BufReader::with_capacity(1 << 16, open(file)?), file).peekable();
-    if texts.peek().is_none() {
-        return Err(Failure::Message(Status::NothingSelected, format!("{file}: no cases in it")));
-    }
-    let decided = |text: Text| -> Result<Vec<u8>, InputError> {
-        let (number, text) = text?;
-        let stored = lines::case_of(&text, number, file)?;
-        let line = line(&stored, arguments.exact);
-        let line = line.map_err(|message| InputError::at(file, number, message))?;
-        let mut bytes = serde_json::to_vec(&line).unwrap_or_default();
-        bytes.push(b'\n');
-        Ok(bytes)
-    };
-    // An input error stops the writing, and must come out as itself.
-    let mut bad_input: Option<InputError> = None;
+    let mut reader = BufReader::with_capacity(1 << 16, open(file)?);
+    // What is wrong with the input stops the writing, and must come out as itself.
+    let mut bad_input: Option<Failure> = None;
+    let (mut lines_before, mut cases) = (0, 0);
     let written = write_result(&arguments.output, |out| {
+        let mut stop = |failure| {
+            bad_input = Some(failure);
+            Err(io::Error::other("stopped"))
+        };
         loop {
-            let chunk = chunk(&mut texts);
-            if chunk.is_empty() {
-                return Ok(());
+            let blocks = read_blocks(&mut reader);
+            if blocks.is_empty() {
+                let message = format!("{file}: no cases in it");
+                let failure = || Failure::Message(Status::NothingSelected, message);
+                return if cases > 0 { Ok(()) } else { stop(failure()) };
             }
-            let all: Vec<Result<Vec<u8>, InputError>> =
-                chunk.into_par_iter().map(decided).collect();
-            for line in all {
-                match line {
-                    Ok(line) => out.write_all(&line)?,
-                    Err(error) => {
-                        bad_input = Some(error);
-                        return Err(io::Error::other("stopped"));
-                    }
+            let decide = |block| decide(block, file, arguments.exact);
+            for decided in blocks.into_par_iter().map(decide).collect::<Vec<_>>() {
+                out.write_all(&decided.truths)?;
+                if let Some(mut error) = decided.error {
+                    error.line = error.line.map(|line| lines_before + line);
+                    return stop(error.into());
                 }
+                lines_before += decided.lines;
+                cases += decided.cases;
             }
         }
     });
     match bad_input {
-        Some(error) => Err(error.into()),
+        Some(failure) => Err(failure),
         None => written.map(|()| Status::Success),
     }
 }
 
-/// A line's number and its text.
-type Text = Result<(usize, String), InputError>;
+/// Whole lines, and a failure to read on behind them.
+struct Block {
+    bytes: Vec<u8>,
+    failure: Failing,
+}
 
-/// The next lines, up to the first that cannot be read.
-fn chunk(texts: &mut impl Iterator<Item = Text>) -> Vec<Text> {
-    let (mut chunk, mut bytes) = (Vec::new(), 0);
-    while chunk.len() < CHUNK && bytes < CHUNK_BYTES {
-        let Some(text) = texts.next() else { break };
-        bytes += text.as_ref().map_or(CHUNK_BYTES, |(_, text)| text.len());
-        chunk.push(text);
+/// The next blocks; none at the end.
+fn read_blocks(reader: &mut impl BufRead) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    while blocks.len() < BLOCKS {
+        let mut bytes = Vec::new();
+        let start = reader.by_ref().take(BLOCK).read_to_end(&mut bytes);
+        // The rest of a line, unless it is too long for one.
+        let mut rest = || reader.take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut bytes);
+        let failure = start.and_then(|_| rest()).err();
+        let is_last = failure.is_some() || bytes.is_empty();
+        if failure.is_some() || !bytes.is_empty() {
+            blocks.push(Block { bytes, failure: Failing(failure) });
+        }
+        if is_last {
+            break;
+        }
     }
-    chunk
+    blocks
+}
+
+/// A reader that fails once, if there is an error for it.
+struct Failing(Option<io::Error>);
+
+impl Read for Failing {
+    fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+        self.0.take().map_or(Ok(0), Err)
+    }
+}
+
+/// What became of a block.
+#[derive(Default)]
+struct Decided {
+    lines: usize,
+    cases: usize,
+    /// One line a case.
+    truths: Vec<u8>,
+    /// What ended it, with the line in the block.
+    error: Option<InputError>,
+}
+
+fn decide(block: Block, file: &str, exact: bool) -> Decided {
+    let mut decided = Decided::default();
+    let reader = block.bytes.chain(BufReader::new(block.failure));
+    let mut texts = TextLines::new(reader, file, LONGEST_LINE);
+    while let Some(text) = texts.next() {
+        let truth = text.and_then(|(number, text)| {
+            let stored = lines::case_of(&text, number, file)?;
+            line(&stored, exact).map_err(|message| InputError::at(file, number, message))
+        });
+        match truth {
+            Ok(truth) => {
+                // Nothing fails that is written to memory, and a truth is always JSON.
+                let _ = serde_json::to_writer(&mut decided.truths, &truth);
+                decided.truths.push(b'\n');
+                decided.cases += 1;
+            }
+            Err(error) => {
+                decided.error = Some(error);
+                break;
+            }
+        }
+    }
+    decided.lines = texts.lines_read();
+    decided
 }
 
 /// What the command prints of a case, and an error if its stored truth is another.
 fn line(stored: &StoredCase, exact: bool) -> Result<TruthLine, String> {
-    let name = stored.name.as_deref();
-    let fast = || {
-        let truth = either_scalar!(&stored.case, case => oracle::truth(case));
-        TruthLine::without_fractions(name, &truth)
-    };
     let is_stored_exactly = stored.truth.as_ref().is_some_and(StoredTruth::has_fractions);
-    let line = if exact || is_stored_exactly { stored.truth_line() } else { fast() };
-    stored.truth.as_ref().map_or(Ok(()), |truth| truth.check(&line))?;
-    Ok(if is_stored_exactly && !exact { fast() } else { line })
+    let mut line = stored.truth_line(exact || is_stored_exactly);
+    if let Some(truth) = &stored.truth {
+        truth.check(&line)?;
+    }
+    if !exact {
+        line.leave_out_fractions();
+    }
+    Ok(line)
 }

@@ -10,7 +10,6 @@ use crate::vectors::profile::{Answered, Profile, demanded, is_right};
 use crate::vectors::{Test, core, digest, json::topic_file};
 use clap::{Args, ValueEnum};
 use serde::de::IgnoredAny;
-use serde_json::value::RawValue;
 use std::collections::HashMap;
 use std::io::{self, Write};
 
@@ -94,9 +93,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         line,
         ..InputError::of(&arguments.file, message)
     })?;
-    let mut answers: HashMap<&str, (Answered, &RawValue)> = HashMap::new();
+    let mut answers: HashMap<&str, (Answered, &str)> = HashMap::new();
     for (id, value) in &results.answers {
-        let error = |message| InputError::at(&arguments.file, line_of(&text, value.get()), message);
+        let error = |message| InputError::at(&arguments.file, line_of(&text, value), message);
         let answer = answered(value).map_err(|message| error(format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(format!("a second result of '{id}'")).into());
@@ -131,12 +130,12 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
                     report.wrong.push(Wrong {
                         id: &test.id,
                         demanded,
-                        answered: value.get().trim_matches('"').to_owned(),
+                        answered: value.trim_matches('"').to_owned(),
                         comment: &test.comment,
                     });
                 }
                 None => {
-                    let line = line_of(&text, value.get());
+                    let line = line_of(&text, value);
                     let message = format!("{}: {}", test.id, expected(test));
                     return Err(InputError::at(&arguments.file, line, message).into());
                 }
@@ -145,11 +144,9 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         report.total.add(&counts);
         report.topics.push((topic.name, counts));
     }
-    if let Some((id, (_, value))) =
-        answers.iter().min_by_key(|(_, (_, value))| value.get().as_ptr())
-    {
+    if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
         let message = format!("no test of these vectors has the id {}", json::quoted(id));
-        return Err(InputError::at(&arguments.file, line_of(&text, value.get()), message).into());
+        return Err(InputError::at(&arguments.file, line_of(&text, value), message).into());
     }
     if report.total.missing == report.total.tests {
         let message = format!("{}: no results in it", arguments.file);
@@ -170,8 +167,8 @@ fn expected(test: &Test) -> &'static str {
     }
 }
 
-fn answered(value: &RawValue) -> Result<Answered, String> {
-    match value.get() {
+fn answered(value: &str) -> Result<Answered, String> {
+    match value {
         "\"hit\"" => Ok(Answered::Single(true)),
         "\"miss\"" => Ok(Answered::Single(false)),
         other => other.parse().map(Answered::Hits).map_err(|_| {
@@ -193,7 +190,7 @@ fn line_of(text: &str, part: &str) -> usize {
 struct Results<'a> {
     vectors: String,
     product: String,
-    answers: Vec<(String, &'a RawValue)>,
+    answers: Vec<json::Field<'a>>,
 }
 
 impl<'a> Results<'a> {
@@ -202,10 +199,10 @@ impl<'a> Results<'a> {
         // What is no JSON at all.
         serde_json::from_str::<IgnoredAny>(text)
             .map_err(|error| (Some(error.line()), error.to_string()))?;
-        let object = json::Object::parse(text, "vectors product results");
+        let object = json::Object::parse(text, &["vectors", "product", "results"]);
         let object = object.map_err(|message| (None, message))?;
         let at = |field: &str, message: String| {
-            let line = object.get(field).map(|value| line_of(text, value.get()));
+            let line = object.get(field).map(|value| line_of(text, value));
             (line, format!("{field}: {message}"))
         };
         let required = |field: &str| object.required(field).map_err(|message| (None, message));
@@ -218,7 +215,7 @@ impl<'a> Results<'a> {
                 format!("the results are of {found}, but this hairline has the vectors {digest}");
             return Err(at("vectors", message));
         }
-        let answers = json::pairs(required("results")?.get());
+        let answers = json::pairs(required("results")?);
         let answers = answers.map_err(|message| at("results", message))?;
         Ok(Results { vectors, product, answers })
     }

@@ -7,18 +7,32 @@ use super::{FoundBy, number};
 use crate::arith::Float;
 use crate::case::Case;
 use serde_json::Value;
-use serde_json::value::RawValue;
 use std::fmt;
 
 /// The fields that are vectors, in the order of [`Case::vectors`].
 const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 
 /// The fields of a line.
-const FIELDS: &str =
-    "name scalar origin direction a b c t_min t_max starts truth bits why url found";
+const FIELDS: [&str; 15] = [
+    "name",
+    "scalar",
+    "origin",
+    "direction",
+    "a",
+    "b",
+    "c",
+    "t_min",
+    "t_max",
+    "starts",
+    "truth",
+    "bits",
+    "why",
+    "url",
+    "found",
+];
 
 /// The fields of `bits`.
-const BITS: &str = "origin direction a b c t_min t_max";
+const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
 
 /// What the field `starts` says of a ray that starts at a computed hit point on its triangle.
 const ON_TRIANGLE: &str = "on-triangle";
@@ -28,7 +42,7 @@ const LONGEST_NAME: usize = 1000;
 
 /// The case that stands in a line, and what stands beside it.
 pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
-    let object = Object::parse(text, FIELDS)?;
+    let object = Object::parse(text, &FIELDS)?;
     let case = match object.is_f32()? {
         true => AnyCase::F32(parse_case(&object)?),
         false => AnyCase::F64(parse_case(&object)?),
@@ -43,11 +57,11 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
         name: object.read("name", name)?,
         case,
         is_secondary: starts.is_some(),
-        truth: object.read("truth", |truth| StoredTruth::parse(truth.get()))?,
+        truth: object.read("truth", StoredTruth::parse)?,
         line,
         why: object.read("why", json::string)?,
         url: object.read("url", json::string)?,
-        found: object.read("found", |found| FoundBy::parse(found.get()))?,
+        found: object.read("found", FoundBy::parse)?,
     })
 }
 
@@ -65,7 +79,7 @@ fn check_name(name: String) -> Result<String, String> {
 }
 
 fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {
-    let bits = object.read("bits", |bits| Object::parse(bits.get(), BITS))?.unwrap_or_default();
+    let bits = object.read("bits", |bits| Object::parse(bits, &BITS))?.unwrap_or_default();
     let mut numbers = [[F::zero(); 3]; 5];
     for (numbers, field) in numbers.iter_mut().zip(VECTORS) {
         *numbers = parse_vector(field, object.required(field)?, bits.get(field))?;
@@ -93,8 +107,8 @@ impl fmt::Display for Path {
 
 fn parse_vector<F: Float>(
     field: &'static str,
-    value: &RawValue,
-    bits: Option<&RawValue>,
+    value: &str,
+    bits: Option<&str>,
 ) -> Result<[F; 3], String> {
     let values = json::array::<3>(value, "numbers").map_err(|m| format!("{field}: {m}"))?;
     let bits = bits.map(|bits| json::array::<3>(bits, "bit patterns")).transpose();
@@ -109,13 +123,9 @@ fn parse_vector<F: Float>(
 }
 
 /// A JSON number or a string, from its text.
-pub(crate) fn parse_number<F: Float>(
-    path: impl fmt::Display,
-    value: &RawValue,
-) -> Result<F, String> {
-    let text = value.get();
+pub(crate) fn parse_number<F: Float>(path: impl fmt::Display, text: &str) -> Result<F, String> {
     let number = match text.as_bytes().first() {
-        Some(b'"') => json::string(value).and_then(|text| number::parse(&text)),
+        Some(b'"') => json::string(text).and_then(|text| number::parse(&text)),
         Some(b'-' | b'0'..=b'9') => number::parse(text),
         _ => Err(format!("expected a number or a string, found {}", json::excerpt(text))),
     };
@@ -124,11 +134,7 @@ pub(crate) fn parse_number<F: Float>(
 
 /// The number, which must have the bit pattern that stands beside it, if one does; of a NaN the
 /// pattern's.
-fn agreed<F: Float>(
-    path: impl fmt::Display,
-    number: F,
-    bits: Option<&RawValue>,
-) -> Result<F, String> {
+fn agreed<F: Float>(path: impl fmt::Display, number: F, bits: Option<&str>) -> Result<F, String> {
     let Some(bits) = bits else { return Ok(number) };
     let pattern: F = parse_pattern(bits).map_err(|message| format!("bits.{path}: {message}"))?;
     if pattern.to_bits() == number.to_bits() || pattern.is_nan() && number.is_nan() {
@@ -138,7 +144,7 @@ fn agreed<F: Float>(
     Err(format!("bits.{path} is {}, but {path} is {}", show(pattern), show(number)))
 }
 
-fn parse_pattern<F: Float>(value: &RawValue) -> Result<F, String> {
+fn parse_pattern<F: Float>(value: &str) -> Result<F, String> {
     let text = json::string(value)?;
     let digits = F::zero().hex().len();
     let plain = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());

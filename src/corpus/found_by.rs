@@ -3,7 +3,6 @@
 use super::json::{self, Object};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::value::RawValue;
 
 /// The field `found` of a corpus line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -38,9 +37,19 @@ pub struct FoundBy {
 impl FoundBy {
     /// From the JSON object that [`FoundBy::to_json`] writes.
     pub(super) fn parse(text: &str) -> Result<FoundBy, String> {
-        let known =
-            "version kernel epsilons contract finding signature seed evaluations seconds from";
-        let object = Object::parse(text, known)?;
+        let known = [
+            "version",
+            "kernel",
+            "epsilons",
+            "contract",
+            "finding",
+            "signature",
+            "seed",
+            "evaluations",
+            "seconds",
+            "from",
+        ];
+        let object = Object::parse(text, &known)?;
         Ok(FoundBy {
             version: object.required_string("version")?,
             kernel: object.required_string("kernel")?,
@@ -63,9 +72,9 @@ impl FoundBy {
 }
 
 /// A number that is no less than zero.
-fn number<T: DeserializeOwned + PartialOrd + Default>(value: &RawValue) -> Result<T, String> {
-    let parsed = serde_json::from_str(value.get()).ok().filter(|n| T::default() <= *n);
-    parsed.ok_or_else(|| format!("expected a number, found {}", json::excerpt(value.get())))
+fn number<T: DeserializeOwned + PartialOrd + Default>(value: &str) -> Result<T, String> {
+    let parsed = serde_json::from_str(value).ok().filter(|n| T::default() <= *n);
+    parsed.ok_or_else(|| format!("expected a number, found {}", json::excerpt(value)))
 }
 
 #[cfg(test)]

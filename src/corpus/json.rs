@@ -1,9 +1,11 @@
-//! JSON objects with known fields, read through `serde_json`, and errors that name the field.
+//! JSON objects with known fields, read through `serde_json`, and errors that name the field. A value is the
+//! text of its JSON, which was checked when its object was read.
 
-use serde::Deserializer;
 use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use serde_json::error::Category;
 use serde_json::value::RawValue;
+use std::borrow::Cow;
 use std::fmt;
 
 /// The most characters of an input that a message repeats.
@@ -11,15 +13,18 @@ const EXCERPT: usize = 40;
 
 /// The fields of an object, as they stand in the text.
 #[derive(Default)]
-pub(crate) struct Object<'a>(Vec<(String, &'a RawValue)>);
+pub(crate) struct Object<'a>(Vec<Field<'a>>);
+
+/// A name and its value.
+pub(crate) type Field<'a> = (Cow<'a, str>, &'a str);
 
 impl<'a> Object<'a> {
-    /// The fields, whose `known` names stand between blanks. Unknown and duplicate ones are errors.
-    pub fn parse(text: &'a str, known: &'static str) -> Result<Object<'a>, String> {
+    /// The fields. Those that are not `known` and duplicates are errors.
+    pub fn parse(text: &'a str, known: &[&str]) -> Result<Object<'a>, String> {
         let fields = pairs(text)?;
         for (i, (name, _)) in fields.iter().enumerate() {
-            if !known.split(' ').any(|known| known == name) {
-                let (name, known) = (quoted(name), known.replace(' ', ", "));
+            if !known.contains(&name.as_ref()) {
+                let (name, known) = (quoted(name), known.join(", "));
                 return Err(format!("unknown field {name}, expected one of {known}"));
             }
             if fields[..i].iter().any(|(other, _)| other == name) {
@@ -30,12 +35,12 @@ impl<'a> Object<'a> {
     }
 
     /// The value of a field, if it is there; `null` is a value.
-    pub fn get(&self, field: &str) -> Option<&'a RawValue> {
+    pub fn get(&self, field: &str) -> Option<&'a str> {
         self.0.iter().find(|(name, _)| name == field).map(|(_, value)| *value)
     }
 
     /// The value of a field that must be there.
-    pub fn required(&self, field: &str) -> Result<&'a RawValue, String> {
+    pub fn required(&self, field: &str) -> Result<&'a str, String> {
         self.get(field).ok_or_else(|| format!("missing field '{field}'"))
     }
 
@@ -43,7 +48,7 @@ impl<'a> Object<'a> {
     pub fn read<T>(
         &self,
         field: &str,
-        read: impl FnOnce(&'a RawValue) -> Result<T, String>,
+        read: impl FnOnce(&'a str) -> Result<T, String>,
     ) -> Result<Option<T>, String> {
         let read = self.get(field).map(read).transpose();
         read.map_err(|message| format!("{field}: {message}"))
@@ -65,7 +70,7 @@ impl<'a> Object<'a> {
 }
 
 /// The fields of an object in their order, duplicates included.
-pub(crate) fn pairs(text: &str) -> Result<Vec<(String, &RawValue)>, String> {
+pub(crate) fn pairs(text: &str) -> Result<Vec<Field<'_>>, String> {
     if !text.trim_start().starts_with('{') {
         return Err(format!("expected an object, found {}", excerpt(text.trim_start())));
     }
@@ -81,22 +86,54 @@ pub(crate) fn object<'a>(fields: impl IntoIterator<Item = (&'a str, String)>) ->
 }
 
 /// A JSON string.
-pub(crate) fn string(value: &RawValue) -> Result<String, String> {
-    if !value.get().starts_with('"') {
-        return Err(format!("expected a string, found {}", excerpt(value.get())));
+pub(crate) fn string(value: &str) -> Result<String, String> {
+    if !value.starts_with('"') {
+        return Err(format!("expected a string, found {}", excerpt(value)));
     }
-    serde_json::from_str(value.get()).map_err(|error| plain_message(&error))
+    serde_json::from_str(value).map_err(|error| plain_message(&error))
 }
 
 /// A JSON array of `N` values, which messages call `what`.
 pub(crate) fn array<'a, const N: usize>(
-    value: &'a RawValue,
+    value: &'a str,
     what: &str,
-) -> Result<[&'a RawValue; N], String> {
-    let elements: Vec<&RawValue> = serde_json::from_str(value.get())
-        .map_err(|_| format!("expected an array of {N} {what}, found {}", excerpt(value.get())))?;
-    let count = elements.len();
-    elements.try_into().map_err(|_| format!("expected {N} {what}, found {count}"))
+) -> Result<[&'a str; N], String> {
+    let mut array = [""; N];
+    let elements = elements(value)
+        .ok_or_else(|| format!("expected an array of {N} {what}, found {}", excerpt(value)))?;
+    let mut count = 0;
+    for element in elements {
+        if let Some(place) = array.get_mut(count) {
+            *place = element;
+        }
+        count += 1;
+    }
+    if count == N { Ok(array) } else { Err(format!("expected {N} {what}, found {count}")) }
+}
+
+/// The elements of a JSON array; none of another value.
+pub(crate) fn elements(value: &str) -> Option<impl Iterator<Item = &str>> {
+    let inner = value.strip_prefix('[')?.strip_suffix(']')?.trim_ascii();
+    let mut rest = (!inner.is_empty()).then_some(inner);
+    Some(std::iter::from_fn(move || {
+        let text = rest?;
+        let end = end_of_first(text);
+        let (element, behind) = text.split_at(end);
+        rest = behind.trim_ascii_start().strip_prefix(',').map(str::trim_ascii_start);
+        Some(element.trim_ascii_end())
+    }))
+}
+
+/// Where the first of several values ends that commas separate. All of them are JSON already, so a number, true,
+/// false or null ends at the first comma.
+fn end_of_first(values: &str) -> usize {
+    if values.starts_with(['"', '[', '{']) {
+        let mut values = serde_json::Deserializer::from_str(values).into_iter::<&RawValue>();
+        if values.next().is_some_and(|first| first.is_ok()) {
+            return values.byte_offset();
+        }
+    }
+    values.find(',').unwrap_or(values.len())
 }
 
 /// The beginning of an input, on one line.
@@ -119,10 +156,14 @@ pub(crate) fn quoted(text: &str) -> String {
     format!("'{}'", excerpt(text))
 }
 
+/// A name as it stands in the text, unless it has escapes.
+#[derive(Deserialize)]
+struct Name<'a>(#[serde(borrow)] Cow<'a, str>);
+
 struct Pairs;
 
 impl<'de> Visitor<'de> for Pairs {
-    type Value = Vec<(String, &'de RawValue)>;
+    type Value = Vec<Field<'de>>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("an object")
@@ -130,8 +171,8 @@ impl<'de> Visitor<'de> for Pairs {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
         let mut pairs = Vec::new();
-        while let Some(pair) = map.next_entry()? {
-            pairs.push(pair);
+        while let Some((Name(name), value)) = map.next_entry::<_, &RawValue>()? {
+            pairs.push((name, value.get()));
         }
         Ok(pairs)
     }
@@ -146,5 +187,30 @@ fn plain_message(error: &serde_json::Error) -> String {
     match error.classify() {
         Category::Data => message,
         _ => format!("{message} at column {}", error.column()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_is_cut_where_its_elements_end() {
+        let nested = r#"[ 1 , "a,\"]," ,[2,[3]],{"b":[4,5]} ,null, -6.5e7 ]"#;
+        let expected = ["1", r#""a,\"],""#, "[2,[3]]", r#"{"b":[4,5]}"#, "null", "-6.5e7"];
+        assert_eq!(array::<6>(nested, "values"), Ok(expected));
+        assert_eq!(array::<0>("[ ]", "values"), Ok([]));
+        assert_eq!(array::<1>("[1,2]", "numbers"), Err("expected 1 numbers, found 2".to_owned()));
+        let text = Err("expected an array of 2 numbers, found \"[1,2]\"".to_owned());
+        assert_eq!(array::<2>(r#""[1,2]""#, "numbers"), text);
+        // As serde_json reads them.
+        let read: Vec<&RawValue> = serde_json::from_str(nested).unwrap();
+        assert!(elements(nested).unwrap().eq(read.iter().map(|value| value.get())));
+    }
+
+    #[test]
+    fn names_are_read_with_their_escapes() {
+        let fields = pairs(r#"{"a":1,"\u0062":[2]}"#).unwrap();
+        assert_eq!(fields, [("a".into(), "1"), ("b".into(), "[2]")]);
     }
 }

@@ -19,16 +19,8 @@ pub fn read<R: BufRead>(
     file: &str,
 ) -> impl Iterator<Item = Result<StoredCase, InputError>> + use<R> {
     let name = file.to_owned();
-    texts(reader, file)
-        .map(move |line| line.and_then(|(number, text)| case_of(&text, number, &name)))
-}
-
-/// The lines of a corpus file with their numbers, for [`case_of`]; the errors are those of [`read`].
-pub fn texts<R: BufRead>(
-    reader: R,
-    file: &str,
-) -> impl Iterator<Item = Result<(usize, String), InputError>> + use<R> {
     TextLines::new(reader, file, LONGEST_LINE)
+        .map(move |line| line.and_then(|(number, text)| case_of(&text, number, &name)))
 }
 
 /// The case that stands in a line.

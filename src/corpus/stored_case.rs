@@ -58,14 +58,17 @@ impl StoredCase {
         }
     }
 
-    /// Its truth by definition, as the `truth` command prints it.
-    pub fn truth_line(&self) -> TruthLine {
-        let definition = either_scalar!(&self.case, case => oracle::define(case));
-        TruthLine::new(self.name.as_deref(), &definition.truth, &definition.exact)
+    /// Its truth, as the `truth` command prints it: with fractions, or without.
+    pub fn truth_line(&self, with_fractions: bool) -> TruthLine {
+        let (truth, exact) = either_scalar!(&self.case, case => {
+            let truth = oracle::truth(case);
+            (truth, with_fractions.then(|| oracle::exact_values(case, &truth)))
+        });
+        TruthLine::new(self.name.as_deref(), &truth, exact.as_ref())
     }
 
     /// The same with its truth.
     pub fn with_truth(self) -> StoredCase {
-        StoredCase { truth: Some(StoredTruth::from(&self.truth_line())), ..self }
+        StoredCase { truth: Some(StoredTruth::from(&self.truth_line(true))), ..self }
     }
 }

@@ -7,7 +7,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 use serde_json::json;
-use serde_json::value::RawValue;
 use std::fmt;
 
 /// The most characters of a fraction. On the whole range of `f64` t has fewer than 4,000.
@@ -16,8 +15,19 @@ const LONGEST_FRACTION: usize = 10_000;
 const CLASSES: [&str; 5] = ["transversal", "parallel", "coplanar", "degenerate", "invalid"];
 const CONTACT_KINDS: [&str; 3] = ["none", "point", "segment"];
 
-const FIELDS: &str = "name class facing t feature contact hits_closed t_exact u_exact v_exact";
-const CONTACT_FIELDS: &str = "kind feature t";
+const FIELDS: [&str; 10] = [
+    "name",
+    "class",
+    "facing",
+    "t",
+    "feature",
+    "contact",
+    "hits_closed",
+    "t_exact",
+    "u_exact",
+    "v_exact",
+];
+const CONTACT_FIELDS: [&str; 3] = ["kind", "feature", "t"];
 
 /// The truth beside a case in a corpus file: the fields of [`TruthLine`] (or of its contact), any of them,
 /// in their order. Fractions are kept as [`TruthLine`] writes them.
@@ -38,20 +48,20 @@ impl StoredTruth {
     /// From its JSON. Unknown and duplicate fields, words that no truth has and what is no fraction
     /// are errors, which name the field.
     pub fn parse(text: &str) -> Result<StoredTruth, String> {
-        StoredTruth::read(text, FIELDS, |field, value| match field {
+        StoredTruth::read(text, &FIELDS, |field, value| match field {
             "name" => json::string(value).map(Stored::Text),
             "class" => word(value, &CLASSES),
             "facing" => word(value, &[Facing::Front, Facing::Back].map(Facing::name)),
             "t" => word(value, &Place::ALL.map(Place::name)),
             "feature" => word(value, &Feature::ALL.map(Feature::name)),
-            "contact" => StoredTruth::parse_contact(value.get()).map(Stored::Contact),
+            "contact" => StoredTruth::parse_contact(value).map(Stored::Contact),
             "hits_closed" => boolean(value).map(Stored::Flag),
             _ => fraction(value).map(Stored::Text),
         })
     }
 
     fn parse_contact(text: &str) -> Result<StoredTruth, String> {
-        StoredTruth::read(text, CONTACT_FIELDS, |field, value| match field {
+        StoredTruth::read(text, &CONTACT_FIELDS, |field, value| match field {
             "kind" => word(value, &CONTACT_KINDS),
             "feature" => word(value, &Feature::ALL.map(Feature::name)),
             _ => {
@@ -63,12 +73,12 @@ impl StoredTruth {
 
     fn read(
         text: &str,
-        known: &'static str,
-        read: impl Fn(&str, &RawValue) -> Result<Stored, String>,
+        known: &[&'static str],
+        read: impl Fn(&str, &str) -> Result<Stored, String>,
     ) -> Result<StoredTruth, String> {
         let object = Object::parse(text, known)?;
-        let stored = known.split(' ').filter_map(|field| {
-            let value = object.read(field, |value| match (value.get(), field) {
+        let stored = known.iter().filter_map(|&field| {
+            let value = object.read(field, |value| match (value, field) {
                 ("null", "class" | "kind") => Err("cannot be null".to_owned()),
                 ("null", _) => Ok(Stored::Null),
                 _ => read(field, value),
@@ -176,7 +186,7 @@ impl fmt::Display for Stored {
     }
 }
 
-fn word(value: &RawValue, known: &[&str]) -> Result<Stored, String> {
+fn word(value: &str, known: &[&str]) -> Result<Stored, String> {
     let text = json::string(value)?;
     if known.contains(&text.as_str()) {
         return Ok(Stored::Text(text));
@@ -184,14 +194,13 @@ fn word(value: &RawValue, known: &[&str]) -> Result<Stored, String> {
     Err(format!("{} is none of {}", json::quoted(&text), known.join(", ")))
 }
 
-fn boolean(value: &RawValue) -> Result<bool, String> {
-    let parsed = value.get().parse();
-    parsed
-        .map_err(|_| format!("expected true, false or null, found {}", json::excerpt(value.get())))
+fn boolean(value: &str) -> Result<bool, String> {
+    let parsed = value.parse();
+    parsed.map_err(|_| format!("expected true, false or null, found {}", json::excerpt(value)))
 }
 
 /// `p/q` or an integer, in a string; reduced.
-fn fraction(value: &RawValue) -> Result<String, String> {
+fn fraction(value: &str) -> Result<String, String> {
     let text = json::string(value)?;
     match parse_fraction(&text) {
         Some(fraction) => Ok(fraction_text(&fraction)),

@@ -24,6 +24,11 @@ impl<R: BufRead> TextLines<R> {
         TextLines { reader, file: file.to_owned(), longest, number: 0, inside: false, ended: false }
     }
 
+    /// How many lines were read.
+    pub fn lines_read(&self) -> usize {
+        self.number
+    }
+
     /// An error in the line that was read last.
     pub fn error(&self, message: impl Into<String>) -> InputError {
         InputError::at(&self.file, self.number, message)

@@ -46,9 +46,10 @@ pub struct ContactLine {
 }
 
 impl TruthLine {
-    /// The truth of a case and the numbers behind it. What `exact` leaves out is null.
-    pub fn new(name: Option<&str>, truth: &Truth, exact: &ExactValues) -> TruthLine {
+    /// The truth of a case, and the numbers behind it where they are asked for: what `exact` leaves out is null.
+    pub fn new(name: Option<&str>, truth: &Truth, exact: Option<&ExactValues>) -> TruthLine {
         let mut line = TruthLine::without_fractions(name, truth);
+        let Some(exact) = exact else { return line };
         let text = |value: &Option<BigRational>| Some(value.as_ref().map(fraction_text));
         (line.t_exact, line.u_exact, line.v_exact) =
             (text(&exact.t), text(&exact.u), text(&exact.v));
@@ -59,8 +60,13 @@ impl TruthLine {
         line
     }
 
-    /// The truth of a case.
-    pub fn without_fractions(name: Option<&str>, truth: &Truth) -> TruthLine {
+    /// The same without its numbers.
+    pub fn leave_out_fractions(&mut self) {
+        (self.t_exact, self.u_exact, self.v_exact) = (None, None, None);
+        self.contact.iter_mut().for_each(|contact| contact.t = None);
+    }
+
+    fn without_fractions(name: Option<&str>, truth: &Truth) -> TruthLine {
         let crossing = truth.crossing();
         let contact = match truth {
             Truth::Coplanar(contact) | Truth::Degenerate(contact) => Some(contact),
@@ -92,9 +98,8 @@ impl ContactLine {
     }
 }
 
-/// `p/q`, reduced, q > 0.
+/// `p/q` of a reduced fraction, q > 0.
 pub(crate) fn fraction_text(value: &BigRational) -> String {
-    let value = value.reduced();
     format!("{}/{}", value.numer(), value.denom())
 }
 
@@ -105,7 +110,7 @@ pub(super) mod tests {
     use std::cmp::Ordering;
 
     fn ratio(p: i64, q: i64) -> BigRational {
-        BigRational::new_raw(p.into(), q.into())
+        BigRational::new(p.into(), q.into())
     }
 
     /// At vertex a, u = 0, v = 3.
@@ -117,14 +122,14 @@ pub(super) mod tests {
             feature: Feature::VertexA,
         });
         let [t, u, v] = [ratio(6, -4), ratio(0, 7), ratio(3, 1)].map(Some);
-        TruthLine::new(Some("one"), &truth, &ExactValues { t, u, v, contact_t: None })
+        TruthLine::new(Some("one"), &truth, Some(&ExactValues { t, u, v, contact_t: None }))
     }
 
     /// In the plane, from t = 1/3 to 4.
     pub fn contact(kind: ContactKind) -> TruthLine {
         let truth = Truth::Coplanar(Contact { kind, meets_ray: true, meets_line: true });
         let contact_t = Some([ratio(1, 3), ratio(4, 1)]);
-        TruthLine::new(None, &truth, &ExactValues { contact_t, ..ExactValues::default() })
+        TruthLine::new(None, &truth, Some(&ExactValues { contact_t, ..ExactValues::default() }))
     }
 
     #[test]
@@ -136,7 +141,7 @@ pub(super) mod tests {
                 + r#""t_exact":"-3/2","u_exact":"0/1","v_exact":"3/1"}"#
         );
         let nulls = r#""t_exact":null,"u_exact":null,"v_exact":null}"#;
-        let invalid = TruthLine::new(None, &Truth::Invalid, &ExactValues::default());
+        let invalid = TruthLine::new(None, &Truth::Invalid, Some(&ExactValues::default()));
         assert_eq!(
             serde_json::to_string(&invalid).unwrap(),
             r#"{"name":null,"class":"invalid","facing":null,"t":null,"feature":null,"#.to_owned()

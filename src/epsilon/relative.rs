@@ -32,9 +32,11 @@ fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
     let length = if dimension == Dimension::new(1, -1) {
         [o, a, b, c].iter().fold(0.0f64, |most, v| most.max(v.abs().max_element()))
     } else {
-        [(a, b), (b, c), (c, a)].iter().fold(0.0f64, |most, (p, q)| most.max(p.distance(*q)))
+        let squares = [(a, b), (b, c), (c, a)].map(|(p, q)| p.distance_squared(q));
+        squares.into_iter().fold(0.0f64, f64::max).sqrt()
     };
-    let unit = length.powi(dimension.length.into()) * d.length().powi(dimension.direction.into());
+    let speed = if dimension.direction == 0 { 1.0 } else { d.length() };
+    let unit = length.powi(dimension.length.into()) * speed.powi(dimension.direction.into());
     let unit = F::from_f64(unit);
     if unit.is_finite() && F::zero() < unit { unit } else { F::from_f64(1.0) }
 }
@@ -46,10 +48,10 @@ pub fn scale_free_form(dimension: Dimension) -> Option<String> {
         1 => Some(format!(" * {base}")),
         n => Some(format!(" * {base}^{n}")),
     };
-    let Dimension { length, direction } = dimension;
-    if (length, direction) == (0, 0) {
+    if !dimension.has_unit() {
         return None;
     }
+    let Dimension { length, direction } = dimension;
     let base = if dimension == Dimension::new(1, -1) { "M" } else { "L" };
     let mut text = "e".to_owned();
     text.extend(power(base, length));

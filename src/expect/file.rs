@@ -128,7 +128,11 @@ impl Reader<'_> {
             Some(near) => format!("did you mean '{near}'?"),
             None => format!("expected one of {}", table.join(", ")),
         };
-        Err(self.error(&span, format!("unknown {what} '{text}': {advice}")))
+        let renamed = match what {
+            "kernel" => " (of a renamed kernel, replace the name here and in the lock file)",
+            _ => "",
+        };
+        Err(self.error(&span, format!("unknown {what} '{text}': {advice}{renamed}")))
     }
 
     fn check_kernel(&self, name: &Spanned<String>) -> Result<(), InputError> {

@@ -59,7 +59,7 @@ impl Known<'_> {
         }
         let lacking = match lock {
             None if expectations.lock.is_some() => format!("{file}.lock is of other cases"),
-            None => format!("{file}.lock is missing"),
+            None => format!("{file}.lock is missing (--bless writes it)"),
             Some(_) => format!("{file}.lock has no section of {target}"),
         };
         let note = match (cases, same_plan) {

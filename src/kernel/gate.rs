@@ -74,6 +74,11 @@ impl Dimension {
     pub const fn new(length: i8, direction: i8) -> Dimension {
         Dimension { length, direction }
     }
+
+    /// Whether a margin follows the size of anything.
+    pub fn has_unit(self) -> bool {
+        self != Dimension::new(0, 0)
+    }
 }
 
 named! {

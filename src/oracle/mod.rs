@@ -32,7 +32,8 @@ pub use rational::{Definition, define};
 
 use crate::arith::Float;
 use crate::case::Case;
-use crate::truth::Truth;
+use crate::truth::{ExactValues, Truth};
+use scaled::Scaled;
 use serde::{Deserialize, Serialize};
 use width::{Narrow, Wide};
 
@@ -125,6 +126,18 @@ pub fn truth_counted<F: Float>(case: &Case<F>, layers: &mut Layers) -> Truth {
             truth
         }
         None => behind_the_filter(case, layers),
+    }
+}
+
+/// The exact values behind a case's truth, as [`define`] gives them; of a crossing some ten times as fast.
+pub fn exact_values<F: Float>(case: &Case<F>, truth: &Truth) -> ExactValues {
+    match truth {
+        Truth::Transversal(_) => {
+            let [t, u, v] = Scaled::new(&case.widen()).crossing().map(Some);
+            ExactValues { t, u, v, contact_t: None }
+        }
+        Truth::Coplanar(_) | Truth::Degenerate(_) => define(case).exact,
+        Truth::Parallel | Truth::Invalid => ExactValues::default(),
     }
 }
 

@@ -10,6 +10,7 @@ use super::integer::{Interval, Number, Triple, align, cross, dot, minus};
 use crate::case::Case;
 use crate::truth::Truth;
 use num_bigint::BigInt;
+use num_rational::BigRational;
 use std::cmp::Ordering;
 
 /// A case's numbers as integers of any size.
@@ -32,16 +33,32 @@ impl Scaled {
 
     /// The sign of one determinant.
     pub fn sign(&self, determinant: Determinant) -> Ordering {
+        Number::sign(&self.value(determinant))
+    }
+
+    fn value(&self, determinant: Determinant) -> BigInt {
         let [a, b, c] = &self.vertices;
         let from_origin = |x, y| cross(&minus(x, &self.origin), &minus(y, &self.origin));
-        let value = match determinant {
+        match determinant {
             Determinant::Weight(0) => dot(&self.direction, &from_origin(c, b)),
             Determinant::Weight(1) => dot(&self.direction, &from_origin(a, c)),
             Determinant::Weight(_) => dot(&self.direction, &from_origin(b, a)),
             Determinant::D => self.capital_d(),
             Determinant::T => self.capital_t(),
-        };
-        Number::sign(&value)
+        }
+    }
+
+    /// t, u and v of a crossing, where D is not zero.
+    pub fn crossing(&self) -> [BigRational; 3] {
+        let d = self.capital_d();
+        let (mut t, mut over) = (self.capital_t(), d.clone());
+        if self.t_exponent >= 0 {
+            t <<= self.t_exponent
+        } else {
+            over <<= -self.t_exponent
+        }
+        let weight = |i| BigRational::new(-self.value(Determinant::Weight(i)), d.clone());
+        [BigRational::new(t, over), weight(1), weight(2)]
     }
 
     fn normal(&self) -> Triple<BigInt> {

@@ -4,7 +4,6 @@ use super::Points;
 use crate::arith::Float;
 use crate::case::AnyScalar;
 use crate::corpus::{case_json, json};
-use serde_json::value::RawValue;
 
 /// Points in the scalar that they were written for.
 pub type AnyPoints = AnyScalar<Points<f32>, Points<f64>>;
@@ -12,7 +11,7 @@ pub type AnyPoints = AnyScalar<Points<f32>, Points<f64>>;
 /// Three points of the plane or four of space from `{"scalar":"f64","points":[[x,y],...]}`; numbers as
 /// in the files of cases.
 pub fn parse(text: &str) -> Result<AnyPoints, String> {
-    let object = json::Object::parse(text, "scalar points")?;
+    let object = json::Object::parse(text, &["scalar", "points"])?;
     let (is_f32, points) = (object.is_f32()?, object.required("points")?);
     match is_f32 {
         true => parse_points(points).map(AnyPoints::F32),
@@ -25,19 +24,18 @@ pub fn is_points(text: &str) -> bool {
     json::pairs(text).is_ok_and(|fields| fields.iter().any(|(name, _)| name == "points"))
 }
 
-fn parse_points<F: Float>(value: &RawValue) -> Result<Points<F>, String> {
-    let count = serde_json::from_str::<Vec<&RawValue>>(value.get()).map(|points| points.len());
-    match count {
-        Ok(3) => Ok(Points::two(rows::<F, 3, 2>(value)?)),
-        Ok(4) => Ok(Points::three(rows::<F, 4, 3>(value)?)),
+fn parse_points<F: Float>(value: &str) -> Result<Points<F>, String> {
+    match json::elements(value).map(Iterator::count) {
+        Some(3) => Ok(Points::two(rows::<F, 3, 2>(value)?)),
+        Some(4) => Ok(Points::three(rows::<F, 4, 3>(value)?)),
         _ => Err(format!(
             "points: expected 3 points of 2 numbers or 4 of 3, found {}",
-            json::excerpt(value.get())
+            json::excerpt(value)
         )),
     }
 }
 
-fn rows<F: Float, const N: usize, const M: usize>(value: &RawValue) -> Result<[[F; M]; N], String> {
+fn rows<F: Float, const N: usize, const M: usize>(value: &str) -> Result<[[F; M]; N], String> {
     let mut rows = [[F::zero(); M]; N];
     let points = json::array::<N>(value, "points").map_err(|m| format!("points: {m}"))?;
     for (i, (row, point)) in rows.iter_mut().zip(points).enumerate() {

@@ -1,7 +1,7 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{Column, far, short_percent};
+use super::columns::{Column, far, is_shared_in_scene, short_percent};
 use super::lines::{Line, column_legend, write_wrapped};
 use super::pool::Pool;
 use super::rate::{percent, share_column};
@@ -90,6 +90,13 @@ fn write_line(
         }
         let results = column.results(&line.row);
         write!(out, "{:<first$}", column.label())?;
+        // There a neighbour may take a ray that a triangle leaves, so only cracks are wrong.
+        if results.iter().all(|result| is_shared_in_scene(&result.family)) {
+            let across = results.iter().filter_map(|result| result.across.as_ref());
+            let cracks = Pool::of(across.map(|across| &across.cracks));
+            writeln!(out, " {}  cracks", share_column(cracks.rate(), style))?;
+            continue;
+        }
         for (kind, rate) in [
             ("false-miss", (|total| &total.false_misses) as fn(&Counts) -> &Rate),
             ("false-hit", |total| &total.false_hits),
@@ -131,7 +138,7 @@ fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
         let words = across.words();
         writeln!(
             out,
-            "  of {of} crossings {cracks} % cracks and {doubles} % doubles; promised: {words}"
+            "  of {of} crossings {cracks} % cracks and {doubles} % doubles; promised across triangles: {words}"
         )?;
     }
     let polygons = |rate: fn(&PolygonPart) -> &Rate| {

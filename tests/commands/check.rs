@@ -259,9 +259,9 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
         "{out}"
     );
     assert!(out.contains("    an old bug\n") && out.contains("are stale: 0 unexpected"), "{out}");
-    assert!(
-        out.contains(&format!("{LOCK} is missing: counts by family are compared, not cases\n"))
-    );
+    assert!(out.contains(&format!(
+        "{LOCK} is missing (--bless writes it): counts by family are compared, not cases"
+    )));
     // An unexpected one beside it wins.
     let tiny = count_of(&fs::read_to_string(folder.join(FILE)).unwrap(), "tiny");
     edit(&folder, |text| text.replacen(&format!("tiny = {tiny}, "), "", 1));
@@ -370,7 +370,7 @@ fn another_seed_conforms_by_intervals_and_another_kernel_does_not() {
     forget_cases(&folder);
     let (out, _) = ends(&folder, &["check", "--quiet", "--seed", "5"], 1);
     assert!(out.contains(
-        "the counts of hairline.expectations.toml are of other cases: they are not used\n"
+        "the counts of hairline.expectations.toml are of other cases: they are not used; "
     ));
     assert!(out.contains(", 0 stale expectations, 0 known disagreements\n"), "{out}");
     // A row that has no entry is expected to be right.
@@ -439,7 +439,8 @@ fn bad_expectations_are_refused_with_their_line() {
     edit(&folder, |text| text.replacen("moller-trumbore", "moler-trumbore", 1));
     let (out, error) = ends(&folder, &["check", "--quiet"], 65);
     let expected = format!(
-        "hairline: {FILE}:{line}: unknown kernel 'moler-trumbore': did you mean 'moller-trumbore'?\n"
+        "hairline: {FILE}:{line}: unknown kernel 'moler-trumbore': did you mean 'moller-trumbore'? \
+         (of a renamed kernel, replace the name here and in the lock file)\n"
     );
     assert_eq!((out.as_str(), error), ("", expected));
 }

@@ -532,7 +532,7 @@ fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
         }
     }
     fs::write(folder.join("all.jsonl"), &all).unwrap();
-    // More lines than are decided at once; with fractions every line is decided by the definition.
+    // Several blocks of lines.
     let run = |arguments: &[&str]| text(&hairline_in(&folder, arguments, "").stdout);
     let (fast, exact) = (run(&["truth", "all.jsonl"]), run(&["truth", "--exact", "all.jsonl"]));
     assert!(5000 < fast.lines().count());

@@ -257,15 +257,19 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
         ends(&folder, &[&all[..], &["--scalar", "f32", "--max-error", most]].concat(), 0).0
     };
     let shown = screen("t=1e-3,point=0.01");
-    assert!(shown.contains("remain are off by at most 0.001 of t, 0.01 m of the point"), "{shown}");
+    assert!(
+        shown.contains("remain are off by at most 0.001 times t, 0.01 m in the point's place"),
+        "{shown}"
+    );
     assert!(
         shown.contains("\n  error of t, almost parallel ")
             && shown.contains("\n  error of point (m), at a"),
         "{shown}"
     );
     assert!(
-        screen("t=1e-12")
-            .contains("no fixed values at which 99 % of the hits are off by at most 1e-12 of t:")
+        screen("t=1e-12").contains(
+            "no fixed values at which 99 % of the hits are off by at most 1e-12 times t:"
+        )
     );
     let (_, error) = ends(&folder, &["epsilon", "--scene", "room", "--max-error", "t=0"], 2);
     assert!(error.contains("--max-error: t=0: not a number above 0"), "{error}");

@@ -78,7 +78,7 @@ fn where_no_line_is_good_the_screen_says_so() {
     assert!(lines[2].ends_with("% of the hits at a triangle"), "{far}");
     let only_t = study(&folder, "moller-trumbore", "city", &["--gate", "t_min"]);
     assert!(!only_t.contains("no numbers are good"), "{only_t}");
-    let why = "rays start up to 1e7 m away, where the numbers of f32 are 1 m apart: use f64, or bring scene and rays nearer to 0";
+    let why = "coordinates reach 1e7 m, where the numbers of f32 are 1 m apart: use f64, or bring scene and rays nearer to 0";
     assert_eq!(lines[3], why);
     assert!(!study(&folder, "moller-trumbore", "room", &[]).contains("no numbers are good"));
     let wide = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room,distance=1e7", "-q"];
@@ -105,7 +105,10 @@ fn what_no_scene_can_live_with_is_named_whatever_asked_for_it() {
     // An absolute number at the edges is too large for small triangles or too small for large ones.
     let plane = study(&folder, "plane-unit-normal", "cad-mm", &[]);
     assert!(plane.lines().nth(1).unwrap().starts_with("  use  parallel = "), "{plane}");
-    assert!(plane.contains("no numbers are good here: even these make false hits of "), "{plane}");
+    assert!(
+        plane.contains("no fixed numbers are good here: even these make false hits of "),
+        "{plane}"
+    );
     assert!(plane.contains("(edge 0.05 mm) are hit far beside them"), "{plane}");
     // In f64 some values are within all limits of `parallel`, but lose more hits than they keep out.
     let woop = ["epsilon", "--kernel", "woop-watertight", "--scene", "cad-mm", "-q", "-n", "4000"];

@@ -3,8 +3,9 @@
 use hairline::internals::arith::scale_by_power_of_two;
 use hairline::internals::audit::Unobserved;
 use hairline::internals::case::{Case, Parameters};
-use hairline::internals::family::{FAMILIES, find};
-use hairline::internals::oracle::{Layer, define, truth};
+use hairline::internals::family::{FAMILIES, Family, find};
+use hairline::internals::kernel::Scalar;
+use hairline::internals::oracle::{Layer, define, exact_values, truth};
 use hairline::internals::selfcheck::{
     self,
     Reference::{Definition, Integers},
@@ -49,6 +50,22 @@ fn families_agree_with_the_definition_and_with_integers_at_the_intervals_ends_to
             }
         }
     }
+}
+
+#[test]
+fn exact_values_are_those_of_the_definition() {
+    fn check<F: Scalar>(family: &Family) -> usize {
+        let sets = (0..60).map(|index| family.make::<F>(&Parameters::default(), 5, index));
+        let cases: Vec<_> = sets.flat_map(|made| made.cases().to_vec()).collect();
+        let values = cases.iter().filter(|case| {
+            let (found, defined) = (exact_values(case, &truth(case)), define(case).exact);
+            assert_eq!(found, defined, "{}", case.hex());
+            found.t.is_some()
+        });
+        values.count()
+    }
+    let crossings: usize = FAMILIES.iter().map(|row| check::<f32>(row) + check::<f64>(row)).sum();
+    assert!(crossings > 3000, "{crossings}");
 }
 
 #[test]

@@ -142,7 +142,17 @@ fn setting<'a>(
     scene: &'a Scene,
 ) -> Setting<'a, f32> {
     let subject = f32::subject(row.entry).unwrap();
-    Setting { row, subject, knobs, counts, scene, mesh: None, relative: false, fine_curves: false }
+    Setting {
+        row,
+        subject,
+        knobs,
+        counts,
+        scene,
+        mesh: None,
+        relative: false,
+        fine_curves: false,
+        store: None,
+    }
 }
 
 /// A case or group, and which of the counts it is for.

@@ -48,7 +48,7 @@ fn bad_scenes_say_what_was_expected() {
         ("extent=-1", "must be above 0"),
         ("center=nan", "not a finite number"),
         ("edge=0..1", "edge=0..1: must be above 0"),
-        ("edge=1..", "'' is not a finite number"),
+        ("edge=1..", "edge=1..: write both ends"),
         ("edge=0.5..0.25", "the range is empty"),
         ("edge=0.5..2", "the longest edge is at most the extent, 1"),
         ("distance=0", "not 0 alone"),

@@ -137,6 +137,7 @@ impl Run<'_> {
             mesh: self.studied.mesh.as_ref(),
             relative: false,
             fine_curves: self.fine_curves,
+            store: None,
         };
         let number = |flag: &str, text: &str| {
             let value = F::parse(text).filter(|value| value.is_finite());

@@ -13,7 +13,7 @@ use crate::kernel::{Dimension, Gate, Role, Scalar};
 /// The first indices of a set show the range.
 const PILOT: u64 = 2048;
 
-/// How far the range reaches beyond a hit that is too far off.
+/// How far the range reaches beyond what the pilot shows at an edge, of self-hits, and of hits that are too far off.
 const BEYOND: f64 = 100.0;
 
 /// The most values of a knob on each side of zero.
@@ -85,8 +85,11 @@ pub fn grid<F: Scalar>(
             }
             let cap = cap(*knob, gates, setting.scene);
             let size = margin.to_f64().abs().min(cap);
+            // Of a larger sample some are worse than those of the pilot.
+            let beyond = (BEYOND * size).min(cap);
             if margin < F::zero() && kind.is_wrong_if_refused() {
                 widen(&mut ranges.below[k], size);
+                widen(&mut ranges.below[k], beyond);
             }
             // No ray of a scene hits nearer than its least distance, so every other false hit nearer than that
             // would speak for a least t as large: for a property of these rays, and not of the kernel.
@@ -95,8 +98,7 @@ pub fn grid<F: Scalar>(
             if F::zero() < margin && is_refused && is_in_reach {
                 widen(&mut ranges.above[k], size);
                 if is_of_t || kind == Kind::Miss {
-                    // Of a larger sample some are worse than those of the pilot.
-                    widen(&mut ranges.above[k], (BEYOND * size).min(cap));
+                    widen(&mut ranges.above[k], beyond);
                 }
             }
         }

@@ -1,7 +1,8 @@
 //! All knobs together: the counts at every combination of some values, and the cheapest of them.
 
 use super::errors::{MaxError, errors_of};
-use super::trials::{Count, Kind, Margins, Setting, Trial};
+use super::knob::Margins;
+use super::trials::{Count, Kind, Setting, Trial};
 use crate::arith::Float;
 use crate::engine::{Merge, Observer};
 use crate::kernel::Scalar;

@@ -7,6 +7,9 @@ use crate::kernel::{Dimension, Gate, Role, Tunable};
 /// The most knobs of a study: it weighs them jointly.
 pub const MOST_KNOBS: usize = 3;
 
+/// The largest epsilon of each knob at which one triangle is accepted; +inf beyond the last knob.
+pub type Margins<F> = [F; MOST_KNOBS];
+
 /// One number that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Knob {

@@ -95,8 +95,7 @@ pub fn limits<F: Scalar>(
         for (k, c, is_lower, tail) in &mut tails.0 {
             if *c == trial.count {
                 let margin = alone(&trial, *k, epsilons);
-                // What the other knobs refuse is no loss of this one's.
-                if *is_lower || -F::infinity() < margin {
+                if *is_lower || is_own(&trial, *k, margin) {
                     tail.of += 1;
                     tail.add(margin, !*is_lower);
                 }
@@ -150,6 +149,13 @@ pub fn alone<F: Float>(trial: &Trial<'_, F>, knob: usize, epsilons: &[F]) -> F {
         }
     }
     most
+}
+
+/// Whether losing a trial at the largest value of a knob at which it is a hit would be the knob's doing: not where
+/// the others refuse each of its triangles, or the one that this knob keeps longest, as a least t does at an edge
+/// that is too near.
+pub(super) fn is_own<F: Float>(trial: &Trial<'_, F>, knob: usize, largest: F) -> bool {
+    -F::infinity() < largest && trial.margins.iter().all(|margins| margins[knob] <= largest)
 }
 
 /// The next number above another; above zero the next that no machine flushes to zero.

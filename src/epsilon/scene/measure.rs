@@ -1,45 +1,39 @@
 //! What epsilons do on some rays: wrong answers by their margins, the errors of the hits that remain, and
 //! whether the kernel's own runs agree.
 
-use super::super::axis::largest;
 use super::errors::{ErrorSums, MaxError, errors_of};
-use super::knob::Knob;
-use super::limits::Limit;
-use super::trials::{Count, Kind, Margins, Setting, Trial, accepts, is_unknown};
+use super::knob::{Knob, Margins};
+use super::limits::{Limit, alone, is_own};
+use super::trials::{Count, Kind, Setting, Trial, accepts, is_unknown};
 use crate::arith::Float;
 use crate::audit::Trials;
 use crate::case::Case;
 use crate::engine::{Merge, Observer};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
 
-/// Epsilons to try, and on which trials: all, or those that are hits at other epsilons.
+/// Epsilons to try, and on which trials.
 pub struct Attempt<F> {
     /// By knob.
     pub epsilons: Vec<F>,
-    /// Only trials that are hits here count.
-    pub among: Option<Vec<F>>,
+    /// If there is a knob, only those trials count whose loss is its own.
+    pub of_knob: Option<usize>,
 }
 
 impl<F: Float> Attempt<F> {
     /// On all trials.
     pub fn new(epsilons: Vec<F>) -> Attempt<F> {
-        Attempt { epsilons, among: None }
+        Attempt { epsilons, of_knob: None }
     }
 
-    /// A limit, where the other knobs stay; none if it has no value. What the others refuse is no loss
-    /// of this one's.
+    /// A limit, where the other knobs stay; none if it has no value.
     pub fn at_limit(limit: &Limit<F>, others: &[F]) -> Option<Attempt<F>> {
         Some(Attempt::alone(limit.knob, limit.value?, limit.is_lower, others))
     }
 
     pub(super) fn alone(knob: usize, value: F, is_lower: bool, others: &[F]) -> Attempt<F> {
-        let with = |value: F| {
-            let mut epsilons = others.to_vec();
-            epsilons[knob] = value;
-            epsilons
-        };
-        let among = (!is_lower).then(|| with(-largest::<F>()));
-        Attempt { epsilons: with(value), among }
+        let mut epsilons = others.to_vec();
+        epsilons[knob] = value;
+        Attempt { epsilons, of_knob: (!is_lower).then_some(knob) }
     }
 }
 
@@ -123,8 +117,9 @@ impl Wrong {
 
     fn add<F: Scalar>(&mut self, counts: &[Count], attempts: &[Attempt<F>], trial: &Trial<'_, F>) {
         let if_refused = counts[trial.count].kind.is_wrong_if_refused();
-        for (trials, Attempt { epsilons, among }) in self.trials.iter_mut().zip(attempts) {
-            if among.as_ref().is_some_and(|among| !trial.is_hit(among)) {
+        for (trials, Attempt { epsilons, of_knob }) in self.trials.iter_mut().zip(attempts) {
+            let is_others = |knob: usize| !is_own(trial, knob, alone(trial, knob, epsilons));
+            if of_knob.is_some_and(is_others) {
                 continue;
             }
             let is_wrong = trial.is_hit(epsilons) != if_refused;

@@ -13,6 +13,7 @@ mod joint;
 mod knob;
 mod limits;
 mod measure;
+mod prepared;
 mod proved;
 mod study;
 #[cfg(test)]
@@ -26,6 +27,9 @@ pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
 pub use limits::{Limit, limits};
 pub use measure::{Attempt, count_at};
+pub use prepared::Store;
 pub use proved::{Proved, proved};
-pub use study::{OnFresh, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons, study_scene};
+pub use study::{
+    OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons, study_scene,
+};
 pub use trials::{Count, Kind, Setting, StudiedScene, Trial, counts};

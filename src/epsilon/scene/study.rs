@@ -5,11 +5,12 @@ use super::candidates::{around, grid, of_values};
 use super::curves::{Curve, axes, curves};
 use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
-use super::knob::Knob;
+use super::knob::{Knob, Margins};
 use super::limits::{Limit, between, limits};
 use super::measure::{Attempt, OfHits, Wrong, differs, measure};
+use super::prepared::Store;
 use super::proved::{Proved, proved};
-use super::trials::{Kind, Margins, Setting};
+use super::trials::{Kind, Setting};
 use crate::audit::{Row, Trials};
 use crate::case::Case;
 use crate::engine::Observer;
@@ -71,6 +72,9 @@ pub fn fresh_seed(seed: u64) -> u64 {
     seed.wrapping_add(1)
 }
 
+/// What epsilons are called that follow each case's size.
+pub const SCALE_FREE: &str = "scale-free";
+
 /// A scale-free form is worth saying if it leaves less than this share of the cost.
 const WORTH_SAYING: f64 = 0.8;
 
@@ -85,6 +89,8 @@ pub fn study_scene<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Result<SceneStudy<F>, String> {
+    let store = Store::new();
+    let setting = &Setting { store: Some(&store), ..*setting };
     let (counts, fresh) = (setting.counts, fresh_seed(seed));
     let given: Vec<Vec<F>> = named.iter().map(|(_, epsilons)| epsilons.clone()).collect();
     let accurate = cheapest(setting, &given, costs, max_error, seed, count, observer);
@@ -92,6 +98,13 @@ pub fn study_scene<F: Scalar>(
     let best = accurate.or_else(|| cheapest(setting, &given, costs, None, seed, count, observer));
     let best = best.expect("without a limit of errors some point is the cheapest");
     let (best, found) = within_limits(setting, best, costs, max_error, seed, count, observer);
+    let following = Setting { relative: true, ..*setting };
+    let followed = cheapest(&following, &[], costs, max_error, seed, count, observer);
+    let followed = followed.map(|followed| {
+        let found = limits(&following, &followed, seed, count, observer);
+        (followed, found)
+    });
+    // The rays of this seed were passed over for the last time.
     let mut vectors = vec![("recommended".to_owned(), best.clone())];
     for (name, epsilons) in named {
         if !vectors.iter().any(|(_, known)| known == epsilons) {
@@ -152,16 +165,13 @@ pub fn study_scene<F: Scalar>(
     let of_vectors = vectors.into_iter().zip(wrong).zip(of_hits);
     let all: Vec<Tried<F>> =
         of_vectors.map(|((vector, wrong), of_hits)| tried(vector, wrong, of_hits)).collect();
-    let relative = Setting { relative: true, ..*setting };
-    let followed = cheapest(&relative, &[], costs, max_error, seed, count, observer);
     let (relative, relative_limits) = match followed {
-        Some(followed) => {
-            let found = limits(&relative, &followed, seed, count, observer);
+        Some((followed, found)) => {
             let attempt = [Attempt::new(followed.clone())];
             let no_run = |_: &[Case<F>], _: &[Margins<F>]| None;
             let mut sums =
-                measure(&relative, &attempt, 1, max_error, fresh, count, observer, no_run);
-            let vector = ("scale-free".to_owned(), followed);
+                measure(&following, &attempt, 1, max_error, fresh, count, observer, no_run);
+            let vector = (SCALE_FREE.to_owned(), followed);
             let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
             // Where no fixed values are accurate enough, a form that is needs no lower cost.
             let is_worth = |form: &Tried<F>| !is_accurate || form.cost < WORTH_SAYING * all[0].cost;

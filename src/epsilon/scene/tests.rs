@@ -8,8 +8,8 @@ use super::confidence::rank;
 use super::curves::curves;
 use super::errors::{HitErrors, errors_of};
 use super::joint::Grid;
+use super::knob::Margins;
 use super::study::within_limits;
-use super::trials::Margins;
 use super::*;
 use crate::arith::two_digits;
 use crate::audit::{EpsilonChoice, Histogram, Row, Unobserved};
@@ -62,6 +62,7 @@ impl Tuned {
             mesh: None,
             relative: false,
             fine_curves: false,
+            store: None,
         }
     }
 
@@ -183,8 +184,11 @@ fn limits_are_margins_of_their_rank() {
                     _ => continue,
                 };
                 let of = all.iter().filter(|kept| kept.count == c);
-                let mut margins: Vec<f32> = of.map(|kept| kept.alone(epsilons, k)).collect();
-                margins.retain(|m| is_lower || f32::NEG_INFINITY < *m);
+                // From above a loss counts that is this knob's: where all its triangles stay, it is a hit as long.
+                let none = vec![f32::NEG_INFINITY; epsilons.len()];
+                let of = of.map(|kept| (kept.alone(epsilons, k), kept.alone(&none, k)));
+                let of = of.filter(|(m, free)| is_lower || f32::NEG_INFINITY < *m && m == free);
+                let mut margins: Vec<f32> = of.map(|(margin, _)| margin).collect();
                 margins.sort_by(f32::total_cmp);
                 if is_lower {
                     margins.reverse();
@@ -246,7 +250,7 @@ fn a_grid_holds_round_numbers_over_the_margins_that_matter() {
                         continue;
                     }
                     if margin < 0.0 && tuned.is_lost(kept.count) {
-                        below.push(size);
+                        below.extend([size, (100.0 * size).min(most)]);
                     }
                     let (kind, is_miss) =
                         (tuned.counts[kept.count].kind, tuned.is_miss(kept.count));

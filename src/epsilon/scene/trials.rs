@@ -1,7 +1,8 @@
 //! What a kernel is tried on in a scene, and one pass over it.
 
 use super::super::relative::Scales;
-use super::knob::{Knob, MOST_KNOBS};
+use super::knob::{Knob, MOST_KNOBS, Margins};
+use super::prepared::{Prepared, Store};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary};
 use crate::case::{Case, Parameters, Scene};
@@ -12,7 +13,7 @@ use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// What can go wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -77,9 +78,6 @@ pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
     counted.map(|(stratum, kind, _)| Count { stratum, kind }).collect()
 }
 
-/// The largest epsilon of each knob at which one triangle is accepted; +inf beyond the last knob.
-pub type Margins<F> = [F; MOST_KNOBS];
-
 /// A scene to study.
 pub struct StudiedScene {
     /// In numbers.
@@ -91,7 +89,7 @@ pub struct StudiedScene {
 }
 
 /// What a pass runs: a kernel, its knobs and a scene.
-pub struct Setting<'a, F: 'static> {
+pub struct Setting<'a, F: Float> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.
     pub row: &'a Row,
     /// The same kernel in the scalar.
@@ -108,6 +106,8 @@ pub struct Setting<'a, F: 'static> {
     pub relative: bool,
     /// Curves are counted at every number of two digits.
     pub fine_curves: bool,
+    /// What keeps the rays of this kernel, its knobs and its scene between passes.
+    pub store: Option<&'a Store<F>>,
 }
 
 /// What happens once on each ray that counts for something.
@@ -168,12 +168,24 @@ impl<F: Scalar> Setting<'_, F> {
                 continue;
             }
             let source = self.source(stratum, seed, count);
-            let add = |sums: &mut S, indices| {
-                let mut summary = SourceSummary::new(0, F::NAME);
-                let chunk = Chunk::<F>::make(&source, indices, &Unobserved, &mut summary);
-                let (margins, values) = self.margins(&chunk.cases);
-                look(sums, &chunk.cases, &margins);
-                self.trials(&chunk, stratum, &margins, &values, |trial| add(sums, trial));
+            let add = |sums: &mut S, indices: Range<u64>| {
+                let place = (stratum, indices.start, indices.end);
+                let make = || self.prepare(&source, stratum, indices);
+                let part = match self.store {
+                    Some(store) => store.part(seed, place, make),
+                    None => Arc::new(make()),
+                };
+                let Prepared { cases, margins, relative, values, trials } = &*part;
+                let margins = match self.relative {
+                    true => relative.get_or_init(|| self.relative_margins(cases, margins)),
+                    false => margins,
+                };
+                look(sums, cases, margins);
+                for (count, range) in trials {
+                    let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
+                    let values = &values[range.clone()];
+                    add(sums, Trial { count: *count, margins, cases, values });
+                }
             };
             let indices = 0..source.count::<F>();
             total.merge(engine::sum(indices, source.chunk(), observer, &empty, add));
@@ -198,49 +210,43 @@ impl<F: Scalar> Setting<'_, F> {
         }
     }
 
-    fn trials(
-        &self,
-        chunk: &Chunk<F>,
-        stratum: Stratum,
-        margins: &[Margins<F>],
-        values: &[Option<Hit<F>>],
-        mut add: impl FnMut(Trial<'_, F>),
-    ) {
+    /// The cases of some indices, their margins, and the trials among them.
+    fn prepare(&self, source: &Source, stratum: Stratum, indices: Range<u64>) -> Prepared<F> {
+        let mut summary = SourceSummary::new(0, F::NAME);
+        let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
+        let (margins, values) = self.margins(&chunk.cases);
+        let mut trials = self.trials(&chunk, stratum);
+        trials.retain(|(_, range)| !margins[range.clone()].iter().any(is_unknown));
+        Prepared { cases: chunk.cases, margins, relative: OnceLock::new(), values, trials }
+    }
+
+    /// Which cases are a trial together, and of which count.
+    fn trials(&self, chunk: &Chunk<F>, stratum: Stratum) -> Vec<(usize, Range<usize>)> {
         let contract = &self.row.contract;
         let of =
             |kind: Kind| self.counts.iter().position(|count| *count == Count { stratum, kind });
-        let mut add_range = |count, range: Range<usize>| {
-            if margins[range.clone()].iter().any(is_unknown) {
-                return;
-            }
-            let (cases, values) = (&chunk.cases[range.clone()], &values[range.clone()]);
-            add(Trial { count, margins: &margins[range], cases, values });
-        };
         if let Some(count) = of(Kind::SelfHit) {
-            (0..chunk.cases.len()).for_each(|i| add_range(count, i..i + 1));
-        } else if let Some(count) = of(Kind::Crack) {
-            let groups = chunk.groups().zip(chunk.group_truths(contract));
-            for ((_, range), truth) in groups {
-                if truth == GroupTruth::Crossing {
-                    add_range(count, range);
-                }
-            }
-        } else {
-            let [misses, hits] = [of(Kind::Miss), of(Kind::Hit)];
-            let family = stratum.family();
-            for (i, obligation) in chunk.obligations(contract).into_iter().enumerate() {
-                let count = match obligation {
-                    // At a mesh not every parallel ray can be made exactly so.
-                    _ if !family.keeps(&chunk.truths[i..=i]) => None,
-                    Obligation::MustHit => misses,
-                    Obligation::MustMiss => hits,
-                    Obligation::Free => None,
-                };
-                if let Some(count) = count {
-                    add_range(count, i..i + 1);
-                }
-            }
+            return (0..chunk.cases.len()).map(|i| (count, i..i + 1)).collect();
         }
+        if let Some(count) = of(Kind::Crack) {
+            let groups = chunk.groups().zip(chunk.group_truths(contract));
+            let crossed = groups.filter(|(_, truth)| *truth == GroupTruth::Crossing);
+            return crossed.map(|((_, range), _)| (count, range)).collect();
+        }
+        let [misses, hits] = [of(Kind::Miss), of(Kind::Hit)];
+        let family = stratum.family();
+        let all = chunk.obligations(contract).into_iter().enumerate();
+        let counted = all.filter_map(|(i, obligation)| {
+            let count = match obligation {
+                // At a mesh not every parallel ray can be made exactly so.
+                _ if !family.keeps(&chunk.truths[i..=i]) => None,
+                Obligation::MustHit => misses,
+                Obligation::MustMiss => hits,
+                Obligation::Free => None,
+            };
+            Some((count?, i..i + 1))
+        });
+        counted.collect()
     }
 
     /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
@@ -252,11 +258,6 @@ impl<F: Scalar> Setting<'_, F> {
         let mut all = vec![F::zero(); cases.len() * gates.len()];
         let mut values = vec![None; cases.len()];
         self.subject.margins(info, cases, &mut all, &mut values);
-        let scales: Vec<Option<Scales<F>>> = self
-            .knobs
-            .iter()
-            .map(|knob| self.relative.then(|| Scales::new(cases, knob.dimension(gates))))
-            .collect();
         let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
         let of_case = |i: usize| {
             let row = &all[i * gates.len()..(i + 1) * gates.len()];
@@ -268,16 +269,29 @@ impl<F: Scalar> Setting<'_, F> {
             if refused {
                 return [-F::infinity(); MOST_KNOBS];
             }
-            for ((margin, knob), scales) in margins.iter_mut().zip(self.knobs).zip(&scales) {
-                let absolute = match knob {
+            for (margin, knob) in margins.iter_mut().zip(self.knobs) {
+                *margin = match knob {
                     Knob::Gate(gate) => row[*gate],
                     Knob::LeastT => t_of(values[i].as_ref()),
                 };
-                *margin = scales.as_ref().map_or(absolute, |s| s.relative(i, absolute));
             }
             margins
         };
         ((0..cases.len()).map(of_case).collect(), values)
+    }
+
+    /// Margins as multiples of each case's own size.
+    fn relative_margins(&self, cases: &[Case<F>], margins: &[Margins<F>]) -> Vec<Margins<F>> {
+        let mut relative = margins.to_vec();
+        for (k, knob) in self.knobs.iter().enumerate() {
+            let dimension = knob.dimension(self.row.entry.info.gates);
+            if dimension.has_unit() {
+                let scales = Scales::new(cases, dimension);
+                let all = relative.iter_mut().enumerate();
+                all.for_each(|(i, margins)| margins[k] = scales.relative(i, margins[k]));
+            }
+        }
+        relative
     }
 }
 

@@ -56,7 +56,8 @@ pub(super) struct LimitRow {
 pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
     let kernel = format!("{} {}", part.kernel, part.scalar);
     let title = match &record.mesh {
-        Some(MeshPart { file, triangles, .. }) => {
+        Some(MeshPart { path, triangles, .. }) => {
+            let file = path.rsplit('/').next().unwrap_or(path);
             format!("{kernel} in {file} ({})", number_of(*triangles, "triangle", "triangles"))
         }
         None => kernel,
@@ -304,24 +305,35 @@ fn next(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0].epsilons;
     let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
     let scene = preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned());
+    let scene = format!("--scene {scene}");
+    // A mesh has its own extent and edges.
+    let is_of_rays =
+        |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
+    let of_mesh = |mesh: &MeshPart| {
+        let words: Vec<&str> =
+            ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
+        format!("--mesh {} --scene {}", shell_word(&mesh.path), shell_word(&words.join(",")))
+    };
+    let (of_audit, of_spawn) = match &record.mesh {
+        None => (scene.clone(), scene),
+        Some(mesh) => (of_mesh(mesh), scene),
+    };
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
     let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
     let all: Vec<String> = chosen.map(|(gate, value)| format!("{gate}={value}")).collect();
     let with = if all.is_empty() { String::new() } else { format!(" --epsilon {}", all.join(",")) };
     let seed = record.fresh_seed;
-    let rest =
-        format!("{}{with} --scene {scene} --scalar {} --seed {seed}", part.selector, part.scalar);
-    let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
-    // Of a mesh only the file's name is known, which `audit` would need.
-    let audit = record.mesh.is_none().then_some("audit");
-    let commands = audit.into_iter().chain(has_t.then_some("spawn"));
+    let command = |name: &str, scene: &str, more: &str| {
+        let (kernel, scalar) = (&part.selector, &part.scalar);
+        format!("hairline {name} {kernel}{with} {scene} --scalar {scalar} --seed {seed}{more}")
+    };
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
     let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
-    let flags = |command| match command == "audit" && guards_start {
-        true => " --contract own,no-self-hit",
-        false => "",
-    };
-    commands.map(|command| format!("hairline {command} {rest}{}", flags(command))).collect()
+    let contract = if guards_start { " --contract own,no-self-hit" } else { "" };
+    let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
+    let stand_in = if record.mesh.is_some() { "  # triangles of the mesh's sizes" } else { "" };
+    let spawn = has_t.then(|| command("spawn", &of_spawn, stand_in));
+    [command("audit", &of_audit, contract)].into_iter().chain(spawn).collect()
 }
 
 /// Which angles almost parallel rays have.

@@ -31,7 +31,7 @@ pub fn scene_record(
         unit: (*unit).to_owned(),
         reach: reach(scene),
         mesh: mesh.as_ref().map(|mesh| mesh.surface()).map(|surface| MeshPart {
-            file: surface.file_name().to_owned(),
+            path: surface.path().to_owned(),
             digest: surface.mesh().digest.clone(),
             triangles: surface.mesh().triangles.len() as u64,
         }),

@@ -2,7 +2,7 @@
 
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
-use crate::epsilon::scene::{Costs, Kind};
+use crate::epsilon::scene::{Costs, Kind, SCALE_FREE};
 use crate::report::number_of;
 use crate::report::record::Rate;
 
@@ -35,10 +35,11 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
             }
         ));
     }
-    if !part.others.is_empty() {
-        let others = part.others.iter().map(|(gate, e)| format!("{gate}={e}"));
-        notes.push(format!("not chosen here: {}", others.collect::<Vec<_>>().join(", ")));
+    for (gate, e) in &part.others {
+        let instead = if gate == "t" { ": the least t is chosen in its place" } else { "" };
+        notes.push(format!("{gate}={e} is kept{instead}"));
     }
+    notes.extend(overweighed(record, part));
     match part.is_accurate {
         Some(false) => {
             let most = most_errors(record);
@@ -116,7 +117,31 @@ pub(super) fn no_good(
             "other weights (--cost) may help".to_owned(),
         ];
     }
+    let is_fixed = tried.name != SCALE_FREE;
+    let followed = part.relative.as_ref().filter(|_| is_fixed);
+    if followed.is_some_and(|followed| no_good(record, part, followed).is_empty()) {
+        return vec![format!("no fixed numbers are good here: even these {what}")];
+    }
     vec![format!("no numbers are good here: even these {what}"), instead(record, part, &count.kind)]
+}
+
+/// From this cost of a single wrong answer on, chance decides what is chosen.
+const HEAVY: f64 = 0.01;
+
+/// Of weights under which one wrong answer among so many rays decides: that they ask for more rays.
+fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+    let of_count = |(count, rate): (&CountPart, &Rate)| {
+        let cost = record.costs.iter().find(|cost| cost.name == count.kind)?;
+        (0 < rate.of).then(|| (cost.number / rate.of as f64, &cost.name))
+    };
+    let all = part.counts.iter().zip(&part.tried[0].wrong).filter_map(of_count);
+    let (cost, kind) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let is_heavy = HEAVY < cost && TOO_FEW <= record.count;
+    is_heavy.then(|| {
+        format!(
+            "a single {kind} among these rays costs {cost:.2}: such weights need more rays (-n)"
+        )
+    })
 }
 
 /// Whether the scalar's numbers are too far apart for the smallest triangles.
@@ -130,7 +155,7 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
     let is_narrow = part.scalar == "f32";
     if is_coarse(record, part) {
         return format!(
-            "rays start up to {:.0e}{unit} away, where the numbers of {} are {}{unit} apart: {}bring scene and rays nearer to 0",
+            "coordinates reach {:.0e}{unit}, where the numbers of {} are {}{unit} apart: {}bring scene and rays nearer to 0",
             record.reach,
             part.scalar,
             human(&format!("{:.0e}", part.spacing)),
@@ -199,8 +224,8 @@ fn most_errors(record: &SceneRecord) -> String {
     let words = record.max_error.iter().map(|NamedNumber { name, number }| {
         let most = human(&format!("{number:e}"));
         match name.as_str() {
-            "t" => format!("{most} of t"),
-            _ => format!("{most}{} of the point", spaced(&record.unit)),
+            "t" => format!("{most} times t"),
+            _ => format!("{most}{} in the point's place", spaced(&record.unit)),
         }
     });
     words.collect::<Vec<_>>().join(", ")

@@ -60,8 +60,8 @@ pub struct NamedNumber {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeshPart {
-    /// The file's name.
-    pub file: String,
+    /// The file, as it was named.
+    pub path: String,
     /// The digest in case ids.
     pub digest: String,
     /// How many triangles.

@@ -85,7 +85,7 @@ pub(super) fn meaning(
         ("t", [1, -1]) => {
             let here = match knob.is_gate {
                 true => String::new(),
-                false => format!(" (in --epsilon: {}={epsilon})", knob.name),
+                false => format!(" (to `hairline epsilon`: --epsilon {}={epsilon})", knob.name),
             };
             let least = format!("{}{}", human(epsilon), unit_of_t(record));
             Some(format!("nothing nearer than {least} is hit{here}"))
