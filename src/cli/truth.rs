@@ -118,7 +118,7 @@ fn decide(block: Block, file: &str, exact: bool) -> Decided {
     let mut decided = Decided::default();
     let reader = block.bytes.chain(BufReader::new(block.failure));
     let mut texts = TextLines::new(reader, file, LONGEST_LINE);
-    while let Some(text) = texts.next() {
+    for text in texts.by_ref() {
         let truth = text.and_then(|(number, text)| {
             let stored = lines::case_of(&text, number, file)?;
             line(&stored, exact).map_err(|message| InputError::at(file, number, message))

@@ -162,6 +162,36 @@ fn the_commands_that_are_named_run_and_know_what_a_gate_on_t_is_for() {
 }
 
 #[test]
+fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limits() {
+    let folder = scratch("advice-mesh");
+    let text = include_str!("../../corpora/meshes/far.obj");
+    fs::write(folder.join("far away.obj"), text).unwrap();
+    let words = ["epsilon", "--kernel", "moller-trumbore", "--mesh", "far away.obj", "-q"];
+    for seed in ["1", "2"] {
+        let rest = ["--scalar", "f64", "-n", "10000", "--seed", seed, "--format", "json"];
+        let (json, _) = ends(&folder, &[&words[..], &rest[..]].concat(), 0);
+        let record: SceneRecord = serde_json::from_str(&json).unwrap();
+        let part = &record.kernels[0];
+        let edge = part.knobs.iter().position(|knob| knob.name == "edge").unwrap();
+        let chosen: f64 = part.tried[0].epsilons[edge].parse().unwrap();
+        let limits = part.limits.iter().filter(|limit| limit.knob == edge);
+        let limits: Vec<f64> =
+            limits.map(|limit| limit.value.as_ref().unwrap().parse().unwrap()).collect();
+        // Rarer rays than the pilot's, which sets the range, need more.
+        assert!(limits.len() == 2 && limits.iter().all(|most| chosen < 3.0 * most), "{limits:?}");
+    }
+    let (screen, _) = ends(&folder, &[&words[..], &["--scalar", "f64", "-n", "4000"]].concat(), 0);
+    let more = screen.lines().find_map(|line| line.strip_prefix("more: hairline ")).unwrap();
+    let (from, to) = ("--mesh 'far away.obj' ", "--mesh far_away.obj ");
+    assert!(more.contains(from) && more.contains(" --scene mesh,distance=0.."), "{more}");
+    fs::rename(folder.join("far away.obj"), folder.join("far_away.obj")).unwrap();
+    let more = more.replace(from, to);
+    let words: Vec<&str> = more.split(' ').collect();
+    let (out, _) = ends(&folder, &[&words[..], &["-n", "4000", "-q"]].concat(), 0);
+    assert!(out.contains("7 sources") && out.contains("  cracks"), "{out}");
+}
+
+#[test]
 fn a_kernel_without_an_epsilon_at_its_edges_hears_what_its_cracks_cost() {
     let folder = scratch("advice-cracks");
     let screen = study(&folder, "havel-herout", "room", &[]);

@@ -196,6 +196,20 @@ mod tests {
     }
 
     #[test]
+    fn a_crack_that_is_a_hit_too_near_is_not_the_edges_own() {
+        // Of an edge and a least t: the triangle that is met, and its neighbour far beside it.
+        let (inf, no) = (f64::INFINITY, f64::NEG_INFINITY);
+        let margins = [[0.5, 1.0, inf], [-0.3, 9.0, inf], [no; 3]];
+        let trial = Trial { count: 0, margins: &margins, cases: &[], values: &[] };
+        let own = |least_t: f64| {
+            let largest = alone(&trial, 0, &[0.0, least_t, 0.0]);
+            (largest, is_own(&trial, 0, largest))
+        };
+        assert_eq!([own(0.0), own(1.0)], [(0.5, true); 2]);
+        assert_eq!([own(2.0), own(10.0)], [(-0.3, false), (no, false)]);
+    }
+
+    #[test]
     fn above_a_number_is_the_next_that_is_not_flushed() {
         let normal = f32::MIN_POSITIVE;
         for x in [1.0f32, -1.0, normal, normal.next_down(), -normal, -normal.next_down()] {

@@ -36,12 +36,13 @@ struct Kept<F: Float> {
     parts: BTreeMap<(Stratum, u64, u64), Arc<Prepared<F>>>,
 }
 
-impl<F: Float> Store<F> {
-    /// Of nothing yet.
-    pub fn new() -> Store<F> {
+impl<F: Float> Default for Store<F> {
+    fn default() -> Store<F> {
         Store(Mutex::new(Kept { seed: 0, cases: 0, parts: BTreeMap::new() }))
     }
+}
 
+impl<F: Float> Store<F> {
     /// The part of a seed at a place, which is made unless it is kept. Another seed's are dropped.
     pub(super) fn part(
         &self,

@@ -89,7 +89,7 @@ pub fn study_scene<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Result<SceneStudy<F>, String> {
-    let store = Store::new();
+    let store = Store::default();
     let setting = &Setting { store: Some(&store), ..*setting };
     let (counts, fresh) = (setting.counts, fresh_seed(seed));
     let given: Vec<Vec<F>> = named.iter().map(|(_, epsilons)| epsilons.clone()).collect();

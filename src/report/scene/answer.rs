@@ -1,12 +1,12 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
+use super::commands::commands;
 use super::notes::{accuracy, is_coarse, no_good, notes, tolerates};
 use super::record::*;
 use super::words::{
     bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
 };
-use crate::audit::shell_word;
-use crate::case::{Number, SCENES};
+use crate::case::Number;
 use crate::report::epsilon::{FLUSHED, is_subnormal};
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
@@ -71,7 +71,7 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         limits: limit_rows(record, part),
         conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
         prices: prices(record, part),
-        next: next(record, part),
+        next: commands(record, part),
     }
 }
 
@@ -298,42 +298,6 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
             is_dear.then(|| format!("{} {bound} {does} {} {whom}", knob.name, share(wrong)))
         };
     seen.chain(proved).filter_map(sentence).collect()
-}
-
-/// Commands that show more of what is recommended.
-fn next(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
-    let best = &part.tried[0].epsilons;
-    let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
-    let scene = preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned());
-    let scene = format!("--scene {scene}");
-    // A mesh has its own extent and edges.
-    let is_of_rays =
-        |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
-    let of_mesh = |mesh: &MeshPart| {
-        let words: Vec<&str> =
-            ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
-        format!("--mesh {} --scene {}", shell_word(&mesh.path), shell_word(&words.join(",")))
-    };
-    let (of_audit, of_spawn) = match &record.mesh {
-        None => (scene.clone(), scene),
-        Some(mesh) => (of_mesh(mesh), scene),
-    };
-    let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
-    let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
-    let all: Vec<String> = chosen.map(|(gate, value)| format!("{gate}={value}")).collect();
-    let with = if all.is_empty() { String::new() } else { format!(" --epsilon {}", all.join(",")) };
-    let seed = record.fresh_seed;
-    let command = |name: &str, scene: &str, more: &str| {
-        let (kernel, scalar) = (&part.selector, &part.scalar);
-        format!("hairline {name} {kernel}{with} {scene} --scalar {scalar} --seed {seed}{more}")
-    };
-    // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
-    let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
-    let contract = if guards_start { " --contract own,no-self-hit" } else { "" };
-    let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
-    let stand_in = if record.mesh.is_some() { "  # triangles of the mesh's sizes" } else { "" };
-    let spawn = has_t.then(|| command("spawn", &of_spawn, stand_in));
-    [command("audit", &of_audit, contract)].into_iter().chain(spawn).collect()
 }
 
 /// Which angles almost parallel rays have.

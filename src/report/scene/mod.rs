@@ -2,6 +2,7 @@
 
 mod answer;
 mod build;
+mod commands;
 mod csv;
 mod marks;
 mod notes;

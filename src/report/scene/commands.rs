@@ -1,0 +1,42 @@
+//! The commands that show more of what is recommended for a scene.
+
+use super::notes::is_coarse;
+use super::record::{MeshPart, SceneKernelPart, SceneRecord};
+use crate::audit::shell_word;
+use crate::case::SCENES;
+
+/// Commands that show more of what is recommended.
+pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+    let best = &part.tried[0].epsilons;
+    let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
+    let scene = preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned());
+    let scene = format!("--scene {scene}");
+    // A mesh has its own extent and edges.
+    let is_of_rays =
+        |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
+    let of_mesh = |mesh: &MeshPart| {
+        let words: Vec<&str> =
+            ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
+        format!("--mesh {} --scene {}", shell_word(&mesh.path), shell_word(&words.join(",")))
+    };
+    let (of_audit, of_spawn) = match &record.mesh {
+        None => (scene.clone(), scene),
+        Some(mesh) => (of_mesh(mesh), scene),
+    };
+    let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
+    let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
+    let all: Vec<String> = chosen.map(|(gate, value)| format!("{gate}={value}")).collect();
+    let with = if all.is_empty() { String::new() } else { format!(" --epsilon {}", all.join(",")) };
+    let seed = record.fresh_seed;
+    let command = |name: &str, scene: &str, more: &str| {
+        let (kernel, scalar) = (&part.selector, &part.scalar);
+        format!("hairline {name} {kernel}{with} {scene} --scalar {scalar} --seed {seed}{more}")
+    };
+    // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
+    let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
+    let contract = if guards_start { " --contract own,no-self-hit" } else { "" };
+    let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
+    let stand_in = if record.mesh.is_some() { "  # triangles of the mesh's sizes" } else { "" };
+    let spawn = has_t.then(|| command("spawn", &of_spawn, stand_in));
+    [command("audit", &of_audit, contract)].into_iter().chain(spawn).collect()
+}
