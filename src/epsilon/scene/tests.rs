@@ -8,6 +8,7 @@ use super::confidence::rank;
 use super::curves::curves;
 use super::errors::{HitErrors, errors_of};
 use super::joint::Grid;
+use super::limits::between;
 use super::study::within_limits;
 use super::trials::Margins;
 use super::*;
