@@ -1,6 +1,7 @@
 //! Cases at the thresholds of the oracle's layers: determinants no larger than the rounding errors of
-//! the arithmetic that they meet, products that underflow beside factors that make up for it, and
-//! numbers at the last bit of a grid. A bound that is too small gives a wrong sign on some of them.
+//! the arithmetic that they meet, products that underflow beside factors that make up for it, products that
+//! overflow though others outweigh them, and numbers at the last bit of a grid. A bound that is too small gives a
+//! wrong sign on some of them.
 
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, Draw};
@@ -10,12 +11,13 @@ type Vector = [f64; 3];
 /// Case `index` of a set.
 pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
     let mut draw = Draw::new("thresholds", seed, index);
-    let case = match index % 4 {
-        0 => underflowing(&mut draw),
-        1 => last_bits(&mut draw),
+    let case = match index % 16 {
+        3 => overflowing(&mut draw),
+        n if n % 4 == 0 => underflowing(&mut draw),
+        n if n % 4 == 1 => last_bits(&mut draw),
         _ => {
-            let case = cancelling(&mut draw);
-            scaled(&mut draw, &case)
+            let (case, bits) = cancelling(&mut draw);
+            scaled(&mut draw, &case, bits)
         }
     };
     let case = match draw.below(8) {
@@ -51,8 +53,8 @@ fn with_rows(
 }
 
 /// Three vectors on a grid of up to 53 bits, nearly in a plane (their determinant is about 2^-53), and
-/// half the time two of them also nearly parallel (2^-106): then double-doubles cannot tell it either.
-fn cancelling(draw: &mut Draw) -> Case<f64> {
+/// half the time two of them also nearly parallel (2^-106): then double-doubles cannot tell it either. And the bits.
+fn cancelling(draw: &mut Draw) -> (Case<f64>, i32) {
     let bits = draw.pick(&[20, 29, 40, 50, 53]);
     let one = (1i64 << bits) as f64;
     let grid = |draw: &mut Draw| -> Vector {
@@ -81,15 +83,16 @@ fn cancelling(draw: &mut Draw) -> Case<f64> {
     rows.rotate_left(draw.below(3));
     let base = if draw.coin() { [0.0; 3] } else { grid(draw) };
     let other = [grid(draw), grid(draw)];
-    with_rows(draw, rows, base, other)
+    (with_rows(draw, rows, base, other), bits)
 }
 
 /// A case whose axes, and then its direction, are multiplied by powers of two, which keeps all signs:
 /// to the ends of what the predicate of `robust` is used for, to where products of three coordinates
-/// overflow or underflow, and each axis by itself. As it was if a number leaves the range.
-fn scaled(draw: &mut Draw, case: &Case<f64>) -> Case<f64> {
+/// overflow or underflow, and each axis by itself, also such that the last of its bits is the smallest float,
+/// with or without a point that lies far off along it. As it was if a number leaves the range.
+fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
     let uniform = |draw: &mut Draw, low, high| [draw.integer(low, high) as i32; 3];
-    let by = match draw.below(6) {
+    let mut by = match draw.below(6) {
         0 => [0; 3],
         1 => [0; 3].map(|_| draw.integer(-60, 60) as i32),
         2 => uniform(draw, -345, -190),
@@ -99,10 +102,20 @@ fn scaled(draw: &mut Draw, case: &Case<f64>) -> Case<f64> {
     };
     let direction = draw.integer(-300, 300) as i32;
     let direction = draw.pick(&[0, 0, direction]);
+    let smallest = (draw.below(12) == 0).then(|| draw.below(3));
+    if let Some(axis) = smallest {
+        by = by.map(|power| power.clamp(-330, 330));
+        by[axis] = bits - 1074;
+    }
     let [o, d, vertices @ ..] = case.vectors();
     let position = |v: Vector| [0, 1, 2].map(|i| scale_by_power_of_two(v[i], by[i]));
     let d = position(d).map(|x| scale_by_power_of_two(x, direction));
-    let scaled = Case::new(position(o), d, vertices.map(position));
+    let mut points = [o, vertices[0], vertices[1], vertices[2]].map(position);
+    if let Some(axis) = smallest.filter(|_| draw.coin()) {
+        points[draw.below(4)][axis] = 1.0;
+    }
+    let [o, a, b, c] = points;
+    let scaled = Case::new(o, d, [a, b, c]);
     let is_finite = scaled.vectors().as_flattened().iter().all(|x| x.is_finite());
     if is_finite { scaled } else { *case }
 }
@@ -129,6 +142,21 @@ fn underflowing(draw: &mut Draw) -> Case<f64> {
     if let Some(axis) = none {
         f[axis] = 0.0;
     }
+    let other = [draw.point(), draw.point()];
+    with_rows(draw, [f, p, q], [0.0; 3], other)
+}
+
+/// A determinant f·(p×q) of which one product of f and p×q is beyond the largest float, while the other two together
+/// outweigh it: computed it is infinite and has the wrong sign.
+fn overflowing(draw: &mut Draw) -> Case<f64> {
+    let [p, q] = [0; 2].map(|_| [0; 3].map(|_| number(draw, 300)));
+    let beyond = draw.below(3);
+    let half = scale_by_power_of_two(draw.pick(&[1.0, -1.0]), 1023);
+    let f = [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let share = if i == beyond { 1.01 + 0.1 * draw.unit() } else { -0.6 - 0.3 * draw.unit() };
+        half / (p[j] * q[k] - p[k] * q[j]) * (2.0 * share)
+    });
     let other = [draw.point(), draw.point()];
     with_rows(draw, [f, p, q], [0.0; 3], other)
 }

@@ -238,11 +238,21 @@ mod tests {
                 Some(1e-7),
             ),
             (vec![low.clone(), limit(false, Some(1.0)), high.clone()], Some(5e-8)),
+            (
+                vec![high.clone(), limit(false, Some(1.0)), low.clone(), limit(true, Some(1e-12))],
+                Some(5e-8),
+            ),
             (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.3e-6))], Some(3.1e-6)),
             (vec![limit(true, Some(4e-6)), limit(false, Some(3.3e-6))], None),
             (vec![low.clone(), limit(false, None)], None),
             (vec![low.clone()], None),
-            (vec![limit(true, Some(f64::MIN_POSITIVE)), high.clone()], None),
+            (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.1e-6))], Some(3.1e-6)),
+            // Both are round, or one: the first that is nearest to the middle.
+            (vec![limit(true, Some(1e-6)), limit(false, Some(2e-6))], Some(1e-6)),
+            (vec![limit(true, Some(1.5e-6)), limit(false, Some(2e-6))], Some(2e-6)),
+            // Up to twice the least normal number is any above zero.
+            (vec![limit(true, Some(2.0 * f64::MIN_POSITIVE)), high.clone()], None),
+            (vec![limit(true, Some(3.0 * f64::MIN_POSITIVE)), high.clone()], Some(1e-152)),
         ] {
             assert_eq!(between(&limits, 2), [None, middle], "{limits:?}");
         }

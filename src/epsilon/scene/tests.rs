@@ -9,6 +9,7 @@ use super::curves::curves;
 use super::errors::{HitErrors, errors_of};
 use super::joint::Grid;
 use super::knob::Margins;
+use super::limits::between;
 use super::study::within_limits;
 use super::*;
 use crate::arith::two_digits;

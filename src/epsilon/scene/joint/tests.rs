@@ -174,23 +174,29 @@ fn expected(
     Some(places)
 }
 
+/// Some values of one to three knobs.
+fn axes(draw: &mut Draw) -> Vec<Vec<f32>> {
+    let axis = |draw: &mut Draw| {
+        let from = -(draw.below(5) as i64);
+        (from..from + 1 + draw.below(6) as i64).map(|x| x as f32).collect()
+    };
+    (0..1 + draw.below(3)).map(|_| axis(draw)).collect()
+}
+
+/// A hundredth more is within reach of what costs a hundredth.
+const COSTS: [[f64; 4]; 3] = [[10.0, 1.0, 1.0, 1.0], [1.0, 100.0, 1.0, 1.0], [1.0, 0.0, 0.01, 1.0]];
+
 #[test]
 fn the_best_point_is_the_cheapest_and_rather_zero_or_in_the_middle() {
     let mut draw = Draw::new("best", 1, 0);
     let (mut none, mut limited_count, mut zeros, mut moved) = (0, 0, 0, 0);
     for round in 0..1500 {
-        let axis = |draw: &mut Draw| {
-            let from = -(draw.below(5) as i64);
-            (from..from + 1 + draw.below(6) as i64).map(|x| x as f32).collect::<Vec<f32>>()
-        };
-        let mut values: Vec<Vec<f32>> = (0..1 + draw.below(3)).map(|_| axis(&mut draw)).collect();
+        let mut values = axes(&mut draw);
         if draw.coin() {
             values[0].iter_mut().for_each(|x| *x += 0.5);
         }
         let trials = Trials::random(&mut draw, &values);
-        // A hundredth more is within reach of what costs a hundredth.
-        let all = [[10.0, 1.0, 1.0, 1.0], [1.0, 100.0, 1.0, 1.0], [1.0, 0.0, 0.01, 1.0]];
-        let costs = Costs { of: draw.pick(&all) };
+        let costs = Costs { of: draw.pick(&COSTS) };
         let limited = draw.below(3) == 0;
         let joint = counted(&values, &trials, limited);
         let by_count = COUNTS.map(|count| costs.of(count.kind));
@@ -210,6 +216,51 @@ fn the_best_point_is_the_cheapest_and_rather_zero_or_in_the_middle() {
     assert!(
         20 < none && 100 < limited && 200 < zeros && 200 < moved,
         "{none} {limited} {zeros} {moved}"
+    );
+}
+
+#[test]
+fn a_point_moves_one_knob_after_the_other_where_that_costs_nothing_more() {
+    let mut draw = Draw::new("moved", 1, 0);
+    let (mut all_moved, mut some_stay, mut inaccurate) = (0, 0, 0);
+    for round in 0..1500 {
+        let values = axes(&mut draw);
+        let trials = Trials::random(&mut draw, &values);
+        let costs = Costs { of: draw.pick(&COSTS) };
+        let limited = draw.coin();
+        let by_count = COUNTS.map(|count| costs.of(count.kind));
+        let cost = |point: &[f32]| trials.cost(&by_count, point);
+        let is_accurate = |point: &[f32]| !limited || trials.is_accurate(point);
+        let from: Vec<f32> = values.iter().map(|values| draw.pick(values)).collect();
+        // 99 is none of the values: nothing is known of it.
+        let to = |values: &Vec<f32>| {
+            let other = draw.pick(values);
+            draw.pick(&[None, Some(other), Some(other), Some(99.0)])
+        };
+        let to: Vec<Option<f32>> = values.iter().map(to).collect();
+        let (mut expected, mut stayed) = (from.clone(), 0);
+        for (k, to) in to.iter().enumerate() {
+            let Some(value) = to.filter(|value| *value != 99.0) else { continue };
+            let mut next = expected.clone();
+            next[k] = value;
+            let is_kept = is_accurate(&next) || !is_accurate(&from);
+            inaccurate += u32::from(cost(&next) <= cost(&from) && !is_kept);
+            if cost(&next) <= cost(&from) && is_kept {
+                expected = next;
+            } else {
+                stayed += 1;
+            }
+        }
+        let joint = counted(&values, &trials, limited);
+        let found = joint.moved(&COUNTS, &costs, &from, &to);
+        all_moved += u32::from(expected != from && stayed == 0);
+        some_stay += u32::from(0 < stayed);
+        assert_eq!(found, Some(expected), "{round} {values:?} {from:?} {to:?} {:?}", trials.all);
+        assert_eq!(joint.moved(&COUNTS, &costs, &vec![99.0; from.len()], &to), None);
+    }
+    assert!(
+        100 < all_moved && 100 < some_stay && 2 < inaccurate,
+        "{all_moved} {some_stay} {inaccurate}"
     );
 }
 

@@ -128,6 +128,44 @@ fn a_study_tries_everything_on_fresh_rays() {
 }
 
 #[test]
+fn a_knob_moves_to_the_middle_of_its_limits_where_that_costs_nothing_more() {
+    let (costs, seed, number) = (Costs::default(), 8, 300);
+    let (mut moved, mut dearer) = (0, 0);
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let (setting, all) = (tuned.setting(), tuned.all(seed, number));
+        let of = |c: usize| all.iter().filter(move |kept| kept.count == c);
+        let cost = |point: &[f32]| -> f64 {
+            let of_count = |(c, count): (usize, &Count)| {
+                let wrong = of(c).filter(|kept| kept.is_hit(point) != tuned.is_lost(c)).count();
+                costs.of(count.kind) * (wrong as f64 / of(c).count().max(1) as f64)
+            };
+            tuned.counts.iter().enumerate().map(of_count).sum()
+        };
+        for factor in [0.0, 1e-4, 1.0, 1e3] {
+            let from: Vec<f32> = epsilons[..tuned.knobs.len()].iter().map(|x| x * factor).collect();
+            let middles = between(&limits(&setting, &from, seed, number, &Unobserved), from.len());
+            let mut expected = from.clone();
+            for (k, middle) in middles.into_iter().enumerate() {
+                let Some(middle) = middle.filter(|_| from[k] != 0.0) else { continue };
+                let mut next = expected.clone();
+                next[k] = middle;
+                match cost(&next) <= cost(&from) {
+                    true => expected = next,
+                    false => dearer += 1,
+                }
+            }
+            let (found, of_found) =
+                within_limits(&setting, from.clone(), &costs, None, seed, number, &Unobserved);
+            assert_eq!(found, expected, "{kernel} {from:?}");
+            assert_eq!(of_found, limits(&setting, &found, seed, number, &Unobserved));
+            moved += u32::from(found != from);
+        }
+    }
+    assert!(0 < moved && 0 < dearer, "{moved} {dearer}");
+}
+
+#[test]
 fn a_form_that_follows_the_size_is_named_if_it_is_a_fifth_cheaper() {
     for (kernel, scene, expected) in [
         ("plane-inside-out", "cad-mm", true),
