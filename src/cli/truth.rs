@@ -83,7 +83,8 @@ fn read_blocks(reader: &mut impl BufRead) -> Vec<Block> {
         // The rest of a line, unless it is too long for one.
         let mut rest = || reader.take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut bytes);
         let failure = start.and_then(|_| rest()).err();
-        let is_last = failure.is_some() || bytes.is_empty();
+        // At the end, where reading fails, and where a line is too long: that is said before more is read.
+        let is_last = bytes.last() != Some(&b'\n') || failure.is_some();
         if failure.is_some() || !bytes.is_empty() {
             blocks.push(Block { bytes, failure: Failing(failure) });
         }
