@@ -6,6 +6,7 @@ use super::trials::{Count, Kind, Setting, Trial};
 use crate::arith::Float;
 use crate::engine::{Merge, Observer};
 use crate::kernel::Scalar;
+use crate::suggest::nearest_name;
 
 /// What a wrong answer of each kind costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,11 @@ impl Costs {
             let (key, value) =
                 word.split_once('=').ok_or_else(|| format!("'{word}' is no cost: {expected}"))?;
             let kind = Kind::ALL.into_iter().find(|kind| kind.name() == key.trim());
-            let kind = kind.ok_or_else(|| format!("unknown kind '{key}': {expected}"))?;
+            let kind = kind.ok_or_else(|| {
+                let near = nearest_name(key.trim(), Kind::ALL.map(Kind::name));
+                let near = near.map_or(String::new(), |near| format!("did you mean '{near}'? "));
+                format!("unknown kind '{key}': {near}{expected}")
+            })?;
             if named.contains(&kind) {
                 return Err(format!("'{key}' is given twice"));
             }

@@ -29,8 +29,8 @@ pub(super) struct Answer {
     pub conflicts: Vec<[String; 2]>,
     /// Limits that cost much, a sentence each.
     pub prices: Vec<String>,
-    /// Commands that show more of what is recommended.
-    pub next: Vec<String>,
+    /// What the commands are of, and the commands that show more of it.
+    pub next: (&'static str, Vec<String>),
 }
 
 /// Epsilons to use.
@@ -71,7 +71,11 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         limits: limit_rows(record, part),
         conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
         prices: prices(record, part),
-        next: commands(record, part),
+        // No command runs a form that is no number.
+        next: match is_scale_free_better(record, part) {
+            true => ("more of the fixed numbers", commands(record, part)),
+            false => ("more", commands(record, part)),
+        },
     }
 }
 
@@ -85,15 +89,21 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
 }
 
 fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
-    let best = &part.tried[0];
     let fixed = Use { text: fixed(record, part), notes: notes(record, part) };
     let Some(relative) = &part.relative else { return vec![fixed] };
     let followed = scale_free(record, part, relative);
+    if is_scale_free_better(record, part) { vec![followed, fixed] } else { vec![fixed, followed] }
+}
+
+/// Whether epsilons that follow each triangle's size come first.
+fn is_scale_free_better(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+    let best = &part.tried[0];
     let is_good = |tried| no_good(record, part, tried).is_empty();
-    let is_better = relative.cost < DECISIVE * best.cost
-        || part.is_accurate == Some(false)
-        || is_good(relative) && !is_good(best);
-    if is_better { vec![followed, fixed] } else { vec![fixed, followed] }
+    part.relative.as_ref().is_some_and(|relative| {
+        relative.cost < DECISIVE * best.cost
+            || part.is_accurate == Some(false)
+            || is_good(relative) && !is_good(best)
+    })
 }
 
 /// Numbers to paste.

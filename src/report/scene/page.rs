@@ -102,8 +102,8 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
             }
             @for conflict in &answer.conflicts { p { (conflict.join(" ")) } }
             @for price in &answer.prices { p { (price) } }
-            @if !answer.next.is_empty() { p { "More:" } }
-            @for command in &answer.next { pre { (command) } }
+            @if !answer.next.1.is_empty() { p { (answer.next.0) ":" } }
+            @for command in &answer.next.1 { pre { (command) } }
             @for line in footer(record, part) { p.note { (line) } }
         }
     }

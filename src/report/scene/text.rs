@@ -26,8 +26,10 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
         }
         effects(record, &answer, out)?;
         limits(&answer, out)?;
-        for (i, command) in answer.next.iter().enumerate() {
-            writeln!(out, "{} {command}", if i == 0 { "more:" } else { "     " })?;
+        let (of, commands) = &answer.next;
+        for (i, command) in commands.iter().enumerate() {
+            let of = if i == 0 { format!("{of}:") } else { " ".repeat(of.len() + 1) };
+            writeln!(out, "{of} {command}")?;
         }
     }
     writeln!(out)?;

@@ -298,6 +298,7 @@ fn costs_are_words_between_commas() {
         ("", "is no cost"),
         ("crack", "is no cost"),
         ("cracks=1", "unknown kind"),
+        ("mis=3", "unknown kind 'mis': did you mean 'miss'? write crack=10,"),
         ("crack=nan", "not a number from 0"),
         ("crack=-1", "not a number from 0"),
         ("crack=1000000000.1", "not a number from 0"),
