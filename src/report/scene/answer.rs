@@ -274,6 +274,7 @@ fn conflict_lines(
         (_, _, "t") => {
             "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
         }
+        _ if part.scalar == "f64" => "no value is right for such rays beside these other numbers".to_owned(),
         _ => "no value is right for such rays: it takes wider numbers (f64) or another kernel"
             .to_owned(),
     };

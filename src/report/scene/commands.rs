@@ -3,7 +3,7 @@
 use super::notes::is_coarse;
 use super::record::{MeshPart, SceneKernelPart, SceneRecord};
 use crate::audit::shell_word;
-use crate::case::SCENES;
+use crate::case::{Number, SCENES};
 
 /// Commands that show more of what is recommended.
 pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
@@ -21,7 +21,7 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     };
     let (of_audit, of_spawn) = match &record.mesh {
         None => (scene.clone(), scene),
-        Some(mesh) => (of_mesh(mesh), scene),
+        Some(mesh) => (of_mesh(mesh), format!("--scene {}", shell_word(&stand_in(record)))),
     };
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
     let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
@@ -36,7 +36,16 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
     let contract = if guards_start { " --contract own,no-self-hit" } else { "" };
     let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
-    let stand_in = if record.mesh.is_some() { "  # triangles of the mesh's sizes" } else { "" };
-    let spawn = has_t.then(|| command("spawn", &of_spawn, stand_in));
+    let note = if record.mesh.is_some() { "  # other triangles of these sizes" } else { "" };
+    let spawn = has_t.then(|| command("spawn", &of_spawn, note));
     [command("audit", &of_audit, contract)].into_iter().chain(spawn).collect()
+}
+
+/// A scene of triangles as large as a mesh's, within its coordinates or at least their own longest edge.
+fn stand_in(record: &SceneRecord) -> String {
+    let word = |word: &str| match word.strip_prefix("extent=").map(str::parse::<f64>) {
+        Some(Ok(extent)) => format!("extent={}", Number(extent.max(record.edge[1]))),
+        _ => word.to_owned(),
+    };
+    record.scene.split(',').map(word).collect::<Vec<_>>().join(",")
 }
