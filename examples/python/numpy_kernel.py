@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Moller and Trumbore's test on numpy's columns, over hairline's binary encoding (docs/protocol.md): some hundred
+"""Moller and Trumbore's test on numpy's columns, over hairline's binary encoding (docs/protocol.md): some thirty
 times as fast as the text of moller_trumbore.py.
 
     hairline audit --kernel-cmd 'python3 numpy_kernel.py'
