@@ -96,6 +96,11 @@ impl KernelArguments {
         Ok((KernelArguments { epsilon, ..self.clone() }.rows()?, Some(value)))
     }
 
+    /// Whether one contract is given for all kernels.
+    pub fn names_contract(&self) -> bool {
+        self.contract.is_some()
+    }
+
     /// The rows for a command to which a band means nothing; an error with the reason if there is one.
     pub fn rows_without_band(&self, why: &str) -> Result<Vec<Row>, Failure> {
         let in_words = self.contract.as_ref().is_some_and(|words| words.contains("band="));
@@ -109,7 +114,7 @@ impl KernelArguments {
     pub fn of_predicate(&self) -> Result<(&[String], Option<&str>), Failure> {
         let of_kernels = [
             ("--epsilon-preset", self.epsilon_preset.is_some()),
-            ("--contract", self.contract.is_some()),
+            ("--contract", self.names_contract()),
             ("--band", self.band.is_some()),
             ("a kernel of your own", self.plugins.names_kernels()),
         ];

@@ -94,7 +94,9 @@ fn write_line(
         if results.iter().all(|result| is_shared_in_scene(&result.family)) {
             let across = results.iter().filter_map(|result| result.across.as_ref());
             let cracks = Pool::of(across.map(|across| &across.cracks));
-            writeln!(out, " {}  cracks", share_column(cracks.rate(), style))?;
+            let rate = cracks.rate();
+            let words = if rate.count == 0 { "no cracks" } else { "cracks" };
+            writeln!(out, " {}  {words}", share_column(rate, style))?;
             continue;
         }
         for (kind, rate) in [

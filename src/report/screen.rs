@@ -32,7 +32,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
             writeln!(out, "{scalar}: {ALL_INVALID}")?;
         }
     }
-    if record.result.plan.rows.len() <= MOST_CLOSE_UPS {
+    if is_close_up(record) {
         close_up::write(record, &columns, &lines, style, out)?;
     } else {
         write_cell_legend(&columns, &lines, out)?;
@@ -84,6 +84,11 @@ fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
         provenance.seconds,
         result.plan.hash,
     )
+}
+
+/// Whether there are so few kernels that each has a table of its own.
+fn is_close_up(record: &Record) -> bool {
+    record.result.plan.rows.len() <= MOST_CLOSE_UPS
 }
 
 /// How one row did in all scalars, in the columns of ordinary sizes.
@@ -147,16 +152,18 @@ fn write_answer(
         .filter(|column| !column.is_ordinary())
         .map(|column| column.label())
         .collect();
+    // Each is a row of a close-up.
+    let parts = if is_close_up(record) { "rows" } else { "columns" };
     let place = match &special[..] {
         [] => String::new(),
-        special => format!(" in ordinary sizes (all columns but {})", special.join(" and ")),
+        special => format!(" in ordinary sizes (all {parts} but {})", special.join(" and ")),
     };
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
     let mean = match &special[..] {
         _ if meant <= 1 => place.clone(),
-        [] => " (the mean of the columns)".to_owned(),
+        [] => format!(" (the mean of the {parts})"),
         special => {
-            format!(" in ordinary sizes (the mean of all columns but {})", special.join(" and "))
+            format!(" in ordinary sizes (the mean of all {parts} but {})", special.join(" and "))
         }
     };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);

@@ -31,15 +31,15 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     // The commands run, and what is recommended is less often wrong than what was published.
     let share = |command: &str| {
         let words: Vec<&str> = command.split_whitespace().skip(1).collect();
-        let (out, _) = ends(&folder, &[&words[..], &["-n", "4000", "-q"]].concat(), 0);
+        let (out, _) = ends(&folder, &[&words[..], &["-q"]].concat(), 0);
         let (_, rest) = out.split_once(" is wrong on ").unwrap_or_else(|| panic!("{out}"));
         rest.split(' ').next().unwrap().trim_start_matches('<').parse::<f64>().unwrap()
     };
     let audits: Vec<&&str> = lines.iter().filter(|line| line.starts_with("more: ")).collect();
     assert_eq!(audits.len(), 2, "{screen}");
     let audit = audits[0].strip_prefix("more: ").unwrap();
-    assert!(audit.ends_with(" --scene room --scalar f32 --seed 2"), "{audit}");
-    let published = "hairline audit --kernel moller-trumbore --scene room --scalar f32";
+    assert!(audit.ends_with(" --scene room --scalar f32 --seed 2 -n 4000"), "{audit}");
+    let published = "hairline audit --kernel moller-trumbore --scene room --scalar f32 -n 4000";
     assert!(5.0 * share(audit) < share(published), "{screen}");
     let mut spawns = lines.iter().filter(|line| line.starts_with("      hairline spawn "));
     let words: Vec<&str> = spawns.next_back().unwrap().split_whitespace().skip(1).collect();

@@ -123,10 +123,12 @@ fn a_limit_that_costs_plain_hits_says_how_many() {
     let screen = study(&folder, "moller-trumbore", "cad-mm", &["-n", "10000"]);
     let price = |line: &&str| line.starts_with("parallel >= ") && line.contains(" loses ");
     let line = screen.lines().find(price).unwrap_or_else(|| panic!("{screen}"));
-    // The kernel run at that value loses as many.
+    // The kernel run at that value loses as many, but for those that the least t refuses.
     let words: Vec<&str> = line.split(' ').collect();
     let [value, told] = [words[2], words[4].trim_end_matches('%')];
-    let epsilon = format!("parallel={value},edge=-1e-2");
+    let used = screen.lines().find_map(|line| line.strip_prefix("  use  --epsilon ")).unwrap();
+    let edge = used.split([',', ' ']).find(|word| word.starts_with("edge=")).unwrap();
+    let epsilon = format!("parallel={value},{edge}");
     let family = "extent=500,edge=0.05..200,distance=0..1000,direction=unit";
     let audit =
         ["audit", "--kernel", "moller-trumbore", "--scene", family, "--scalar", "f32", "-n"];
@@ -134,7 +136,7 @@ fn a_limit_that_costs_plain_hits_says_how_many() {
     let (out, _) = ends(&folder, &[&audit[..], &rest[..]].concat(), 0);
     let inside = out.lines().find(|line| line.starts_with("inside")).unwrap();
     let found: f64 = inside.split_whitespace().nth(1).unwrap().parse().unwrap();
-    assert!((found - told.parse::<f64>().unwrap()).abs() < 0.06, "{line}\n{out}");
+    assert!((found - told.parse::<f64>().unwrap()).abs() < 0.2, "{line}\n{out}");
     // Of three rays one loss is a large share, but shows nothing.
     let few = study(&folder, "moller-trumbore", "room", &["-n", "3", "--seed", "5"]);
     assert!(few.contains("from 3 rays") && !few.contains("no numbers are good"), "{few}");
@@ -145,9 +147,9 @@ fn the_commands_that_are_named_run_and_know_what_a_gate_on_t_is_for() {
     let folder = scratch("advice-more");
     let screen = study(&folder, "plane-unit-normal", "room", &[]);
     let more = screen.lines().find_map(|line| line.strip_prefix("more: hairline ")).unwrap();
-    assert!(more.ends_with(" --seed 2 --contract own,no-self-hit"), "{more}");
+    assert!(more.ends_with(" --seed 2 -n 4000 --contract own,no-self-hit"), "{more}");
     let words: Vec<&str> = more.split(' ').collect();
-    let (out, _) = ends(&folder, &[&words[..], &["-n", "4000", "-q"]].concat(), 0);
+    let (out, _) = ends(&folder, &[&words[..], &["-q"]].concat(), 0);
     // The hits on the triangle that a ray starts on are what t is there to refuse.
     let starts = out.lines().find(|line| line.starts_with("ends ")).unwrap();
     let share: f64 = starts.split_whitespace().nth(1).unwrap().parse().unwrap_or(0.0);
@@ -188,8 +190,8 @@ fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limit
     fs::rename(folder.join("far away.obj"), folder.join("far_away.obj")).unwrap();
     let more = more.replace(from, to);
     let words: Vec<&str> = more.split(' ').collect();
-    let (out, _) = ends(&folder, &[&words[..], &["-n", "4000", "-q"]].concat(), 0);
-    assert!(out.contains("7 sources") && out.contains("  cracks"), "{out}");
+    let (out, _) = ends(&folder, &[&words[..], &["-q"]].concat(), 0);
+    assert!(out.contains("7 sources") && out.contains(" cracks"), "{out}");
     // Triangles may be larger than the coordinates are; the stand-in for them runs all the same.
     fs::write(folder.join("quad.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
         .unwrap();
@@ -292,4 +294,28 @@ fn where_its_limits_meet_a_number_is_well_inside_them_under_every_seed() {
             }
         }
     }
+}
+
+#[test]
+fn a_mesh_that_is_too_small_for_the_scalar_hears_why() {
+    let folder = scratch("advice-tiny");
+    let text = "v 0 0 0\nv 1e-14 0 0\nv 0 1e-14 0\nv 1e-14 1e-14 2e-15\nf 1 2 3\nf 2 4 3\n";
+    fs::write(folder.join("tiny.obj"), text).unwrap();
+    let words = ["epsilon", "--kernel", "moller-trumbore", "--mesh", "tiny.obj", "-n", "2000"];
+    let (in_f32, _) = ends(&folder, &[&words[..], &["-q", "--scalar", "f32"]].concat(), 0);
+    let why =
+        "products of lengths such as 1.41e-14 are below the least numbers of f32: use f64 or a";
+    assert!(in_f32.contains("no numbers are good here") && in_f32.contains(why), "{in_f32}");
+    let (in_f64, _) = ends(&folder, &[&words[..], &["-q", "--scalar", "f64"]].concat(), 0);
+    assert!(!in_f64.contains("products of lengths"), "{in_f64}");
+}
+
+#[test]
+fn a_contract_for_a_scene_hears_what_is_taken_of_it() {
+    let folder = scratch("advice-contract");
+    let words = ["epsilon", "--kernel", "plucker", "--scalar", "f32", "-n", "100"];
+    let note = "of the contract a scene takes the side and where rays begin and end";
+    let (_, with) = ends(&folder, &[&words[..], &["--contract", "open-ray"]].concat(), 0);
+    let (_, without) = ends(&folder, &words, 0);
+    assert!(with.contains(note) && !without.contains(note), "{with} {without}");
 }

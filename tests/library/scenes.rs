@@ -229,7 +229,7 @@ fn no_point_of_a_small_grid_is_cheaper_than_the_recommended_one() {
         let all = all_counted(&setting, seed, number);
         for costs in ["crack=10", "crack=1,self-hit=30", "miss=0.01,hit=5"] {
             let costs = Costs::parse(costs).unwrap();
-            let best = cheapest(&setting, &[], &costs, None, seed, number, &Unobserved).unwrap();
+            let best = cheapest(&setting, &costs, None, seed, number, &Unobserved).unwrap();
             let cost = |epsilons: &[f32]| costs.total(&counts, shares(&setting, &all, epsilons));
             let least = cost(&best);
             let gates = row.entry.info.gates;
@@ -339,7 +339,7 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let costs = Costs::default();
     let (mut violated, mut claims) = (0, 0);
     for seed in 1..=runs {
-        let best = cheapest(&setting, &[], &costs, Some(&max_error), seed, number, &Unobserved);
+        let best = cheapest(&setting, &costs, Some(&max_error), seed, number, &Unobserved);
         // A sample may be too small to show it anywhere; then nothing is claimed.
         let Some(epsilon) = best.map(|best| best[0]) else { continue };
         claims += 1;
@@ -355,14 +355,14 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
         violated += u32::from(0.01 < share);
     }
     // The cheapest epsilon without a limit is another one, with larger errors.
-    gates[0] = cheapest(&setting, &[], &costs, None, 1, number, &Unobserved).unwrap()[0];
+    gates[0] = cheapest(&setting, &costs, None, 1, number, &Unobserved).unwrap()[0];
     let free: Vec<f64> = cases.iter().filter_map(|case| error_of_t(kernel, &gates, case)).collect();
     let larger = free.iter().filter(|error| most < **error).count();
     assert!(free.len() < 50 * larger, "{larger} of {}", free.len());
     // Of 100 seeds, 5 are expected at most; 12 or more happen once in 250 times then.
     assert!(violated < 12 && 95 < claims, "{violated} of {claims}: {known:?}");
     let none = MaxError::parse("t=1e-12").unwrap();
-    assert_eq!(cheapest(&setting, &[], &costs, Some(&none), 1, number, &Unobserved), None);
+    assert_eq!(cheapest(&setting, &costs, Some(&none), 1, number, &Unobserved), None);
 }
 
 #[test]

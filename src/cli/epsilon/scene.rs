@@ -65,6 +65,12 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         let words = "no --scene: in the preset `unit` (others: room, city, cad-mm, your own numbers, --mesh)";
         eprintln!("{words}; --gate varies one gate over families of cases");
     }
+    if !arguments.quiet && arguments.kernels.names_contract() {
+        let words = "of the contract a scene takes the side and where rays begin and end";
+        eprintln!(
+            "{words}; at shared edges and vertices it counts cracks, whatever the boundary is"
+        );
+    }
     arguments.warn_of_subnormals(&rows, scalars);
     let (seed, count) = arguments.sources.seed_and_count();
     let count = if is_count_given { count } else { COUNT };

@@ -19,8 +19,8 @@ const BEYOND: f64 = 100.0;
 /// The most values of a knob on each side of zero.
 const MOST_VALUES: usize = 60;
 
-/// The most points of a grid.
-const MOST_POINTS: usize = 300_000;
+/// The most points of the grid of a study.
+pub const MOST_POINTS: usize = 300_000;
 
 /// The largest size of a knob that means anything: a tolerance as large as the largest triangle, or the
 /// longest way.
@@ -56,11 +56,11 @@ impl Merge for Ranges {
     }
 }
 
-/// The grid of a setting: for each knob zero, the values given, and round numbers over the margins of what
-/// is to be refused and of what is lost. Also whether some round numbers were left out to keep it small.
+/// The grid of a setting: for each knob zero, and round numbers over the margins of what is to be refused and of
+/// what is lost. Also whether some round numbers were left out to keep it within so many points.
 pub fn grid<F: Scalar>(
     setting: &Setting<'_, F>,
-    given: &[Vec<F>],
+    most_points: usize,
     max_error: Option<&MaxError>,
     seed: u64,
     count: u64,
@@ -109,7 +109,6 @@ pub fn grid<F: Scalar>(
     loop {
         let of_knob = |(k, knob): (usize, &Knob)| {
             let mut values = vec![F::zero()];
-            values.extend(given.iter().map(|values| values[k]));
             let rounds = |range| rounds::<F>(range, step);
             values.extend(ranges.above[k].into_iter().flat_map(rounds));
             if knob.takes_negative(gates) {
@@ -119,7 +118,7 @@ pub fn grid<F: Scalar>(
         };
         let values: Vec<Vec<F>> = setting.knobs.iter().enumerate().map(of_knob).collect();
         let points: usize = values.iter().map(|values| values.len() + 1).product();
-        if points <= MOST_POINTS || step == 8 {
+        if points <= most_points || step == 8 {
             return (Grid::new(values), 0 < step);
         }
         step += 1;

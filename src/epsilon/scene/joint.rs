@@ -253,7 +253,8 @@ impl<F: Scalar> Joint<F> {
         Some(self.grid.point(&places))
     }
 
-    /// A point of the grid with one knob after the other at another of its values, where that costs nothing more.
+    /// A point of the grid with one knob after the other at another of its values, where that costs no more than
+    /// chance explains.
     pub fn moved(
         &self,
         counts: &[Count],
@@ -262,20 +263,39 @@ impl<F: Scalar> Joint<F> {
         to: &[Option<F>],
     ) -> Option<Vec<F>> {
         let place = |k: usize, wanted: F| self.grid.values[k].iter().position(|x| *x == wanted);
-        let cost = |places: &[usize]| costs.total(counts, self.shares(counts, places));
         let mut places: Vec<usize> =
             from.iter().enumerate().map(|(k, value)| place(k, *value)).collect::<Option<_>>()?;
-        let most = cost(&places);
+        let shares = self.shares(counts, &places);
         let must_be_accurate = self.is_accurate(counts, &places);
         for (k, value) in to.iter().enumerate() {
             let mut moved = places.clone();
             moved[k] = value.and_then(|value| place(k, value)).unwrap_or(places[k]);
             let is_accurate = !must_be_accurate || self.is_accurate(counts, &moved);
-            if is_accurate && cost(&moved) <= most {
+            if is_accurate && !self.is_surely_dearer(counts, costs, &moved, &shares) {
                 places = moved;
             }
         }
         Some(self.grid.point(&places))
+    }
+
+    /// Whether wrong answers cost more at a point than some shares of them do, by more than two standard deviations
+    /// of their difference. The same rays are wrong at both points but for those that make the difference.
+    fn is_surely_dearer(
+        &self,
+        counts: &[Count],
+        costs: &Costs,
+        places: &[usize],
+        shares: &[f64],
+    ) -> bool {
+        let (mut dearer, mut variance) = (0.0, 0.0);
+        let here = self.shares(counts, places);
+        let all = counts.iter().zip(&self.of).zip(here.iter().zip(shares));
+        for ((count, of), (share, other)) in all {
+            let (cost, more) = (costs.of(count.kind), share - other);
+            dearer += cost * more;
+            variance += cost * cost * more.abs() / (*of).max(1) as f64;
+        }
+        2.0 * variance.sqrt() < dearer
     }
 }
 

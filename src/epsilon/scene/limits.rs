@@ -58,20 +58,47 @@ impl<F: Float> Merge for Tails<F> {
     }
 }
 
+/// Whether a limit is by the rays beside a triangle. Such a limit is how near they pass, so it is no news; but an edge
+/// stands well between it and the cracks.
+fn is_beside(count: Count) -> bool {
+    count.stratum == Stratum::Outside
+}
+
 /// Whether a count limits a knob from below (true) or from above (false), if what it counts is what such a
-/// knob is chosen by. No limit comes from the rays beside a triangle: it would be how near they pass.
+/// knob is chosen by.
 fn side(role: Role, count: Count) -> Option<bool> {
     match (role, count.stratum, count.kind) {
         (Role::Parallel, Stratum::Grazing | Stratum::Parallel, Kind::Hit) => Some(true),
         (Role::T, Stratum::Shadow, Kind::SelfHit) => Some(true),
         (Role::Parallel | Role::T, Stratum::Interior, Kind::Miss) => Some(false),
         (Role::Edge | Role::Other, Stratum::Edges | Stratum::Vertices, Kind::Crack) => Some(false),
+        (Role::Edge | Role::Other, Stratum::Outside, Kind::Hit) => Some(true),
         _ => None,
     }
 }
 
-/// The limits of every knob around given epsilons.
+/// The limits of every knob around given epsilons that are worth saying.
 pub fn limits<F: Scalar>(
+    setting: &Setting<'_, F>,
+    epsilons: &[F],
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> Vec<Limit<F>> {
+    worth_saying(setting, all_limits(setting, epsilons, seed, count, observer))
+}
+
+/// Of limits those that say something of the kernel.
+pub fn worth_saying<F: Scalar>(
+    setting: &Setting<'_, F>,
+    mut limits: Vec<Limit<F>>,
+) -> Vec<Limit<F>> {
+    limits.retain(|limit| !is_beside(setting.counts[limit.count]));
+    limits
+}
+
+/// The limits of every knob around given epsilons, also those by the rays beside triangles.
+pub fn all_limits<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[F],
     seed: u64,
@@ -119,7 +146,7 @@ pub fn limits<F: Scalar>(
     tails.into_iter().filter_map(limit).collect()
 }
 
-/// By knob: a round number in the middle between its limits, if they meet and are above zero.
+/// By knob: a round number in the middle between its limits, if they meet on one side of zero.
 pub fn between<F: Float>(limits: &[Limit<F>], knobs: usize) -> Vec<Option<F>> {
     let between = |knob: usize| {
         let of_side = |is_lower: bool| {
@@ -131,6 +158,9 @@ pub fn between<F: Float>(limits: &[Limit<F>], knobs: usize) -> Vec<Option<F>> {
             values?.into_iter().reduce(stricter)
         };
         let (low, high) = (of_side(true)?, of_side(false)?);
+        if high < F::zero() {
+            return (low <= high).then(|| -middle(-high, -low));
+        }
         // The least normal number stands for any above zero.
         let is_limit = 2.0 * smallest_normal::<F>() < low.to_f64();
         (is_limit && low <= high).then(|| middle(low, high))
@@ -246,6 +276,12 @@ mod tests {
             (vec![limit(true, Some(4e-6)), limit(false, Some(3.3e-6))], None),
             (vec![low.clone(), limit(false, None)], None),
             (vec![low.clone()], None),
+            (vec![high.clone()], None),
+            // Below zero too, where 2.1e-4 is in the middle.
+            (vec![limit(true, Some(-6e-2)), limit(false, Some(-7.2e-7))], Some(-2e-4)),
+            (vec![limit(true, Some(-1e-4)), limit(false, Some(-8e-4))], None),
+            (vec![limit(true, Some(-1e-4)), limit(false, Some(8e-4))], None),
+            (vec![limit(true, Some(3e-9)), limit(false, Some(-7.2e-7))], None),
             (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.1e-6))], Some(3.1e-6)),
             // Both are round, or one: the first that is nearest to the middle.
             (vec![limit(true, Some(1e-6)), limit(false, Some(2e-6))], Some(1e-6)),

@@ -1,16 +1,16 @@
 //! A study of a scene: the cheapest epsilons together, how far each may move, and what both do on fresh
 //! rays.
 
-use super::candidates::{around, grid, of_values};
+use super::candidates::{MOST_POINTS, around, grid, of_values};
 use super::curves::{Curve, axes, curves};
 use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
 use super::knob::{Knob, Margins};
-use super::limits::{Limit, between, limits};
+use super::limits::{Limit, all_limits, between, limits, worth_saying};
 use super::measure::{Attempt, OfHits, Wrong, differs, measure};
 use super::prepared::Store;
 use super::proved::{Proved, proved};
-use super::trials::{Kind, Setting};
+use super::trials::{Count, Kind, Setting};
 use crate::audit::{Row, Trials};
 use crate::case::Case;
 use crate::engine::Observer;
@@ -78,7 +78,7 @@ pub const SCALE_FREE: &str = "scale-free";
 /// A scale-free form is worth saying if it leaves less than this share of the cost.
 const WORTH_SAYING: f64 = 0.8;
 
-/// Runs a study, which also weighs and tries epsilons with names. The error is a disagreement between
+/// Runs a study, which also tries epsilons with names. The error is a disagreement between
 /// margins and the kernel's own run: a fault of this tool.
 pub fn study_scene<F: Scalar>(
     setting: &Setting<'_, F>,
@@ -92,14 +92,13 @@ pub fn study_scene<F: Scalar>(
     let store = Store::default();
     let setting = &Setting { store: Some(&store), ..*setting };
     let (counts, fresh) = (setting.counts, fresh_seed(seed));
-    let given: Vec<Vec<F>> = named.iter().map(|(_, epsilons)| epsilons.clone()).collect();
-    let accurate = cheapest(setting, &given, costs, max_error, seed, count, observer);
+    let accurate = cheapest(setting, costs, max_error, seed, count, observer);
     let is_accurate = accurate.is_some();
-    let best = accurate.or_else(|| cheapest(setting, &given, costs, None, seed, count, observer));
+    let best = accurate.or_else(|| cheapest(setting, costs, None, seed, count, observer));
     let best = best.expect("without a limit of errors some point is the cheapest");
     let (best, found) = within_limits(setting, best, costs, max_error, seed, count, observer);
     let following = Setting { relative: true, ..*setting };
-    let followed = cheapest(&following, &[], costs, max_error, seed, count, observer);
+    let followed = cheapest(&following, costs, max_error, seed, count, observer);
     let followed = followed.map(|followed| {
         let found = limits(&following, &followed, seed, count, observer);
         (followed, found)
@@ -174,7 +173,10 @@ pub fn study_scene<F: Scalar>(
             let vector = (SCALE_FREE.to_owned(), followed);
             let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
             // Where no fixed values are accurate enough, a form that is needs no lower cost.
-            let is_worth = |form: &Tried<F>| !is_accurate || form.cost < WORTH_SAYING * all[0].cost;
+            let is_worth = |form: &Tried<F>| {
+                let is_cheaper = form.cost < WORTH_SAYING * all[0].cost;
+                !is_accurate || is_cheaper && is_beyond_chance(counts, costs, [form, &all[0]])
+            };
             (Some(relative).filter(is_worth), found)
         }
         None => (None, Vec::new()),
@@ -192,7 +194,7 @@ pub fn study_scene<F: Scalar>(
 }
 
 /// The cheapest epsilons with each knob that is not 0 and whose limits meet in the middle between them, where that
-/// costs nothing more; and the limits.
+/// costs no more than chance explains; and the limits.
 pub fn within_limits<F: Scalar>(
     setting: &Setting<'_, F>,
     best: Vec<F>,
@@ -202,8 +204,9 @@ pub fn within_limits<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> (Vec<F>, Vec<Limit<F>>) {
-    let found = limits(setting, &best, seed, count, observer);
-    let pairs = between(&found, best.len()).into_iter().zip(&best);
+    let all = all_limits(setting, &best, seed, count, observer);
+    let pairs = between(&all, best.len()).into_iter().zip(&best);
+    let found = worth_saying(setting, all);
     let middles: Vec<Option<F>> = pairs
         .map(|(middle, own)| middle.filter(|middle| !own.is_zero() && middle != own))
         .collect();
@@ -220,6 +223,17 @@ pub fn within_limits<F: Scalar>(
         }
         None => (best, found),
     }
+}
+
+/// Whether the costs of two epsilons differ by more than three standard deviations.
+fn is_beyond_chance<F>(counts: &[Count], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
+    let variance =
+        |wrong: &Trials| wrong.share().map_or(0.0, |share| share * (1.0 - share) / wrong.of as f64);
+    let of_count =
+        |(count, wrong): (&Count, &Trials)| costs.of(count.kind).powi(2) * variance(wrong);
+    let variances = tried.map(|tried| counts.iter().zip(&tried.wrong).map(of_count).sum::<f64>());
+    let [one, other] = tried.map(|tried| tried.cost);
+    3.0 * (variances[0] + variances[1]).sqrt() < (one - other).abs()
 }
 
 /// The count that shows what a bound of a knob costs: hits lost where it must be large, hits beside triangles
@@ -244,11 +258,10 @@ pub fn own_epsilons<F: Scalar>(row: &Row, knobs: &[Knob], least_t: F) -> Vec<F> 
     knobs.iter().map(own).collect()
 }
 
-/// The cheapest epsilons together, of the given ones and of round ones; none if at all of them too many of
-/// the hits that remain have too large errors.
+/// The cheapest round epsilons together; none if at all of them too many of the hits that remain have too large
+/// errors.
 pub fn cheapest<F: Scalar>(
     setting: &Setting<'_, F>,
-    given: &[Vec<F>],
     costs: &Costs,
     max_error: Option<&MaxError>,
     seed: u64,
@@ -259,7 +272,38 @@ pub fn cheapest<F: Scalar>(
         let joint = Joint::count(setting, grid, max_error, seed, count, observer);
         joint.best(setting.counts, costs)
     };
-    let (grid, is_thin) = grid(setting, given, max_error, seed, count, observer);
+    let (grid, is_thin) = grid(setting, MOST_POINTS, max_error, seed, count, observer);
     let found = best(grid)?;
     if is_thin { best(around(&found)) } else { Some(found) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_few_wrong_answers_are_no_difference() {
+        let counts = [
+            Count { stratum: Stratum::Edges, kind: Kind::Crack },
+            Count { stratum: Stratum::Interior, kind: Kind::Miss },
+        ];
+        let costs = Costs::default();
+        let tried = |cracks: u64, misses: u64| {
+            let wrong = vec![Trials::independent(cracks, 10_000), Trials::independent(misses, 500)];
+            let cost = 10.0 * cracks as f64 / 1e4 + misses as f64 / 500.0;
+            let (name, epsilons, errors) = (String::new(), vec![0.0f32], Vec::new());
+            Tried { name, epsilons, wrong, cost, errors, exceeded: Vec::new(), doubles: Vec::new() }
+        };
+        let is_beyond = |one: [u64; 2], other: [u64; 2]| {
+            let [one, other] = [one, other].map(|[cracks, misses]| tried(cracks, misses));
+            is_beyond_chance(&counts, &costs, [&one, &other])
+        };
+        // Of nothing and of n: n is three standard deviations from nothing at 9.
+        let from_nothing = [0, 1, 8, 10, 100].map(|cracks| is_beyond([0, 7], [cracks, 7]));
+        assert_eq!(from_nothing, [false, false, false, false, true]);
+        let alone = [0, 1, 8, 10, 100].map(|cracks| is_beyond([0, 0], [cracks, 0]));
+        assert_eq!(alone, [false, false, false, true, true]);
+        // By their cost one makes up for the other.
+        assert!(!is_beyond([100, 0], [0, 50]) && is_beyond([100, 0], [0, 0]));
+    }
 }

@@ -15,9 +15,11 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     let is_of_rays =
         |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
     let of_mesh = |mesh: &MeshPart| {
+        // Standard input was read once.
+        let path = if mesh.path == "-" { "FILE" } else { &mesh.path };
         let words: Vec<&str> =
             ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
-        format!("--mesh {} --scene {}", shell_word(&mesh.path), shell_word(&words.join(",")))
+        format!("--mesh {} --scene {}", shell_word(path), shell_word(&words.join(",")))
     };
     let (of_audit, of_spawn) = match &record.mesh {
         None => (scene.clone(), scene),
@@ -35,10 +37,11 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
     let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
     let contract = if guards_start { " --contract own,no-self-hit" } else { "" };
+    let same_rays = format!(" -n {}{contract}", record.count);
     let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
     let note = if record.mesh.is_some() { "  # other triangles of these sizes" } else { "" };
     let spawn = has_t.then(|| command("spawn", &of_spawn, note));
-    [command("audit", &of_audit, contract)].into_iter().chain(spawn).collect()
+    [command("audit", &of_audit, &same_rays)].into_iter().chain(spawn).collect()
 }
 
 /// A scene of triangles as large as a mesh's, within its coordinates or at least their own longest edge.

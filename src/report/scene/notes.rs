@@ -2,6 +2,7 @@
 
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
+use crate::case::Number;
 use crate::epsilon::scene::{Costs, Kind, SCALE_FREE};
 use crate::report::number_of;
 use crate::report::record::Rate;
@@ -149,10 +150,27 @@ pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     record.edge[0] < 32.0 * part.spacing
 }
 
+/// Whether products of three of the smallest triangle's lengths lose digits below the least normal number.
+fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+    let (least, epsilon) = match &*part.scalar {
+        "f32" => (f64::from(f32::MIN_POSITIVE), f64::from(f32::EPSILON)),
+        _ => (f64::MIN_POSITIVE, f64::EPSILON),
+    };
+    record.edge[0].powi(3) * epsilon < least
+}
+
 /// What helps where no numbers are good.
 fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
     let unit = spaced(&record.unit);
     let is_narrow = part.scalar == "f32";
+    if is_tiny(record, part) {
+        return format!(
+            "products of lengths such as {}{unit} are below the least numbers of {}: use {}a smaller unit of length",
+            Number(record.edge[0]),
+            part.scalar,
+            if is_narrow { "f64 or " } else { "" }
+        );
+    }
     if is_coarse(record, part) {
         return format!(
             "coordinates reach {:.0e}{unit}, where the numbers of {} are {}{unit} apart: {}bring scene and rays nearer to 0",
