@@ -243,6 +243,11 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
         expected: entry.map_or("none".to_owned(), |entry| {
             describe(&entry.amount, rate, found.and_then(|found| found.digest))
         }),
+        expected_count: match entry.map(|entry| &entry.amount) {
+            None => Some(0),
+            Some(Amount::Count { count, .. }) => Some(*count),
+            Some(Amount::Rate(_)) => None,
+        },
         found: rate.clone(),
         line: entry.map(|entry| entry.line),
         case: example.as_ref().map(|example| example.case.clone()),

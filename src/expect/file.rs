@@ -88,6 +88,9 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
     Ok(Expectations { cases, sources, scene, entries, lock: None })
 }
 
+/// What to do where a kernel was renamed.
+const RENAMED: &str = " (of a renamed kernel, replace the name here and in the lock file)";
+
 struct Reader<'a> {
     text: &'a str,
     file: &'a str,
@@ -128,10 +131,7 @@ impl Reader<'_> {
             Some(near) => format!("did you mean '{near}'?"),
             None => format!("expected one of {}", table.join(", ")),
         };
-        let renamed = match what {
-            "kernel" => " (of a renamed kernel, replace the name here and in the lock file)",
-            _ => "",
-        };
+        let renamed = if what == "kernel" { RENAMED } else { "" };
         Err(self.error(&span, format!("unknown {what} '{text}': {advice}{renamed}")))
     }
 
@@ -143,7 +143,7 @@ impl Reader<'_> {
         let kernels: Vec<&str> = kernel::all().iter().map(|entry| entry.info.name).collect();
         if nearest_name(kernel, kernels.iter().copied()).is_none() {
             let message = format!(
-                "unknown kernel '{kernel}': see `hairline list kernels`; one of your own is known by its --kernel-lib or --kernel-cmd"
+                "unknown kernel '{kernel}': see `hairline list kernels`; one of your own is known by its --kernel-lib or --kernel-cmd{RENAMED}"
             );
             return Err(self.error(&name.span(), message));
         }

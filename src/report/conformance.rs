@@ -208,6 +208,9 @@ pub struct Deviation {
     pub finding: String,
     /// What was expected, in words.
     pub expected: String,
+    /// How many cases were expected; none where a share was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected_count: Option<u64>,
     /// How often it happened.
     pub found: Rate,
     /// The line of the expectation.

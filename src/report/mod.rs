@@ -26,6 +26,7 @@ mod lines;
 mod markdown;
 #[cfg(feature = "studies")]
 pub mod mesh;
+mod net;
 mod next;
 mod pool;
 mod rate;

@@ -1,10 +1,16 @@
 //! The conformance part of a record as text for people.
 
+use super::disagreement::ALL_CLASSES;
+use super::net::net_lines;
 use super::{Conformance, Deviation, Method, Record, Style, group_digits};
 use std::io::{self, Write};
 
 /// The most deviations of a kind that the text lists without `--details`.
-const MOST_LISTED: usize = 50;
+const MOST_LISTED: usize = 10;
+
+/// What the words of a class are.
+const CLASSES: &str = "of interior/back/within: where the line meets the triangle, which side it comes from, where on the \
+                       ray (within, before its start, beyond its end)";
 
 /// Writes what `check` has to say; the tables are for `--details`.
 pub(super) fn write(
@@ -16,6 +22,10 @@ pub(super) fn write(
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     let how = match (conformance.method, &conformance.expectations) {
         (_, None) => "nothing is expected: there is no file of expectations".to_owned(),
+        // Without the cases of the lock file.
+        (Method::CaseByCase, Some(file)) if is_by_family(conformance) => {
+            format!("compared with the counts of {file}")
+        }
         (Method::CaseByCase, Some(file)) => format!("compared case by case with {file}"),
         (Method::Intervals, Some(file)) => format!(
             "compared by intervals with {file}, which is of other cases (it has {} entries)",
@@ -49,6 +59,11 @@ pub(super) fn write(
     for unproved in &conformance.unproved {
         writeln!(out, "{unproved}\n    {}", unproved.command)?;
     }
+    let net = net_lines(conformance);
+    if !net.is_empty() {
+        writeln!(out, "\n{bold}What changed, in cases{plain}")?;
+    }
+    net.iter().try_for_each(|line| writeln!(out, "{line}"))?;
     for (title, list) in [
         ("Unexpected disagreements", &conformance.unexpected),
         (
@@ -62,26 +77,39 @@ pub(super) fn write(
         writeln!(out, "\n{bold}{title}{plain}")?;
         let most = if style.details { list.len() } else { MOST_LISTED };
         for found in list.iter().take(most) {
-            write_deviation(conformance, found, out)?;
+            write_deviation(conformance, found, style, out)?;
         }
         if most < list.len() {
             let more = group_digits((list.len() - most) as u64);
             writeln!(out, "and {more} more (--details lists all)")?;
         }
     }
+    let all = conformance.unexpected.iter().chain(&conformance.stale);
+    if all.clone().any(|found| found.class.contains('/')) {
+        writeln!(out, "\n{CLASSES}")?;
+    }
     writeln!(out, "{bold}{}{plain}", conformance.summary())
+}
+
+/// Whether all that is compared is of a family and not of a class.
+fn is_by_family(conformance: &Conformance) -> bool {
+    let Conformance { unexpected, stale, known, .. } = conformance;
+    let mut all = unexpected.iter().chain(stale).chain(known).peekable();
+    all.peek().is_some() && all.all(|found| found.class == ALL_CLASSES)
 }
 
 fn write_deviation(
     conformance: &Conformance,
     found: &Deviation,
+    style: Style,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     if let (Some(file), Some(line)) = (&conformance.expectations, found.line) {
         write!(out, "{file}:{line}: ")?;
     }
     writeln!(out, "{}", found.describe())?;
-    for line in [&found.why, &found.command, &found.bits].into_iter().flatten() {
+    let bits = found.bits.as_ref().filter(|_| style.details);
+    for line in [found.why.as_ref(), found.command.as_ref(), bits].into_iter().flatten() {
         writeln!(out, "    {line}")?;
     }
     Ok(())

@@ -91,11 +91,14 @@ fn without_expectations_every_disagreement_fails_and_names_its_case_and_command(
          hairline.expectations.toml.lock; commit both\n",
         "moller-trumbore (source) f32 tiny: false-miss of interior/front/within: ",
         ", expected none\n    hairline explain 'tiny@1/f32/-/1/",
-        "\n    o=",
+        "\nof interior/back/within: where the line meets the triangle, ",
         "does not conform: ",
     ] {
         assert!(out.contains(expected), "{expected}: {out}");
     }
+    // The bits are for those who want all.
+    let (details, _) = ends(&folder, &["check", "--quiet", "--details"], 1);
+    assert!(!out.contains("\n    o=") && details.contains("\n    o="), "{details}");
     assert!(!folder.join(FILE).exists());
 }
 
@@ -198,6 +201,11 @@ fn a_target_without_cases_is_compared_by_counts_and_blesses_its_own() {
     edit(&folder, |text| text.replacen(&of_people, &with_more, 1));
     let (out, _) = ends(&folder, &["check", "--quiet"], 3);
     assert!(out.contains("are stale: 0 unexpected disagreements, 1 stale"), "{out}");
+    let by_counts = format!("compared with the counts of {FILE}\n");
+    assert!(out.contains(&by_counts) && !out.contains("case by case"), "{out}");
+    let net =
+        "\nWhat changed, in cases\nmoller-trumbore (source) f32: false-miss -1 (edge-near -1)\n";
+    assert!(out.contains(net), "{out}");
     let reviewed = fs::read_to_string(folder.join(FILE)).unwrap();
     let (_, said) = ends(&folder, &["check", "--bless"], 0);
     assert!(said.contains("(1 better, 0 worse, 0 new, 0 of other cases, "), "{said}");

@@ -250,4 +250,4 @@ fn foot(record: &Record) -> Markup {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
