@@ -9,8 +9,8 @@ use crate::corpus::shapes::{self, POLYGONS_OBJ};
 use crate::corpus::text_lines::TextLines;
 use crate::corpus::{InputError, hex};
 use crate::kernel::Scalar;
+use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use std::io::BufRead;
 
 /// A line of a manifest.
@@ -103,7 +103,7 @@ fn set_digest<F: Scalar>(
     seed: u64,
     count: u64,
 ) -> String {
-    let mut hash = Sha256::new();
+    let mut hash = Hash::new();
     for index in 0..count {
         for case in family.make::<F>(parameters, seed, index).cases() {
             case.bits().iter().for_each(|bits| hash.update(bits.to_le_bytes()));
@@ -113,7 +113,7 @@ fn set_digest<F: Scalar>(
 }
 
 fn digest_of(bytes: &[u8]) -> String {
-    hex(&Sha256::digest(bytes))
+    hex(&Hash::hash(bytes))
 }
 
 /// The lines of a manifest. Blank lines are skipped.

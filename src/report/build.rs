@@ -13,8 +13,8 @@ use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, Role, Scalar};
+use hmac_sha256::Hash;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
 /// What a record says beside the sums.
@@ -71,7 +71,7 @@ pub(super) fn plan_part(plan: &Plan) -> PlanPart {
         scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
     };
     let text = serde_json::to_string(&part).unwrap_or_default();
-    part.hash = hex(&Sha256::digest(text.as_bytes())[..8]);
+    part.hash = hex(&Hash::hash(text.as_bytes())[..8]);
     part
 }
 
@@ -79,7 +79,7 @@ impl PlanPart {
     /// Of what chooses the cases, which are the same for any kernels, epsilons and contracts.
     pub fn hash_of_cases(&self) -> String {
         let text = serde_json::to_string(&self.sources).unwrap_or_default();
-        hex(&Sha256::digest(text.as_bytes())[..8])
+        hex(&Hash::hash(text.as_bytes())[..8])
     }
 }
 
@@ -97,7 +97,7 @@ pub(super) fn planned_source(source: &Source) -> PlannedSource {
 
 /// Of the stored cases and their names: another file of the same name is another plan.
 fn corpus_digest(set: &CorpusSet) -> String {
-    let mut digest = Sha256::new();
+    let mut digest = Hash::new();
     let mut add = |name: &str, bits: [u64; 17]| {
         digest.update(name.as_bytes());
         bits.iter().for_each(|bits| digest.update(bits.to_le_bytes()));

@@ -6,8 +6,8 @@ use crate::audit::{
     self, Audit, MOST_SHARDS, Observer, Plan, Shard, Source, StoredPlan, StoredSource,
 };
 use crate::corpus::hex;
+use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Which parts of a plan a result is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,7 +45,7 @@ pub fn shard_part(plan: &Plan, audit: &Audit) -> ShardPart {
 }
 
 fn digest(sums: &str) -> String {
-    hex(&Sha256::digest(sums.as_bytes())[..8])
+    hex(&Hash::hash(sums.as_bytes())[..8])
 }
 
 impl PartialPart {

@@ -5,9 +5,9 @@ use crate::program;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use hmac_sha256::Hash;
 use program::{ends, scratch};
 use serde_json::Value;
-use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -229,7 +229,7 @@ fn nothing_comes_from_elsewhere_and_names_are_only_names() {
     let (page, _) = run(&folder, name, &["--kernel", "moller-trumbore"]);
     assert_eq!(page.matches("<script").count(), 1);
     assert_eq!(page.matches("<style").count(), 1);
-    let hash = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+    let hash = |text: &str| BASE64_STANDARD.encode(Hash::hash(text.as_bytes()));
     let style = hash(between(&page, "<style>", "</style>"));
     let script = hash(between(&page, "<script>", "</script>"));
     let policy = unescaped(between(&page, "Content-Security-Policy\" content=\"", "\""));

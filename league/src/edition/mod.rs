@@ -8,7 +8,7 @@ pub use audit::{Depth, EntrantResult, ScalarResult, Share};
 pub use tables::{CAPTION, Order, html, latex, markdown};
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ impl Manifest {
                 let bytes =
                     fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
                 let hash =
-                    Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+                    Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
                 sha256.insert(name, hash);
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{InputError, Mesh};
 use crate::corpus::fan;
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 use std::fmt;
 
 /// What is counted, from 1, to say where in a file something is.
@@ -133,7 +133,7 @@ impl Builder {
 }
 
 fn digest(wide: &[[f64; 3]], narrow: &[[f32; 3]], triangles: &[[u32; 3]]) -> String {
-    let mut hash = Sha256::new();
+    let mut hash = Hash::new();
     for coordinate in wide.as_flattened() {
         hash.update(coordinate.to_bits().to_le_bytes());
     }

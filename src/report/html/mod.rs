@@ -20,9 +20,9 @@ use super::{Record, Style, number_of};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 pub(super) use heat::shade;
+use hmac_sha256::Hash;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use room::Room;
-use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use view::View;
 use words::{code, shortened};
@@ -89,7 +89,7 @@ pub(super) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
 
 /// Nothing from elsewhere, no script and no style but the page's own, pictures from the page itself.
 pub(super) fn policy(style: &str, script: &str) -> String {
-    let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+    let digest = |text: &str| BASE64_STANDARD.encode(Hash::hash(text.as_bytes()));
     format!(
         "default-src 'none'; img-src data:; style-src 'sha256-{}'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'",
         digest(style),
@@ -99,7 +99,7 @@ pub(super) fn policy(style: &str, script: &str) -> String {
 
 /// Nothing but a style.
 pub(super) fn style_policy(style: &str) -> String {
-    let digest = BASE64_STANDARD.encode(Sha256::digest(style.as_bytes()));
+    let digest = BASE64_STANDARD.encode(Hash::hash(style.as_bytes()));
     format!("default-src 'none'; style-src 'sha256-{digest}'; base-uri 'none'; form-action 'none'")
 }
 
