@@ -295,7 +295,14 @@ fn number(key: &str, text: &str) -> Result<f64, String> {
         let (whole, text) = (text, text.trim());
         let starts_with_digit = text.starts_with(|c: char| c.is_ascii_digit());
         let has_unit = starts_with_digit && text.ends_with(|c: char| c.is_ascii_alphabetic());
-        let unit = if has_unit { ": write all lengths in one unit, without its name" } else { "" };
+        let is_range = text.split_once('-').is_some_and(|(low, high)| {
+            [low, high].iter().all(|end| end.trim().parse::<f64>().is_ok())
+        });
+        let unit = match (has_unit, is_range) {
+            (true, _) => ": write all lengths in one unit, without its name",
+            (_, true) => ": a range is written LOW..HIGH",
+            _ => "",
+        };
         format!("{key}={whole}: '{text}' is not a finite number{unit}")
     })
 }

@@ -55,6 +55,10 @@ pub struct KernelArguments {
     plugins: PluginArguments,
 }
 
+/// Why a scene takes no band.
+const NO_BAND: &str =
+    "a scene counts cracks, to which it means nothing; a tolerance is what is chosen";
+
 impl KernelArguments {
     /// Goes on after any number of crashes of a user's kernel, unless the flags set a limit.
     pub fn go_on_after_failures(mut self) -> Self {
@@ -85,7 +89,7 @@ impl KernelArguments {
         let least = |word: &&str| word.trim().split('=').next() == Some(LEAST_T);
         let (given, gates): (Vec<&str>, Vec<&str>) = words.partition(least);
         let value = match given[..] {
-            [] => return Ok((self.rows()?, None)),
+            [] => return Ok((self.rows_without_band(NO_BAND)?, None)),
             [word] => word.split_once('=').map(|(_, value)| value.trim().to_owned()),
             _ => None,
         };
@@ -93,7 +97,8 @@ impl KernelArguments {
             || Failure::usage(format!("--epsilon: write {LEAST_T} once, as {LEAST_T}=1e-3"));
         let value = value.ok_or_else(wrong)?;
         let epsilon = (!gates.is_empty()).then(|| gates.join(","));
-        Ok((KernelArguments { epsilon, ..self.clone() }.rows()?, Some(value)))
+        let rows = KernelArguments { epsilon, ..self.clone() }.rows_without_band(NO_BAND)?;
+        Ok((rows, Some(value)))
     }
 
     /// Whether one contract is given for all kernels.

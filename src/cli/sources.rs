@@ -24,7 +24,7 @@ const SEED: u64 = 1;
 /// The flags that choose cases.
 #[derive(Args)]
 pub struct SourceArguments {
-    /// f32, f64 or both
+    /// f32, f64, or f32,f64
     #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32,f64", help_heading = RUNNING)]
     scalar: Vec<String>,
 
@@ -167,6 +167,11 @@ impl SourceArguments {
             held.map_err(|error| InputError::of(path, error))?;
         }
         Ok((scene, Arc::new(mesh)))
+    }
+
+    /// Whether all of a finite family is asked for.
+    pub fn is_exhaustive(&self) -> bool {
+        self.exhaustive
     }
 
     /// The seed, and how many cases of each family.

@@ -319,3 +319,22 @@ fn a_contract_for_a_scene_hears_what_is_taken_of_it() {
     let (_, without) = ends(&folder, &words, 0);
     assert!(with.contains(note) && !without.contains(note), "{with} {without}");
 }
+
+#[test]
+fn where_the_range_of_a_number_is_wide_the_recommended_one_is_as_cheap_as_a_given_one() {
+    let folder = scratch("advice-wide");
+    // A strict comparison accepts at any number below zero, so the range begins at the least.
+    for (kernel, scene, given) in [
+        ("baldwin-weber", "extent=1e5,edge=0.1..1000", "edge=-1e-3"),
+        ("scalar-triple-two-sided", "room", "edge=-2e-15"),
+        ("plane-inside-out-strict", "city", "edge=-1e-10"),
+    ] {
+        let words = ["epsilon", "--kernel", kernel, "--scene", scene, "--epsilon", given];
+        let rest = ["--scalar", "f64", "-n", "4000", "-q", "--format", "json"];
+        let (json, _) = ends(&folder, &[&words[..], &rest[..]].concat(), 0);
+        let record: SceneRecord = serde_json::from_str(&json).unwrap();
+        let tried = &record.kernels[0].tried;
+        let told = format!("{kernel} {:?} {}", tried[0].epsilons, tried[0].cost);
+        assert!(tried[0].cost <= 1.05 * tried[1].cost, "{told}, given {}", tried[1].cost);
+    }
+}

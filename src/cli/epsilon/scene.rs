@@ -188,6 +188,7 @@ impl EpsilonArguments {
             ("--exact", self.exact),
             ("--map", self.map),
             ("--family", self.sources.names_families()),
+            ("--exhaustive", self.sources.is_exhaustive()),
         ];
         match given.iter().find(|(_, given)| *given) {
             Some((flag, _)) => {

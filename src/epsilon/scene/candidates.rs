@@ -57,7 +57,7 @@ impl Merge for Ranges {
 }
 
 /// The grid of a setting: for each knob zero, and round numbers over the margins of what is to be refused and of
-/// what is lost. Also whether some round numbers were left out to keep it within so many points.
+/// what is lost. Also how coarse it is (`rounds`), to keep it within so many points.
 pub fn grid<F: Scalar>(
     setting: &Setting<'_, F>,
     most_points: usize,
@@ -65,7 +65,7 @@ pub fn grid<F: Scalar>(
     seed: u64,
     count: u64,
     observer: &dyn Observer,
-) -> (Grid<F>, bool) {
+) -> (Grid<F>, usize) {
     let gates = setting.row.entry.info.gates;
     let empty = || Ranges { above: [None; MOST_KNOBS], below: [None; MOST_KNOBS] };
     let add = |ranges: &mut Ranges, trial: Trial<'_, F>| {
@@ -109,17 +109,19 @@ pub fn grid<F: Scalar>(
     loop {
         let of_knob = |(k, knob): (usize, &Knob)| {
             let mut values = vec![F::zero()];
-            let rounds = |range| rounds::<F>(range, step);
-            values.extend(ranges.above[k].into_iter().flat_map(rounds));
-            if knob.takes_negative(gates) {
-                values.extend(ranges.below[k].into_iter().flat_map(rounds).map(|x| -x));
-            }
-            in_order(values)
+            let below = ranges.below[k].filter(|_| knob.takes_negative(gates));
+            let [above, below] = [ranges.above[k], below].map(|range| {
+                range.map_or((Vec::new(), step), |range| few_rounds::<F>(range, step))
+            });
+            values.extend(above.0);
+            values.extend(below.0.into_iter().map(|x| -x));
+            (in_order(values), above.1.max(below.1))
         };
-        let values: Vec<Vec<F>> = setting.knobs.iter().enumerate().map(of_knob).collect();
+        let (values, steps): (Vec<Vec<F>>, Vec<usize>) =
+            setting.knobs.iter().enumerate().map(of_knob).unzip();
         let points: usize = values.iter().map(|values| values.len() + 1).product();
         if points <= most_points || step == 8 {
-            return (Grid::new(values), 0 < step);
+            return (Grid::new(values), steps.into_iter().fold(step, usize::max));
         }
         step += 1;
     }
@@ -139,7 +141,7 @@ pub fn round_values<F: Float>(special: &[F], is_fine: bool) -> Vec<F> {
         let around = ends.map(|[low, high]| {
             let ends = [low / 1e3, high * 1e3];
             let more = if is_fine { two_digits::<F>(ends) } else { Vec::new() };
-            [rounds::<F>(ends, 0), more].concat()
+            [few_rounds::<F>(ends, 0).0, more].concat()
         });
         values.extend(around.into_iter().flatten().map(|x| x * sign));
     }
@@ -162,7 +164,14 @@ fn in_order<F: Float>(mut values: Vec<F>) -> Vec<F> {
     values
 }
 
-/// Round numbers from one at or below a range to one at or above it; fewer with every step.
+/// At most [`MOST_VALUES`] round numbers over a range, and the step from the given one on that has so few.
+fn few_rounds<F: Float>(range: [f64; 2], step: usize) -> (Vec<F>, usize) {
+    let all = (step..).map(|step| (rounds::<F>(range, step), step));
+    all.into_iter().find(|(values, _)| values.len() <= MOST_VALUES).expect("at last one is left")
+}
+
+/// Round numbers from one at or below a range to one at or above it: 1, 2 and 5 of each decade, then 1 of each, and with
+/// every further step of half as many decades.
 fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     // Below the normal numbers a machine may flush to zero.
     let normal = smallest_normal::<F>();
@@ -175,9 +184,6 @@ fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
         all.filter(|(wide, value)| normal <= *wide && value.is_finite()).collect();
     let first = all.partition_point(|(wide, _)| *wide <= low).saturating_sub(1);
     let last = (all.partition_point(|(wide, _)| *wide < high) + 1).min(all.len());
-    if last - first > MOST_VALUES {
-        return rounds([low, high], step + 1);
-    }
     all[first..last].iter().map(|(_, value)| *value).collect()
 }
 
@@ -195,14 +201,17 @@ pub fn of_values<F: Float>(values: impl Iterator<Item = Vec<F>>) -> Grid<F> {
     Grid::new(values.map(in_order).collect())
 }
 
-/// The grid of all round numbers within a factor of ten of a point, and the point itself.
-pub fn around<F: Float>(point: &[F]) -> Grid<F> {
+/// The grid of a point and the round numbers of a step around it, as far as those of the next step are apart.
+pub fn around<F: Float>(point: &[F], step: usize) -> Grid<F> {
+    let factor = 10f64.powi(1 << step);
     let near = |x: &F| {
         let size = x.to_f64().abs();
         let sign = if *x < F::zero() { -F::one() } else { F::one() };
         let mut values = vec![F::zero(), *x];
         if 0.0 < size {
-            values.extend(rounds::<F>([size / 10.0, size * 10.0], 0).into_iter().map(|y| y * sign));
+            values.extend(
+                rounds::<F>([size / factor, size * factor], step).into_iter().map(|y| y * sign),
+            );
         }
         in_order(values)
     };

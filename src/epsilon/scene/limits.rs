@@ -288,7 +288,7 @@ mod tests {
             (vec![limit(true, Some(1.5e-6)), limit(false, Some(2e-6))], Some(2e-6)),
             // Up to twice the least normal number is any above zero.
             (vec![limit(true, Some(2.0 * f64::MIN_POSITIVE)), high.clone()], None),
-            (vec![limit(true, Some(3.0 * f64::MIN_POSITIVE)), high.clone()], Some(1e-152)),
+            (vec![limit(true, Some(3.0 * f64::MIN_POSITIVE)), high.clone()], Some(5e-156)),
         ] {
             assert_eq!(between(&limits, 2), [None, middle], "{limits:?}");
         }

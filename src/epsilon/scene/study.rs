@@ -100,8 +100,7 @@ pub fn study_scene<F: Scalar>(
     let following = Setting { relative: true, ..*setting };
     let followed = cheapest(&following, costs, max_error, seed, count, observer);
     let followed = followed.map(|followed| {
-        let found = limits(&following, &followed, seed, count, observer);
-        (followed, found)
+        within_limits(&following, followed, costs, max_error, seed, count, observer)
     });
     // The rays of this seed were passed over for the last time.
     let mut vectors = vec![("recommended".to_owned(), best.clone())];
@@ -272,9 +271,9 @@ pub fn cheapest<F: Scalar>(
         let joint = Joint::count(setting, grid, max_error, seed, count, observer);
         joint.best(setting.counts, costs)
     };
-    let (grid, is_thin) = grid(setting, MOST_POINTS, max_error, seed, count, observer);
-    let found = best(grid)?;
-    if is_thin { best(around(&found)) } else { Some(found) }
+    let (grid, step) = grid(setting, MOST_POINTS, max_error, seed, count, observer);
+    // What a coarse grid leaves out may be cheaper.
+    (0..step).rev().try_fold(best(grid)?, |found, step| best(around(&found, step)))
 }
 
 #[cfg(test)]

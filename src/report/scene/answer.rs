@@ -265,7 +265,10 @@ fn conflict_lines(
         _ => format!("no value of {name} is both {} and {}:", bound(lower), bound(upper)),
     };
     let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
-        (Some([from, to]), Some(form), _) => {
+        // With directions of unit length a share of |d| is the number itself.
+        (Some([from, to]), Some(form), _)
+            if knob.dimension[0] != 0 || !record.unit_directions =>
+        {
             format!("{form} in its place is within both limits, with e from {from} to {to}")
         }
         (_, _, "t") if is_coarse(record, part) => {
@@ -305,10 +308,14 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
                 "miss" => "of the hits at a triangle",
                 _ => "of the rays beside a triangle",
             };
-            let is_dear = DEAR < wrong.rate.unwrap_or(0.0);
+            // What the other numbers lose anyway is not its price.
+            let anyway = part.tried[0].wrong[*count].rate.unwrap_or(0.0);
+            let is_dear = DEAR < wrong.rate.unwrap_or(0.0) - anyway;
             is_dear.then(|| format!("{} {bound} {does} {} {whom}", knob.name, share(wrong)))
         };
-    seen.chain(proved).filter_map(sentence).collect()
+    let mut all: Vec<String> = seen.chain(proved).filter_map(sentence).collect();
+    all.dedup();
+    all
 }
 
 /// Which angles almost parallel rays have.
@@ -329,7 +336,9 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
         "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
             .to_owned(),
-        "another seed may name other numbers at nearly the same cost; more rays (-n) bring them closer"
+        "another seed may name other numbers at nearly the same cost, and limits ten times as high or low;"
+            .to_owned(),
+        "more rays (-n) bring them closer"
             .to_owned(),
     ];
     if record.kernels.iter().any(|part| part.relative.is_some()) {

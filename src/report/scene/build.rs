@@ -9,7 +9,7 @@ use crate::contract::Extent;
 use crate::epsilon::scale_free_form;
 use crate::epsilon::scene::{
     Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, OnFresh, Proved,
-    SceneStudy, Setting, StudiedScene, Tried, Value, fresh_seed,
+    SceneStudy, Setting, StudiedScene, Tried, Value, contract_with, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
 use crate::report::epsilon::shortest;
@@ -101,6 +101,9 @@ pub fn kernel_part<F: Scalar>(
         selector: setting.row.entry.selector(),
         scalar: F::NAME.to_owned(),
         contract: setting.row.contract.describe(),
+        contract_flag: Some(setting.row.contract)
+            .filter(|contract| *contract != contract_with(setting.knobs, &info.contract))
+            .map(|contract| contract.words(Some(&info.contract))),
         has_edge_epsilon: info
             .gates
             .iter()

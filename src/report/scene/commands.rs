@@ -36,7 +36,14 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     };
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
     let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
-    let contract = if guards_start { " --contract own,no-self-hit" } else { "" };
+    let own = part.contract_flag.as_deref();
+    let contract = match (own, guards_start) {
+        (None, false) => String::new(),
+        (Some(words), _) if !guards_start || words.contains("no-self-hit") => {
+            format!(" --contract {words}")
+        }
+        _ => format!(" --contract {},no-self-hit", own.unwrap_or("own")),
+    };
     let same_rays = format!(" -n {}{contract}", record.count);
     let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
     let note = if record.mesh.is_some() { "  # other triangles of these sizes" } else { "" };

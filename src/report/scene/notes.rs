@@ -199,8 +199,11 @@ fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
         let is_trade = part.conflicts.iter().any(|it| part.limits[it.lower].knob == place);
         let is_said = !is_trade && part.limits.iter().any(is_beyond);
         let name = &knob.name;
-        is_said
-            .then(|| format!("{name}={epsilon} costs least, though it is outside its limits below"))
+        is_said.then(|| {
+            format!(
+                "{name}={epsilon} is outside its limits below: any value within them costs more"
+            )
+        })
     })
 }
 

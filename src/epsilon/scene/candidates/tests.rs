@@ -56,7 +56,7 @@ fn all_rounds<F: Float>(step: usize) -> Vec<F> {
 
 /// Checks them by what the range is to be enclosed by, with as small a step as gives few enough.
 fn check_rounds<F: Float>(low: f64, high: f64, first_step: usize) {
-    let found = rounds::<F>([low, high], first_step);
+    let found = few_rounds::<F>([low, high], first_step);
     let enclosing = |step: usize| {
         let all = all_rounds::<F>(step);
         // Round numbers as decimals, of which the scalar's are rounded.
@@ -69,7 +69,7 @@ fn check_rounds<F: Float>(low: f64, high: f64, first_step: usize) {
     while step < 8 && enclosing(step).len() > 60 {
         step += 1;
     }
-    assert_eq!(found, enclosing(step), "{low:e} {high:e} {first_step}");
+    assert_eq!(found, (enclosing(step), step), "{low:e} {high:e} {first_step}");
 }
 
 #[test]
@@ -97,8 +97,8 @@ fn round_numbers_enclose_every_range_with_as_few_as_are_wanted() {
 fn values_of_a_curve_reach_a_thousand_times_beyond_the_special_ones_of_each_sign() {
     let expected = |special: &[f64], above: Option<[f64; 2]>, below: Option<[f64; 2]>| {
         let mut values = [special, &[0.0]].concat();
-        values.extend(above.into_iter().flat_map(|ends| rounds::<f64>(ends, 0)));
-        values.extend(below.into_iter().flat_map(|ends| rounds::<f64>(ends, 0)).map(|x| -x));
+        values.extend(above.into_iter().flat_map(|ends| few_rounds::<f64>(ends, 0).0));
+        values.extend(below.into_iter().flat_map(|ends| few_rounds::<f64>(ends, 0).0).map(|x| -x));
         values.sort_by(f64::total_cmp);
         values.dedup();
         values
@@ -130,13 +130,17 @@ fn numbers_of_two_digits_come_once_each_with_both_ends_of_their_range() {
 }
 
 #[test]
-fn around_a_point_are_the_round_numbers_within_a_factor_of_ten_of_its_sign() {
-    let grid = around(&[3.0f32, -0.07, 0.0]);
+fn around_a_point_are_the_round_numbers_of_a_step_of_its_sign() {
+    let grid = around(&[3.0f32, -0.07, 0.0], 0);
     let expected: [&[f32]; 3] = [
         &[0.0, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0],
         &[-1.0, -0.5, -0.2, -0.1, -0.07, -0.05, -0.02, -0.01, -0.005, 0.0],
         &[0.0],
     ];
+    assert_eq!(grid.values(), expected);
+    // Of a grid with a number every fourth decade: every second, as far as the next ones were.
+    let grid = around(&[1e-8f64, 0.0], 2);
+    let expected: [&[f64]; 2] = [&[0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4], &[0.0]];
     assert_eq!(grid.values(), expected);
 }
 
@@ -149,7 +153,10 @@ fn round_numbers_enclose_the_range() {
     assert!(f32::MIN_POSITIVE <= all[0] && *all.last().unwrap() == 1e38);
     // 1-2-5 from 1e-12 to 1 are 37; from the smallest number only some decades are kept.
     assert_eq!(rounds::<f64>([1e-12, 1.0], 0).len(), 37);
-    let few = rounds::<f64>([5e-324, 1.0], 0);
-    assert!(few.len() <= MOST_VALUES && few.contains(&1.0) && few[0] < 1e-290, "{few:?}");
+    let (few, step) = few_rounds::<f64>([5e-324, 1.0], 0);
+    assert!(
+        step == 4 && few.len() <= MOST_VALUES && few.contains(&1.0) && few[0] < 1e-290,
+        "{few:?}"
+    );
     assert_eq!(rounds::<f32>([1e-50, 1e-45], 0), [2e-38]);
 }

@@ -179,13 +179,15 @@ fn a_form_that_follows_the_size_is_named_if_it_is_a_fifth_cheaper() {
         let study = study_scene(&setting, &costs, None, &[], 1, 300, &Unobserved).unwrap();
         let relative = Setting { relative: true, ..setting };
         let followed = cheapest(&relative, &costs, None, 1, 300, &Unobserved).unwrap();
+        let (followed, found) =
+            within_limits(&relative, followed, &costs, None, 1, 300, &Unobserved);
         let wrong =
             count_at(&relative, &[Attempt::new(followed.clone())], 2, 300, &Unobserved).remove(0);
         let cost = costs.total(&tuned.counts, wrong.iter().map(|w| w.share().unwrap_or(0.0)));
         let is_named = cost < 0.8 * study.tried[0].cost;
         let told = format!("{kernel} {cost} {}", study.tried[0].cost);
         assert_eq!((study.relative.is_some(), is_named), (expected, expected), "{told}");
-        assert_eq!(study.relative_limits, limits(&relative, &followed, 1, 300, &Unobserved));
+        assert_eq!(study.relative_limits, found);
         if let Some(form) = study.relative {
             assert_eq!((form.epsilons, form.wrong, form.cost), (followed, wrong, cost));
         }
