@@ -237,6 +237,9 @@ mod tests {
         };
         assert_eq!([own(0.0), own(1.0)], [(0.5, true); 2]);
         assert_eq!([own(2.0), own(10.0)], [(-0.3, false), (no, false)]);
+        // What another gate refuses is no knob's.
+        let refused = Trial { margins: &[[no; 3]; 2], ..trial };
+        assert!(!is_own(&refused, 0, no));
     }
 
     #[test]

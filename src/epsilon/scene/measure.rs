@@ -206,3 +206,25 @@ pub(super) fn differs<F: Scalar>(
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::family::Stratum;
+
+    #[test]
+    fn what_other_knobs_refuse_does_not_count_for_a_limit() {
+        // Of an edge and a least t: the triangle that is met, and its neighbour far beside it.
+        let margins = [[0.5, 1.0, f64::INFINITY], [-0.3, 9.0, f64::INFINITY]];
+        let trial = Trial { count: 0, margins: &margins, cases: &[], values: &[] };
+        let counts = [Count { stratum: Stratum::Edges, kind: Kind::Crack }];
+        let cracks = |least_t: f64, of_knob: Option<usize>| {
+            let attempt = Attempt { epsilons: vec![0.6, least_t], of_knob };
+            let mut wrong = Wrong::new(1, 0, &counts);
+            wrong.add(&counts, &[attempt], &trial);
+            (wrong.trials[0][0].count, wrong.trials[0][0].of)
+        };
+        assert_eq!([None, Some(0), Some(1)].map(|of| cracks(0.0, of)), [(1, 1), (1, 1), (0, 0)]);
+        assert_eq!([None, Some(0)].map(|of| cracks(2.0, of)), [(1, 1), (0, 0)]);
+    }
+}

@@ -69,3 +69,54 @@ impl<F: Float> Store<F> {
         part
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACES: [(Stratum, u64, u64); 3] =
+        [(Stratum::Edges, 0, 1), (Stratum::Edges, 1, 2), (Stratum::Interior, 0, 1)];
+
+    /// So many cases; nothing else of a part matters to what keeps it.
+    fn of_cases(count: usize) -> Prepared<f32> {
+        let case = Case::new([0.0; 3], [1.0; 3], [[0.0; 3]; 3]);
+        let (margins, values, trials) = (Vec::new(), Vec::new(), Vec::new());
+        Prepared { cases: vec![case; count], margins, relative: OnceLock::new(), values, trials }
+    }
+
+    /// How many cases a part has, and whether it was made now.
+    fn made(store: &Store<f32>, seed: u64, place: usize, count: usize) -> (usize, bool) {
+        let mut is_made = false;
+        let part = store.part(seed, PLACES[place], || {
+            is_made = true;
+            of_cases(count)
+        });
+        (part.cases.len(), is_made)
+    }
+
+    #[test]
+    fn parts_of_one_seed_are_kept_up_to_a_number_of_cases() {
+        let store = Store::default();
+        let rest = MOST_KEPT - 1;
+        let twice = |seed, place, count| [(); 2].map(|()| made(&store, seed, place, count));
+        // Each seed has all the room.
+        for seed in [0, 4] {
+            assert_eq!(twice(seed, 0, 1), [(1, true), (1, false)]);
+            assert_eq!(twice(seed, 1, rest), [(rest, true), (rest, false)]);
+            assert_eq!(twice(seed, 2, 1), [(1, true); 2]);
+        }
+        // The first seed's parts are gone.
+        assert_eq!(made(&store, 0, 0, 2), (2, true));
+    }
+
+    #[test]
+    fn a_part_that_is_made_while_another_seed_comes_is_not_kept() {
+        let store = Store::default();
+        let part = store.part(5, PLACES[0], || {
+            assert_eq!(made(&store, 6, 1, 1), (1, true));
+            of_cases(2)
+        });
+        assert_eq!(part.cases.len(), 2);
+        assert_eq!([made(&store, 6, 0, 3), made(&store, 6, 1, 3)], [(3, true), (1, false)]);
+    }
+}

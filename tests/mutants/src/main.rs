@@ -138,13 +138,13 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         }
     }
     let mut tests = match &arguments.by {
-        None => Tests::of_binaries(&tree, &binaries, config.slow)?,
+        None => Tests::of_binaries(&tree, &binaries, &arguments.test, config.slow)?,
         Some(name) => {
             let program = config.programs.iter().find(|program| program.name == *name);
             Tests::of_program(&tree, program.ok_or(format!("no program '{name}'"))?)?
         }
     };
-    tests.keep(&arguments.test, arguments.slow.unwrap_or(f64::INFINITY));
+    tests.keep(arguments.slow.unwrap_or(f64::INFINITY));
     tests.left_out.iter().for_each(|line| eprintln!("left out: {line}"));
     let (count, seconds) = tests.count();
     eprintln!("{count} tests, {seconds:.0} s together");

@@ -50,8 +50,14 @@ pub enum Outcome {
 }
 
 impl Tests {
-    /// Runs each test once without a mutant, and sees what it reaches.
-    pub fn of_binaries(tree: &Tree, binaries: &[TestBinary], slow: f64) -> Result<Tests, String> {
+    /// Runs each test with one of some words in its name once without a mutant, and sees what it reaches; without words
+    /// all tests.
+    pub fn of_binaries(
+        tree: &Tree,
+        binaries: &[TestBinary],
+        words: &[String],
+        slow: f64,
+    ) -> Result<Tests, String> {
         let mut commands: Vec<(String, Vec<String>)> = Vec::new();
         for TestBinary { name, path } in binaries {
             let list = Command::new(path)
@@ -67,6 +73,7 @@ impl Tests {
                 commands.push((format!("{name}: {test}"), command));
             }
         }
+        commands.retain(|(name, _)| words.is_empty() || words.iter().any(|w| name.contains(w)));
         commands.sort();
         Tests::reach(tree, commands, slow)
     }
@@ -114,10 +121,9 @@ impl Tests {
         Ok(tests)
     }
 
-    /// Keeps the tests with one of some words in their names, if there are words, that take at most so many seconds.
-    pub fn keep(&mut self, words: &[String], slow: f64) {
-        let has = |test: &Test| words.iter().any(|word| test.name.contains(word));
-        self.tests.retain(|test| (words.is_empty() || has(test)) && test.seconds <= slow);
+    /// Keeps the tests that take at most so many seconds.
+    pub fn keep(&mut self, slow: f64) {
+        self.tests.retain(|test| test.seconds <= slow);
     }
 
     /// How many tests there are, and how long they take together in seconds.

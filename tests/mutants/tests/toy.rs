@@ -154,6 +154,10 @@ fn mutants_of_the_toy_live_and_die_as_they_should() {
     assert_eq!(run(&root, &["--mutant", "src/lib.rs:6:10"]).0, 0);
     assert_eq!(run(&root, &["--mutant", "src/lib.rs:10:13"]).0, 1);
 
+    // Tests without the word are not even run once.
+    let (_, _, err) = run(&root, &["--test", "small", "--mutant", "src/lib.rs:10:13"]);
+    assert!(err.contains("1 tests,") && !err.contains("that_fails"), "{err}");
+
     // One of 35 is left: what a module says may live, or more.
     assert!(out.contains(&format!("{:>10.1} %{:>10.1} %\n", 2.9, 0.0)), "{out}");
     for (may_live, met) in [("0.03", 0), ("0.02", 1)] {
