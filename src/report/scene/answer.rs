@@ -336,7 +336,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
         "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
             .to_owned(),
-        "another seed may name other numbers at nearly the same cost, and limits ten times as high or low;"
+        "another seed may name other numbers at nearly the same cost, and limits up to ten times off;"
             .to_owned(),
         "more rays (-n) bring them closer"
             .to_owned(),
