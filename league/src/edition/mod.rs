@@ -7,8 +7,8 @@ mod tables;
 pub use audit::{Depth, EntrantResult, ScalarResult, Share};
 pub use tables::{CAPTION, Order, html, latex, markdown};
 
-use serde::{Deserialize, Serialize};
 use hmac_sha256::Hash;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,8 +32,7 @@ impl Manifest {
             if name != MANIFEST {
                 let bytes =
                     fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-                let hash =
-                    Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+                let hash = Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
                 sha256.insert(name, hash);
             }
         }
