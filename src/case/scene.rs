@@ -295,9 +295,11 @@ fn number(key: &str, text: &str) -> Result<f64, String> {
         let (whole, text) = (text, text.trim());
         let starts_with_digit = text.starts_with(|c: char| c.is_ascii_digit());
         let has_unit = starts_with_digit && text.ends_with(|c: char| c.is_ascii_alphabetic());
-        let is_range = text.split_once('-').is_some_and(|(low, high)| {
-            [low, high].iter().all(|end| end.trim().parse::<f64>().is_ok())
-        });
+        let is_number = |end: &str| end.trim().parse::<f64>().is_ok();
+        let takes_two = ["edge", "distance", "sine"].contains(&key);
+        let mut places = text.match_indices('-').map(|(place, _)| place);
+        let is_range =
+            takes_two && places.any(|at| is_number(&text[..at]) && is_number(&text[at + 1..]));
         let unit = match (has_unit, is_range) {
             (true, _) => ": write all lengths in one unit, without its name",
             (_, true) => ": a range is written LOW..HIGH",

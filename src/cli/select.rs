@@ -57,7 +57,7 @@ pub struct KernelArguments {
 
 /// Why a scene takes no band.
 const NO_BAND: &str =
-    "a scene counts cracks, to which it means nothing; a tolerance is what is chosen";
+    "a scene counts cracks, which a band does not change; a tolerance is what is chosen";
 
 impl KernelArguments {
     /// Goes on after any number of crashes of a user's kernel, unless the flags set a limit.

@@ -41,6 +41,7 @@ pub fn compare(
     let mut conformance = Conformance {
         verdict: Verdict::Conforms,
         method,
+        is_by_family: same_plan && known.target.is_none(),
         expectations: file.map(str::to_owned),
         note: known.note.clone(),
         change: NetChange::default(),
@@ -65,6 +66,7 @@ pub fn compare(
                 let mut deviation = deviation(&found.key, None, &found.rate, Some(found));
                 if let Some(why) = newly_judged(found) {
                     deviation.expected += &why;
+                    deviation.expected_count = None;
                     conformance.stale.push(deviation);
                     conformance.change.newly_judged += 1;
                 } else {
@@ -111,6 +113,7 @@ pub fn compare(
                     .and_then(|found| changed(result, entry, found, Change::New));
                 show(&mut deviation, Change::New, new);
                 if unjudged.is_some() {
+                    deviation.expected_count = None;
                     conformance.stale.push(deviation);
                     conformance.change.newly_judged += 1;
                     continue;

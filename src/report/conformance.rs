@@ -14,6 +14,9 @@ pub struct Conformance {
     pub verdict: Verdict,
     /// How counts were compared.
     pub method: Method,
+    /// Whether the lock file says nothing of this run, so that families are compared and not classes.
+    #[serde(default)]
+    pub is_by_family: bool,
     /// The file of expectations; none if there is none, and nothing is expected.
     pub expectations: Option<String>,
     /// What was not compared, and why.
@@ -208,7 +211,7 @@ pub struct Deviation {
     pub finding: String,
     /// What was expected, in words.
     pub expected: String,
-    /// How many cases were expected; none where a share was.
+    /// How many cases were expected; absent where a share was, and where some cases were not judged before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected_count: Option<u64>,
     /// How often it happened.

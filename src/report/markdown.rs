@@ -2,7 +2,7 @@
 
 use super::columns::{Column, short_percent};
 use super::lines::{Line, column_legend, lines};
-use super::net::net_lines;
+use super::net::{NET_TITLE, net_lines};
 use super::rate::percent;
 use super::{Conformance, Deviation, Rate, Record, Style, group_digits, number_of};
 use std::io::{self, Write};
@@ -72,9 +72,11 @@ fn conformance_part(conformance: &Conformance, text: &mut String) {
     for unproved in &conformance.unproved {
         text.push_str(&format!("- {}: {}\n", cell(&unproved.to_string()), code(&unproved.command)));
     }
-    for line in net_lines(conformance) {
-        text.push_str(&format!("\n{}\n", cell(&line)));
+    let net = net_lines(conformance, usize::MAX);
+    if !net.is_empty() {
+        text.push_str(&format!("\n### {NET_TITLE}\n\n"));
     }
+    net.iter().for_each(|line| text.push_str(&format!("- {}\n", cell(line))));
     deviations("Unexpected disagreements", &conformance.unexpected, text);
     deviations("Stale expectations", &conformance.stale, text);
 }

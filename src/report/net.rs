@@ -3,50 +3,77 @@
 use super::{Conformance, Deviation, Method, group_digits};
 use std::collections::BTreeMap;
 
+/// What the lines are called.
+pub(super) const NET_TITLE: &str = "What changed, in cases";
+
 /// The most families that a finding names.
 const MOST_FAMILIES: usize = 3;
 
-/// A line for each row in a scalar; none where rates were compared.
-pub(super) fn net_lines(conformance: &Conformance) -> Vec<String> {
+/// By finding and family, how many cases more than expected.
+type Findings<'a> = BTreeMap<&'a str, BTreeMap<&'a str, i64>>;
+
+/// At most so many lines, one for each row in a scalar, those that changed most first; none where rates were compared.
+pub(super) fn net_lines(conformance: &Conformance, most: usize) -> Vec<String> {
     if conformance.method != Method::CaseByCase {
         return Vec::new();
     }
-    let mut rows: BTreeMap<String, BTreeMap<&str, BTreeMap<&str, i64>>> = BTreeMap::new();
+    let mut rows: BTreeMap<String, Findings<'_>> = BTreeMap::new();
     for found in conformance.unexpected.iter().chain(&conformance.stale) {
-        let Some(more) = more_than_expected(found).filter(|more| *more != 0) else { continue };
+        let Some(more) = more_than_expected(found) else { continue };
         let row = format!("{} {}", found.key().row(), found.scalar);
         let findings = rows.entry(row).or_default();
         *findings.entry(&found.finding).or_default().entry(&found.family).or_default() += more;
     }
-    let line = |(row, findings): (String, BTreeMap<&str, BTreeMap<&str, i64>>)| {
-        let findings: Vec<String> = findings.into_iter().map(finding_words).collect();
+    let mut rows: Vec<(String, Findings<'_>)> = rows.into_iter().collect();
+    for (_, findings) in &mut rows {
+        findings.values_mut().for_each(|families| families.retain(|_, more| *more != 0));
+        findings.retain(|_, families| !families.is_empty());
+    }
+    rows.retain(|(_, findings)| !findings.is_empty());
+    let size = |findings: &Findings<'_>| {
+        findings.values().flat_map(BTreeMap::values).map(|more| more.unsigned_abs()).sum::<u64>()
+    };
+    rows.sort_by_cached_key(|(row, findings)| (u64::MAX - size(findings), row.clone()));
+    let line = |(row, findings): &(String, Findings<'_>)| {
+        let findings: Vec<String> = findings.iter().map(finding_words).collect();
         format!("{row}: {}", findings.join("; "))
     };
-    rows.into_iter().map(line).collect()
+    let mut lines: Vec<String> = rows.iter().take(most).map(line).collect();
+    if lines.len() < rows.len() {
+        let more = group_digits((rows.len() - lines.len()) as u64);
+        lines.push(format!("and {more} more kernels and scalars (--details lists all)"));
+    }
+    lines
 }
 
-/// How many cases more than expected, or fewer; none where a share was expected.
+/// How many cases more than expected, or fewer; none where no number of cases was expected, or none is judged now.
 fn more_than_expected(found: &Deviation) -> Option<i64> {
     let count = |count: u64| i64::try_from(count).ok();
-    Some(count(found.found.count)? - count(found.expected_count?)?)
+    let expected = found.expected_count.filter(|_| 0 < found.found.of)?;
+    Some(count(found.found.count)? - count(expected)?)
 }
 
 /// `false-miss +2,250 (sliver +794, grazing +771, direction-length +371, 2 more)`.
-fn finding_words((finding, families): (&str, BTreeMap<&str, i64>)) -> String {
+fn finding_words((finding, families): (&&str, &BTreeMap<&str, i64>)) -> String {
     let sum: i64 = families.values().sum();
-    let mut families: Vec<(&str, i64)> = families.into_iter().collect();
-    families.sort_by_key(|(name, more)| (-more.abs(), *name));
+    let mut families: Vec<(&&str, &i64)> = families.iter().collect();
+    families.sort_by_key(|(name, more)| (-more.abs(), **name));
     let named = families.iter().take(MOST_FAMILIES);
     let mut words: Vec<String> =
-        named.map(|(name, more)| format!("{name} {}", signed(*more))).collect();
+        named.map(|(name, more)| format!("{name} {}", signed(**more))).collect();
     if MOST_FAMILIES < families.len() {
         words.push(format!("{} more", families.len() - MOST_FAMILIES));
     }
     format!("{finding} {} ({})", signed(sum), words.join(", "))
 }
 
+/// `+1,234`, `-5`, `0`.
 fn signed(number: i64) -> String {
-    let sign = if number < 0 { "-" } else { "+" };
+    let sign = match number {
+        0 => "",
+        1.. => "+",
+        _ => "-",
+    };
     format!("{sign}{}", group_digits(number.unsigned_abs()))
 }
 
@@ -69,14 +96,23 @@ mod tests {
             of("fan", "false-miss", Some(0), 3),
             of("far", "false-miss", Some(7), 2),
             of("sliver", "false-miss", Some(0), 1),
+            of("axis-aligned", "bad-value", Some(1), 4),
+            of("fan", "bad-value", Some(3), 0),
             // As many on other cases, and a share: no number of cases.
             of("huge", "crack", Some(4), 4),
             of("huge", "double", None, 4),
         ]);
-        all.stale = vec![of("far", "false-hit", Some(20), 0)];
-        let expected = "k (k) f32: false-hit -20 (far -20); false-miss +1,222 (tiny +1,223, far -5, fan +3, 1 more)";
-        assert_eq!(net_lines(&all), [expected]);
+        all.stale = vec![of("far", "false-hit", Some(20), 0), of("fan", "panic", Some(8), 0)];
+        // Nothing of it is in the run.
+        all.stale[1].found.of = 0;
+        let mut other = of("tiny", "crack", Some(0), 1);
+        other.scalar = "f64".to_owned();
+        all.stale.push(other);
+        let expected = "k (k) f32: bad-value 0 (axis-aligned +3, fan -3); false-hit -20 (far -20); false-miss +1,222 (tiny +1,223, far -5, fan +3, 1 more)";
+        assert_eq!(net_lines(&all, 2), [expected, "k (k) f64: crack +1 (tiny +1)"]);
+        let rest = "and 1 more kernels and scalars (--details lists all)";
+        assert_eq!(net_lines(&all, 1), [expected, rest]);
         all.method = Method::Intervals;
-        assert_eq!(net_lines(&all), [""; 0]);
+        assert_eq!(net_lines(&all, 9), [""; 0]);
     }
 }

@@ -1,7 +1,6 @@
 //! The conformance part of a record as text for people.
 
-use super::disagreement::ALL_CLASSES;
-use super::net::net_lines;
+use super::net::{NET_TITLE, net_lines};
 use super::{Conformance, Deviation, Method, Record, Style, group_digits};
 use std::io::{self, Write};
 
@@ -22,9 +21,8 @@ pub(super) fn write(
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     let how = match (conformance.method, &conformance.expectations) {
         (_, None) => "nothing is expected: there is no file of expectations".to_owned(),
-        // Without the cases of the lock file.
-        (Method::CaseByCase, Some(file)) if is_by_family(conformance) => {
-            format!("compared with the counts of {file}")
+        (Method::CaseByCase, Some(file)) if conformance.is_by_family => {
+            format!("compared family by family with {file}")
         }
         (Method::CaseByCase, Some(file)) => format!("compared case by case with {file}"),
         (Method::Intervals, Some(file)) => format!(
@@ -59,9 +57,9 @@ pub(super) fn write(
     for unproved in &conformance.unproved {
         writeln!(out, "{unproved}\n    {}", unproved.command)?;
     }
-    let net = net_lines(conformance);
+    let net = net_lines(conformance, if style.details { usize::MAX } else { MOST_LISTED });
     if !net.is_empty() {
-        writeln!(out, "\n{bold}What changed, in cases{plain}")?;
+        writeln!(out, "\n{bold}{NET_TITLE}{plain}")?;
     }
     net.iter().try_for_each(|line| writeln!(out, "{line}"))?;
     for (title, list) in [
@@ -84,18 +82,11 @@ pub(super) fn write(
             writeln!(out, "and {more} more (--details lists all)")?;
         }
     }
-    let all = conformance.unexpected.iter().chain(&conformance.stale);
-    if all.clone().any(|found| found.class.contains('/')) {
+    let mut all = conformance.unexpected.iter().chain(&conformance.stale);
+    if all.any(|found| found.class.contains('/')) {
         writeln!(out, "\n{CLASSES}")?;
     }
     writeln!(out, "{bold}{}{plain}", conformance.summary())
-}
-
-/// Whether all that is compared is of a family and not of a class.
-fn is_by_family(conformance: &Conformance) -> bool {
-    let Conformance { unexpected, stale, known, .. } = conformance;
-    let mut all = unexpected.iter().chain(stale).chain(known).peekable();
-    all.peek().is_some() && all.all(|found| found.class == ALL_CLASSES)
 }
 
 fn write_deviation(

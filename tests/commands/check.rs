@@ -130,6 +130,10 @@ fn a_family_without_its_count_is_an_unexpected_disagreement_by_name() {
     let (out, _) = ends(&folder, &["check", "--quiet"], 1);
     let named = "moller-trumbore (source) f32 tiny: false-miss of interior/front/within: ";
     assert!(out.contains(named) && out.contains("does not conform: 2 unexpected"), "{out}");
+    // Without the lock file, although what is new has a class.
+    assert!(out.contains("compared family by family with "), "{out}");
+    let net = format!("\nmoller-trumbore (source) f32: false-miss +{tiny} (tiny +{tiny})\n");
+    assert!(tiny < 1000 && out.contains(&net), "{net}{out}");
 }
 
 #[test]
@@ -201,7 +205,7 @@ fn a_target_without_cases_is_compared_by_counts_and_blesses_its_own() {
     edit(&folder, |text| text.replacen(&of_people, &with_more, 1));
     let (out, _) = ends(&folder, &["check", "--quiet"], 3);
     assert!(out.contains("are stale: 0 unexpected disagreements, 1 stale"), "{out}");
-    let by_counts = format!("compared with the counts of {FILE}\n");
+    let by_counts = format!("compared family by family with {FILE}\n");
     assert!(out.contains(&by_counts) && !out.contains("case by case"), "{out}");
     let net =
         "\nWhat changed, in cases\nmoller-trumbore (source) f32: false-miss -1 (edge-near -1)\n";
@@ -243,6 +247,7 @@ fn rates_are_bounds_that_need_no_counts() {
     with("0.5", &["--seed", "5"], 0);
     let out = with("0.001", &[], 1);
     assert!(out.contains("expected a share of at most 0.001, and not none; "), "{out}");
+    assert!(!out.contains("What changed, in cases"), "{out}");
     // Blessing keeps a bound that holds, and its reason, and writes the count where it does not.
     with("0.5", &["--bless"], 0);
     let (_, line) = line_with(&folder, FILE, "det");

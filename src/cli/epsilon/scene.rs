@@ -21,9 +21,9 @@ const COUNT: u64 = 40_000;
 /// The most values of --at.
 const MOST_AT: usize = 5;
 
-/// Passes over every stratum: the grid, the limits, the fresh rays and the curves, and again for scale-free
-/// forms.
-const PASSES: u64 = 7;
+/// Passes over every stratum, usually: the grid, the limits, numbers that move between them and their limits, the fresh
+/// rays, and the same for scale-free forms; and the curves. A coarse grid takes more.
+const PASSES: u64 = 11;
 
 /// Runs the command; the flags may leave the count to it.
 pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
@@ -66,10 +66,9 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         eprintln!("{words}; --gate varies one gate over families of cases");
     }
     if !arguments.quiet && arguments.kernels.names_contract() {
-        let words = "of the contract a scene takes the side and where rays begin and end";
-        eprintln!(
-            "{words}; at shared edges and vertices it counts cracks, whatever the boundary is"
-        );
+        let words =
+            "of --contract a scene uses only the sides and where rays begin and end; at shared";
+        eprintln!("{words} edges and vertices it counts cracks, whatever it says of them");
     }
     arguments.warn_of_subnormals(&rows, scalars);
     let (seed, count) = arguments.sources.seed_and_count();
@@ -172,7 +171,7 @@ impl Run<'_> {
         let study = study_scene(&setting, costs, max_error, &named, seed, count, progress);
         found_margins(name, setting.subject)?;
         let study = study.map_err(|error| fault(row.entry, error))?;
-        Ok(kernel_part(&setting, &study, max_error))
+        Ok(kernel_part(&setting, &tuned.row.contract, &study, max_error))
     }
 }
 

@@ -16,6 +16,13 @@ const PILOT: u64 = 2048;
 /// How far the range reaches beyond what the pilot shows at an edge, of self-hits, and of hits that are too far off.
 const BEYOND: f64 = 100.0;
 
+/// How many times as large as its smallest value the largest of a range is, at most: the scalar's precision three times
+/// over, since products of three lengths are compared. What is smaller is as good as the least float, at which a
+/// strict comparison accepts.
+fn widest_range<F: Float>() -> f64 {
+    F::EPSILON.to_f64().powi(-3)
+}
+
 /// The most values of a knob on each side of zero.
 const MOST_VALUES: usize = 60;
 
@@ -110,9 +117,11 @@ pub fn grid<F: Scalar>(
         let of_knob = |(k, knob): (usize, &Knob)| {
             let mut values = vec![F::zero()];
             let below = ranges.below[k].filter(|_| knob.takes_negative(gates));
-            let [above, below] = [ranges.above[k], below].map(|range| {
-                range.map_or((Vec::new(), step), |range| few_rounds::<F>(range, step))
-            });
+            let few = |[low, high]: [f64; 2]| {
+                few_rounds::<F>([low.max(high / widest_range::<F>()), high], step)
+            };
+            let [above, below] =
+                [ranges.above[k], below].map(|range| range.map_or((Vec::new(), step), few));
             values.extend(above.0);
             values.extend(below.0.into_iter().map(|x| -x));
             (in_order(values), above.1.max(below.1))
@@ -164,13 +173,13 @@ fn in_order<F: Float>(mut values: Vec<F>) -> Vec<F> {
     values
 }
 
-/// At most [`MOST_VALUES`] round numbers over a range, and the step from the given one on that has so few.
+/// At most [`MOST_VALUES`] round numbers over a range, and the first step from the given one on that has so few.
 fn few_rounds<F: Float>(range: [f64; 2], step: usize) -> (Vec<F>, usize) {
     let all = (step..).map(|step| (rounds::<F>(range, step), step));
-    all.into_iter().find(|(values, _)| values.len() <= MOST_VALUES).expect("at last one is left")
+    all.into_iter().find(|(values, _)| values.len() <= MOST_VALUES).expect("in the end one is left")
 }
 
-/// Round numbers from one at or below a range to one at or above it: 1, 2 and 5 of each decade, then 1 of each, and with
+/// Round numbers from one at or below a range to one at or above it: 1, 2 and 5 of each decade; from step 1 on 1 of each, and with
 /// every further step of half as many decades.
 fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     // Below the normal numbers a machine may flush to zero.
@@ -201,7 +210,8 @@ pub fn of_values<F: Float>(values: impl Iterator<Item = Vec<F>>) -> Grid<F> {
     Grid::new(values.map(in_order).collect())
 }
 
-/// The grid of a point and the round numbers of a step around it, as far as those of the next step are apart.
+/// The grid of a point, zero, and the round numbers of a step on the point's side of zero, as far on each side as the
+/// neighbours of the next coarser grid.
 pub fn around<F: Float>(point: &[F], step: usize) -> Grid<F> {
     let factor = 10f64.powi(1 << step);
     let near = |x: &F| {

@@ -58,8 +58,8 @@ impl<F: Float> Merge for Tails<F> {
     }
 }
 
-/// Whether a limit is by the rays beside a triangle. Such a limit is how near they pass, so it is no news; but an edge
-/// stands well between it and the cracks.
+/// Whether a limit is by the rays beside a triangle. Such a limit is how near they pass, so it is not printed; but the
+/// middle between it and the cracks is a good value for an edge.
 fn is_beside(count: Count) -> bool {
     count.stratum == Stratum::Outside
 }
@@ -77,7 +77,7 @@ fn side(role: Role, count: Count) -> Option<bool> {
     }
 }
 
-/// The limits of every knob around given epsilons that are worth saying.
+/// The limits of every knob around given epsilons that are printed.
 pub fn limits<F: Scalar>(
     setting: &Setting<'_, F>,
     epsilons: &[F],
@@ -85,14 +85,11 @@ pub fn limits<F: Scalar>(
     count: u64,
     observer: &dyn Observer,
 ) -> Vec<Limit<F>> {
-    worth_saying(setting, all_limits(setting, epsilons, seed, count, observer))
+    printed(setting, all_limits(setting, epsilons, seed, count, observer))
 }
 
-/// Of limits those that say something of the kernel.
-pub fn worth_saying<F: Scalar>(
-    setting: &Setting<'_, F>,
-    mut limits: Vec<Limit<F>>,
-) -> Vec<Limit<F>> {
+/// Of limits those that say something of the kernel, which are printed.
+pub fn printed<F: Scalar>(setting: &Setting<'_, F>, mut limits: Vec<Limit<F>>) -> Vec<Limit<F>> {
     limits.retain(|limit| !is_beside(setting.counts[limit.count]));
     limits
 }
@@ -158,12 +155,12 @@ pub fn between<F: Float>(limits: &[Limit<F>], knobs: usize) -> Vec<Option<F>> {
             values?.into_iter().reduce(stricter)
         };
         let (low, high) = (of_side(true)?, of_side(false)?);
+        // The least normal number stands for any on its side of zero.
+        let is_limit = |bound: F| 2.0 * smallest_normal::<F>() < bound.to_f64();
         if high < F::zero() {
-            return (low <= high).then(|| -middle(-high, -low));
+            return (is_limit(-high) && low <= high).then(|| -middle(-high, -low));
         }
-        // The least normal number stands for any above zero.
-        let is_limit = 2.0 * smallest_normal::<F>() < low.to_f64();
-        (is_limit && low <= high).then(|| middle(low, high))
+        (is_limit(low) && low <= high).then(|| middle(low, high))
     };
     (0..knobs).map(between).collect()
 }
@@ -283,6 +280,7 @@ mod tests {
             // Below zero too, where 2.1e-4 is in the middle.
             (vec![limit(true, Some(-6e-2)), limit(false, Some(-7.2e-7))], Some(-2e-4)),
             (vec![limit(true, Some(-1e-4)), limit(false, Some(-8e-4))], None),
+            (vec![limit(true, Some(-1e-4)), limit(false, Some(-f64::MIN_POSITIVE))], None),
             (vec![limit(true, Some(-1e-4)), limit(false, Some(8e-4))], None),
             (vec![limit(true, Some(3e-9)), limit(false, Some(-7.2e-7))], None),
             (vec![limit(true, Some(3.1e-6)), limit(false, Some(3.1e-6))], Some(3.1e-6)),

@@ -6,7 +6,7 @@ use super::curves::{Curve, axes, curves};
 use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
 use super::knob::{Knob, Margins};
-use super::limits::{Limit, all_limits, between, limits, worth_saying};
+use super::limits::{Limit, all_limits, between, limits, printed};
 use super::measure::{Attempt, OfHits, Wrong, differs, measure};
 use super::prepared::Store;
 use super::proved::{Proved, proved};
@@ -205,9 +205,13 @@ pub fn within_limits<F: Scalar>(
 ) -> (Vec<F>, Vec<Limit<F>>) {
     let all = all_limits(setting, &best, seed, count, observer);
     let pairs = between(&all, best.len()).into_iter().zip(&best);
-    let found = worth_saying(setting, all);
+    let found = printed(setting, all);
     let middles: Vec<Option<F>> = pairs
-        .map(|(middle, own)| middle.filter(|middle| !own.is_zero() && middle != own))
+        .map(|(middle, own)| {
+            let is_other =
+                |middle: &F| middle != own && (*middle < F::zero()) == (*own < F::zero());
+            middle.filter(|middle| !own.is_zero() && is_other(middle))
+        })
         .collect();
     if middles.iter().all(Option::is_none) {
         return (best, found);
@@ -224,7 +228,8 @@ pub fn within_limits<F: Scalar>(
     }
 }
 
-/// Whether the costs of two epsilons differ by more than three standard deviations.
+/// Whether the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
+/// they are of the same, so chance explains even less.
 fn is_beyond_chance<F>(counts: &[Count], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
     let variance =
         |wrong: &Trials| wrong.share().map_or(0.0, |share| share * (1.0 - share) / wrong.of as f64);

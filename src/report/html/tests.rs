@@ -122,6 +122,7 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
     Conformance {
         verdict: Verdict::Disagreements,
         method: Method::CaseByCase,
+        is_by_family: false,
         expectations: Some(HOSTILE.to_owned()),
         note: Some(HOSTILE.to_owned()),
         change: NetChange::default(),

@@ -308,13 +308,18 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
                 "miss" => "of the hits at a triangle",
                 _ => "of the rays beside a triangle",
             };
-            // What the other numbers lose anyway is not its price.
-            let anyway = part.tried[0].wrong[*count].rate.unwrap_or(0.0);
-            let is_dear = DEAR < wrong.rate.unwrap_or(0.0) - anyway;
-            is_dear.then(|| format!("{} {bound} {does} {} {whom}", knob.name, share(wrong)))
+            // What is wrong at the recommended numbers too is no price of the limit.
+            let more = wrong.rate? - part.tried[0].wrong[*count].rate?;
+            let name = &knob.name;
+            (DEAR < more).then(|| format!("{name} {bound} {does} {:.1}% more {whom}", 100.0 * more))
         };
-    let mut all: Vec<String> = seen.chain(proved).filter_map(sentence).collect();
-    all.dedup();
+    let mut all: Vec<String> = Vec::new();
+    for line in seen.chain(proved).filter_map(sentence) {
+        // Two counts may set the same limit.
+        if !all.contains(&line) {
+            all.push(line);
+        }
+    }
     all
 }
 

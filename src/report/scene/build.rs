@@ -5,11 +5,11 @@ use super::words::set_by;
 use crate::arith::Float;
 use crate::audit::{Histogram, Trials};
 use crate::case::{DirectionLength, Scene};
-use crate::contract::Extent;
+use crate::contract::{Contract, Extent};
 use crate::epsilon::scale_free_form;
 use crate::epsilon::scene::{
     Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, OnFresh, Proved,
-    SceneStudy, Setting, StudiedScene, Tried, Value, contract_with, fresh_seed,
+    SceneStudy, Setting, StudiedScene, Tried, Value, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
 use crate::report::epsilon::shortest;
@@ -60,9 +60,10 @@ fn named(name: &str, number: f64) -> NamedNumber {
     NamedNumber { name: name.to_owned(), number }
 }
 
-/// The record of a study of one kernel in one scalar.
+/// The record of a study of one kernel in one scalar, which the user asked to judge by a contract.
 pub fn kernel_part<F: Scalar>(
     setting: &Setting<'_, F>,
+    contract: &Contract,
     study: &SceneStudy<F>,
     max_error: Option<&MaxError>,
 ) -> SceneKernelPart {
@@ -101,9 +102,7 @@ pub fn kernel_part<F: Scalar>(
         selector: setting.row.entry.selector(),
         scalar: F::NAME.to_owned(),
         contract: setting.row.contract.describe(),
-        contract_flag: Some(setting.row.contract)
-            .filter(|contract| *contract != contract_with(setting.knobs, &info.contract))
-            .map(|contract| contract.words(Some(&info.contract))),
+        contract_flag: (*contract != info.contract).then(|| contract.words(Some(&info.contract))),
         has_edge_epsilon: info
             .gates
             .iter()

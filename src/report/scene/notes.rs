@@ -150,7 +150,7 @@ pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     record.edge[0] < 32.0 * part.spacing
 }
 
-/// Whether products of three of the smallest triangle's lengths lose digits below the least normal number.
+/// Whether products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
 fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     let (least, epsilon) = match &*part.scalar {
         "f32" => (f64::from(f32::MIN_POSITIVE), f64::from(f32::EPSILON)),
@@ -163,14 +163,6 @@ fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
 fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
     let unit = spaced(&record.unit);
     let is_narrow = part.scalar == "f32";
-    if is_tiny(record, part) {
-        return format!(
-            "products of lengths such as {}{unit} are below the least numbers of {}: use {}a smaller unit of length",
-            Number(record.edge[0]),
-            part.scalar,
-            if is_narrow { "f64 or " } else { "" }
-        );
-    }
     if is_coarse(record, part) {
         return format!(
             "coordinates reach {:.0e}{unit}, where the numbers of {} are {}{unit} apart: {}bring scene and rays nearer to 0",
@@ -178,6 +170,14 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
             part.scalar,
             human(&format!("{:.0e}", part.spacing)),
             if is_narrow { "use f64, or " } else { "" }
+        );
+    }
+    if is_tiny(record, part) {
+        return format!(
+            "products of three lengths such as {}{unit} lose digits at the lower end of {}: use {}a smaller unit of length",
+            Number(record.edge[0]),
+            part.scalar,
+            if is_narrow { "f64 or " } else { "" }
         );
     }
     if kind == "self-hit" {
@@ -201,7 +201,7 @@ fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
         let name = &knob.name;
         is_said.then(|| {
             format!(
-                "{name}={epsilon} is outside its limits below: any value within them costs more"
+                "{name}={epsilon} is outside its limits below: values within them cost as much or more"
             )
         })
     })

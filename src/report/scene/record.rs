@@ -81,7 +81,7 @@ pub struct SceneKernelPart {
     pub scalar: String,
     /// What it is judged by.
     pub contract: String,
-    /// As `--contract` takes it; none if it is the kernel's own.
+    /// The contract in the words of `--contract`; absent if it is the kernel's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contract_flag: Option<String>,
     /// Whether one of its gates at the edges takes an epsilon.

@@ -146,7 +146,8 @@ fn a_knob_moves_to_the_middle_of_its_limits_where_that_costs_no_more_than_chance
                 between(&all_limits(&setting, &from, seed, number, &Unobserved), from.len());
             let mut expected = from.clone();
             for (k, middle) in middles.into_iter().enumerate() {
-                let Some(middle) = middle.filter(|_| from[k] != 0.0) else { continue };
+                let is_moved = |middle: &f32| from[k] != 0.0 && (*middle < 0.0) == (from[k] < 0.0);
+                let Some(middle) = middle.filter(is_moved) else { continue };
                 let mut next = expected.clone();
                 next[k] = middle;
                 match cost(&next) - cost(&from) <= by_chance(&from, &next) {
