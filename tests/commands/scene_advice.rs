@@ -115,7 +115,7 @@ fn what_no_scene_can_live_with_is_named_whatever_asked_for_it() {
     // In f64 some values are within all limits of `parallel`, but lose more hits than they keep out.
     let woop = ["epsilon", "--kernel", "woop-watertight", "--scene", "cad-mm", "-q", "-n", "4000"];
     let (screen, _) = ends(&folder, &[&woop[..], &["--scalar", "f64"]].concat(), 0);
-    assert!(screen.contains("parallel=0 is outside its limits below: values"), "{screen}");
+    assert!(screen.contains("parallel=0 is outside its limits below: a trade"), "{screen}");
 }
 
 #[test]

@@ -201,7 +201,7 @@ fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
         let name = &knob.name;
         is_said.then(|| {
             format!(
-                "{name}={epsilon} is outside its limits below: values within them cost as much or more"
+                "{name}={epsilon} is outside its limits below: a trade, as the rows and the cost show"
             )
         })
     })
