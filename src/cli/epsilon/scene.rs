@@ -25,6 +25,10 @@ const MOST_AT: usize = 5;
 /// rays, and the same for scale-free forms; and the curves. A coarse grid takes more.
 const PASSES: u64 = 11;
 
+/// What of a contract a scene does not ask.
+const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where rays begin and end; at shared edges \
+                           and vertices it counts cracks, whatever the contract says of them";
+
 /// Runs the command; the flags may leave the count to it.
 pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
     arguments.refuse_what_scenes_do_not_take()?;
@@ -66,9 +70,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
         eprintln!("{words}; --gate varies one gate over families of cases");
     }
     if !arguments.quiet && arguments.kernels.names_contract() {
-        let words =
-            "of --contract a scene uses only the sides and where rays begin and end; at shared";
-        eprintln!("{words} edges and vertices it counts cracks, whatever it says of them");
+        eprintln!("{OF_CONTRACT}");
     }
     arguments.warn_of_subnormals(&rows, scalars);
     let (seed, count) = arguments.sources.seed_and_count();

@@ -16,9 +16,9 @@ const PILOT: u64 = 2048;
 /// How far the range reaches beyond what the pilot shows at an edge, of self-hits, and of hits that are too far off.
 const BEYOND: f64 = 100.0;
 
-/// How many times as large as its smallest value the largest of a range is, at most: the scalar's precision three times
-/// over, since products of three lengths are compared. What is smaller is as good as the least float, at which a
-/// strict comparison accepts.
+/// The largest value of a range is at most so many times its smallest: the scalar's precision, three times over, since
+/// products of lengths are compared. What is smaller does no more than the least float, at which a strict comparison
+/// accepts already.
 fn widest_range<F: Float>() -> f64 {
     F::EPSILON.to_f64().powi(-3)
 }
@@ -179,8 +179,8 @@ fn few_rounds<F: Float>(range: [f64; 2], step: usize) -> (Vec<F>, usize) {
     all.into_iter().find(|(values, _)| values.len() <= MOST_VALUES).expect("in the end one is left")
 }
 
-/// Round numbers from one at or below a range to one at or above it: 1, 2 and 5 of each decade; from step 1 on 1 of each, and with
-/// every further step of half as many decades.
+/// Round numbers from one at or below a range to one at or above it: 1, 2 and 5 of each decade; in step 1 the powers of
+/// ten, then every second power, every fourth, and so on.
 fn rounds<F: Float>([low, high]: [f64; 2], step: usize) -> Vec<F> {
     // Below the normal numbers a machine may flush to zero.
     let normal = smallest_normal::<F>();

@@ -10,7 +10,7 @@ pub(crate) use build::shortest;
 pub use build::{parts, record};
 pub(crate) use csv::quoted;
 pub use record::*;
-pub(in crate::report) use text::{FLUSHED, is_subnormal};
+pub(in crate::report) use text::{FLUSHED, is_subnormal, least_normal};
 
 use super::Style;
 use std::io::{self, Write};

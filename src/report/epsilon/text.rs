@@ -143,9 +143,12 @@ pub(in crate::report) const FLUSHED: &str =
 
 /// Whether an epsilon is below the normal numbers of its scalar.
 pub(in crate::report) fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
-    let normal =
-        if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() };
-    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < normal)
+    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
+}
+
+/// The smallest normal number of the scalar of a name.
+pub(in crate::report) fn least_normal(scalar: &str) -> f64 {
+    if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() }
 }
 
 fn prices(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {

@@ -7,7 +7,7 @@ use super::words::{
     bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
 };
 use crate::case::Number;
-use crate::report::epsilon::{FLUSHED, is_subnormal};
+use crate::report::epsilon::{FLUSHED, is_subnormal, least_normal};
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
@@ -179,7 +179,7 @@ fn errors(error: &ErrorPart) -> String {
 
 /// Whether a value is the least that no machine flushes to zero: then every value above zero will do.
 fn is_least(value: &str, scalar: &str) -> bool {
-    let least = if scalar == "f32" { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE };
+    let least = least_normal(scalar);
     value.parse::<f64>().is_ok_and(|value| 0.0 < value && value <= least * 1.1)
 }
 

@@ -2,8 +2,10 @@
 
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
+use crate::arith::Float;
 use crate::case::Number;
 use crate::epsilon::scene::{Costs, Kind, SCALE_FREE};
+use crate::report::epsilon::least_normal;
 use crate::report::number_of;
 use crate::report::record::Rate;
 
@@ -152,11 +154,8 @@ pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
 
 /// Whether products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
 fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
-    let (least, epsilon) = match &*part.scalar {
-        "f32" => (f64::from(f32::MIN_POSITIVE), f64::from(f32::EPSILON)),
-        _ => (f64::MIN_POSITIVE, f64::EPSILON),
-    };
-    record.edge[0].powi(3) * epsilon < least
+    let epsilon = if part.scalar == f32::NAME { f32::EPSILON.into() } else { f64::EPSILON };
+    record.edge[0].powi(3) * epsilon < least_normal(&part.scalar)
 }
 
 /// What helps where no numbers are good.
