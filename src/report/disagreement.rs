@@ -1,7 +1,7 @@
 //! A record's findings as one list: what expectations name and formats count by.
 
-use super::columns::is_shared_in_scene;
 use super::record::*;
+use crate::family::{self, Question};
 use crate::judge::Finding;
 use std::collections::BTreeMap;
 
@@ -198,4 +198,17 @@ fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
         severity: None,
         command: row.explain_group(result, id),
     }
+}
+
+/// Whether a source aims at the shared edges or vertices of a scene.
+pub(super) fn is_shared_in_scene(family: &str) -> bool {
+    family_of(family).is_some_and(|family| {
+        family.name.starts_with("scene-")
+            && matches!(family.question, Question::Edges | Question::Vertices)
+    })
+}
+
+/// The family of a source by its name, in which a mesh's file may follow.
+pub(super) fn family_of(source: &str) -> Option<&'static family::Family> {
+    family::find(source.split_once(':').map_or(source, |(family, _)| family))
 }

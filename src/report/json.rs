@@ -1,17 +1,11 @@
-//! The record as JSON, one object.
+//! Records as JSON, one object.
 
-use super::{Record, Style};
 use serde::Serialize;
 use std::io::{self, Write};
 
 /// The JSON Schema of the record. The tests derive it from the types; the program only prints it.
 #[cfg(feature = "cli")]
 pub const JSON_SCHEMA: &str = include_str!("../../docs/schema/record.json");
-
-/// Writes the record and a newline.
-pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    write_json(record, out)
-}
 
 /// Writes one value over several lines, and a newline.
 pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
@@ -21,7 +15,7 @@ pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()>
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::report::Record;
 
     #[test]
     fn the_committed_schema_is_that_of_the_types() {

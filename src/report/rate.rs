@@ -1,6 +1,5 @@
 //! How often something was found, with its interval, and how people read it.
 
-use super::Style;
 use crate::audit::{RayProducts, Trials};
 use serde::{Deserialize, Serialize};
 
@@ -60,24 +59,6 @@ pub(crate) fn interval_of(rate: &Rate) -> String {
         return String::new();
     };
     format!(" ({} [{}, {}])", percent(share), percent(low), percent(high))
-}
-
-/// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.
-pub(super) fn share_column(rate: &Rate, style: Style) -> String {
-    let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
-    let text = match (rate.rate, rate.interval) {
-        (None, _) => "-".to_owned(),
-        (Some(share), None) => number(share),
-        (Some(share), Some([low, high])) => {
-            format!("{} [{}, {}]", number(share), number(low), number(high))
-        }
-    };
-    let padded = format!("{text:>20}");
-    match (style.color, rate.count) {
-        (true, 1..) => format!("\x1b[31m{padded}\x1b[0m"),
-        (true, 0) => format!("\x1b[32m{padded}\x1b[0m"),
-        _ => padded,
-    }
 }
 
 /// `12.3%`, `0.45%`, `3e-4%`.

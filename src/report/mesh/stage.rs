@@ -6,7 +6,7 @@ use super::record::*;
 use super::shown::{Shown, lines};
 use super::text::label;
 use crate::mesh::Part;
-use crate::report::html::words::{code, shortened};
+use crate::report::formats::html::words::{code, shortened};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, html};
 

@@ -1,8 +1,8 @@
 //! The record of a mesh audit as text for people: the mesh, a table a scalar, the first cracks.
 
 use super::record::*;
-use crate::report::rate::share_column;
-use crate::report::text::short_count;
+use crate::report::formats::text::share_column;
+use crate::report::formats::text::short_count;
 use crate::report::{Rate, Style, group_digits, number_of};
 use std::io::{self, Write};
 

@@ -1,5 +1,7 @@
 //! What was asked, and where and how it was run.
 
+use super::KernelResult;
+use crate::audit::{RowSpec, flags};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -36,6 +38,40 @@ pub struct RowPart {
     /// The same as `--contract` takes it, where it is not the kernel's own.
     #[serde(default = "own", skip_serializing_if = "is_own")]
     pub contract_words: String,
+}
+
+impl RowPart {
+    /// The row as text that this program can run again, if it has the kernel.
+    pub(in crate::report) fn spec(&self) -> RowSpec {
+        RowSpec {
+            kernel: self.kernel.clone(),
+            set: Some(self.set.clone()),
+            epsilons: self.epsilon_argument(),
+            contract: self.contract_words.clone(),
+        }
+    }
+
+    fn epsilon_argument(&self) -> Option<String> {
+        let pairs = self.epsilons.iter().map(|(gate, value)| format!("{gate}={value}"));
+        Some(pairs.collect::<Vec<_>>().join(",")).filter(|words| !words.is_empty())
+    }
+
+    /// The flags that make this row again.
+    pub(crate) fn flags(&self) -> String {
+        flags(&self.selector, self.epsilon_argument().as_deref(), &self.contract_words)
+    }
+
+    /// The command that shows a group of a result again by its id.
+    pub(in crate::report) fn explain_group(&self, result: &KernelResult, id: &str) -> String {
+        let file = result.across.as_ref().and_then(|across| across.file.as_deref());
+        let command = self.explain_command(id);
+        file.map_or(command.clone(), |flag| format!("{command} {flag}"))
+    }
+
+    /// The command that shows a case again by its id.
+    pub(in crate::report) fn explain_command(&self, id: &str) -> String {
+        format!("hairline explain '{id}' {}", self.flags()).trim_end().to_owned()
+    }
 }
 
 fn own() -> String {
@@ -105,5 +141,31 @@ impl PlanFlags {
     pub fn command(&self, kernels: &str) -> String {
         let words = ["hairline audit", kernels, &self.sources];
         words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kernel_of_ones_own_is_chosen_by_its_own_flag() {
+        let mut row = RowPart {
+            kernel: "mine".to_owned(),
+            selector: "--kernel-lib './libmine.so'".to_owned(),
+            set: "source".to_owned(),
+            epsilons: [("t".to_owned(), "1e-6".to_owned())].into(),
+            contract: String::new(),
+            contract_words: "own".to_owned(),
+        };
+        let command = "hairline explain 'x' --kernel-lib './libmine.so'";
+        assert_eq!(row.explain_command("x"), format!("{command} --epsilon 't=1e-6'"));
+        row.epsilons.clear();
+        assert_eq!(row.explain_command("x"), command);
+        row.contract_words = "closed-ray,band=1e-3".to_owned();
+        assert_eq!(
+            row.explain_command("x"),
+            format!("{command} --contract closed-ray --band 1e-3")
+        );
     }
 }

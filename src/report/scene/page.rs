@@ -6,7 +6,7 @@ use super::marks::{self, WIDTH};
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
 use crate::report::Style;
-use crate::report::html::{STYLE, head_of, style_policy};
+use crate::report::formats::html::{STYLE, head_of, style_policy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 

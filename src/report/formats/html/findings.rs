@@ -4,9 +4,9 @@ use super::room::Room;
 use super::view::{Row, View};
 use super::words::{code, counts, share};
 use crate::report::disagreement::polygons;
+use crate::report::formats::why::causes_text;
+use crate::report::formats::worst::describe_severity;
 use crate::report::record::*;
-use crate::report::why::causes_text;
-use crate::report::worst::describe_severity;
 use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 

@@ -1,6 +1,6 @@
 //! Numbers, links and code in the report.
 
-use crate::report::pool::Pool;
+use crate::report::formats::pool::Pool;
 use crate::report::record::Rate;
 use crate::report::{group_digits, rate};
 use maud::{Markup, html};
@@ -18,7 +18,7 @@ pub(in crate::report) fn interval([low, high]: [f64; 2]) -> String {
 }
 
 /// `15.8 % [15.1–16.6]`, or what there is of it.
-pub(in crate::report) fn share(rate: &Rate) -> String {
+pub(super) fn share(rate: &Rate) -> String {
     match (rate.rate, rate.interval) {
         (None, _) => "–".to_owned(),
         (Some(share), None) => percent(share),
@@ -36,12 +36,12 @@ pub(in crate::report) fn counts(rate: &Rate) -> String {
 }
 
 /// `; stored cases 3 of 57`, where a sum holds a sample and whole sets.
-pub(in crate::report) fn apart(sum: &Pool) -> String {
+pub(super) fn apart(sum: &Pool) -> String {
     sum.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"))
 }
 
 /// Text that people wrote, as a link if it is an address of the web.
-pub(in crate::report) fn link(url: &str) -> Markup {
+pub(super) fn link(url: &str) -> Markup {
     let is_scheme = |scheme: &str| {
         url.get(..scheme.len()).is_some_and(|start| start.eq_ignore_ascii_case(scheme))
     };

@@ -1,10 +1,10 @@
 //! A record by kernel row, as the report walks through it.
 
-use crate::report::columns::{Across, Column};
-use crate::report::lines::{Line, lines};
-use crate::report::pool::Pool;
+use crate::report::formats::columns::{Across, Column};
+use crate::report::formats::lines::{Line, lines};
+use crate::report::formats::pool::Pool;
+use crate::report::formats::row_view::RowView;
 use crate::report::record::*;
-use crate::report::row_view::RowView;
 
 /// The record by row.
 pub(super) struct View<'a> {

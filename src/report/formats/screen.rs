@@ -1,8 +1,8 @@
 //! What `hairline audit` prints: the answer, a table with a column for each question, the worst
 //! findings, and what to do next. Everything else is behind `--details`.
 
-use super::columns::{Across, Cell, Column, is_shared_in_scene, shared_in_scenes, short_percent};
-use super::disagreement::{Key, disagreements};
+use super::columns::{Across, Cell, Column, shared_in_scenes, short_percent};
+use super::disagreement::{Key, disagreements, is_shared_in_scene};
 use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};

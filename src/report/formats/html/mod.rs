@@ -11,15 +11,15 @@ mod heat;
 mod kernel;
 mod pictures;
 mod questions;
-pub(super) mod room;
+pub(in crate::report) mod room;
 mod view;
-pub(super) mod words;
+pub(in crate::report) mod words;
 
 use super::record::Provenance;
 use super::{Record, Style, number_of};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-pub(super) use heat::shade;
+pub(in crate::report) use heat::shade;
 use hmac_sha256::Hash;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use room::Room;
@@ -30,9 +30,9 @@ use words::{code, shortened};
 /// A report has fewer bytes.
 const LIMIT: usize = 9_800_000;
 
-pub(super) const STYLE: &str = include_str!("style.css");
+pub(in crate::report) const STYLE: &str = include_str!("style.css");
 /// Makes tables sortable, and opens what a link leads to.
-pub(super) const SHARED: &str = include_str!("shared.js");
+pub(in crate::report) const SHARED: &str = include_str!("shared.js");
 const SCRIPT: &str = concat!(include_str!("shared.js"), include_str!("script.js"));
 
 /// Writes the record.
@@ -74,7 +74,7 @@ fn within(record: &Record, limit: usize) -> String {
 }
 
 /// The head of a page that needs nothing else, by a policy that holds it to that.
-pub(super) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
+pub(in crate::report) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
     html! {
         head {
             meta charset="utf-8";
@@ -88,7 +88,7 @@ pub(super) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
 }
 
 /// Nothing from elsewhere, no script and no style but the page's own, pictures from the page itself.
-pub(super) fn policy(style: &str, script: &str) -> String {
+pub(in crate::report) fn policy(style: &str, script: &str) -> String {
     let digest = |text: &str| BASE64_STANDARD.encode(Hash::hash(text.as_bytes()));
     format!(
         "default-src 'none'; img-src data:; style-src 'sha256-{}'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'",
@@ -98,7 +98,7 @@ pub(super) fn policy(style: &str, script: &str) -> String {
 }
 
 /// Nothing but a style.
-pub(super) fn style_policy(style: &str) -> String {
+pub(in crate::report) fn style_policy(style: &str) -> String {
     let digest = BASE64_STANDARD.encode(Hash::hash(style.as_bytes()));
     format!("default-src 'none'; style-src 'sha256-{digest}'; base-uri 'none'; form-action 'none'")
 }
@@ -215,7 +215,7 @@ fn guide() -> Markup {
 }
 
 /// Where and how long a run was made, and what should be known of its kernels.
-pub(super) fn made(provenance: &Provenance) -> Markup {
+pub(in crate::report) fn made(provenance: &Provenance) -> Markup {
     html! {
         dt { "Target" } dd { (shortened(&provenance.target, 200)) }
         dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }

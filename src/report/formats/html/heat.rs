@@ -3,10 +3,10 @@
 use super::room::Room;
 use super::view::{Kind, Row, View};
 use super::words::{apart, counts, interval, percent};
+use crate::report::formats::pool::Pool;
+use crate::report::formats::row_view::RowView;
 use crate::report::number_of;
-use crate::report::pool::Pool;
 use crate::report::record::Rate;
-use crate::report::row_view::RowView;
 use maud::{Markup, PreEscaped, html};
 use std::collections::HashMap;
 

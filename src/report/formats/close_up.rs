@@ -1,11 +1,13 @@
 //! A few rows, each by itself: its contract and gates, and for each question its false misses, its false
 //! hits and what most of them come from.
 
-use super::columns::{Column, far, is_shared_in_scene, short_percent};
+use super::columns::{Column, far, short_percent};
+use super::disagreement::is_shared_in_scene;
 use super::lines::{Line, column_legend, write_wrapped};
 use super::pool::Pool;
-use super::rate::{percent, share_column};
+use super::rate::percent;
 use super::record::*;
+use super::text::share_column;
 use super::why::cause_shares;
 use super::{Style, group_digits};
 use crate::audit::Attribution;

@@ -1,4 +1,5 @@
 use super::*;
+use crate::report::formats::net::{NET_TITLE, net_lines};
 use crate::report::record::*;
 use crate::report::{
     Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, RowChange,
@@ -328,6 +329,21 @@ fn a_million_findings_stay_below_the_limit_and_what_is_left_out_is_said() {
         assert!(page.len() < LIMIT, "{what}: {}", page.len());
         assert!(page.contains(expected), "{what}");
         tags(&page);
+    }
+}
+
+#[test]
+fn what_changed_in_cases_stands_before_the_deviations() {
+    let mut record = record(&["k".to_owned()], &["f".to_owned()], &[]);
+    assert!(!within(&record, LIMIT).contains(NET_TITLE));
+    record.conformance = Some(conformance(vec![deviation("why", "https://example.org")]));
+    let lines = net_lines(record.conformance.as_ref().unwrap(), usize::MAX);
+    assert!(!lines.is_empty());
+    let page = within(&record, LIMIT);
+    let (net, list) = (page.find(NET_TITLE).unwrap(), page.find("Unexpected (1)").unwrap());
+    for line in lines {
+        let place = page.find(&html! { (line) }.into_string()).unwrap();
+        assert!(net < place && place < list, "{line}");
     }
 }
 

@@ -1,9 +1,10 @@
 //! Verdicts by question: the columns of the screen and of the summary in Markdown.
 
+use super::disagreement::{family_of, is_shared_in_scene};
 use super::record::*;
 use super::row_view::RowView;
 use crate::audit::{Trials, is_of_mesh};
-use crate::family::{self, Question};
+use crate::family::Question;
 
 /// The sources of one question, all of them samples or all of them complete sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,11 +77,6 @@ impl Column {
     }
 }
 
-/// The family of a source by its name, in which a mesh's file may follow.
-fn family_of(source: &str) -> Option<&'static family::Family> {
-    family::find(source.split_once(':').map_or(source, |(family, _)| family))
-}
-
 /// Whether a result's source is a whole set rather than a random sample.
 fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
     let of = |source: &&SourcePart| source.scalar == part.scalar && source.family == part.family;
@@ -132,14 +128,6 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
         "At a scene's shared edges and vertices a ray is wrong if no triangle reports it (a crack); which of them does, \
          and whether two do, changes no nearest hit.",
     )
-}
-
-/// Whether a source aims at the shared edges or vertices of a scene.
-pub(super) fn is_shared_in_scene(family: &str) -> bool {
-    family_of(family).is_some_and(|family| {
-        family.name.starts_with("scene-")
-            && matches!(family.question, Question::Edges | Question::Vertices)
-    })
 }
 
 /// The findings of a kind that are off by [`FAR`] longest edges or more.

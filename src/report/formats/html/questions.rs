@@ -4,8 +4,8 @@ use super::heat::{SHADE_NAMES, shade};
 use super::room::Room;
 use super::view::View;
 use super::words::{interval, percent};
-use crate::report::columns::{Across, Cell, Column, shared_in_scenes};
-use crate::report::lines::{Line, column_legend};
+use crate::report::formats::columns::{Across, Cell, Column, shared_in_scenes};
+use crate::report::formats::lines::{Line, column_legend};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 

@@ -2,7 +2,7 @@
 //! the worst findings with the commands that show them again.
 
 use super::lines::write_notes;
-use super::rate::{interval_of, share_column};
+use super::rate::{interval_of, percent};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::why::{accuracy_text, causes_text};
@@ -189,10 +189,28 @@ fn fitted(name: &str, columns: usize) -> String {
 }
 
 /// A count in at most six columns: 1,234 or 1.2M.
-pub(super) fn short_count(count: u64) -> String {
+pub(in crate::report) fn short_count(count: u64) -> String {
     match count {
         0..100_000 => group_digits(count),
         100_000..1_000_000 => format!("{}k", count / 1000),
         _ => format!("{:.1}M", count as f64 / 1e6),
+    }
+}
+
+/// A share and its interval in percent, right-aligned in 20 columns; red where it is not zero.
+pub(in crate::report) fn share_column(rate: &Rate, style: Style) -> String {
+    let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
+    let text = match (rate.rate, rate.interval) {
+        (None, _) => "-".to_owned(),
+        (Some(share), None) => number(share),
+        (Some(share), Some([low, high])) => {
+            format!("{} [{}, {}]", number(share), number(low), number(high))
+        }
+    };
+    let padded = format!("{text:>20}");
+    match (style.color, rate.count) {
+        (true, 1..) => format!("\x1b[31m{padded}\x1b[0m"),
+        (true, 0) => format!("\x1b[32m{padded}\x1b[0m"),
+        _ => padded,
     }
 }

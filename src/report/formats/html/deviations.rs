@@ -2,6 +2,7 @@
 
 use super::room::Room;
 use super::words::{code, counts, link, shortened};
+use crate::report::formats::net::{NET_TITLE, net_lines};
 use crate::report::{Conformance, Deviation, Method, Record, group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 
@@ -11,6 +12,8 @@ const MOST: usize = 700_000;
 /// The section; nothing for a record that was not compared.
 pub(super) fn section(record: &Record, room: &mut Room) -> Markup {
     let Some(conformance) = &record.conformance else { return html! {} };
+    let net = net_lines(conformance, usize::MAX);
+    let card = |found: &Deviation| card(conformance, found);
     let told = conformance.known.iter().filter(|known| known.why.is_some() || known.url.is_some());
     let told: Vec<&Deviation> = told.collect();
     html! {
@@ -25,9 +28,10 @@ pub(super) fn section(record: &Record, room: &mut Room) -> Markup {
                     }
                 }
             }
-            (list("Unexpected", "unexpected", conformance, conformance.unexpected.iter(), room))
-            (list("Stale: what was wrong is less so, or gone", "stale", conformance, conformance.stale.iter(), room))
-            (list("Known, with a reason", "known", conformance, told.into_iter(), room))
+            (list(NET_TITLE, "net", net.iter(), room, |line: &String| html! { li { (line) } }))
+            (list("Unexpected", "cards unexpected", conformance.unexpected.iter(), room, card))
+            (list("Stale: what was wrong is less so, or gone", "cards stale", conformance.stale.iter(), room, card))
+            (list("Known, with a reason", "cards known", told.into_iter(), room, card))
         }
     }
 }
@@ -62,22 +66,23 @@ fn how(conformance: &Conformance) -> Markup {
     }
 }
 
-fn list<'a>(
+/// A list of pieces, as many as there is room for; nothing of none.
+fn list<T>(
     title: &str,
     class: &str,
-    conformance: &Conformance,
-    deviations: impl ExactSizeIterator<Item = &'a Deviation>,
+    all: impl ExactSizeIterator<Item = T>,
     room: &mut Room,
+    piece: impl Fn(T) -> Markup,
 ) -> Markup {
-    let count = deviations.len() as u64;
+    let count = all.len() as u64;
     let mut part = room.part(MOST);
-    let items = part.fill(deviations, |found| card(conformance, found).into_string());
+    let items = part.fill(all, |one| piece(one).into_string());
     let left_out = part.left_out;
     room.take_back(part);
     html! {
         @if 0 < count {
             h3 { (title) " (" (group_digits(count)) ")" }
-            ul class={ "cards " (class) } { (PreEscaped(items)) }
+            ul class=(class) { (PreEscaped(items)) }
             @if 0 < left_out {
                 p.note { (number_of(left_out, "more is", "more are")) " left out here; the JSON record has all." }
             }

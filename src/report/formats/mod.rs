@@ -1,0 +1,63 @@
+//! A record for people and for other programs: one exporter a format.
+//!
+//! To add a format: write its file with a `write` function from a [`Record`], and give it a row in
+//! [`FORMATS`].
+
+mod close_up;
+mod columns;
+mod extremes;
+#[cfg(feature = "cli")]
+pub(in crate::report) mod html;
+mod jsonl;
+mod junit;
+mod lines;
+mod markdown;
+mod net;
+mod next;
+mod pool;
+mod row_view;
+mod sarif;
+mod screen;
+pub(in crate::report) mod text;
+mod verdict;
+mod why;
+mod worst;
+
+pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
+
+use super::disagreement::kinds_of;
+use super::*;
+use super::{disagreement, rate, record};
+use std::io::{self, Write};
+
+/// How people-facing formats look.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Style {
+    /// Whether to use terminal colours.
+    pub color: bool,
+    /// Whether to print everything: the tables by scalar, and every class of finding of every kernel.
+    pub details: bool,
+}
+
+/// A format that a record can be written in.
+pub struct Format {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Writes a record.
+    pub write: fn(&Record, Style, &mut dyn Write) -> io::Result<()>,
+}
+
+/// The format that shows pictures.
+pub const HTML: &str = "html";
+
+/// One row per format.
+pub const FORMATS: &[Format] = &[
+    Format { name: "text", write: text::write },
+    Format { name: "json", write: |record, _, out| write_json(record, out) },
+    Format { name: "jsonl", write: jsonl::write },
+    Format { name: "junit", write: junit::write },
+    Format { name: "sarif", write: sarif::write },
+    Format { name: "markdown", write: markdown::write },
+    #[cfg(feature = "cli")]
+    Format { name: HTML, write: html::write },
+];
