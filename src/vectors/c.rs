@@ -17,9 +17,11 @@ struct ray_triangle_vector {{
     int triangle, triangles, scalar;   /* which of the test's triangles, of how many; 32 or 64 */
     uint64_t origin[3], direction[3], t_min, t_max, a[3], b[3], c[3];
     const char *result, *closed, *open; /* hit, miss or free */
-    const char *group;                  /* exactly-one, at-least-one, free; empty: no group */
-    const char *where;                  /* interior, edge_ab, ..., parallel, coplanar, ... */
+    const char *free_because;           /* what a profile answers, words between spaces: boundary, ends, ... */
+    const char *group, *parity;         /* exactly-one, at-least-one, free; even, odd; empty: no group */
+    const char *where, *place, *facing; /* interior, edge_ab, ..., parallel, coplanar, ...; within, ...; front, back */
     double t, u, v, margin;             /* rounded; 0 if `where` is a class without a point */
+    const char *flags;                  /* what may go wrong, words between spaces */
 }};
 static const struct ray_triangle_vector ray_triangle_vectors[] = {{
 "
@@ -40,8 +42,20 @@ pub fn rows(test: &Test) -> String {
             Some(values) => double(nearest(&values[i])),
             None => "0".to_owned(),
         });
+        let crossing = triangle.truth.crossing();
+        let words = [
+            word(triangle.result()),
+            word(triangle.closed()),
+            word(triangle.open()),
+            &triangle.free_because().join(" "),
+            test.group.map_or("", |group| group.result()),
+            test.group.map_or("", |group| group.parity()),
+            triangle.place(),
+            crossing.map_or("", |crossing| crossing.place.name()),
+            crossing.map_or("", |crossing| crossing.facing.name()),
+        ];
         text.push_str(&format!(
-            "{{\"{}\",{i},{},{},{},{},{},{},{},{},{},\"{}\",\"{}\",\"{}\",\"{}\",\"{}\",{}}},\n",
+            "{{\"{}\",{i},{},{},{},{},{},{},{},{},{},{},{},\"{}\"}},\n",
             test.id,
             test.triangles.len(),
             &test.scalar[1..],
@@ -52,12 +66,9 @@ pub fn rows(test: &Test) -> String {
             vector(8),
             vector(11),
             vector(14),
-            word(triangle.result()),
-            word(triangle.closed()),
-            word(triangle.open()),
-            test.group.map_or("", |group| group.result()),
-            triangle.place(),
-            values.join(",")
+            words.map(|word| format!("\"{word}\"")).join(","),
+            values.join(","),
+            test.flags.join(" "),
         ));
     }
     text

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The HTML pages in headless Chromium. Needs Node.js 20, Debian's chromium (or CHROMIUM=path), poppler-utils
 # for the printed page as a picture, and the program (HAIRLINE=path, target/release/hairline if not said).
-# Screenshots go to tests/browser/out.
+# Screenshots go to tests/browser/out. With SITE=folder the pages of league/site in it are looked at too.
 set -euo pipefail
 cd "$(dirname "$0")"
 hairline=$(realpath "${HAIRLINE:-../../target/release/hairline}")
@@ -19,6 +19,9 @@ done
 "$hairline" epsilon --quiet --kernel moller-trumbore --scene room --scalar f32 -n 10000 --format html -o out/scene.html
 test -d node_modules || npm ci
 node --test --test-reporter=spec report.test.mjs mesh.test.mjs scene.test.mjs
+if [[ -n ${SITE-} ]]; then
+    node --test --test-reporter=spec site.test.mjs
+fi
 if command -v pdftoppm > /dev/null; then
     pdftoppm -r 70 -png out/audit.pdf out/printed
 fi

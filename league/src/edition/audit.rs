@@ -1,6 +1,9 @@
 //! What one audit says of an entrant.
 
 use crate::{Entrant, Run};
+use hairline::internals::arith::Float;
+use hairline::internals::case::Case;
+use hairline::internals::corpus::lines::AnyCase;
 use hairline::internals::report::{Example, FindingPart, KernelResult, Record};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -78,6 +81,25 @@ pub struct Depth {
     pub bits: String,
     /// Shows the case again.
     pub command: String,
+}
+
+impl Depth {
+    /// The case, whose bits are those of a scalar: `o=…,…,… d=… a=… b=… c=… t=…,…`, in hexadecimal.
+    pub fn case(&self, scalar: &str) -> AnyCase {
+        match scalar {
+            "f32" => AnyCase::F32(self.numbers(|bits| f32::from_bits(bits as u32))),
+            _ => AnyCase::F64(self.numbers(f64::from_bits)),
+        }
+    }
+
+    fn numbers<F: Float>(&self, number: impl Fn(u64) -> F) -> Case<F> {
+        let words = self.bits.split(' ').flat_map(|word| word[2..].split(','));
+        let bits = words.map(|word| u64::from_str_radix(word, 16).expect("a record's bits"));
+        let numbers: Vec<F> = bits.map(number).collect();
+        let triple = |i: usize| [numbers[i], numbers[i + 1], numbers[i + 2]];
+        let corners = [triple(6), triple(9), triple(12)];
+        Case::new(triple(0), triple(3), corners).on(numbers[15], numbers[16])
+    }
 }
 
 /// Families that ask alike. The last group, at the ends of the exponent range, counts for no verdict: what

@@ -4,8 +4,8 @@
 mod audit;
 mod tables;
 
-pub use audit::{Depth, EntrantResult, ScalarResult, Share};
-pub use tables::{CAPTION, Order, html, latex, markdown};
+pub use audit::{Depth, EntrantResult, GROUPS, ScalarResult, Share};
+pub use tables::{CAPTION, HEAD, Order, html, latex, markdown, rows};
 
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
@@ -51,6 +51,17 @@ impl Manifest {
 
 /// The name of the file with the hashes.
 pub const MANIFEST: &str = "manifest.json";
+
+/// The name of the newest edition in a folder of them.
+pub fn newest(folder: &Path) -> Result<String, String> {
+    let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).map_err(wrong)? {
+        names.push(entry.map_err(wrong)?.file_name().to_string_lossy().into_owned());
+    }
+    names.sort_by_key(|name| (name.len(), name.clone()));
+    names.pop().ok_or(format!("{}: no edition", folder.display()))
+}
 
 /// The results of an edition, in the order of the entrants.
 pub fn results(folder: &Path) -> Result<Vec<EntrantResult>, String> {

@@ -4,7 +4,8 @@ use super::audit::{Depth, EntrantResult, ScalarResult, Share};
 use std::cmp::Ordering;
 use std::fmt::Write;
 
-const HEAD: [&str; 10] = [
+/// The heads of the columns.
+pub const HEAD: [&str; 10] = [
     "kernel",
     "version",
     "scalar",
@@ -43,16 +44,18 @@ impl Order {
     }
 }
 
-/// One row an entrant and scalar.
-fn rows(results: &[EntrantResult], order: Order) -> Vec<[String; 10]> {
-    let mut all: Vec<(&EntrantResult, &String, &ScalarResult)> = Vec::new();
+/// One row an entrant and scalar, with its cells.
+pub fn rows(results: &[EntrantResult], order: Order) -> Vec<(&EntrantResult, &str, [String; 10])> {
+    let mut all: Vec<(&EntrantResult, &str, &ScalarResult)> = Vec::new();
     for entrant in results {
-        all.extend(entrant.scalars.iter().map(|(scalar, result)| (entrant, scalar, result)));
+        let scalars = entrant.scalars.iter();
+        all.extend(scalars.map(|(scalar, result)| (entrant, scalar.as_str(), result)));
     }
     if order == Order::Promises {
         all.sort_by(|(_, _, a), (_, _, b)| by_promises(a, b));
     }
-    all.into_iter().map(|(entrant, scalar, result)| row(entrant, scalar, result)).collect()
+    let row = |(entrant, scalar, result)| (entrant, scalar, row(entrant, scalar, result));
+    all.into_iter().map(row).collect()
 }
 
 /// Who keeps what its documentation promises comes first. Equal ones stay in their order.
@@ -132,7 +135,7 @@ fn short(x: f64) -> String {
 /// The table for a page, without its caption.
 pub fn markdown(results: &[EntrantResult], order: Order) -> String {
     let mut text = format!("| {} |\n|{}\n", HEAD.join(" | "), "---|".repeat(HEAD.len()));
-    for row in rows(results, order) {
+    for (_, _, row) in rows(results, order) {
         writeln!(text, "| {} |", row.map(|cell| cell.replace('*', "\\*")).join(" | ")).unwrap();
     }
     text
@@ -146,7 +149,7 @@ pub fn html(edition: &str, results: &[EntrantResult]) -> String {
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
     let body: String =
-        rows(results, Order::of(edition)).iter().map(|row| line("td", row)).collect();
+        rows(results, Order::of(edition)).iter().map(|(_, _, row)| line("td", row)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{edition}</title>\n<style>\n\
         body {{ font: 14px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 80em; padding: 0 1em }}\n\
@@ -166,7 +169,8 @@ pub fn latex(edition: &str, results: &[EntrantResult]) -> String {
         let cells: Vec<String> = cells.iter().map(|cell| escape(cell)).collect();
         format!("{} \\\\\n", cells.join(" & "))
     };
-    let body: String = rows(results, Order::of(edition)).iter().map(|row| line(row)).collect();
+    let body: String =
+        rows(results, Order::of(edition)).iter().map(|(_, _, row)| line(row)).collect();
     format!(
         "% {edition}: \\usepackage{{booktabs,longtable}}\n\\begin{{longtable}}{{lll l{}}}\n\
         \\caption{{{}}} \\\\\n\\toprule\n{}\\midrule\n\\endhead\n{body}\\bottomrule\n\\end{{longtable}}\n",
