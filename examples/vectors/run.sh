@@ -32,6 +32,9 @@ run rust rustc "$work/rust"
 run python python3 python3 reader.py
 run javascript node node reader.mjs
 run java java java Reader.java
+run go go go run reader.go
+build mcs -nologo -out:"$work/reader.exe" Reader.cs
+run csharp mono mono "$work/reader.exe"
 
 # The same arithmetic gives the same answers in every language.
 same() {
@@ -44,4 +47,4 @@ same() {
     done
 }
 same c cpp rust
-same python javascript java
+same python javascript java go csharp
