@@ -51,6 +51,7 @@ macro_rules! named {
 }
 
 /// Does the same with whichever scalar's value an [`AnyScalar`](crate::case::AnyScalar) holds.
+#[cfg(feature = "studies")]
 macro_rules! either_scalar {
     ($any:expr, $value:pat => $do:expr) => {
         match $any {

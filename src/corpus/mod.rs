@@ -2,20 +2,31 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "studies")]
 pub(crate) mod case_json;
 mod fan;
+#[cfg(feature = "studies")]
 mod found_by;
+#[cfg(feature = "studies")]
 pub(crate) mod json;
+#[cfg(feature = "studies")]
 pub mod lines;
 pub mod mesh;
+#[cfg(feature = "studies")]
 pub mod number;
+#[cfg(feature = "studies")]
 pub mod shapes;
+#[cfg(feature = "studies")]
 mod stored_case;
+#[cfg(feature = "studies")]
 mod stored_truth;
+#[cfg(feature = "studies")]
 pub mod text_lines;
+#[cfg(feature = "studies")]
 pub mod truth_json;
 
 pub(crate) use fan::{is_without_area, winds_once};
+#[cfg(feature = "studies")]
 pub use found_by::FoundBy;
 
 use std::{fmt, io};

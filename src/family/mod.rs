@@ -12,6 +12,7 @@ mod flat;
 pub(crate) mod integer;
 mod interval;
 mod lattice;
+#[cfg(feature = "studies")]
 pub mod manifest;
 mod mesh;
 mod neighbours;

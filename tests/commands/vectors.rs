@@ -444,8 +444,15 @@ fn bad_results_are_refused_in_one_line_with_file_and_line() {
 
 #[test]
 fn the_readers_have_at_most_fifty_lines() {
-    let files =
-        ["reader.c", "reader.py", "reader.mjs", "Reader.java", "reader.rs", "reader.go", "Reader.cs"];
+    let files = [
+        "reader.c",
+        "reader.py",
+        "reader.mjs",
+        "Reader.java",
+        "reader.rs",
+        "reader.go",
+        "Reader.cs",
+    ];
     for file in files {
         let text = fs::read_to_string(repository().join("examples/vectors").join(file)).unwrap();
         assert!(text.lines().count() <= 50, "{file}: {}", text.lines().count());

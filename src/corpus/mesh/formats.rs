@@ -1,6 +1,8 @@
 //! Which format a file of a mesh has, and its reader.
 
-use super::{Counted, InputError, LIMITS, Limits, Mesh, gltf, obj, ply};
+use super::counted::Counted;
+use super::files::{LIMITS, Limits};
+use super::{InputError, Mesh, gltf, obj, ply};
 use std::io::{self, BufRead, Read};
 
 /// Reads at most so many bytes of a file in the folder of the mesh's own.

@@ -6,7 +6,8 @@ mod buffers;
 mod transform;
 
 use super::builder::{Builder, Place};
-use super::{InputError, Limits, Mesh};
+use super::files::Limits;
+use super::{InputError, Mesh};
 use buffers::Buffers;
 use gltf::json;
 use gltf::json::validation::Checked;

@@ -4,7 +4,8 @@
 //! decided here.
 
 use super::builder::{Builder, Place, quoted, vertices_text};
-use super::{InputError, Limits, Mesh};
+use super::files::Limits;
+use super::{InputError, Mesh};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,

@@ -1,7 +1,10 @@
+use super::files::{LIMITS, Limits, read_within};
 use super::*;
 use crate::case::Draw;
+use crate::corpus::InputError;
+use crate::corpus::shapes::Shape;
 use std::fmt::Write as _;
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
 
 fn read(text: &str) -> Result<Mesh, InputError> {
     read_obj(text.as_bytes(), "teapot.obj", &mut |_| {})
