@@ -31,6 +31,33 @@ pub struct Entrant {
     pub findings: &'static [&'static str],
 }
 
+impl Entrant {
+    /// Whether it is audited with unit directions.
+    pub fn takes_unit_directions(&self) -> bool {
+        match self.run {
+            Run::Here(kernel) => kernel().info.contract.direction != Direction::Any,
+            _ => self.unit,
+        }
+    }
+
+    /// The program that knows it.
+    pub fn program(&self) -> &'static str {
+        match self.run {
+            Run::Here(_) => "league",
+            Run::Heavy => "league-heavy",
+            Run::Process { .. } => "hairline",
+        }
+    }
+
+    /// The flags that choose it.
+    pub fn selector(&self) -> Vec<&'static str> {
+        match self.run {
+            Run::Process { arguments, .. } => arguments.to_vec(),
+            _ => vec!["--kernel", self.name],
+        }
+    }
+}
+
 /// Where a kernel runs.
 #[derive(Clone, Copy, Debug)]
 pub enum Run {

@@ -6,7 +6,9 @@
 use crate::arith::{Exact, ExactVector, Float, Real, Vector};
 use crate::case::{Case, Ray, Triangle};
 use crate::contract::Extent;
-use crate::judge::{Squares, nearest_on_segment, square, ulp_of_points};
+use crate::judge::{Squares, is_in_extent, nearest_on_segment, square, ulp_of_points};
+use crate::oracle;
+use crate::truth::{Crossing, Place};
 
 /// The exact distances behind a finding, rounded to floats from exact squares, in units of the
 /// triangle's longest edge (of length, for a triangle that is a point). `None` where a distance does
@@ -19,6 +21,8 @@ pub struct Severity {
     pub in_space: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
+    /// Where t lies if it is not in the extent: before it or beyond it.
+    pub off_end: Option<Place>,
     /// The longest edge in ulps of the largest coordinate of the case's points: a distance times
     /// this is in ulps.
     pub edge_in_ulps: f64,
@@ -50,8 +54,18 @@ pub fn exact_severity<F: Float>(case: &Case<F>, extent: Extent) -> Option<Severi
         in_plane: in_plane.map(relative),
         in_space: relative(in_space),
         along: along.map(relative),
+        off_end: oracle::truth(case).crossing().and_then(|crossing| off_end(crossing, extent)),
         edge_in_ulps: (unit.clone() / (ulp.clone() * ulp)).approximate_root(),
     })
+}
+
+/// Where a crossing lies that is not in an extent. That of a ray begins at 0, whatever the interval is.
+fn off_end(crossing: &Crossing, extent: Extent) -> Option<Place> {
+    match (is_in_extent(crossing, extent), extent) {
+        (true, _) => None,
+        (false, Extent::Interval) => Some(crossing.place),
+        (false, _) => Some(Place::Before),
+    }
 }
 
 /// Where an extent begins and ends: the places of 0, t_min and t_max that count.
@@ -83,9 +97,24 @@ mod tests {
         let severity = exact_severity(&case, Extent::Interval).unwrap();
         assert_eq!(severity.in_plane, Some(0.2));
         assert_eq!(severity.in_space, 0.2);
-        assert_eq!(severity.along, Some(0.4));
+        assert_eq!((severity.along, severity.off_end), (Some(0.4), None));
         // Longest edge 5; the largest coordinate is 4, whose ulp is 2^-50.
         assert_eq!(severity.edge_in_ulps, 5.0 * 2f64.powi(50));
+    }
+
+    #[test]
+    fn what_is_off_an_end_follows_the_extent_and_not_the_interval() {
+        // The plane is met at t = 2.
+        let from = |z: f64| Case::<f64>::new([1.0, 1.0, z], [0.0, 0.0, -1.0], TRIANGLE);
+        let off = |case: Case<f64>| {
+            [Extent::Interval, Extent::Ray, Extent::Line]
+                .map(|extent| exact_severity(&case, extent).unwrap().off_end)
+        };
+        assert_eq!(off(from(2.0).on(0.0, 1.0)), [Some(Place::Beyond), None, None]);
+        assert_eq!(off(from(2.0).on(3.0, 4.0)), [Some(Place::Before), None, None]);
+        assert_eq!(off(from(2.0).on(2.0, 3.0)), [None; 3]);
+        // And here behind the origin, at t = -2.
+        assert_eq!(off(from(-2.0).on(-3.0, 1.0)), [None, Some(Place::Before), None]);
     }
 
     #[test]

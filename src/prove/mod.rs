@@ -7,6 +7,7 @@ mod bound;
 mod builder;
 pub mod certificate;
 pub mod checker;
+mod climb;
 mod domain;
 mod dyadic;
 mod forms;

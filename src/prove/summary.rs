@@ -160,12 +160,14 @@ fn worst<F: Searched>(
     let from_known = known
         .iter()
         .filter_map(|inputs| search.exact(inputs, goal).map(|score| witness(*inputs, score)));
-    let best = from_known.max_by(|a, b| a.score.total_cmp(&b.score));
+    let mut known: Vec<Witness<F>> = from_known.collect();
+    known.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let best = known.first().copied();
     if effort.evaluations == 0 {
         return best;
     }
     let mut draw = Draw::new("prove", effort.seed, quantity.place.into());
-    let known: Vec<Inputs<F>> = best.iter().map(|witness| witness.inputs).collect();
+    let known: Vec<Inputs<F>> = known.iter().map(|witness| witness.inputs).collect();
     let found = search.climb(goal, effort.evaluations, &mut draw, &known);
     let found = found.map(|(inputs, score)| witness(inputs, score));
     best.into_iter().chain(found).max_by(|a, b| a.score.total_cmp(&b.score))

@@ -220,6 +220,7 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
             in_space: severity.in_space,
             edge_in_ulps: severity.edge_in_ulps,
             along: severity.along,
+            off_end: severity.off_end.map(|place| place.name().to_owned()),
         }),
         command: explain_command::<F>(source, row, place.index, triangle),
     }

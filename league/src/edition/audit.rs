@@ -1,6 +1,6 @@
 //! What one audit says of an entrant.
 
-use crate::{Entrant, Run};
+use crate::Entrant;
 use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
 use hairline::internals::corpus::lines::AnyCase;
@@ -248,10 +248,5 @@ fn depth(entrant: &Entrant, family: &str, part: &FindingPart) -> Option<Depth> {
 
 /// The command that shows an example, with the program that knows the kernel.
 fn command(entrant: &Entrant, example: &Example) -> String {
-    let program = match entrant.run {
-        Run::Here(_) => "league",
-        Run::Heavy => "league-heavy",
-        Run::Process { .. } => "hairline",
-    };
-    example.command.replacen("hairline", program, 1)
+    example.command.replacen("hairline", entrant.program(), 1)
 }

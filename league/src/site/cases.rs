@@ -83,10 +83,14 @@ fn page<F: Scalar>(site: &SiteCase, case: &Case<F>) -> Markup {
         @if let Some(picture) = drawing::picture(case, exact) { (picture) }
         h2 { "What kernels answer" }
         p.soft {
-            "Those that are Rust, each with the epsilons of its source and judged by what its own source promises; the others answer in "
-            "a process of their own and are in the table of the edition only."
+            "Those that are Rust, each with the epsilons of its source and judged by what its own source promises: nothing is asked where that "
+            "leaves the case open, as a direction that is not of unit length, or an edge. A bad value is a hit whose t, u or v is promised and is "
+            "not finite, or whose side is wrong. The others answer in a process of their own and are in the edition's table only."
         }
-        (answers(case))
+        h3 { "Published libraries" }
+        (answers("Published libraries", case, |entry| !entry.is_built_in()))
+        h3 { "hairline's own kernels, from the literature" }
+        (answers("hairline's own kernels", case, Entry::is_built_in))
         h2 { "Show it again" }
         @for (_, _, depth) in &site.deepest { pre { code { (depth.command) } } }
         p { "As a line of a corpus file, for " code { "hairline audit --corpus FILE" } ":" }
@@ -136,16 +140,16 @@ fn values(exact: &ExactValues) -> Markup {
     }
 }
 
-fn answers<F: Scalar>(case: &Case<F>) -> Markup {
+fn answers<F: Scalar>(label: &str, case: &Case<F>, is_one: fn(&Entry) -> bool) -> Markup {
     let head = html! { th { "kernel" } th.text { "answers" } th.text { "is asked" } th.text { "finding" } };
     let body = html! {
-        @for entry in all() {
+        @for entry in all().into_iter().filter(|entry| is_one(entry)) {
             @if let Some([answer, demand, finding]) = answer(entry, case) {
                 tr { td { (entry.info.name) } td.text { (answer) } td.text { (demand) } td.text.wrong { (finding) } }
             }
         }
     };
-    table("What kernels answer", &head, &body)
+    table(label, &head, &body)
 }
 
 /// What a kernel answers, what is asked of it, and the finding if that is not the same; none if it does not run in

@@ -4,6 +4,7 @@ use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
 use hairline::internals::truth::ExactValues;
 use maud::{Markup, html};
+use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 const WIDTH: f64 = 460.0;
@@ -15,10 +16,12 @@ const FARTHEST: f64 = 4.0;
 /// The picture; none where the line lies in the plane or is parallel to it, where the triangle has no area to draw, or
 /// where they are too far apart to be seen together.
 pub fn picture<F: Float>(case: &Case<F>, exact: &ExactValues) -> Option<Markup> {
-    let [u, v] = [&exact.u, &exact.v].map(|value| value.as_ref().and_then(ToPrimitive::to_f64));
+    let (u, v) = (exact.u.as_ref()?, exact.v.as_ref()?);
+    let w = BigRational::from_integer(1.into()) - u - v;
+    let least = u.min(v).min(&w).to_f64()?;
+    let (u, v) = (u.to_f64()?, v.to_f64()?);
     let corners = in_plane(case)?;
     let [a, b, c] = corners;
-    let (u, v) = (u?, v?);
     let crossing = [u * b[0] + v * c[0], u * b[1] + v * c[1]];
     if !crossing.iter().all(|x| x.abs() <= FARTHEST) {
         return None;
@@ -27,10 +30,10 @@ pub fn picture<F: Float>(case: &Case<F>, exact: &ExactValues) -> Option<Markup> 
     let [a, b, c] = corners.map(&place);
     let [x, y] = place(crossing);
     let points = [a, b, c].map(|[x, y]| format!("{x:.1},{y:.1}")).join(" ");
-    let least = u.min(v).min(1.0 - u - v);
-    let said = match least < 0.0 {
-        true => format!("outside: the smallest of its three weights is {least:.1e}"),
-        false => format!("inside: the smallest of its three weights is {least:.1e}"),
+    let said = match least {
+        0.0 => "on the boundary".to_owned(),
+        _ if least < 0.0 => format!("outside: the smallest of its three weights is {least:.1e}"),
+        _ => format!("inside: the smallest of its three weights is {least:.1e}"),
     };
     Some(html! {
         figure style="margin:0" {

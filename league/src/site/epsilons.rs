@@ -74,12 +74,20 @@ pub fn in_use(results: &[EntrantResult]) -> Vec<Epsilon> {
                 PresetValue::MachineEpsilon(1.0) => "EPSILON".to_owned(),
                 PresetValue::MachineEpsilon(times) => format!("{times}*EPSILON"),
             };
-            found.entry(text).or_default().push(User {
-                who: preset.source.split(':').next().unwrap_or(preset.name).to_owned(),
+            // An entrant that is modelled is there already.
+            let users = found.entry(text).or_default();
+            let is_same =
+                |user: &User| user.gate == entry.gate && user.who.starts_with(preset.name);
+            if users.iter().any(is_same) {
+                continue;
+            }
+            let page = results.iter().find(|result| result.kernel.starts_with(preset.name));
+            users.push(User {
+                who: page.map_or(preset.name, |page| &page.kernel).to_owned(),
                 gate: entry.gate,
                 dimension: entry.dimension,
                 form: entry.form,
-                has_page: false,
+                has_page: page.is_some(),
             });
         }
     }
@@ -113,9 +121,12 @@ pub fn write(pages: &mut Pages, epsilons: &[Epsilon]) -> Result<(), String> {
     for epsilon in epsilons {
         eprintln!("epsilon {}", epsilon.text);
         let body = html! {
+            @if epsilon.text.contains("EPSILON") {
+                p { "EPSILON is the distance from 1 to the next number: 1.19e-7 in f32, 2.22e-16 in f64." }
+            }
             h2 { "Who uses it" }
             (users(&epsilon.users))
-            @for (gate, dimension) in gates(epsilon) { (section(&epsilon.text, gate, dimension, &mut costs)?) }
+            @for (gate, dimension) in gates(epsilon) { (section(epsilon, gate, dimension, &mut costs)?) }
         };
         let path = format!("epsilon/{}.html", epsilon.slug());
         pages.page(&path, &format!("An epsilon of {}", epsilon.text), &body)?;
@@ -125,7 +136,7 @@ pub fn write(pages: &mut Pages, epsilons: &[Epsilon]) -> Result<(), String> {
 
 fn users(users: &[User]) -> Markup {
     if users.is_empty() {
-        return html! { p { "No library that we know." } };
+        return html! { p { "None of hairline's kernels, the league's modelled entrants and the known presets." } };
     }
     let head = html! { th { "library or kernel" } th.text { "gate" } th.text { "refuses" } th.text { "dimension" } };
     let body = html! {
@@ -139,7 +150,10 @@ fn users(users: &[User]) -> Markup {
             }
         }
     };
-    table("Who uses it", &head, &body)
+    html! {
+        p { "Of hairline's kernels, the league's entrants whose formula is modelled, and the presets of " code { "hairline list presets" } "; others may." }
+        (table("Who uses it", &head, &body))
+    }
 }
 
 /// What a dimension means for an epsilon.
@@ -182,25 +196,32 @@ fn gates(epsilon: &Epsilon) -> Vec<(&'static str, Dimension)> {
     gates
 }
 
-/// The built-in kernel that stands for all with such a gate.
-fn stand_in(gate: &str, dimension: Dimension, value: &str) -> Option<&'static Entry> {
+/// The built-in kernel that is tried: one that has the epsilon, or else one with such a gate.
+fn stand_in(epsilon: &Epsilon, gate: &str, dimension: Dimension) -> Option<&'static Entry> {
+    let value = &epsilon.text;
     let fits = |candidate: &Gate| {
         candidate.name == gate
             && candidate.dimension == dimension
             && candidate.epsilon != Tunable::Fixed
             && (candidate.epsilon == Tunable::Signed || !value.starts_with('-'))
     };
-    KERNELS.iter().find(|entry| entry.info.gates.iter().any(fits))
+    let is_user = |entry: &&Entry| epsilon.users.iter().any(|user| user.who == entry.info.name);
+    let is_known = |entry: &&Entry| entry.info.name == "moller-trumbore";
+    let fitting: Vec<&Entry> =
+        KERNELS.iter().filter(|entry| entry.info.gates.iter().any(fits)).collect();
+    let mut wanted = fitting.iter().copied().filter(is_user);
+    wanted.next().or(fitting.iter().copied().find(is_known)).or(fitting.first().copied())
 }
 
 fn section(
-    value: &str,
+    epsilon: &Epsilon,
     gate: &'static str,
     dimension: Dimension,
     costs: &mut Costs,
 ) -> Result<Markup, String> {
+    let value = &epsilon.text;
     let title = format!("At a gate {gate} of dimension {}", words(dimension));
-    let Some(entry) = stand_in(gate, dimension, value) else {
+    let Some(entry) = stand_in(epsilon, gate, dimension) else {
         return Ok(
             html! { h2 { (title) } p { "No kernel of hairline has such a gate: it is not measured." } },
         );
@@ -227,13 +248,21 @@ fn section(
         p { (scaling(dimension)) }
         p { "Tried with " code { (kernel) } ", all other epsilons 0." }
         h3 { "What is proved" }
-        @for scalar in ["f32", "f64"] { (proved(kernel, gate, &with, scalar)?) }
-        h3 { "What it costs" }
         p {
-            "Answers that are wrong, in % of " (rays()) " rays of each kind, with this epsilon and (in brackets) with 0. The scenes are those of "
-            code { "hairline epsilon --scene" } "; measure yours by the command below."
+            "Of coordinates of points and of their differences up to 1, and of directions up to 1. Where lengths are s times as large, a determinant's "
+            "bound is s² times as large, so that with edges of 100 all of these numbers are 10,000 times as large. u is half the distance from 1 to the "
+            "next number: 6.0e-8 in f32, 1.1e-16 in f64."
         }
-        (table(&format!("What it costs, {title}"), &head, &body))
+        @for scalar in ["f32", "f64"] { (proved(kernel, gate, &with, scalar)?) }
+        h3 { "What it does to rays" }
+        p {
+            "Answers that are wrong, in % of some " (rays()) " rays of each kind, with this epsilon and (in brackets) with 0: what stands in the brackets too "
+            "is not this epsilon's doing. These are our scenes, not yours: unit has edges and distances around 1; room and city are in metres, cad-mm in "
+            "millimetres. Grazing rays are aimed at angles from 7 degrees down to below what rounding resolves, so their shares compare epsilons and are "
+            "no share of your rays. Self-hits are of rays that start on a computed hit point."
+        }
+        (table(&format!("What it does, {title}"), &head, &body))
+        p { "For your own sizes; at the end stands what the epsilons of the source cost there, and which cost less:" }
         pre { code { "hairline epsilon --kernel " (kernel) " --scene extent=100,edge=0.01..10" } }
     })
 }
@@ -268,17 +297,22 @@ struct Column {
     count: fn(&KernelResult) -> [u64; 2],
 }
 
-const COLUMNS: [Column; 6] = [
+const COLUMNS: [Column; 7] = [
     Column { head: "hits lost", family: "scene-interior", count: misses },
     Column { head: "grazing hits lost", family: "scene-grazing", count: misses },
+    Column { head: "grazing misses hit", family: "scene-grazing", count: hits },
     Column { head: "cracks at edges", family: "scene-edges", count: cracks },
     Column { head: "parallel rays hit", family: "scene-parallel", count: hits },
     Column { head: "hits beside it", family: "scene-outside", count: hits },
-    Column { head: "self-hits", family: "scene-shadow", count: hits },
+    Column { head: "self-hits", family: "scene-shadow", count: self_hits },
 ];
 
 fn cracks(part: &KernelResult) -> [u64; 2] {
     part.across.as_ref().map_or([0, 0], |across| [across.cracks.count, across.cracks.of])
+}
+
+fn self_hits(part: &KernelResult) -> [u64; 2] {
+    part.self_hits.as_ref().map_or([0, 0], |rate| [rate.count, rate.of])
 }
 
 fn misses(part: &KernelResult) -> [u64; 2] {

@@ -4,7 +4,9 @@ use crate::badges;
 use crate::cases;
 use crate::findings::Finding;
 use crate::page::{Pages, slug, table};
+use hairline::internals::audit::shell_word;
 use hairline_league::edition::{Depth, EntrantResult, GROUPS, ScalarResult, Share};
+use hairline_league::{Entrant, entrants};
 use maud::{Markup, html};
 
 /// The pages.
@@ -14,6 +16,7 @@ pub fn write(
     findings: &[Finding],
     url: Option<&str>,
 ) -> Result<(), String> {
+    let entrants = entrants();
     for entrant in results {
         let about = findings.iter().filter(|finding| entrant.findings.contains(&finding.file));
         let body = html! {
@@ -25,7 +28,12 @@ pub fn write(
             @if !entrant.note.is_empty() { p { (linked(&entrant.note)) } }
             p.soft { "Judged by: " (entrant.contract) ". " (entrant.cases) " cases of each family, " (entrant.audited) "." }
             h2 { "What came out" }
-            @for (scalar, result) in &entrant.scalars { (section(scalar, result)) }
+            p.soft {
+                "Refuted: a false verdict is deeper than half of the number's digits (4,096 ulps of the largest coordinate in f32, 9.5e7 in f64), or a "
+                "promise about shared edges is broken."
+            }
+            @let facts = entrants.iter().find(|facts| facts.name == entrant.kernel);
+            @for (scalar, result) in &entrant.scalars { (section(entrant, facts, scalar, result)) }
             h2 { "Findings" }
             @if entrant.findings.is_empty() { p { "None is written up." } }
             ul { @for finding in about { li { a href={ "../finding/" (finding.slug) ".html" } { (finding.title) } } } }
@@ -55,12 +63,20 @@ fn question(group: &str) -> &'static str {
     }
 }
 
-fn section(scalar: &str, result: &ScalarResult) -> Markup {
+fn section(
+    entrant: &EntrantResult,
+    facts: Option<&Entrant>,
+    scalar: &str,
+    result: &ScalarResult,
+) -> Markup {
     let verdict = match result.verdict.as_str() {
+        "held" if facts.is_some_and(|facts| facts.only_shared) => {
+            "held: no ray slipped through a shared edge, and nothing else is promised"
+        }
         "held" => "held: every false verdict is within 4 ulps of the input",
         "rounding" => "right but for rounding: every false verdict is within half of the digits",
         "refuted by size" => {
-            "refuted, but for triangles or directions that are small, large or far only"
+            "refuted, for small, large or far triangles and short or long directions only"
         }
         "refuted" => "refuted",
         _ => "nothing is claimed",
@@ -69,15 +85,16 @@ fn section(scalar: &str, result: &ScalarResult) -> Markup {
         html! { th { "rays" } th { "false misses" } th { "of" } th { "false hits" } th { "of" } };
     let body = html! {
         @for (group, [misses, hits]) in GROUPS.iter().filter_map(|(name, _)| Some((name, result.groups.get(*name)?))) {
-            tr { td { (question(group)) } td { (misses.count) } td { (misses.of) } td { (hits.count) } td { (hits.of) } }
+            tr { td.text { (question(group)) ": " span.soft { (families(group)) } } td { (misses.count) } td { (misses.of) } td { (hits.count) } td { (hits.of) } }
         }
     };
     html! {
         h3 { (scalar) ": " span class=(result.verdict.split(' ').next_back().unwrap_or_default()) { (verdict) } }
         (table(&format!("By kind of rays, {scalar}"), &head, &body))
+        @if let Some(facts) = facts { pre { code { (command(entrant, facts, scalar)) } } }
         p { "Rays through shared edges and vertices: " (of(result.cracks)) " hit nothing, " (of(result.doubles)) " more than one triangle." }
         @if let Some([half, most]) = result.t_error_ulps {
-            p { "Of plain hits, half have t within " (half) " ulps of the exact one, 99 % within " (most) "." }
+            p { "Of plain hits, half have t within " (short(half)) " ulps of the exact one, 99 % within " (short(most)) "." }
         }
         @for (what, depth) in [("false miss", &result.deepest_miss), ("false hit", &result.deepest_hit)] {
             @if let Some(depth) = depth { (deepest(what, depth)) }
@@ -89,11 +106,37 @@ fn of(share: Share) -> String {
     format!("{} of {}", share.count, share.of)
 }
 
+/// The families of a group, as the command line takes them.
+fn families(group: &str) -> String {
+    let families = GROUPS.iter().find(|(name, _)| *name == group);
+    families.map_or(String::new(), |(_, families)| families.join(","))
+}
+
+/// Counts the same again; with `--details` by family.
+fn command(entrant: &EntrantResult, facts: &Entrant, scalar: &str) -> String {
+    let selector = facts.selector().into_iter().map(shell_word).collect::<Vec<_>>().join(" ");
+    let direction = if facts.takes_unit_directions() { " --direction unit" } else { "" };
+    let (program, cases) = (facts.program(), entrant.cases);
+    let families: Vec<String> = GROUPS.iter().map(|(group, _)| families(group)).collect();
+    let families = families.join(",");
+    format!(
+        "{program} audit {selector} --scalar {scalar}{direction} -n {cases} --details --family {families}"
+    )
+}
+
+/// In as many digits as are read.
+fn short(x: f64) -> String {
+    match x {
+        x if x == 0.0 || (0.01..1e5).contains(&x) => format!("{}", (x * 100.0).round() / 100.0),
+        x => format!("{x:.1e}"),
+    }
+}
+
 fn deepest(what: &str, depth: &Depth) -> Markup {
     html! {
         p {
-            "The deepest " (what) " is " b { (format!("{:.1e}", depth.edges)) } " longest edges (" (format!("{:.1e}", depth.ulps))
-            " ulps of the largest coordinate) from where it would be right: "
+            "The deepest " (what) " is " b { (short(depth.edges)) } " longest edges (" (short(depth.ulps))
+            " ulps of the largest coordinate) off, from the triangle's boundary or along the ray from its end, whichever is nearer: "
             a href={ "../case/" (cases::slug_of(depth)) ".html" } { (depth.case) } "."
         }
         pre { code { (depth.command) } }

@@ -63,6 +63,13 @@ fn shell(edition: &str, title: &str, up: &str, body: &Markup) -> String {
             body {
                 nav { a href={ (up) "index.html" } { (edition) } }
                 main { h1 { (title) } (body) }
+                footer {
+                    p.soft {
+                        "Made by hairline, which compares ray–triangle tests with exact arithmetic. In its repository " code { "league" }
+                        " in a command is " code { "cargo run --release --manifest-path league/Cargo.toml --" } ", " code { "league-heavy" }
+                        " the same with " code { "league/heavy/Cargo.toml" } ", and " code { "hairline" } " is " code { "cargo run --release --" } "."
+                    }
+                }
             }
         }
     };
@@ -110,12 +117,16 @@ pub fn index(
              documented, at one version, and judged by that documentation alone. Exact arithmetic tells what is right."
         }
         p { (CAPTION) }
+        p {
+            "The deepest false verdict is the one that is farthest off in ulps of the largest coordinate. Where only shared edges are promised "
+            "(embree-robust) held means that no ray slipped through one. A rate is of our cases, and says nothing of how often your scene has such a ray."
+        }
         (table("The league", &head, &body))
         h2 { "Findings" }
         p { "Each page has the code that shows it, the cause, and the smallest repair." }
         ul { @for finding in findings { li { a href={ "finding/" (finding.slug) ".html" } { (finding.title) } } } }
         h2 { "Epsilons" }
-        p { "Who uses it, what is proved of it, and what it costs in four scenes." }
+        p { "Who uses it, what is proved of it, and what it does to rays in four scenes." }
         ul.values { @for epsilon in epsilons { li { a href={ "epsilon/" (epsilon.slug()) ".html" } { (epsilon.text) } } } }
     };
     let title = format!("The league of ray–triangle tests, {}", pages.edition);

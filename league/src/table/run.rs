@@ -1,6 +1,5 @@
 //! The audit of one entrant, in a process of the program that knows it.
 
-use hairline::internals::contract::Direction;
 use hairline::internals::report::Record;
 use hairline_league::edition::{self, EntrantResult};
 use hairline_league::{Entrant, Run};
@@ -41,16 +40,11 @@ pub fn audit(entrant: &Entrant) -> Result<Option<EntrantResult>, String> {
     let beside = std::env::current_exe().map_err(|error| error.to_string())?;
     let league = beside.with_file_name("league");
     let heavy = std::env::var("LEAGUE_HEAVY").unwrap_or_default();
-    let is_unit = match entrant.run {
-        Run::Here(kernel) => kernel().info.contract.direction != Direction::Any,
-        _ => entrant.unit,
-    };
-    let (program, kernel) = match entrant.run {
-        Run::Here(_) => (league, vec!["--kernel", entrant.name]),
+    let program = match entrant.run {
         Run::Heavy if heavy.is_empty() => return Ok(None),
-        Run::Heavy => (heavy.into(), vec!["--kernel", entrant.name]),
         Run::Process { needs, .. } if !Path::new(needs).exists() => return Ok(None),
-        Run::Process { arguments, .. } => (league, arguments.to_vec()),
+        Run::Heavy => heavy.into(),
+        Run::Here(_) | Run::Process { .. } => league,
     };
     // Rays through a pipe, or with a scene each, take a thousand times as long.
     let count = if matches!(entrant.run, Run::Process { .. }) { "4000" } else { "20000" };
@@ -59,9 +53,12 @@ pub fn audit(entrant: &Entrant) -> Result<Option<EntrantResult>, String> {
         FAMILIES.iter().copied().filter(|family| !entrant.skip.contains(family)).collect();
     let file = std::env::temp_dir().join(format!("league-{}.json", std::process::id()));
     let mut command = Command::new(program);
-    command.arg("audit").args(kernel).args(["--quiet", "--format", "json", "-n", &count]);
+    command
+        .arg("audit")
+        .args(entrant.selector())
+        .args(["--quiet", "--format", "json", "-n", &count]);
     command.arg("--family").arg(families.join(",")).arg("-o").arg(&file);
-    if is_unit {
+    if entrant.takes_unit_directions() {
         command.args(["--direction", "unit"]);
     }
     eprintln!("{}", entrant.name);

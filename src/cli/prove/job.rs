@@ -64,9 +64,11 @@ impl Job<'_> {
     /// Proves and searches.
     pub fn run<F: Searched + Scalar>(&self, entry: &Entry) -> Parts {
         let name = entry.info.name;
-        let is_of = |w: &&StoredWitness| w.scalar == F::NAME && (self.shared || w.kernel == name);
+        // A search begins at the witnesses of the other scalar too.
+        let is_scalar = |w: &StoredWitness| w.scalar == F::NAME || 0 < self.effort.evaluations;
+        let is_of = |w: &&StoredWitness| is_scalar(w) && (self.shared || w.kernel == name);
         let known: Vec<[F; 17]> =
-            self.stored.iter().filter(is_of).filter_map(StoredWitness::numbers).collect();
+            self.stored.iter().filter(is_of).filter_map(StoredWitness::nearest).collect();
         let summary = match Summary::<F>::new(entry, self.domain, &known, self.effort) {
             Ok(summary) => summary,
             Err(why) => {

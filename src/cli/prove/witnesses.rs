@@ -31,6 +31,14 @@ impl StoredWitness {
         let numbers: Vec<F> = self.inputs.iter().map(bits).collect::<Option<_>>()?;
         numbers.try_into().ok()
     }
+
+    /// The nearest numbers of either scalar: a place to search from.
+    pub fn nearest<F: Float>(&self) -> Option<[F; 17]> {
+        match self.scalar == f32::NAME {
+            true => self.numbers::<f32>().map(|numbers| numbers.map(|x| F::from_f64(x.into()))),
+            false => self.numbers::<f64>().map(|numbers| numbers.map(F::from_f64)),
+        }
+    }
 }
 
 /// The witnesses of a file's text, one a line.

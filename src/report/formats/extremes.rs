@@ -137,6 +137,8 @@ impl Extreme<'_> {
             d => format!("{d:.1e}"),
         };
         let class = &self.part.class;
+        let severity = self.part.worst.severity.as_ref();
+        let off_end = severity.and_then(|severity| severity.off_end.as_deref());
         let (at_rim, along) = (self.distance.0 == 0.0, self.distance.1);
         let touches =
             ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
@@ -144,10 +146,10 @@ impl Extreme<'_> {
         let what = match (is_hit, along) {
             _ if at_rim && along => format!("{hit} exactly at an end of the ray"),
             _ if at_rim => format!("{hit} exactly on the boundary"),
-            (true, true) if class.ends_with("/before") => {
-                format!("a hit {distance} edges before the start of the ray")
+            (true, true) if off_end == Some("beyond") => {
+                format!("a hit {distance} edges beyond the end of the ray")
             }
-            (true, true) => format!("a hit {distance} edges beyond the end of the ray"),
+            (true, true) => format!("a hit {distance} edges before the start of the ray"),
             (true, false) if touches => "a hit of the triangle that must be missed".to_owned(),
             (true, false) => format!("a hit, but the ray passes {distance} edges away"),
             (false, true) => format!("a miss, but the hit is {distance} edges within the ray"),

@@ -98,9 +98,8 @@ impl RowView<'_> {
 /// before or beyond the extent it is.
 pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
     let Some(severity) = &finding.worst.severity else { return (0.0, false) };
-    let off_end = finding.class.ends_with("/before") || finding.class.ends_with("/beyond");
     match severity.along {
-        Some(along) if finding.finding == "false-hit" && off_end => {
+        Some(along) if finding.finding == "false-hit" && severity.off_end.is_some() => {
             let outside = finding.class.starts_with("outside");
             let in_space = if outside { severity.in_space } else { 0.0 };
             if along > in_space { (along, true) } else { (in_space, false) }

@@ -101,6 +101,9 @@ pub struct SeverityPart {
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
+    /// `before` or `beyond`, if t is not in the extent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub off_end: Option<String>,
 }
 
 /// A number beyond the range of an f64 is written as null, since JSON has no infinity.
@@ -195,6 +198,7 @@ mod tests {
             in_space: f64::INFINITY,
             edge_in_ulps: f64::INFINITY,
             along: Some(1.5),
+            off_end: None,
         };
         let text = serde_json::to_string(&part).unwrap();
         let again: SeverityPart = serde_json::from_str(&text).unwrap();
