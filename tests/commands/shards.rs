@@ -238,6 +238,10 @@ fn a_run_is_cut_in_as_many_parts_as_may_be_and_at_least_in_one() {
         assert_eq!(cut_in(of), expected);
     }
     assert!(cut_in(100_000).contains("99999 of 100000 are missing"));
+    // The first part is missed as well as the last.
+    ends(&folder, &[&["audit", "--shard", "1/2", "-o", "last.json"], &words[..]].concat(), 0);
+    let error = merge(&folder, &["last.json"], &["-q"], 65);
+    assert!(error.contains(": shards 0 of 2 are missing "), "{error}");
     // One part of one is all of it.
     ends(&folder, &[&["audit", "--shard", "0/1", "-o", "part.json"], &words[..]].concat(), 0);
     merge(&folder, &["part.json"], &["-q"], 0);

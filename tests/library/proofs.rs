@@ -365,3 +365,22 @@ fn hostile_text_is_refused_at_once() {
         let _ = check(&String::from_utf8_lossy(&bytes));
     }
 }
+
+#[test]
+fn the_stored_certificates_in_f32_are_accepted() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/proofs");
+    let (mut accepted, mut numbers) = (0, 0);
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        if name.ends_with("-f32.proof") && !name.contains('+') {
+            let text = std::fs::read_to_string(&path).unwrap();
+            check(&text).unwrap_or_else(|refusal| panic!("{name}: {refusal}"));
+            accepted += 1;
+            let is_number = |line: &&str| line.starts_with("step ") && line.contains(" number ");
+            numbers += text.lines().filter(is_number).count();
+        }
+    }
+    // The samples above have no step that is a number.
+    assert!(5 < accepted && 5 < numbers, "{accepted} with {numbers} numbers");
+}
