@@ -384,3 +384,15 @@ fn the_stored_certificates_in_f32_are_accepted() {
     // The samples above have no step that is a number.
     assert!(5 < accepted && 5 < numbers, "{accepted} with {numbers} numbers");
 }
+
+#[test]
+fn a_length_that_may_be_rounded_to_zero_is_refused() {
+    let text = sample("plane");
+    let domain = text.lines().find(|line| line.starts_with("domain ")).unwrap();
+    let mut words: Vec<&str> = domain.split(' ').collect();
+    let floor = words.iter().position(|word| *word == "floor").unwrap() + 1;
+    // Less than the length's own error, which is about 2^-22.
+    words[floor] = "1*2^-60";
+    let error = refusal(&text.replacen(domain, &words.join(" "), 1));
+    assert!(error.contains("found a length that may be rounded to zero"), "{error}");
+}
