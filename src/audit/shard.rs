@@ -78,7 +78,9 @@ mod tests {
 
     #[test]
     fn only_k_below_n_is_a_shard() {
-        assert_eq!("2/7".parse::<Shard>().unwrap().to_string(), "2/7");
+        for good in ["2/7", "0/1", "99999/100000"] {
+            assert_eq!(good.parse::<Shard>().unwrap().to_string(), good);
+        }
         for bad in ["", "1", "1/0", "7/7", "-1/2", "a/b", "1/2/3", "0/100001"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }

@@ -247,3 +247,53 @@ impl<F: Scalar> Merge for Sums<F> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::{EpsilonChoice, Unobserved};
+    use crate::case::Parameters;
+    use crate::{family, kernel};
+    use std::sync::Barrier;
+
+    /// Each of two threads waits for the other after its chunk, so that both have one.
+    struct InTurn(Barrier);
+
+    impl Observer for InTurn {
+        fn advance(&self, _: u64) {
+            self.0.wait();
+        }
+
+        fn now(&self) -> u64 {
+            0
+        }
+    }
+
+    #[test]
+    fn what_two_threads_count_adds_up() {
+        let row = EpsilonChoice::Source.rows(&[kernel::find("moller-trumbore").unwrap()], None);
+        let row = row.unwrap().remove(0);
+        let (gates, axis) = (tunable_gates(row.entry.info.gates), Axis::new(&[]));
+        let subject = f32::subject(row.entry).unwrap();
+        let request = Request { row: &row, subject, gates: &gates, axis: &axis, exact: false };
+        let source = |family: &str, count: u64| Source::Family {
+            family: family::find(family).unwrap(),
+            parameters: Parameters::default(),
+            seed: 1,
+            count,
+            exhaustive: false,
+        };
+        let mut refused = 0;
+        for family in ["edge-near", "fan"] {
+            let sources = [source(family, 2 * source(family, 1 << 20).chunk())];
+            let on = |threads: usize, observer: &dyn Observer| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                pool.install(|| run(&request, &sources, observer)).remove(0).gates
+            };
+            let alone = on(1, &Unobserved);
+            assert_eq!(on(2, &InTurn(Barrier::new(2))), alone);
+            refused += alone.iter().flat_map(|gate| &gate.refused_by_others).sum::<u64>();
+        }
+        assert!(10 < refused, "{refused}");
+    }
+}

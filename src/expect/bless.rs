@@ -142,3 +142,17 @@ fn quoted(text: &str) -> String {
     }
     quoted + "\""
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_what_toml_reads() {
+        for text in ["plain", "", "a-b_c", "two words", "\"", "\\", "a\tb\n\u{1}\u{7f}", "ä:€"] {
+            let line = format!("{} = {}", named(text), quoted(text));
+            let table: toml::Table = line.parse().unwrap();
+            assert_eq!(table.into_iter().collect::<Vec<_>>(), [(text.to_owned(), text.into())]);
+        }
+    }
+}

@@ -13,7 +13,7 @@ use crate::report::{
     Conformance, Deviation, Example, Key, Method, NetChange, Rate, ResultPart, Verdict,
     group_digits, rate_of,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The probability that at least one of all comparisons by interval reports a difference by chance.
 const ERROR: f64 = 0.05;
@@ -35,9 +35,9 @@ pub fn compare(
     let all = known.found(result);
     let method = if same_plan { Method::CaseByCase } else { Method::Intervals };
     let entries = &known.entries;
-    let unlisted = all.iter().filter(|found| !entries.contains_key(&found.key));
-    let comparisons = entries.len() + unlisted.count();
-    let judge = Judge { method, tail: ERROR / comparisons.max(1) as f64 / 2.0 };
+    let compared: BTreeSet<&Key> =
+        entries.keys().chain(all.iter().map(|found| &found.key)).collect();
+    let judge = Judge { method, tail: tail(compared.len()) };
     let mut conformance = Conformance {
         verdict: Verdict::Conforms,
         method,
@@ -140,6 +140,11 @@ pub fn compare(
         _ => Verdict::Disagreements,
     };
     conformance
+}
+
+/// The probability at each end of each interval.
+pub(super) fn tail(comparisons: usize) -> f64 {
+    ERROR / comparisons.max(1) as f64 / 2.0
 }
 
 /// A case of a class that changed, if the digests tell one.
@@ -301,62 +306,4 @@ fn describe(amount: &Amount, found: &Rate, digest: Option<&str>) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::audit::Trials;
-
-    fn entry(amount: Amount) -> Entry {
-        Entry { line: 1, amount, why: None, url: None }
-    }
-
-    fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {
-        let judge = Judge { method, tail: 1e-5 };
-        let rate = Rate::new(Trials::independent(found.0, found.1), found.2);
-        match judge.outcome(&entry(amount), &rate, Some(digest)) {
-            Outcome::Better => -1,
-            Outcome::Same => 0,
-            Outcome::Worse => 1,
-        }
-    }
-
-    fn count(count: u64, of: u64, digest: &str) -> Amount {
-        Amount::Count { count, cases: Some((of, digest.to_owned())) }
-    }
-
-    #[test]
-    fn under_the_same_plan_one_case_more_less_or_other_is_noticed() {
-        let exactly = |found, digest| {
-            outcome(Method::CaseByCase, count(10, 90, "a"), (found, 90, true), digest)
-        };
-        assert_eq!(exactly(10, "a"), 0);
-        assert_eq!((exactly(11, "b"), exactly(9, "b"), exactly(10, "b")), (1, -1, 1));
-        let by_hand = Amount::Count { count: 10, cases: None };
-        assert_eq!(outcome(Method::CaseByCase, by_hand, (10, 90, true), "b"), 0);
-        // The same cases among one trial less, because another kind of failure took it.
-        let among = |of| outcome(Method::CaseByCase, count(10, 90, "a"), (10, of, true), "a");
-        assert_eq!([among(89), among(91)], [0, 0]);
-    }
-
-    #[test]
-    fn under_another_plan_samples_go_by_intervals_and_whole_sets_do_not() {
-        let rates = |found, sample| {
-            outcome(Method::Intervals, count(1000, 10_000, "a"), (found, 10_000, sample), "a")
-        };
-        // The standard deviation is 30: both intervals at 1e-5 reach about 4.3 of it.
-        assert_eq!((rates(1100, true), rates(900, true)), (0, 0));
-        assert_eq!((rates(1400, true), rates(700, true)), (1, -1));
-        assert_eq!((rates(1001, false), rates(1000, false), rates(999, false)), (1, 0, -1));
-    }
-
-    #[test]
-    fn a_rate_is_a_bound_that_a_sample_must_clearly_exceed() {
-        let within = |found, sample| {
-            outcome(Method::CaseByCase, Amount::Rate(0.1), (found, 10_000, sample), "a")
-        };
-        assert_eq!((within(1000, true), within(1050, true), within(500, true)), (0, 0, 0));
-        assert_eq!((within(1300, true), within(0, true)), (1, -1));
-        assert_eq!((within(1001, false), within(1000, false)), (1, 0));
-        let few = outcome(Method::CaseByCase, Amount::Rate(0.1), (0, 10, true), "a");
-        assert_eq!(few, 0, "none of ten does not tell");
-    }
-}
+mod tests;

@@ -1,6 +1,7 @@
 //! Two records side by side: what got better, what got worse.
 
 use super::changed::{Change, UNSURE, changed_case};
+use super::compare::tail;
 use crate::audit::Digest;
 use crate::report::{
     Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
@@ -9,9 +10,6 @@ use crate::report::{
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
-
-/// The probability that at least one of all comparisons reports a difference by chance.
-const ERROR: f64 = 0.05;
 
 /// What became of a class of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -84,10 +82,7 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
     let keys: BTreeSet<&Key> = old.found.keys().chain(new.found.keys()).collect();
     let (common, lone): (Vec<&Key>, Vec<&Key>) =
         keys.into_iter().partition(|key| old.result(key).is_some() && new.result(key).is_some());
-    let judge = Judge {
-        same_parts: old.partial == new.partial,
-        tail: ERROR / common.len().max(1) as f64 / 2.0,
-    };
+    let judge = Judge { same_parts: old.partial == new.partial, tail: tail(common.len()) };
     let mut differences: Vec<Difference> =
         common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
     differences.sort_by_key(|difference| difference.change as u8);
@@ -297,5 +292,40 @@ impl Comparison {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::Trials;
+
+    #[test]
+    fn any_change_of_the_same_cases_is_one_and_rates_differ_if_their_intervals_are_disjoint() {
+        use Trend::{Better, Insignificant, Other, Worse};
+        let change = |same_cases: bool, rates: [(u64, u64, bool); 2]| {
+            let [old, new] = rates
+                .map(|(count, of, is_sample)| Rate::new(Trials::independent(count, of), is_sample));
+            Judge { same_parts: true, tail: 1e-5 }.change(same_cases, &old, &new)
+        };
+        // The standard deviation is 30: both intervals at 1e-5 reach about 4.3 of it.
+        for (count, same, others) in [
+            (700, Better, Better),
+            (999, Better, Insignificant),
+            (1000, Other, Insignificant),
+            (1001, Worse, Insignificant),
+            (1400, Worse, Worse),
+        ] {
+            let of = |is_sample| [(1000, 10_000, is_sample), (count, 10_000, is_sample)];
+            assert_eq!([change(true, of(true)), change(false, of(true))], [same, others]);
+            // All cases that there are need no interval.
+            assert_eq!(change(false, of(false)), same);
+        }
+        for (of, is_sample) in
+            [(10_001, [false; 2]), (10_000, [true, false]), (10_000, [false, true])]
+        {
+            let rates = [(1000, 10_000, is_sample[0]), (1001, of, is_sample[1])];
+            assert_eq!(change(false, rates), Insignificant, "{rates:?}");
+        }
     }
 }

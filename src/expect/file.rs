@@ -244,6 +244,7 @@ mod tests {
             ("counts =", "count =", "e.toml:8: unknown field `count`, expected one of"),
             ("= 3", "= 0", "e.toml:8: count 0 of tiny is what is expected anyway"),
             ("0.5", "2.0", "e.toml:8: rate 2 of interior is not above 0 and at most 1"),
+            ("0.5", "0.0", "e.toml:8: rate 0 of interior is not above 0 and at most 1"),
             ("interior", "tiny", "e.toml:8: tiny a second time, first in line 8"),
             ("expectations/2", "expectations/1", "e.toml:1: schema 'hairline-expectations/1'"),
             ("set = \"zero\"", "set = zero", "e.toml:6: "),

@@ -40,3 +40,40 @@ pub(super) fn worst_first(mut list: Vec<(Harm, Deviation)>) -> Vec<Deviation> {
     list.sort_by(|(a, _), (b, _)| b.compare(a));
     list.into_iter().map(|(_, deviation)| deviation).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::audit::Trials;
+
+    fn harm(finding: &str, amount: Option<Amount>, found: u64, same_cases: bool) -> Harm {
+        let entry = amount.map(|amount| Entry { line: 1, amount, why: None, url: None });
+        let found = Rate::new(Trials::independent(found, 200), true);
+        Harm::of(finding, entry.as_ref(), &found, same_cases)
+    }
+
+    #[test]
+    fn harm_is_what_is_found_beyond_what_is_expected_of_as_many() {
+        let more = |amount, same_cases| harm("false-hit", amount, 30, same_cases).more;
+        let ten = |of: Option<u64>| {
+            Some(Amount::Count { count: 10, cases: of.map(|of| (of, String::new())) })
+        };
+        assert_eq!([true, false].map(|same| more(None, same)), [30.0; 2]);
+        assert_eq!(more(Some(Amount::Rate(0.125)), true), 5.0);
+        // Ten of 100 are twenty of 200.
+        assert_eq!([true, false].map(|same| more(ten(Some(100)), same)), [20.0, 10.0]);
+        assert_eq!(more(ten(None), false), 20.0);
+        assert_eq!([0, 1].map(|of| more(ten(Some(of)), false)), [-1970.0; 2]);
+    }
+
+    #[test]
+    fn cases_without_a_verdict_are_worst_then_the_most() {
+        let none = |finding, found| harm(finding, None, found, true);
+        let order = |one: Harm, other: Harm| one.compare(&other);
+        for finding in ["panic", "crash", "timeout"] {
+            assert_eq!(order(none(finding, 1), none("false-hit", 99)), Ordering::Greater);
+        }
+        assert_eq!(order(none("false-hit", 3), none("false-miss", 2)), Ordering::Greater);
+        assert_eq!(order(none("false-hit", 2), none("false-miss", 2)), Ordering::Equal);
+    }
+}

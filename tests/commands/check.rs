@@ -143,6 +143,11 @@ fn counts_that_are_not_those_of_the_cases_are_refused_with_their_line() {
     let tiny = count_of(&fs::read_to_string(folder.join(FILE)).unwrap(), "tiny");
     let advice = "put back what was there, or let `hairline check --bless` (in a test HAIRLINE_BLESS=1) write both \
                   files\n";
+    // One more that no case is behind.
+    edit(&folder, |text| text.replacen("counts = { ", "counts = { interior = 1, ", 1));
+    let (_, error) = ends(&folder, &["check", "--quiet"], 65);
+    assert!(error.contains(" f32 interior false-hit: 1 here, 0 in "), "{error}");
+    edit(&folder, |text| text.replacen("interior = 1, ", "", 1));
     recount(&folder, "tiny", |count| count - 1);
     let (out, error) = ends(&folder, &["check", "--quiet"], 65);
     let found = format!(
@@ -590,6 +595,15 @@ fn a_bound_of_what_does_not_occur_is_kept_by_blessing() {
     ends(&folder, &bless, 0);
     let after = fs::read_to_string(folder.join("hairline.expectations.toml")).unwrap();
     assert!(after.contains(line), "{after}");
+    // One expectation that the plan leaves out is one too many.
+    let edges = ["check", "-q", "--family", "edge-near", "--kernel", "cramer", "-n", "200"];
+    let error = ends(&folder, &[&edges[..], &["--scalar", "f32", "--bless"]].concat(), 2).1;
+    assert!(error.contains("has 1 expectations of kernels"), "{error}");
+    // What is surely better than its bound is stale, and goes.
+    let old = "rates = { interior = 0.001 }";
+    edit(&folder, |text| text.replacen(old, "rates = { interior = 0.9 }", 1));
+    ends(&folder, &bless, 0);
+    assert!(!fs::read_to_string(folder.join(FILE)).unwrap().contains("interior = "));
 }
 
 #[test]
@@ -627,6 +641,25 @@ fn the_case_of_what_got_better_is_right_now() {
         let (shown, _) = ends(&folder, &all, 0);
         assert!(!shown.contains("FALSE-"), "{shown}");
     }
+    // A record has its numbers too.
+    let out = run(&["-n", "400", "--band", "1ulps", "--format", "json"], 3);
+    let record: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let stale = record["conformance"]["stale"].as_array().unwrap();
+    for found in stale {
+        let is_told = found["expected"].as_str().unwrap().contains("nothing is demanded");
+        assert_eq!(is_told, found["found"]["of"] == 0, "{found}");
+    }
+    let better = stale.iter().filter(|found| found["case"].is_string());
+    let mut shown = 0;
+    for found in better {
+        let id = found["case"].as_str().unwrap();
+        let (text, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
+        let bits = found["bits"].as_str().unwrap().split([' ', '=', ',']);
+        bits.filter(|word| word.len() == 8).for_each(|word| assert!(text.contains(word), "{text}"));
+        shown += 1;
+    }
+    assert_eq!(record["conformance"]["change"]["better"], stale.len());
+    assert!(0 < shown);
     // Nothing is demanded any more.
     let out = run(&["-n", "400", "--band", "1e9"], 3);
     assert!(out.contains("nothing is demanded there now: has the contract changed?"), "{out}");
@@ -897,4 +930,41 @@ fn what_a_row_is_set_to_since_it_was_blessed_is_told() {
     let line = "moller-trumbore (parallel=1e-3,edge=0): its epsilons are now edge=0,parallel=1e-3; blessed with \
                 edge=0,parallel=1e-6";
     assert!(head(&out).contains(line), "{out}");
+}
+
+#[test]
+fn a_record_counts_what_was_compared_left_out_and_too_rare() {
+    let folder = blessed("check-counts");
+    let told = |more: &[&'static str]| {
+        let (out, _) =
+            ends(&folder, &[&["check", "--quiet", "--format", "json"], more].concat(), 0);
+        let record: serde_json::Value = serde_json::from_str(&out).unwrap();
+        record["conformance"].clone()
+    };
+    let lock = fs::read_to_string(folder.join(LOCK)).unwrap();
+    let classes = |of_family: fn(&str) -> bool| {
+        let words = lock.lines().map(|line| line.split('\t').collect::<Vec<_>>());
+        words.filter(|words| words.len() == 9 && of_family(words[3])).count()
+    };
+    let tiny = told(&["--family", "tiny"]);
+    assert_eq!(tiny["outside_the_plan"], classes(|family| family != "tiny"));
+    assert_eq!(tiny["change"]["unchanged"], classes(|family| family == "tiny"));
+    assert_eq!([&tiny["change"]["better"], &tiny["too_rare_to_tell"]], [0, 0]);
+    for known in tiny["known"].as_array().unwrap() {
+        assert!(known["case"].is_null() && known["command"].is_null(), "{known}");
+    }
+    // Of few in 300 cases another seed shows as few, which is not surely more than none: front and back.
+    let place = "woop-watertight\tsource\tf32\ttiny\t";
+    edit_file(&folder, LOCK, |text| {
+        let is_few = |line: &&str| line.starts_with(place) && line.contains("\tfalse-miss\t");
+        text.lines().filter(|line| !is_few(line)).map(|line| format!("{line}\n")).collect()
+    });
+    edit(&folder, |text| {
+        let (head, woop) = text.split_once("woop-watertight").unwrap();
+        let (_, line) = woop.split_once("\"false-miss\"").unwrap();
+        let few = format!(", tiny = {}", count_of(line, "tiny"));
+        format!("{head}woop-watertight{}", woop.replacen(&few, "", 1))
+    });
+    let seed = told(&["--seed", "5"]);
+    assert_eq!([&seed["too_rare_to_tell"], &seed["change"]["unchanged"]], [2, 12]);
 }

@@ -216,3 +216,33 @@ fn a_check_in_parts_is_judged_when_they_are_merged() {
     assert!(out.contains("compared case by case"), "{out}");
     ends(&folder, &["check", "-q", "--bless", "--shard", "0/2"], 2);
 }
+
+#[test]
+fn a_run_is_cut_in_as_many_parts_as_may_be_and_at_least_in_one() {
+    let folder = scratch("shards-count");
+    let words = ["--kernel", "cramer", "--family", "tiny", "-n", "10", "-q", "--format", "json"];
+    ends(&folder, &[&["audit", "--shard", "0/2", "-o", "part.json"], &words[..]].concat(), 0);
+    let text = fs::read_to_string(folder.join("part.json")).unwrap();
+    let cut_in = |of: u64| {
+        let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+        record["result"]["partial"]["of"] = of.into();
+        fs::write(folder.join("other.json"), record.to_string()).unwrap();
+        merge(&folder, &["other.json"], &["-q"], 65)
+    };
+    assert_eq!(
+        cut_in(2),
+        "hairline: merge: shards 1 of 2 are missing (--allow-partial goes without)\n"
+    );
+    for of in [0, 100_001, u64::MAX] {
+        let expected = format!("hairline: other.json: cut in {of} parts, expected 1 to 100000\n");
+        assert_eq!(cut_in(of), expected);
+    }
+    assert!(cut_in(100_000).contains("99999 of 100000 are missing"));
+    // The first part is missed as well as the last.
+    ends(&folder, &[&["audit", "--shard", "1/2", "-o", "last.json"], &words[..]].concat(), 0);
+    let error = merge(&folder, &["last.json"], &["-q"], 65);
+    assert!(error.contains(": shards 0 of 2 are missing "), "{error}");
+    // One part of one is all of it.
+    ends(&folder, &[&["audit", "--shard", "0/1", "-o", "part.json"], &words[..]].concat(), 0);
+    merge(&folder, &["part.json"], &["-q"], 0);
+}

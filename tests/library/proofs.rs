@@ -365,3 +365,34 @@ fn hostile_text_is_refused_at_once() {
         let _ = check(&String::from_utf8_lossy(&bytes));
     }
 }
+
+#[test]
+fn the_stored_certificates_in_f32_are_accepted() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/proofs");
+    let (mut accepted, mut numbers) = (0, 0);
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        if name.ends_with("-f32.proof") && !name.contains('+') {
+            let text = std::fs::read_to_string(&path).unwrap();
+            check(&text).unwrap_or_else(|refusal| panic!("{name}: {refusal}"));
+            accepted += 1;
+            let is_number = |line: &&str| line.starts_with("step ") && line.contains(" number ");
+            numbers += text.lines().filter(is_number).count();
+        }
+    }
+    // The samples above have no step that is a number.
+    assert!(5 < accepted && 5 < numbers, "{accepted} with {numbers} numbers");
+}
+
+#[test]
+fn a_length_that_may_be_rounded_to_zero_is_refused() {
+    let text = sample("plane");
+    let domain = text.lines().find(|line| line.starts_with("domain ")).unwrap();
+    let mut words: Vec<&str> = domain.split(' ').collect();
+    let floor = words.iter().position(|word| *word == "floor").unwrap() + 1;
+    // Less than the length's own error, which is about 2^-22.
+    words[floor] = "1*2^-60";
+    let error = refusal(&text.replacen(domain, &words.join(" "), 1));
+    assert!(error.contains("found a length that may be rounded to zero"), "{error}");
+}

@@ -16,11 +16,10 @@ const PILOT: u64 = 2048;
 /// How far the range reaches beyond what the pilot shows at an edge, of self-hits, and of hits that are too far off.
 const BEYOND: f64 = 100.0;
 
-/// The largest value of a range is at most so many times its smallest: the scalar's precision, three times over, since
-/// products of lengths are compared. What is smaller does no more than the least float, at which a strict comparison
-/// accepts already.
-fn widest_range<F: Float>() -> f64 {
-    F::EPSILON.to_f64().powi(-3)
+/// The range without what is smaller than its largest value by the scalar's precision, three times over, since products
+/// of lengths are compared. That does no more than the least float, at which a strict comparison accepts already.
+fn that_matters<F: Float>([low, high]: [f64; 2]) -> [f64; 2] {
+    [low.max(high * F::EPSILON.to_f64().powi(3)), high]
 }
 
 /// The most values of a knob on each side of zero.
@@ -117,9 +116,7 @@ pub fn grid<F: Scalar>(
         let of_knob = |(k, knob): (usize, &Knob)| {
             let mut values = vec![F::zero()];
             let below = ranges.below[k].filter(|_| knob.takes_negative(gates));
-            let few = |[low, high]: [f64; 2]| {
-                few_rounds::<F>([low.max(high / widest_range::<F>()), high], step)
-            };
+            let few = |range| few_rounds::<F>(that_matters::<F>(range), step);
             let [above, below] =
                 [ranges.above[k], below].map(|range| range.map_or((Vec::new(), step), few));
             values.extend(above.0);

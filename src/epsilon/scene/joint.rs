@@ -4,6 +4,7 @@ use super::errors::{MaxError, errors_of};
 use super::knob::Margins;
 use super::trials::{Count, Kind, Setting, Trial};
 use crate::arith::Float;
+use crate::audit::Trials;
 use crate::engine::{Merge, Observer};
 use crate::kernel::Scalar;
 use crate::suggest::nearest_name;
@@ -53,6 +54,11 @@ impl Costs {
     /// What one wrong answer costs.
     pub fn of(&self, kind: Kind) -> f64 {
         self.of[kind as usize]
+    }
+
+    /// The total of what was wrong; where there was no trial, nothing.
+    pub fn of_trials(&self, counts: &[Count], wrong: &[Trials]) -> f64 {
+        self.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)))
     }
 
     /// The sum of the shares of wrong answers, each times its cost.

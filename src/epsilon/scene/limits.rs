@@ -129,18 +129,20 @@ pub fn all_limits<F: Scalar>(
     let Tails(tails) = setting.sum(seed, count, observer, empty, add);
     let limit = |(knob, count, is_lower, tail): (usize, usize, bool, Tail<F>)| {
         let (k, one_in) = rank(tail.of)?;
-        let margin = *tail.margins.get(k as usize - 1)?;
-        let value = match is_lower {
-            true if margin == F::infinity() => None,
-            // Where too few are accepted at any value, there is nothing to keep out.
-            true if !margin.is_finite() => return None,
-            true => Some(two_digits(above(margin), true)),
-            false if !margin.is_finite() => return None,
-            false => Some(two_digits(margin, false)),
-        };
+        let value = value(*tail.margins.get(k as usize - 1)?, is_lower)?;
         Some(Limit { knob, count, is_lower, value, one_in })
     };
     tails.into_iter().filter_map(limit).collect()
+}
+
+/// The value of a limit by the margin that decides, in two digits; `Some(None)` if no value of the knob refuses enough,
+/// and none where there is nothing to keep out, or nothing to lose.
+fn value<F: Float>(margin: F, is_lower: bool) -> Option<Option<F>> {
+    if is_lower && margin == F::infinity() {
+        return Some(None);
+    }
+    let bound = if is_lower { above(margin) } else { margin };
+    margin.is_finite().then(|| Some(two_digits(bound, is_lower)))
 }
 
 /// By knob: a round number in the middle between its limits, if they meet on one side of zero.
@@ -252,6 +254,17 @@ mod tests {
     }
 
     #[test]
+    fn a_limit_keeps_what_its_margin_says_in_two_digits() {
+        let inf = f64::INFINITY;
+        assert_eq!(
+            [true, false].map(|is_lower| value(0.123, is_lower)),
+            [Some(0.13), Some(0.12)].map(Some)
+        );
+        assert_eq!([inf, -inf].map(|margin| value(margin, true)), [Some(None), None]);
+        assert_eq!([inf, -inf].map(|margin| value(margin, false)), [None; 2]);
+    }
+
+    #[test]
     fn between_limits_that_meet_is_a_round_number() {
         let limit = |is_lower, value| Limit { knob: 1, count: 0, is_lower, value, one_in: 9 };
         let (low, high) = (limit(true, Some(7.9e-12)), limit(false, Some(3.6e-4)));
@@ -279,6 +292,7 @@ mod tests {
             (vec![high.clone()], None),
             // Below zero too, where 2.1e-4 is in the middle.
             (vec![limit(true, Some(-6e-2)), limit(false, Some(-7.2e-7))], Some(-2e-4)),
+            (vec![limit(true, Some(-3.1e-6)), limit(false, Some(-3.1e-6))], Some(-3.1e-6)),
             (vec![limit(true, Some(-1e-4)), limit(false, Some(-8e-4))], None),
             (vec![limit(true, Some(-1e-4)), limit(false, Some(-f64::MIN_POSITIVE))], None),
             (vec![limit(true, Some(-1e-4)), limit(false, Some(8e-4))], None),

@@ -197,7 +197,7 @@ pub(super) fn differs<F: Scalar>(
             let at = setting.knobs.iter().zip(at);
             let at = at.map(|(knob, value)| format!("{}={value:e}", knob.name(gates)));
             let (together, alone) =
-                if verdict.hit { ("hits", "misses") } else { ("misses", "hits") };
+                if is_hit(verdict) { ("hits", "misses") } else { ("misses", "hits") };
             Some(format!(
                 "at {} it {together}, but with each of these alone it {alone}, on {}",
                 at.collect::<Vec<_>>().join(","),

@@ -11,6 +11,7 @@ use super::measure::{Attempt, OfHits, Wrong, differs, measure};
 use super::prepared::Store;
 use super::proved::{Proved, proved};
 use super::trials::{Count, Kind, Setting};
+use crate::arith::Float;
 use crate::audit::{Row, Trials};
 use crate::case::Case;
 use crate::engine::Observer;
@@ -138,13 +139,7 @@ pub fn study_scene<F: Scalar>(
     };
     let axes = axes(&vectors, &found, &proofs, setting.fine_curves);
     let proofs: Vec<_> = proofs.into_iter().zip(of_proofs).map(of_proof).collect();
-    if let Some(OnFresh { bound, wrong, .. }) = proofs.iter().find(|found| 0 < found.wrong.count) {
-        let value = bound.value.to_f64();
-        return Err(format!(
-            "{value:e} is proved to be never wrong, and was {} times",
-            wrong.count
-        ));
-    }
+    refuted(&proofs).map_or(Ok(()), Err)?;
     let of_limit = |bound: Limit<F>| match bound.value.and_then(|_| of_limits.next()) {
         Some(wrong) => OnFresh {
             wrong: wrong[bound.count],
@@ -156,7 +151,7 @@ pub fn study_scene<F: Scalar>(
     let curves = curves(setting, &best, &axes, fresh, count, observer);
     let found = found.into_iter().map(of_limit).collect();
     let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits| {
-        let cost = costs.total(counts, wrong.iter().map(|trials| trials.share().unwrap_or(0.0)));
+        let cost = costs.of_trials(counts, &wrong);
         let OfHits { errors, exceeded, doubles } = of_hits;
         Tried { name, epsilons, wrong, cost, errors, exceeded, doubles }
     };
@@ -172,10 +167,8 @@ pub fn study_scene<F: Scalar>(
             let vector = (SCALE_FREE.to_owned(), followed);
             let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
             // Where no fixed values are accurate enough, a form that is needs no lower cost.
-            let is_worth = |form: &Tried<F>| {
-                let is_cheaper = form.cost < WORTH_SAYING * all[0].cost;
-                !is_accurate || is_cheaper && is_beyond_chance(counts, costs, [form, &all[0]])
-            };
+            let is_worth =
+                |form: &Tried<F>| !is_accurate || is_worth_saying(counts, costs, form, &all[0]);
             (Some(relative).filter(is_worth), found)
         }
         None => (None, Vec::new()),
@@ -226,6 +219,18 @@ pub fn within_limits<F: Scalar>(
         }
         None => (best, found),
     }
+}
+
+/// A fault of this tool: a value that is proved to be never wrong, and was.
+fn refuted<F: Float>(proofs: &[OnFresh<Proved<F>>]) -> Option<String> {
+    let OnFresh { bound, wrong, .. } = proofs.iter().find(|found| 0 < found.wrong.count)?;
+    let value = bound.value.to_f64();
+    Some(format!("{value:e} is proved to be never wrong, and was {} times", wrong.count))
+}
+
+/// Whether a form is cheaper than fixed epsilons by enough, and by more than chance explains.
+fn is_worth_saying<F>(counts: &[Count], costs: &Costs, form: &Tried<F>, fixed: &Tried<F>) -> bool {
+    form.cost < WORTH_SAYING * fixed.cost && is_beyond_chance(counts, costs, [form, fixed])
 }
 
 /// Whether the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
@@ -285,29 +290,60 @@ pub fn cheapest<F: Scalar>(
 mod tests {
     use super::*;
 
+    const COUNTS: [Count; 3] = [
+        Count { stratum: Stratum::Edges, kind: Kind::Crack },
+        Count { stratum: Stratum::Interior, kind: Kind::Miss },
+        Count { stratum: Stratum::Shadow, kind: Kind::SelfHit },
+    ];
+
+    /// So many cracks of 10,000 rays and misses of 500; of self-hits there was no ray.
+    fn tried(cracks: u64, misses: u64) -> Tried<f32> {
+        let some = [Trials::independent(cracks, 10_000), Trials::independent(misses, 500)];
+        let wrong = [&some[..], &[Trials::default()]].concat();
+        let cost = Costs::default().of_trials(&COUNTS, &wrong);
+        assert_eq!(cost, 10.0 * (cracks as f64 / 1e4) + misses as f64 / 500.0);
+        let (name, epsilons, errors) = (String::new(), vec![0.0f32], Vec::new());
+        Tried { name, epsilons, wrong, cost, errors, exceeded: Vec::new(), doubles: Vec::new() }
+    }
+
     #[test]
     fn a_few_wrong_answers_are_no_difference() {
-        let counts = [
-            Count { stratum: Stratum::Edges, kind: Kind::Crack },
-            Count { stratum: Stratum::Interior, kind: Kind::Miss },
-        ];
-        let costs = Costs::default();
-        let tried = |cracks: u64, misses: u64| {
-            let wrong = vec![Trials::independent(cracks, 10_000), Trials::independent(misses, 500)];
-            let cost = 10.0 * cracks as f64 / 1e4 + misses as f64 / 500.0;
-            let (name, epsilons, errors) = (String::new(), vec![0.0f32], Vec::new());
-            Tried { name, epsilons, wrong, cost, errors, exceeded: Vec::new(), doubles: Vec::new() }
-        };
         let is_beyond = |one: [u64; 2], other: [u64; 2]| {
             let [one, other] = [one, other].map(|[cracks, misses]| tried(cracks, misses));
-            is_beyond_chance(&counts, &costs, [&one, &other])
+            is_beyond_chance(&COUNTS, &Costs::default(), [&one, &other])
         };
         // Of nothing and of n: n is three standard deviations from nothing at 9.
         let from_nothing = [0, 1, 8, 10, 100].map(|cracks| is_beyond([0, 7], [cracks, 7]));
         assert_eq!(from_nothing, [false, false, false, false, true]);
         let alone = [0, 1, 8, 10, 100].map(|cracks| is_beyond([0, 0], [cracks, 0]));
         assert_eq!(alone, [false, false, false, true, true]);
+        // Where half are wrong, the deviation of both is 71 of 10,000.
+        let half = [5200, 5230].map(|cracks| is_beyond([5000, 0], [cracks, 0]));
+        assert_eq!(half, [false, true]);
         // By their cost one makes up for the other.
         assert!(!is_beyond([100, 0], [0, 50]) && is_beyond([100, 0], [0, 0]));
+    }
+
+    #[test]
+    fn a_form_is_worth_saying_if_it_saves_a_fifth_and_not_by_chance() {
+        let is_worth = |form: u64, fixed: u64| {
+            let [form, fixed] = [form, fixed].map(|cracks| tried(cracks, 0));
+            is_worth_saying(&COUNTS, &Costs::default(), &form, &fixed)
+        };
+        assert_eq!([790, 800, 850].map(|form| is_worth(form, 1000)), [true, false, false]);
+        assert_eq!([1500, 1700].map(|form| is_worth(form, 2000)), [true, false]);
+        assert_eq!([is_worth(0, 8), is_worth(0, 10)], [false, true]);
+    }
+
+    #[test]
+    fn one_wrong_answer_refutes_a_proof() {
+        let proof = |value: f64, wrong: u64| OnFresh {
+            bound: Proved { knob: 0, count: 0, is_lower: true, value },
+            wrong: Trials::independent(wrong, 9),
+            price: None,
+        };
+        assert_eq!(refuted(&[proof(0.5, 0), proof(0.25, 0)]), None);
+        let told = refuted(&[proof(0.5, 0), proof(0.25, 1)]).unwrap();
+        assert_eq!(told, "2.5e-1 is proved to be never wrong, and was 1 times");
     }
 }

@@ -129,3 +129,6 @@ where
         sizes: sizes.into_iter().map(BigInt::from).collect(),
     })
 }
+
+#[cfg(test)]
+mod tests;

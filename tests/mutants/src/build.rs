@@ -175,18 +175,31 @@ impl Tree {
 /// What an error speaks of: its main place first, then a mutant that a label points to.
 fn blame(error: &Value, rewritten: &HashMap<String, Rewritten>) -> Option<Blame> {
     let spans = error["spans"].as_array()?;
+    // A variable without a value: labels show what sets it, which cannot be left out.
+    if error["code"]["code"] == "E0381" {
+        let labels = spans.iter().filter(|span| span["is_primary"] == false);
+        let sites =
+            labels.filter_map(|span| blame_at(span, rewritten)).flat_map(|found| match found {
+                Blame::Mutant(_) => Vec::new(),
+                Blame::Sites(sites) => sites,
+            });
+        return Some(Blame::Sites(sites.collect()))
+            .filter(|found| *found != Blame::Sites(Vec::new()));
+    }
     let blames = |primary: bool| {
         let spans = spans.iter().filter(move |span| span["is_primary"] == primary);
-        spans.filter_map(|span| {
-            let file = rewritten.get(span["file_name"].as_str()?)?;
-            let [start, end] = ["byte_start", "byte_end"].map(|name| span[name].as_u64());
-            Some(file.blame(&(start? as usize..end? as usize)))
-        })
+        spans.filter_map(|span| blame_at(span, rewritten))
     };
     let all: Vec<Blame> = blames(true).chain(blames(false)).collect();
     let mutant = all.iter().position(|found| matches!(found, Blame::Mutant(_)));
     let found = all.into_iter().nth(mutant.unwrap_or(0))?;
     (found != Blame::Sites(Vec::new())).then_some(found)
+}
+
+fn blame_at(span: &Value, rewritten: &HashMap<String, Rewritten>) -> Option<Blame> {
+    let file = rewritten.get(span["file_name"].as_str()?)?;
+    let [start, end] = ["byte_start", "byte_end"].map(|name| span[name].as_u64());
+    Some(file.blame(&(start? as usize..end? as usize)))
 }
 
 /// Writes a file whose content is another.

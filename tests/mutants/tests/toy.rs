@@ -169,6 +169,31 @@ fn mutants_of_the_toy_live_and_die_as_they_should() {
 }
 
 #[test]
+fn what_gives_a_variable_its_value_is_not_left_out() {
+    let root = toy("late");
+    let library = "pub fn order(is_up: bool) -> (i32, i32) {
+    let (first, last);
+    if is_up {
+        (first, last) = (1, 2);
+    } else {
+        (first, last) = (2, 1);
+    }
+    (first, last)
+}
+
+#[test]
+fn both_orders() {
+    assert_eq!([order(true), order(false)], [(1, 2), (2, 1)]);
+}
+";
+    fs::write(root.join("src/lib.rs"), library).unwrap();
+    let (code, out, err) = run(&root, &[]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("not counted: 2 that do not compile"), "{out}{err}");
+    assert!(!err.contains("delete statement"), "{err}");
+}
+
+#[test]
 fn an_equivalent_that_matches_nothing_is_an_error() {
     let root = toy("unknown");
     let unknown = EQUIVALENT.replace("a > b", "a > c");

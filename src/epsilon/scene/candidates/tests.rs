@@ -138,6 +138,9 @@ fn around_a_point_are_the_round_numbers_of_a_step_of_its_sign() {
         &[0.0],
     ];
     assert_eq!(grid.values(), expected);
+    // A tenth of it lies below 0.2.
+    let grid = around(&[1.9f32], 0);
+    assert_eq!(grid.values(), [[0.0, 0.1, 0.2, 0.5, 1.0, 1.9, 2.0, 5.0, 10.0, 20.0]]);
     // Of a grid with a number every fourth decade: every second, as far as the next ones were.
     let grid = around(&[1e-8f64, 0.0], 2);
     let expected: [&[f64]; 2] = [&[0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4], &[0.0]];
@@ -159,4 +162,13 @@ fn round_numbers_enclose_the_range() {
         "{few:?}"
     );
     assert_eq!(rounds::<f32>([1e-50, 1e-45], 0), [2e-38]);
+}
+
+#[test]
+fn a_range_ends_where_precision_does_three_times_over() {
+    let power = |k: i32| 2f64.powi(k);
+    // The precisions are 2^-23 and 2^-52.
+    assert_eq!(that_matters::<f32>([1e-30, 4.0]), [power(-67), 4.0]);
+    assert_eq!(that_matters::<f64>([1e-300, 4.0]), [power(-154), 4.0]);
+    assert_eq!(that_matters::<f32>([power(-66), 4.0]), [power(-66), 4.0]);
 }

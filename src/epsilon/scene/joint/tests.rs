@@ -1,6 +1,8 @@
 //! The best point of a grid against its definition, and the counts that it is chosen by.
 
+use super::super::tests::{KERNELS, Kept, Tuned};
 use super::*;
+use crate::audit::Unobserved;
 use crate::case::Draw;
 
 #[test]
@@ -16,6 +18,41 @@ fn a_union_counts_each_point_once() {
             let sum: i64 = terms.iter().filter(|(_, c)| holds(c)).map(|(sign, _)| sign).sum();
             assert_eq!(sum, i64::from(boxes.iter().any(holds)), "{boxes:?} {point:?}");
         }
+    }
+}
+
+#[test]
+fn the_counts_of_a_pass_are_those_of_its_trials_one_by_one() {
+    let max_error = MaxError::parse("t=1e-5").unwrap();
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let all = tuned.all(6, 200);
+        let of_knob = |size: f32| vec![-size, 0.0, size, 100.0 * size];
+        let values: Vec<Vec<f32>> =
+            epsilons[..tuned.knobs.len()].iter().map(|e| of_knob(e.abs().max(1e-6))).collect();
+        let count = |max_error: Option<&MaxError>| {
+            let grid = Grid::new(values.clone());
+            Joint::count(&tuned.setting(), grid, max_error, 6, 200, &Unobserved)
+        };
+        let joint = count(Some(&max_error));
+        assert!(count(None).exceeded.is_none());
+        let exceeded = joint.exceeded.as_ref().unwrap();
+        let mut off_in_all = 0;
+        for places in all_places(&values) {
+            let (point, cell) = (at(&values, &places), joint.cell_of(&places));
+            let counted = |sums: &[i64]| sums.get(cell).copied().unwrap_or(0) as usize;
+            for (c, count) in tuned.counts.iter().enumerate() {
+                let of: Vec<&Kept> = all.iter().filter(|kept| kept.count == c).collect();
+                let hits: Vec<&&Kept> = of.iter().filter(|kept| kept.is_hit(&point)).collect();
+                let off = hits.iter().filter(|kept| max_error.is_exceeded(&kept.errors)).count();
+                // Only where a hit is right its errors count.
+                let off = if count.kind == Kind::Miss { off } else { 0 };
+                off_in_all += off;
+                let found = [joint.of[c] as usize, counted(&joint.hits[c]), counted(&exceeded[c])];
+                assert_eq!(found, [of.len(), hits.len(), off], "{kernel} {count:?} {point:?}");
+            }
+        }
+        assert!(0 < off_in_all, "{kernel}");
     }
 }
 

@@ -1,6 +1,9 @@
 //! A whole study: what it chooses, names and tries on fresh rays.
 
+use super::super::measure::{differs, measure};
 use super::*;
+use crate::case::Case;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// What a histogram of some errors says.
 fn told(errors: &Histogram) -> (u64, f64, f64) {
@@ -203,4 +206,50 @@ fn epsilons_of_a_row_stand_by_knob() {
     let reversed: Vec<Knob> = tuned.knobs.iter().rev().copied().collect();
     assert_eq!(own_epsilons(&tuned.row, &reversed, 0.25), [0.25, of_gates[1], of_gates[0]]);
     assert_eq!([0, 7, u64::MAX].map(fresh_seed), [1, 8, 0]);
+}
+
+#[test]
+fn a_pass_tells_a_fault_of_any_chunk_and_the_errors_of_one_attempt() {
+    let tuned = Tuned::new("moller-trumbore", "room");
+    let zero = vec![0.0; tuned.knobs.len()];
+    let attempts = [Attempt::new(zero.clone())];
+    let with_fault_at = |wanted: usize| {
+        let looked = AtomicUsize::new(0);
+        let check = |_: &[Case<f32>], _: &[Margins<f32>]| {
+            (looked.fetch_add(1, Relaxed) == wanted).then(|| "off".to_owned())
+        };
+        let found = measure(&tuned.setting(), &attempts, 1, None, 6, 300, &Unobserved, check);
+        (found, looked.into_inner())
+    };
+    let (sound, chunks) = with_fault_at(usize::MAX);
+    assert!(sound.fault.is_none() && 5 < chunks);
+    for chunk in 0..chunks {
+        assert_eq!(with_fault_at(chunk).0.fault.as_deref(), Some("off"), "{chunk} of {chunks}");
+    }
+    let all = tuned.all(6, 300);
+    for (c, errors) in sound.of_hits[0].errors.iter().enumerate() {
+        let hits = all.iter().filter(|kept| kept.count == c && kept.is_hit(&zero)).count();
+        let hits = if tuned.is_miss(c) { hits as u64 } else { 0 };
+        assert_eq!(errors.each_ref().map(Histogram::count), [hits; 2], "{:?}", tuned.counts[c]);
+    }
+}
+
+#[test]
+fn a_run_that_is_not_what_its_margins_say_is_told() {
+    for (kernel, epsilons) in KERNELS {
+        let tuned = Tuned::new(kernel, "room");
+        let setting = tuned.setting();
+        let point = [epsilons[..tuned.knobs.len()].to_vec()];
+        let differs = differs(&setting, &point);
+        let told = |change: &(dyn Fn(Margins<f32>) -> Margins<f32> + Sync)| {
+            let check = |cases: &[Case<f32>], margins: &[Margins<f32>]| {
+                differs(cases, &margins.iter().map(|margins| change(*margins)).collect::<Vec<_>>())
+            };
+            measure(&setting, &[], 0, None, 6, 300, &Unobserved, check).fault
+        };
+        assert_eq!(told(&|margins| margins), None, "{kernel}");
+        let [hit, miss] = [f32::MAX, f32::MIN].map(|all| told(&move |_| [all; 3]).unwrap());
+        assert!(hit.contains("it misses, but with each of these alone it hits, on "), "{hit}");
+        assert!(miss.contains("it hits, but with each of these alone it misses, on "), "{miss}");
+    }
 }

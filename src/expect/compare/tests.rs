@@ -1,0 +1,143 @@
+//! What counts as the same, as better and as worse, against values worked out by hand.
+
+use super::*;
+use crate::audit::Trials;
+
+fn entry(amount: Amount) -> Entry {
+    Entry { line: 1, amount, why: None, url: None }
+}
+
+fn outcome(method: Method, amount: Amount, found: (u64, u64, bool), digest: &str) -> i32 {
+    let judge = Judge { method, tail: 1e-5 };
+    let rate = Rate::new(Trials::independent(found.0, found.1), found.2);
+    match judge.outcome(&entry(amount), &rate, Some(digest)) {
+        Outcome::Better => -1,
+        Outcome::Same => 0,
+        Outcome::Worse => 1,
+    }
+}
+
+fn count(count: u64, of: u64, digest: &str) -> Amount {
+    Amount::Count { count, cases: Some((of, digest.to_owned())) }
+}
+
+#[test]
+fn the_error_is_shared_by_both_ends_of_all_intervals() {
+    assert_eq!([0, 1, 5].map(tail), [0.025, 0.025, 0.005]);
+}
+
+#[test]
+fn under_the_same_plan_one_case_more_less_or_other_is_noticed() {
+    let exactly =
+        |found, digest| outcome(Method::CaseByCase, count(10, 90, "a"), (found, 90, true), digest);
+    assert_eq!(exactly(10, "a"), 0);
+    assert_eq!((exactly(11, "b"), exactly(9, "b"), exactly(10, "b")), (1, -1, 1));
+    let by_hand = Amount::Count { count: 10, cases: None };
+    assert_eq!(outcome(Method::CaseByCase, by_hand, (10, 90, true), "b"), 0);
+    // The same cases among one trial less, because another kind of failure took it.
+    let among = |of| outcome(Method::CaseByCase, count(10, 90, "a"), (10, of, true), "a");
+    assert_eq!([among(89), among(91)], [0, 0]);
+}
+
+#[test]
+fn under_another_plan_samples_go_by_intervals_and_whole_sets_do_not() {
+    let rates = |found, sample| {
+        outcome(Method::Intervals, count(1000, 10_000, "a"), (found, 10_000, sample), "a")
+    };
+    // The standard deviation is 30: both intervals at 1e-5 reach about 4.3 of it.
+    assert_eq!((rates(1100, true), rates(900, true)), (0, 0));
+    assert_eq!((rates(1400, true), rates(700, true)), (1, -1));
+    assert_eq!((rates(1001, false), rates(1000, false), rates(999, false)), (1, 0, -1));
+}
+
+#[test]
+fn a_rate_is_a_bound_that_a_sample_must_clearly_exceed() {
+    let within = |found, sample| {
+        outcome(Method::CaseByCase, Amount::Rate(0.1), (found, 10_000, sample), "a")
+    };
+    assert_eq!((within(1000, true), within(1050, true), within(500, true)), (0, 0, 0));
+    assert_eq!((within(1300, true), within(0, true)), (1, -1));
+    assert_eq!((within(1001, false), within(1000, false)), (1, 0));
+    let few = outcome(Method::CaseByCase, Amount::Rate(0.1), (0, 10, true), "a");
+    assert_eq!(few, 0, "none of ten does not tell");
+}
+
+fn key(kernel: &str, finding: &str) -> Key {
+    let [kernel, set, scalar, family, class, finding] =
+        [kernel, "source", "f32", "tiny", "interior", finding].map(str::to_owned);
+    Key { kernel, set, scalar, family, class, finding }
+}
+
+#[test]
+fn what_has_no_expectation_is_unexpected_unless_its_row_has_some_and_it_is_rare() {
+    let entries = [(key("mine", "false-hit"), entry(count(1, 9, "a")))].into();
+    let is_unexpected = |method, key: Key, (found, is_sample): (u64, bool)| {
+        let rate = Rate::new(Trials::independent(found, 10_000), is_sample);
+        let found = Found { key, rate, digest: None, example: None };
+        Judge { method, tail: 1e-5 }.is_unexpected(&found, &entries)
+    };
+    let of = |kernel: &str, finding: &str, found| {
+        is_unexpected(Method::Intervals, key(kernel, finding), found)
+    };
+    // At 1e-5, none of 10,000 is at most 11.506 in them; 29 are at least 11.474, and 30 at least 12.088.
+    assert_eq!(
+        [1, 29, 30, 999].map(|n| of("mine", "false-miss", (n, true))),
+        [false, false, true, true]
+    );
+    // One is enough of all cases there are, of panics, of a row without expectations, and of the same cases.
+    assert!(of("mine", "false-miss", (1, false)));
+    assert!(of("mine", "panic", (1, true)));
+    assert!(of("other", "false-miss", (1, true)));
+    let others = [
+        Key { set: "other".to_owned(), ..key("mine", "false-hit") },
+        Key { scalar: "f64".to_owned(), ..key("mine", "false-hit") },
+    ];
+    assert!(others.into_iter().all(|key| is_unexpected(Method::Intervals, key, (1, true))));
+    assert!(is_unexpected(Method::CaseByCase, key("mine", "false-miss"), (1, true)));
+}
+
+#[test]
+fn other_cases_are_told_where_as_many_of_as_many_were_found() {
+    let told = |found: u64, of: u64, digest: &str| {
+        let rate = Rate::new(Trials::independent(found, of), true);
+        describe(&count(10, 90, "a"), &rate, Some(digest))
+    };
+    assert_eq!(told(10, 90, "b"), "10 of 90 (other cases)");
+    for (found, of, digest) in [(10, 90, "a"), (11, 90, "b"), (10, 91, "b")] {
+        assert_eq!(told(found, of, digest), "10 of 90");
+    }
+    let none = Rate::new(Trials::independent(0, 0), false);
+    assert!(!is_as_many(&Amount::Rate(0.5), &none));
+    assert_eq!(outcome(Method::Intervals, Amount::Rate(0.5), (0, 0, false), "a"), -1);
+}
+
+#[test]
+fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
+    let example = |case: &str, bits: &str| Example {
+        case: case.to_owned(),
+        bits: bits.to_owned(),
+        severity: None,
+        command: format!("explain {case}"),
+    };
+    let shown = |old: Option<Example>, change: Change, changed: Option<Example>| {
+        let rate = Rate::new(Trials::independent(1, 9), true);
+        let found = Found { key: key("mine", "panic"), rate, digest: None, example: old };
+        let mut deviation = deviation(&found.key, None, &found.rate, Some(&found));
+        show(&mut deviation, change, changed);
+        let case = [deviation.case, deviation.bits, deviation.command];
+        (deviation.expected, case.map(Option::unwrap_or_default))
+    };
+    let old = || Some(example("old", "o"));
+    let told =
+        |expected: &str, case: [&str; 3]| (format!("none{expected}"), case.map(str::to_owned));
+    for change in [Change::New, Change::Right] {
+        let case = ["new", "n", "explain new"];
+        let found = shown(old(), change, Some(example("new", "n")));
+        assert_eq!(found, told(change.note(), case));
+        let found = shown(old(), change, Some(example("new", "")));
+        assert_eq!(found, told(change.note(), ["new", "", "explain new"]));
+    }
+    assert_eq!(shown(old(), Change::New, None), told(UNSURE, ["old", "o", "explain old"]));
+    assert_eq!(shown(None, Change::New, None), told("", [""; 3]));
+    assert_eq!(shown(old(), Change::Right, None), told("", [""; 3]));
+}

@@ -1,0 +1,136 @@
+//! The search against its definition: every corner by itself, in integers of any length, and derivatives forwards.
+
+use super::*;
+use crate::case::Draw;
+
+type Rows = Vec<Row<BigInt>>;
+
+/// Each step at a corner, and its derivative by one of the steps.
+fn at_corner(rows: &Rows, bounds: &[BigInt], corner: usize, by: usize) -> Vec<[BigInt; 2]> {
+    let mut all: Vec<[BigInt; 2]> = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let (mut value, mut slope) = (row.constant.clone(), BigInt::ZERO);
+        for (c, v) in &row.variables {
+            let sign = if corner & (1 << v) == 0 { 1 } else { -1 };
+            value += c * &bounds[*v] * sign;
+        }
+        for (c, a, b) in &row.terms {
+            let [x, dx] = &all[*a];
+            let [y, dy] = b.map_or([BigInt::one(), BigInt::ZERO], |b| all[b].clone());
+            (value, slope) = (value + c * x * &y, slope + c * (dx * &y + x * dy));
+        }
+        all.push([value, if k == by { BigInt::one() } else { slope }]);
+    }
+    all
+}
+
+/// The largest sum, its first corner, and the sizes of the steps.
+fn expected(
+    rows: &Rows,
+    weights: &[Weight<BigInt>],
+    bounds: &[BigInt],
+) -> (BigInt, usize, Vec<BigInt>) {
+    let (mut sum, mut first, mut sizes) = (BigInt::ZERO, 0, vec![BigInt::ZERO; rows.len()]);
+    for corner in 0..1 << bounds.len() {
+        let mut effects = BigInt::ZERO;
+        for k in 0..rows.len() {
+            let all = at_corner(rows, bounds, corner, k);
+            let size = all[k][0].abs();
+            sizes[k] = size.clone().max(sizes[k].clone());
+            if let Some((weight, is_relative)) = weights.get(k) {
+                let slope = all[rows.len() - 1][1].abs();
+                effects += slope * weight * if *is_relative { size } else { BigInt::one() };
+            }
+        }
+        if sum < effects {
+            (sum, first) = (effects, corner);
+        }
+    }
+    (sum, first, sizes)
+}
+
+fn found(
+    rows: &Rows,
+    weights: &[Weight<BigInt>],
+    bounds: &[BigInt],
+) -> Option<(BigInt, usize, Vec<BigInt>)> {
+    search(rows, weights, bounds).map(|found| (found.sum, found.corner, found.sizes))
+}
+
+/// A number of at most so many bits, which may be 0.
+fn number(draw: &mut Draw, bits: usize) -> BigInt {
+    BigInt::from(draw.below(1 << 10)) << draw.below(bits) >> 10
+}
+
+fn sign(draw: &mut Draw) -> BigInt {
+    BigInt::from(if draw.coin() { 1 } else { -1 })
+}
+
+/// Random steps; the last one depends on all.
+fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
+    let mut rows: Rows = Vec::new();
+    for _ in 0..1 + draw.below(5) {
+        let mut row = Row { constant: BigInt::ZERO, variables: vec![], terms: vec![], support: 0 };
+        match draw.below(4) {
+            0 => row.constant = number(draw, bits) * sign(draw),
+            1 if !rows.is_empty() => {
+                for _ in 0..1 + draw.below(2) {
+                    let factor = draw.coin().then(|| draw.below(rows.len()));
+                    row.terms.push((sign(draw), draw.below(rows.len()), factor));
+                }
+            }
+            _ => (0..variables)
+                .filter(|_| draw.coin())
+                .collect::<Vec<_>>()
+                .into_iter()
+                .for_each(|v| row.variables.push((sign(draw), v))),
+        }
+        rows.push(row);
+    }
+    let terms = (0..rows.len()).map(|k| (sign(draw), k, None)).collect();
+    rows.push(Row { constant: BigInt::ZERO, variables: vec![], terms, support: 0 });
+    for k in 0..rows.len() {
+        let of_variables = rows[k].variables.iter().fold(0, |bits, (_, v)| bits | 1 << v);
+        let operands = rows[k].terms.iter().flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
+        rows[k].support = operands.fold(of_variables, |bits, a| bits | rows[a].support);
+    }
+    rows
+}
+
+#[test]
+fn the_largest_sum_is_that_of_every_corner_by_itself_in_integers_of_any_width() {
+    let mut draw = Draw::new("corners", 1, 0);
+    // Up to 62 bits, up to 126, and more.
+    let mut widths = [0; 3];
+    for _ in 0..3000 {
+        let (variables, bits) = (1 + draw.below(4), 1 + draw.below(60));
+        let rows = random_rows(&mut draw, variables, bits);
+        let bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
+        let weights: Vec<_> = rows.iter().map(|_| (number(&mut draw, bits), draw.coin())).collect();
+        let sum = expected(&rows, &weights, &bounds);
+        widths[match sum.0.bits() {
+            0..=62 => 0,
+            63..=126 => 1,
+            _ => 2,
+        }] += 1;
+        assert_eq!(found(&rows, &weights, &bounds), Some(sum));
+        // Without weights only sizes are wanted.
+        assert_eq!(found(&rows, &[], &bounds), Some(expected(&rows, &[], &bounds)));
+    }
+    assert!(widths.into_iter().all(|n| 20 < n), "{widths:?}");
+}
+
+#[test]
+fn numbers_that_are_too_long_are_refused() {
+    let rows = vec![Row {
+        constant: BigInt::ZERO,
+        variables: vec![(BigInt::one(), 0)],
+        terms: vec![],
+        support: 1,
+    }];
+    let weights = [(BigInt::one(), true)];
+    let longest: BigInt = (BigInt::one() << MOST_BITS) - 1;
+    let all = |bound: &BigInt| found(&rows, &weights, std::slice::from_ref(bound));
+    assert_eq!(all(&longest), Some((longest.clone(), 0, vec![longest.clone()])));
+    assert_eq!(all(&(longest + 1)), None);
+}
