@@ -258,3 +258,55 @@ fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
         inputs[3 + axis] = inputs[to + axis] - inputs[from + axis];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel;
+    use crate::prove::{Domain, Proof, format_of, paths_of, run};
+
+    /// Each rounded number is moved by a hair, and the program run again from there.
+    #[test]
+    fn an_amplitude_is_the_sum_of_what_each_half_ulp_does() {
+        for name in ["moller-trumbore", "plane-unit-normal", "woop-watertight", "cramer+fma"] {
+            let entry = kernel::find(name).unwrap();
+            let paths = paths_of::<f64>(entry).unwrap();
+            let proof = Proof::new(paths, None, Domain::UNIT, format_of::<f64>());
+            let quantities = proof.quantities.iter().filter(|q| !q.uses().extent);
+            for quantity in quantities.take(4) {
+                let mut search = Search::<f64>::new(&proof, quantity, Domain::UNIT);
+                let mut draw = Draw::new("amplitude", 1, 0);
+                for _ in 0..5 {
+                    let inputs = search.start(Goal::Error, &mut draw);
+                    run(&search.operations, search.place, &inputs, &mut search.computed);
+                    let expected = by_differences(&search, &inputs);
+                    let found = search.amplitude();
+                    let apart = (found - expected).abs();
+                    assert!(apart <= 1e-4 * expected, "{name}: {found} {expected}");
+                }
+            }
+        }
+    }
+
+    fn by_differences(search: &Search<'_, f64>, inputs: &Inputs<f64>) -> f64 {
+        let effect = |(place, operation): (usize, &Operation)| {
+            use Operation::{Abs, Input, Neg, Number};
+            let value = search.computed[place];
+            if matches!(operation, Input(_) | Number(_) | Neg(_) | Abs(_)) || value == 0.0 {
+                return 0.0;
+            }
+            // No quantity here uses the last input.
+            let mut operations = search.operations.clone();
+            operations[place] = Input(16);
+            let result = |by: f64| {
+                let (mut inputs, mut values) = (*inputs, Vec::new());
+                inputs[16] = value * (1.0 + by);
+                run(&operations, search.place, &inputs, &mut values);
+                values[search.place as usize]
+            };
+            let slope = (result(1e-6) - result(-1e-6)) / (2e-6 * value);
+            slope.abs() * value.abs().log2().floor().exp2()
+        };
+        search.operations.iter().enumerate().map(effect).sum()
+    }
+}
