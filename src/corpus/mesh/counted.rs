@@ -1,8 +1,20 @@
-//! A reader that reports how far it is.
+//! How much of a file is read: a reader that reports how far it is, and what is too much.
 
 use std::io::{self, BufRead, Read};
 
 const MEBIBYTE: u64 = 1 << 20;
+
+/// How much is read before a file is an error.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// Bytes in a line, with what is joined to it by backslashes in an OBJ file; in the header of a PLY file.
+    pub line: usize,
+    /// Vertices, and triangles after polygons are cut up.
+    pub elements: usize,
+}
+
+/// One MiB, and what 32-bit indices hold with room to spare.
+pub(super) const LIMITS: Limits = Limits { line: 1 << 20, elements: 100_000_000 };
 
 /// Calls `progress` about every MiB with the bytes read so far.
 pub(super) struct Counted<'p, R> {

@@ -1,22 +1,10 @@
-//! OBJ files, and what bounds all that is read.
+//! OBJ files: reading and writing.
 
-use super::counted::Counted;
+use super::counted::{Counted, LIMITS, Limits};
 use super::{Mesh, obj};
 use crate::corpus::InputError;
 use crate::corpus::shapes::Shape;
 use std::io::{self, BufRead, Write};
-
-/// How much is read before a file is an error.
-#[derive(Clone, Copy)]
-pub(super) struct Limits {
-    /// Bytes in a line, with what is joined to it by backslashes in an OBJ file; in the header of a PLY file.
-    pub line: usize,
-    /// Vertices, and triangles after polygons are cut up.
-    pub elements: usize,
-}
-
-/// One MiB, and what 32-bit indices hold with room to spare.
-pub(super) const LIMITS: Limits = Limits { line: 1 << 20, elements: 100_000_000 };
 
 /// Reads an OBJ file: `v`, `f`, `o` and `g` count; materials, normals and textures are ignored; anything
 /// else gets a note. `name` is for messages and for [`Mesh::name`]; `progress` is called

@@ -1,7 +1,6 @@
 //! Which format a file of a mesh has, and its reader.
 
-use super::counted::Counted;
-use super::files::{LIMITS, Limits};
+use super::counted::{Counted, LIMITS, Limits};
 use super::{InputError, Mesh, gltf, obj, ply};
 use std::io::{self, BufRead, Read};
 

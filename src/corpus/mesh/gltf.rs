@@ -6,7 +6,7 @@ mod buffers;
 mod transform;
 
 use super::builder::{Builder, Place};
-use super::files::Limits;
+use super::counted::Limits;
 use super::{InputError, Mesh};
 use buffers::Buffers;
 use gltf::json;

@@ -4,7 +4,7 @@
 //! sorts faces into groups and polygons, on vertices that are placeholders for their index.
 
 use super::builder::{Builder, Place, quoted, shortened, vertices_text};
-use super::files::Limits;
+use super::counted::Limits;
 use super::{InputError, Mesh};
 use std::collections::BTreeSet;
 use std::io::{BufRead, Read, Write};

@@ -4,7 +4,7 @@
 //! decided here.
 
 use super::builder::{Builder, Place, quoted, vertices_text};
-use super::files::Limits;
+use super::counted::Limits;
 use super::{InputError, Mesh};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{

@@ -1,4 +1,5 @@
-use super::files::{LIMITS, Limits, read_within};
+use super::counted::{LIMITS, Limits};
+use super::files::read_within;
 use super::*;
 use crate::case::Draw;
 use crate::corpus::InputError;
