@@ -393,3 +393,6 @@ impl Step<'_> {
         bound
     }
 }
+
+#[cfg(test)]
+mod tests;

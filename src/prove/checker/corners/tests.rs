@@ -66,6 +66,11 @@ fn sign(draw: &mut Draw) -> BigInt {
     BigInt::from(if draw.coin() { 1 } else { -1 })
 }
 
+/// A factor, as it brings terms to one scale.
+fn factor(draw: &mut Draw) -> BigInt {
+    sign(draw) << draw.below(3)
+}
+
 /// Random steps; the last one depends on all.
 fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
     let mut rows: Rows = Vec::new();
@@ -75,15 +80,15 @@ fn random_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
             0 => row.constant = number(draw, bits) * sign(draw),
             1 if !rows.is_empty() => {
                 for _ in 0..1 + draw.below(2) {
-                    let factor = draw.coin().then(|| draw.below(rows.len()));
-                    row.terms.push((sign(draw), draw.below(rows.len()), factor));
+                    let other = draw.coin().then(|| draw.below(rows.len()));
+                    row.terms.push((factor(draw), draw.below(rows.len()), other));
                 }
             }
             _ => (0..variables)
                 .filter(|_| draw.coin())
                 .collect::<Vec<_>>()
                 .into_iter()
-                .for_each(|v| row.variables.push((sign(draw), v))),
+                .for_each(|v| row.variables.push((factor(draw), v))),
         }
         rows.push(row);
     }
