@@ -1,4 +1,4 @@
-//! A page for each epsilon in use: by whom, what is proved of it, and what it costs in four scenes.
+//! A page for each epsilon in use: by whom, what is proved of it, and what it does to rays in four scenes.
 
 use crate::page::{Pages, slug, table};
 use crate::program;
@@ -182,6 +182,17 @@ fn scaling(dimension: Dimension) -> String {
     }
 }
 
+/// What becomes of a proved bound where everything is larger.
+fn bound_of_size(dimension: Dimension) -> String {
+    match dimension.length {
+        0 => "Where all lengths are larger the bounds are the same.".to_owned(),
+        length => format!(
+            "Where lengths are up to s, the bounds are s^{length} times as large: with lengths up to 100, 1e{} times.",
+            2 * length
+        ),
+    }
+}
+
 /// The gates that it stands at, each once; that for parallel rays if it stands nowhere.
 fn gates(epsilon: &Epsilon) -> Vec<(&'static str, Dimension)> {
     let mut gates: Vec<(&str, Dimension)> = Vec::new();
@@ -249,9 +260,8 @@ fn section(
         p { "Tried with " code { (kernel) } ", all other epsilons 0." }
         h3 { "What is proved" }
         p {
-            "Of coordinates of points and of their differences up to 1, and of directions up to 1. Where lengths are s times as large, a determinant's "
-            "bound is s² times as large, so that with edges of 100 all of these numbers are 10,000 times as large. u is half the distance from 1 to the "
-            "next number: 6.0e-8 in f32, 1.1e-16 in f64."
+            "Of coordinates of points and of their differences up to 1, and of directions up to 1. " (bound_of_size(dimension))
+            " u is half the distance from 1 to the next number: 6.0e-8 in f32, 1.1e-16 in f64."
         }
         @for scalar in ["f32", "f64"] { (proved(kernel, gate, &with, scalar)?) }
         h3 { "What it does to rays" }
