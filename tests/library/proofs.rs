@@ -326,6 +326,31 @@ fn what_is_wrong_is_named_with_its_line() {
 }
 
 #[test]
+fn a_number_that_may_overflow_is_refused() {
+    let text = sample("triple");
+    let format = text.lines().find(|line| line.starts_with("format ")).unwrap();
+    let (rest, _) = format.rsplit_once(' ').unwrap();
+    let kernel = text.lines().find(|line| line.starts_with("kernel ")).unwrap();
+    // The number itself is at most 3.992.
+    let with = |largest: i32| {
+        let text = text.replacen(format, &format!("{rest} {largest}"), 1);
+        text.replacen(kernel, "kernel k float", 1)
+    };
+    assert!(check(&with(2)).is_ok());
+    let message = refusal(&with(1));
+    assert!(message.contains("which may overflow"), "{message}");
+}
+
+#[test]
+fn a_direction_is_no_point() {
+    let text = "hairline proof 1\nkernel k f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 direction 1 \
+        extent 1 direction-floor 1 floor 1 quotient 1\nprogram\nop 0 input 3\nop 1 input 0\nop 2 sub 0 1\n\
+        lemma 2 sum\nvariable direction 0\nvariable point 0 0\nstep 2 variables +0 -1\n";
+    let message = refusal(text);
+    assert!(message.starts_with("line 12: found `step 2 variables +0 -1`"), "{message}");
+}
+
+#[test]
 fn hostile_text_is_refused_at_once() {
     let text = sample("plane");
     let long = "9".repeat(1 << 16);
