@@ -41,11 +41,12 @@ impl<F: Searched> Search<'_, F> {
                     && goal != Goal::Zero
                     && draw.coin()
                 {
-                    let steps = left.min(ASCENT);
+                    let steps = ASCENT.min(left / 4);
                     left -= steps;
                     *inputs = self.ascend(*inputs, goal, steps, draw);
                     *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
                 }
+                best = best.into_iter().chain(current).max_by(|(_, a), (_, b)| a.total_cmp(b));
                 stale = 0;
                 continue;
             }
