@@ -28,6 +28,8 @@ mod rustsim_geometry;
 mod tri_mesh;
 mod vek;
 
+use std::sync::OnceLock;
+
 pub use entrant::{ENTRANT, Entrant, PROMISE, Run, UNIT};
 
 /// Every entrant, those of other languages last.
@@ -51,4 +53,15 @@ pub fn kernels() -> Vec<hairline::internals::kernel::Entry> {
         _ => None,
     };
     entrants().iter().filter_map(here).collect()
+}
+
+/// Makes them known by their names, once for the whole program, whichever thread asks first.
+pub fn register() -> Result<(), String> {
+    static DONE: OnceLock<Result<(), String>> = OnceLock::new();
+    let all = || {
+        kernels()
+            .into_iter()
+            .try_for_each(|kernel| hairline::internals::kernel::register(kernel).map(drop))
+    };
+    DONE.get_or_init(all).clone()
 }

@@ -3,8 +3,7 @@
 
 use hairline::internals::corpus::lines::{self, StoredCase};
 use hairline::internals::explore::campaign::Find;
-use hairline::internals::kernel::{find, register};
-use hairline_league::kernels;
+use hairline_league::{kernels, register};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
@@ -21,17 +20,9 @@ fn witnesses() -> Vec<StoredCase> {
     files.iter().flat_map(read).collect()
 }
 
-fn register_all() {
-    for kernel in kernels() {
-        if find(kernel.info.name).is_none() {
-            register(kernel).unwrap();
-        }
-    }
-}
-
 #[test]
 fn every_witness_is_shown_by_the_published_function_and_every_kernel_has_one() {
-    register_all();
+    register().unwrap();
     let witnesses = witnesses();
     let mut replayed = BTreeSet::new();
     for case in &witnesses {
@@ -47,7 +38,7 @@ fn every_witness_is_shown_by_the_published_function_and_every_kernel_has_one() {
 
 #[test]
 fn a_witness_of_another_finding_is_refused() {
-    register_all();
+    register().unwrap();
     for case in witnesses().iter().take(3) {
         let mut changed = case.clone();
         let found = changed.found.as_mut().unwrap();

@@ -83,9 +83,9 @@ fn page<F: Scalar>(site: &SiteCase, case: &Case<F>) -> Markup {
         @if let Some(picture) = drawing::picture(case, exact) { (picture) }
         h2 { "What kernels answer" }
         p.soft {
-            "Those that are Rust, each with the epsilons of its source and judged by what its own source promises: nothing is asked where that "
+            "Those that are built into the program, each with the epsilons of its source and judged by what its own source promises: nothing is asked where that "
             "leaves the case open, as a direction that is not of unit length, or an edge. A bad value is a hit whose t, u or v is promised and is "
-            "not finite, or whose side is wrong. The others answer in a process of their own and are in the edition's table only."
+            "not finite, or whose side is wrong. The others run in programs of their own and are in the edition's table only."
         }
         h3 { "Published libraries" }
         (answers("Published libraries", case, |entry| !entry.is_built_in()))

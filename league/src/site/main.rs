@@ -11,7 +11,6 @@ mod kernels;
 mod page;
 mod program;
 
-use hairline::internals::kernel::{find, register};
 use hairline_league::edition;
 use page::Pages;
 use std::path::Path;
@@ -46,11 +45,7 @@ fn site(folder: &str, edition: Option<&str>, url: Option<&str>) -> Result<String
         None => edition::newest(editions)?,
     };
     let results = edition::results(&editions.join(&edition))?;
-    for kernel in hairline_league::kernels() {
-        if find(kernel.info.name).is_none() {
-            register(kernel)?;
-        }
-    }
+    hairline_league::register()?;
     let findings = findings::read(Path::new("league/findings"))?;
     let cases = cases::of(&results);
     let epsilons = epsilons::in_use(&results);

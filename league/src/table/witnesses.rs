@@ -3,17 +3,15 @@
 use hairline::internals::audit::Row;
 use hairline::internals::corpus::lines::write_case;
 use hairline::internals::explore::campaign::Find;
-use hairline::internals::kernel::{find, register};
+use hairline::internals::kernel::find;
 use hairline_league::edition::{Depth, EntrantResult};
-use hairline_league::kernels;
+use hairline_league::register;
 use std::fs;
 
 /// Writes the deepest false miss and false hit of each built-in entrant and scalar. Files of entrants that
 /// the edition does not have stay.
 pub fn write(folder: &str, results: &[EntrantResult]) -> Result<(), String> {
-    for kernel in kernels().into_iter().filter(|kernel| find(kernel.info.name).is_none()) {
-        register(kernel)?;
-    }
+    register()?;
     for entrant in results.iter().filter(|entrant| find(&entrant.kernel).is_some()) {
         let mut text = String::new();
         for (scalar, result) in &entrant.scalars {
