@@ -48,6 +48,7 @@ pub use chunk::SourceSummary;
 pub use digest::{Digest, Place};
 pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;
+pub(crate) use group_count::Judged;
 pub use histogram::Histogram;
 pub use interval::Interval;
 pub(crate) use judging::polygon_verdict;

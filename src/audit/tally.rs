@@ -284,7 +284,7 @@ impl Tally {
     }
 
     /// Counts a group.
-    pub(super) fn group(&mut self, group: &Judged) {
+    pub(crate) fn group(&mut self, group: &Judged) {
         self.groups.add(group, self.group_limit);
     }
 

@@ -11,13 +11,14 @@ use crate::family::{Family, Grouping, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
 use crate::mesh::{Part, SceneMesh, Surface, Targets, Topology};
 use crate::report::number_of;
+use crate::vectors::{self, DIGITS, Test};
 use clap::Args;
 use std::sync::Arc;
 
 /// Which case.
 #[derive(Args)]
 pub struct CaseArguments {
-    /// A case id, the name of a stored case, or a case as JSON
+    /// A case id, the id of a test vector, the name of a stored case, or a case as JSON
     #[arg(value_name = "CASE")]
     pub case: String,
 
@@ -60,6 +61,9 @@ impl CaseArguments {
             let missing = || Failure::usage("the argument holds no case".to_owned());
             return Ok(stored_cases(&stored.ok_or_else(missing)??));
         }
+        if let Some(test) = self.test_vector() {
+            return Ok(test);
+        }
         let id: CaseId = self.case.parse().map_err(|error| {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
         })?;
@@ -67,6 +71,20 @@ impl CaseArguments {
             true => from_id(&id, self.mesh.as_deref()).map(Cases::F32),
             false => from_id(&id, self.mesh.as_deref()).map(Cases::F64),
         }
+    }
+
+    /// The cases of a test of the core set of vectors.
+    fn test_vector(&self) -> Option<Cases> {
+        let (_, digest) = self.case.rsplit_once('-')?;
+        if digest.len() != DIGITS || self.case.contains('/') {
+            return None;
+        }
+        let mut tests = vectors::core().into_iter().flat_map(|(_, tests)| tests);
+        let Test { cases, grouping, .. } = tests.find(|test| test.id == self.case)?;
+        Some(match &cases[0] {
+            AnyCase::F32(_) => Cases::F32(Group::alone(in_scalar(&cases), grouping)),
+            AnyCase::F64(_) => Cases::F64(Group::alone(in_scalar(&cases), grouping)),
+        })
     }
 
     fn stored(&self, path: &str) -> Result<Cases, Failure> {
@@ -94,6 +112,11 @@ impl CaseArguments {
             places.join(", ")
         )))
     }
+}
+
+/// Cases that are stored in a scalar.
+fn in_scalar<F: Float>(cases: &[AnyCase]) -> Vec<Case<F>> {
+    cases.iter().map(|case| Case::from_bits(&either_scalar!(case, case => case.bits()))).collect()
 }
 
 fn stored_cases(stored: &StoredCase) -> Cases {

@@ -1,17 +1,19 @@
 //! `hairline verify`: what a product answered to the test vectors, judged.
 
+mod report;
+
 use super::exit::{Failure, Status};
-use super::flags::unknown;
+use super::flags::{OUTPUT, unknown};
 use super::input::read_text;
-use super::output::write_result;
+use super::output::{paired_outputs, write_results};
 use crate::corpus::{InputError, json};
-use crate::report::{number_of, write_json};
-use crate::vectors::profile::{Answered, Profile, demanded, is_right};
+use crate::report::{FORMATS, Style, write_json};
+use crate::vectors::profile::{Answered, Profile, is_right};
 use crate::vectors::{Test, core, digest, json::topic_file};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use report::{Judged, Sheet};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
-use std::io::{self, Write};
 
 /// Which results, and by what they are judged.
 #[derive(Args)]
@@ -26,58 +28,22 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "NAME")]
     profile: Option<String>,
 
-    /// The report
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    /// text; json: every wrong answer and every missing id; record: what `hairline diff` compares; or jsonl,
+    /// junit, sarif, markdown or html, as of an audit; or several separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
+    format: Vec<String>,
 
-    /// Where to write; - is standard output
-    #[arg(short, long, default_value = "-", value_name = "FILE")]
-    output: String,
+    /// Where to write, once for each format; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
+    output: Vec<String>,
 }
 
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Format {
-    /// For people: counts by topic, and the first wrong answers
-    Text,
-    /// Every wrong answer and every missing id
-    Json,
-}
-
-/// How many wrong answers the text shows.
-const SHOWN: usize = 20;
-
-/// The answers of a product, compared.
-#[derive(Default, serde::Serialize)]
-struct Report<'a> {
-    product: String,
-    vectors: String,
-    profile: Option<&'a str>,
-    total: Counts,
-    topics: Vec<(&'a str, Counts)>,
-    wrong: Vec<Wrong<'a>>,
-    missing: Vec<&'a str>,
-}
-
-#[derive(Clone, Copy, Default, serde::Serialize)]
-struct Counts {
-    tests: usize,
-    right: usize,
-    wrong: usize,
-    /// Answered, and free to be either.
-    free: usize,
-    missing: usize,
-}
-
-#[derive(serde::Serialize)]
-struct Wrong<'a> {
-    id: &'a str,
-    demanded: &'a str,
-    answered: String,
-    comment: &'a str,
-}
+/// The formats by name: two of the answers, the others of their record.
+const NAMES: &[&str] = &["text", "json", "record", "jsonl", "junit", "sarif", "markdown", "html"];
 
 /// Runs the command.
 pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
+    let outputs = paired_outputs(NAMES, |name| name, &arguments.format, &arguments.output)?;
     let profile =
         match arguments.profile.as_deref() {
             None => None,
@@ -96,67 +62,52 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     let mut answers: HashMap<&str, (Answered, &str)> = HashMap::new();
     for (id, value) in &results.answers {
         let error = |message| InputError::at(&arguments.file, line_of(&text, value), message);
-        let answer = answered(value).map_err(|message| error(format!("{id}: {message}")))?;
+        let answer = answered_by(value).map_err(|message| error(format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(format!("a second result of '{id}'")).into());
         }
     }
-    let mut report = Report {
-        product: results.product,
-        vectors: results.vectors,
-        profile: profile.as_ref().map(|profile| profile.name.as_str()),
-        ..Report::default()
-    };
+    let mut sheet = Sheet::new(&results.product, &results.vectors, profile.as_ref());
     for (topic, tests) in &topics {
-        let mut counts = Counts { tests: tests.len(), ..Counts::default() };
+        sheet.begin(topic.name);
         for test in tests {
             let Some((answer, value)) = answers.remove(test.id.as_str()) else {
-                counts.missing += 1;
-                report.missing.push(&test.id);
+                sheet.missing(test);
                 continue;
             };
-            let demanded = demanded(test, profile.as_ref());
+            let demanded = sheet.demanded(test);
             let fits = match answer {
                 Answered::Single(_) => test.group.is_none(),
                 Answered::Hits(hits) => {
                     test.group.is_some() && hits as usize <= test.triangles.len()
                 }
             };
-            match is_right(demanded, answer).filter(|_| fits) {
-                Some(true) if demanded == "free" => counts.free += 1,
-                Some(true) => counts.right += 1,
-                Some(false) => {
-                    counts.wrong += 1;
-                    report.wrong.push(Wrong {
-                        id: &test.id,
-                        demanded,
-                        answered: value.trim_matches('"').to_owned(),
-                        comment: &test.comment,
-                    });
-                }
-                None => {
-                    let line = line_of(&text, value);
-                    let message = format!("{}: {}", test.id, expected(test));
-                    return Err(InputError::at(&arguments.file, line, message).into());
-                }
-            }
+            let Some(right) = is_right(demanded, answer).filter(|_| fits) else {
+                let line = line_of(&text, value);
+                let message = format!("{}: {}", test.id, expected(test));
+                return Err(InputError::at(&arguments.file, line, message).into());
+            };
+            sheet.add(Judged { test, demanded, answer, right });
         }
-        report.total.add(&counts);
-        report.topics.push((topic.name, counts));
     }
     if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
         let message = format!("no test of these vectors has the id {}", json::quoted(id));
         return Err(InputError::at(&arguments.file, line_of(&text, value), message).into());
     }
-    if report.total.missing == report.total.tests {
+    if sheet.is_empty() {
         let message = format!("{}: no results in it", arguments.file);
         return Err(Failure::Message(Status::NothingSelected, message));
     }
-    write_result(&arguments.output, |out| match arguments.format {
-        Format::Text => report.write_text(out),
-        Format::Json => write_json(&report, out),
+    write_results(outputs, |name, _, out| match *name {
+        "text" => sheet.report().write_text(out),
+        "json" => write_json(&sheet.report(), out),
+        "record" => write_json(&sheet.record(), out),
+        name => {
+            let format = FORMATS.iter().find(|format| format.name == name);
+            (format.expect("every other name is one").write)(&sheet.record(), Style::default(), out)
+        }
     })?;
-    Ok(if report.wrong.is_empty() { Status::Success } else { Status::Disagreements })
+    Ok(if sheet.has_wrong() { Status::Disagreements } else { Status::Success })
 }
 
 /// What the answer to a test looks like.
@@ -167,7 +118,7 @@ fn expected(test: &Test) -> &'static str {
     }
 }
 
-fn answered(value: &str) -> Result<Answered, String> {
+fn answered_by(value: &str) -> Result<Answered, String> {
     match value {
         "\"hit\"" => Ok(Answered::Single(true)),
         "\"miss\"" => Ok(Answered::Single(false)),
@@ -218,45 +169,5 @@ impl<'a> Results<'a> {
         let answers = json::pairs(required("results")?);
         let answers = answers.map_err(|message| at("results", message))?;
         Ok(Results { vectors, product, answers })
-    }
-}
-
-impl Counts {
-    fn add(&mut self, other: &Counts) {
-        self.tests += other.tests;
-        self.right += other.right;
-        self.wrong += other.wrong;
-        self.free += other.free;
-        self.missing += other.missing;
-    }
-}
-
-impl Report<'_> {
-    fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Counts { tests, right, wrong, free, missing } = self.total;
-        let answers = number_of(wrong as u64, "wrong answer", "wrong answers");
-        write!(out, "{}: {answers}, {right} right", self.product.escape_debug())?;
-        if let Some(profile) = self.profile {
-            write!(out, " by profile {profile}")?;
-        }
-        writeln!(out, "; {free} free to be either, {missing} of {tests} tests without a result\n")?;
-        let head = ["topic", "tests", "wrong", "right", "free", "missing"];
-        let [topic, rest @ ..] = head;
-        writeln!(out, "{topic:<14}{}", rest.map(|word| format!("{word:>8}")).concat())?;
-        for (name, Counts { tests, right, wrong, free, missing }) in &self.topics {
-            let numbers = [tests, wrong, right, free, missing].map(|n| format!("{n:>8}")).concat();
-            writeln!(out, "{name:<14}{numbers}")?;
-        }
-        if !self.wrong.is_empty() {
-            writeln!(out)?;
-        }
-        for Wrong { id, demanded, answered, comment } in self.wrong.iter().take(SHOWN) {
-            writeln!(out, "{id}: {answered}, expected {demanded} ({comment})")?;
-        }
-        let more = self.wrong.len().saturating_sub(SHOWN);
-        if 0 < more {
-            writeln!(out, "... and {more} more: --format json has them all")?;
-        }
-        Ok(())
     }
 }

@@ -8,7 +8,7 @@ use crate::audit::{
     Source, SourceSummary, Tally, Trials, exact_severity,
 };
 use crate::case::Case;
-use crate::contract::{Boundary, Extent};
+use crate::contract::{Across, Boundary, Extent};
 use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
@@ -64,18 +64,24 @@ pub(super) fn row_part(row: &Row) -> RowPart {
 pub(super) fn plan_part(plan: &Plan) -> PlanPart {
     let names = [f32::NAME, f64::NAME];
     let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
-    let mut part = PlanPart {
+    PlanPart {
         hash: String::new(),
         rows: plan.rows.iter().map(row_part).collect(),
         sources: plan.sources.iter().map(planned_source).collect(),
         scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
-    };
-    let text = serde_json::to_string(&part).unwrap_or_default();
-    part.hash = hex(&Hash::hash(text.as_bytes())[..8]);
-    part
+    }
+    .hashed()
 }
 
 impl PlanPart {
+    /// With the hash of the other fields.
+    pub(super) fn hashed(mut self) -> PlanPart {
+        self.hash.clear();
+        let text = serde_json::to_string(&self).unwrap_or_default();
+        self.hash = hex(&Hash::hash(text.as_bytes())[..8]);
+        self
+    }
+
     /// Of what chooses the cases, which are the same for any kernels, epsilons and contracts.
     pub fn hash_of_cases(&self) -> String {
         let text = serde_json::to_string(&self.sources).unwrap_or_default();
@@ -136,7 +142,7 @@ fn rate(count: u64, of: u64, sample: bool) -> Rate {
     Rate::new(Trials::independent(count, of), sample)
 }
 
-fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Counts {
+pub(super) fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Counts {
     let count = class.map_or_else(|| tally.total(), |class| tally.classes[class.number()]);
     let of = |finding| Rate::new(tally.trials(class, finding), sample);
     Counts {
@@ -162,7 +168,8 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         let trials = tally.trials(Some(class), finding);
         let causes = cell.causes.get(&(class, finding));
         let causes = causes.map(|causes| distribution::causes(causes, trials.count));
-        finding_part::<F>(source, row, (class, finding), trials, examples, causes)
+        let example = |place, severe| example::<F>(source, row, place, severe);
+        finding_part((class, finding), Rate::new(trials, sample), examples, causes, example)
     });
     let grouping = source.grouping();
     KernelResult {
@@ -175,7 +182,7 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
         findings: findings.collect(),
         severity: distribution::severities(&tally.severities),
         accuracy: distribution::accuracy(&tally.accuracy),
-        across: grouping.shares_a_ray().then(|| across_part::<F>(source, row, &tally.groups)),
+        across: grouping.shares_a_ray().then(|| across_in_source::<F>(source, row, &tally.groups)),
         polygons: (grouping == Grouping::Polygon && row.entry.info.polygons)
             .then(|| polygon_part::<F>(source, &tally.polygons)),
         self_hits: (grouping == Grouping::SecondaryRay)
@@ -183,27 +190,23 @@ fn kernel_result<F: Scalar>(plan: &Plan, cell: &Cell) -> KernelResult {
     }
 }
 
-fn finding_part<F: Scalar>(
-    source: &Source,
-    row: &Row,
+/// A finding in a class, with what shows an example: of a place, and whether its severity is wanted.
+pub(super) fn finding_part(
     (class, finding): (Class, Finding),
-    trials: Trials,
+    rate: Rate,
     examples: &Examples,
     causes: Option<CausesPart>,
+    example: impl Fn(Place, bool) -> Example,
 ) -> FindingPart {
     let (_, worst) = examples.worst.expect("a finding has a worst example");
     FindingPart {
         finding: finding.name().to_owned(),
         class: class.name(),
-        rate: Rate::new(trials, source.is_sample()),
+        rate,
         causes,
         digest: examples.digest.to_string(),
-        worst: example::<F>(source, row, worst, true),
-        first: examples
-            .first
-            .iter()
-            .map(|place| example::<F>(source, row, *place, false))
-            .collect(),
+        worst: example(worst, true),
+        first: examples.first.iter().map(|place| example(*place, false)).collect(),
     }
 }
 
@@ -211,27 +214,35 @@ fn example<F: Scalar>(source: &Source, row: &Row, place: Place, with_severity: b
     let made = source.make::<F>(place.index);
     let case: &Case<F> = &made.cases()[place.triangle as usize];
     let triangle = (made.cases().len() > 1).then_some(place.triangle as usize);
-    let severity = if with_severity { exact_severity(case, row.contract.extent) } else { None };
     Example {
         case: source.id::<F>(place.index, triangle),
         bits: case.hex(),
-        severity: severity.map(|severity| SeverityPart {
-            in_plane: severity.in_plane,
-            in_space: severity.in_space,
-            edge_in_ulps: severity.edge_in_ulps,
-            along: severity.along,
-            off_end: severity.off_end.map(|place| place.name().to_owned()),
-        }),
+        severity: with_severity.then(|| severity_part(case, row.contract.extent)).flatten(),
         command: explain_command::<F>(source, row, place.index, triangle),
     }
 }
 
-fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
-    let sample = source.is_sample();
-    let elsewhere = matches!(source, Source::MeshPart { .. });
-    let ids = |indices: &[u64]| indices.iter().map(|i| source.id::<F>(*i, None)).collect();
+/// How far a case is from where the verdict would be right; none of invalid input.
+pub(super) fn severity_part<F: Float>(case: &Case<F>, extent: Extent) -> Option<SeverityPart> {
+    exact_severity(case, extent).map(|severity| SeverityPart {
+        in_plane: severity.in_plane,
+        in_space: severity.in_space,
+        edge_in_ulps: severity.edge_in_ulps,
+        along: severity.along,
+        off_end: severity.off_end.map(|place| place.name().to_owned()),
+    })
+}
+
+/// What groups did, of which the contract promises something, with the id of each.
+pub(super) fn across_part(
+    promised: Across,
+    groups: &GroupCount,
+    sample: bool,
+    id: impl Fn(u64) -> String,
+) -> AcrossPart {
+    let ids = |indices: &[u64]| indices.iter().map(|i| id(*i)).collect();
     AcrossPart {
-        promised: row.contract.across.name().to_owned(),
+        promised: promised.name().to_owned(),
         cracks: rate(groups.cracks, groups.crossings, sample),
         doubles: rate(groups.doubles, groups.crossings, sample),
         odd_folds: rate(groups.odd_folds, groups.folds, sample),
@@ -242,8 +253,18 @@ fn across_part<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> Ac
         crack_digest: groups.crack_digest.to_string(),
         double_digest: groups.double_digest.to_string(),
         odd_fold_digest: groups.odd_fold_digest.to_string(),
+        file: None,
+        elsewhere: None,
+    }
+}
+
+fn across_in_source<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) -> AcrossPart {
+    let sample = source.is_sample();
+    let elsewhere = matches!(source, Source::MeshPart { .. });
+    AcrossPart {
         file: source.file_flag(),
         elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
+        ..across_part(row.contract.across, groups, sample, |i| source.id::<F>(i, None))
     }
 }
 

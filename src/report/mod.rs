@@ -2,6 +2,8 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "studies")]
+mod answered;
 mod build;
 mod conformance;
 mod disagreement;
@@ -22,6 +24,8 @@ mod record;
 pub mod scene;
 mod shard;
 
+#[cfg(feature = "studies")]
+pub use answered::{AnsweredTest, Asked, Product, answered};
 pub use build::{Context, build};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;

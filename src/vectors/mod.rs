@@ -12,12 +12,13 @@ mod number;
 pub mod profile;
 mod source;
 
-pub use source::{Topic, core, numbered};
+pub use source::{PREFIX, Topic, core, numbered, question_of};
 
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Boundary, Contract, Demand, Extent};
 use crate::corpus::hex;
+use crate::corpus::lines::AnyCase;
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, Obligation, group_obligation, obligation};
 use crate::oracle::integer::{align, cross, dot, minus};
@@ -31,7 +32,7 @@ use number::Number;
 
 /// Every point of the closed triangle is a hit at every t of the closed interval, a coplanar triangle and
 /// one without area included. Invalid input is free.
-const CLOSED: Contract = Contract {
+pub const CLOSED: Contract = Contract {
     extent: Extent::Interval,
     coplanar: Demand::Hit,
     degenerate: Demand::Hit,
@@ -48,6 +49,9 @@ const OPEN: Contract = Contract {
     ..CLOSED
 };
 
+/// How many digits end an id.
+pub const DIGITS: usize = 16;
+
 /// One test: a ray and a triangle, or a ray and the triangles of a group.
 pub struct Test {
     /// A name, and a digest of the numbers: an id never comes back with other numbers.
@@ -62,8 +66,12 @@ pub struct Test {
     pub scalar: &'static str,
     /// Origin, direction, t_min and t_max.
     ray: [Number; 8],
+    /// The ray with each triangle.
+    pub cases: Vec<AnyCase>,
     /// One, or those of the group.
     pub triangles: Vec<Triangle>,
+    /// How they belong together.
+    pub grouping: Grouping,
     /// What is right of the triangles of a group together; none for a single triangle.
     pub group: Option<Group>,
 }
@@ -117,8 +125,10 @@ impl Test {
                 flags.push(flag)
             }
         });
+        let (id, scalar) = (name, F::NAME);
+        let cases = cases.iter().map(|case| (*case).into()).collect();
         let mut test =
-            Test { id: name, comment, source, flags, scalar: F::NAME, ray, triangles, group };
+            Test { id, comment, source, flags, scalar, ray, cases, triangles, grouping, group };
         test.id = format!("{}-{}", test.id, test.digest());
         Some(test)
     }
@@ -130,9 +140,9 @@ impl Test {
         words.join(" ")
     }
 
-    /// The first sixteen digits of the SHA-256 of the scalar and the bit patterns.
+    /// The first [`DIGITS`] digits of the SHA-256 of the scalar and the bit patterns.
     fn digest(&self) -> String {
-        hex(&Hash::hash(format!("{} {}", self.scalar, self.bits()).as_bytes()))[..16].to_owned()
+        hex(&Hash::hash(format!("{} {}", self.scalar, self.bits()).as_bytes()))[..DIGITS].to_owned()
     }
 }
 

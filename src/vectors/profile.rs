@@ -4,7 +4,8 @@
 use super::{Test, Triangle, word};
 use crate::contract::{Boundary, Contract, Demand};
 use crate::judge::{Obligation, obligation};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// The profiles by name.
 const PROFILES: [(&str, &str); 4] = [
@@ -44,11 +45,15 @@ struct Answers {
 struct Answer<T> {
     result: T,
     /// The section of the specification; null where it says nothing.
-    #[expect(dead_code, reason = "for readers of the file")]
     section: Option<String>,
     /// Its words, or why there is no answer.
-    #[expect(dead_code, reason = "for readers of the file")]
     sentence: String,
+}
+
+impl<T> Answer<T> {
+    fn saying(&self, word: &'static str) -> Saying<'_> {
+        Saying { word, section: self.section.as_deref(), sentence: &self.sentence }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Deserialize)]
@@ -75,6 +80,16 @@ pub enum Answered {
     Single(bool),
     /// How many triangles of a group are hit.
     Hits(u64),
+}
+
+impl fmt::Display for Answered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Answered::Single(true) => f.write_str("hit"),
+            Answered::Single(false) => f.write_str("miss"),
+            Answered::Hits(hits) => write!(f, "{hits}"),
+        }
+    }
 }
 
 impl Profile {
@@ -109,6 +124,52 @@ impl Profile {
             invalid: demand(invalid),
             ..super::CLOSED
         }
+    }
+}
+
+/// Where a profile says what is demanded of tests.
+#[derive(Clone, Copy, PartialEq, Serialize)]
+pub struct Saying<'a> {
+    /// A word of `free_because`, or `groups`.
+    pub word: &'static str,
+    /// The section of the specification, where it says something.
+    pub section: Option<&'a str>,
+    /// Its words, or why the answer is what it is.
+    pub sentence: &'a str,
+}
+
+impl Answers {
+    /// By the words of `free_because`.
+    fn of_single(&self) -> [(&'static str, &Answer<Single>); 5] {
+        [
+            ("boundary", &self.boundary),
+            ("ends", &self.ends),
+            ("coplanar", &self.coplanar),
+            ("degenerate", &self.degenerate),
+            ("invalid", &self.invalid),
+        ]
+    }
+}
+
+impl Profile {
+    /// What the specification says that decides a test; nothing if it is decided without.
+    pub fn sayings(&self, test: &Test) -> Vec<Saying<'_>> {
+        if let Some(group) = &test.group {
+            let groups = &self.answers.groups;
+            let decides = groups.result == Groups::Parity || group.result() == "at-least-one";
+            return Vec::from_iter(decides.then(|| groups.saying("groups")));
+        }
+        let asked = of_triangle(&test.triangles[0], Some(self));
+        let decides = |result| match asked {
+            Obligation::MustHit => result == Single::Hit,
+            Obligation::MustMiss => result == Single::Miss,
+            Obligation::Free => false,
+        };
+        let reasons = test.triangles[0].free_because();
+        let of_single = self.answers.of_single().into_iter();
+        let deciding =
+            of_single.filter(|(word, answer)| reasons.contains(word) && decides(answer.result));
+        deciding.map(|(word, answer)| answer.saying(word)).collect()
     }
 }
 

@@ -304,8 +304,72 @@ fn right_results_end_with_0_and_wrong_ones_with_1_under_every_profile() {
             let total = json!({"tests": tests.len(), "right": right, "wrong": wrong, "free": free, "missing": 0});
             assert_eq!(report["total"], total, "{name}");
             assert_eq!(report["wrong"].as_array().unwrap().len(), wrong);
+            let record = arguments.iter().map(|word| if *word == "json" { "record" } else { word });
+            let (record, _) = verify(&of(wrong == 0), &record.collect::<Vec<_>>(), code);
+            let record: Value = serde_json::from_str(&record).unwrap();
+            assert_eq!(findings(&record), (wrong as u64, owed as u64), "{name}");
         }
     }
+}
+
+/// How many findings a record has, and of how many.
+fn findings(record: &Value) -> (u64, u64) {
+    let mut sum = (0, 0);
+    for result in record["result"]["results"].as_array().unwrap() {
+        let (total, across) = (&result["total"], &result["across"]);
+        let rates = [&total["false_misses"], &total["false_hits"], &across["odd_folds"]];
+        for rate in rates.into_iter().filter(|rate| rate.is_object()) {
+            sum.0 += rate["count"].as_u64().unwrap();
+            sum.1 += rate["of"].as_u64().unwrap();
+        }
+        if across.is_object() {
+            // Of one crossing the answer may be a crack or a double.
+            let count = |of: &str| across[of]["count"].as_u64().unwrap();
+            sum.0 += count("cracks") + count("doubles");
+            sum.1 += across["cracks"]["of"].as_u64().unwrap();
+        }
+    }
+    sum
+}
+
+#[test]
+fn every_report_of_an_audit_is_one_of_results_and_each_case_in_it_is_explained() {
+    let tests = tests();
+    let find = |wanted: fn(&Value) -> bool| {
+        tests.iter().find(|test| wanted(test)).unwrap()["id"].as_str().unwrap().to_owned()
+    };
+    let single = find(|test| test["result"] == "hit");
+    let group = find(|test| test["result"] == "at-least-one");
+    let end = find(|test| test["free_because"] == json!(["ends"]) && test["where"] == "interior");
+    let answers =
+        [(single.clone(), json!("miss")), (group.clone(), json!(2)), (end.clone(), json!("hit"))];
+    let of = |arguments: &[&str]| verify(&results(&answers), arguments, 1).0;
+    let sentence = "Ray-triangle intersection can only occur if the intersection t-value satisfies";
+    let text = of(&["--profile", "dxr"]);
+    assert!(text.contains(&format!("{end}: hit, expected miss by 'ends'")), "{text}");
+    assert!(text.contains(&format!("{group}: 2, expected exactly-one by 'groups'")), "{text}");
+    assert!(text.contains("\n'ends' (Ray extents): ") && text.contains(sentence), "{text}");
+    for format in ["jsonl", "junit", "sarif", "html"] {
+        let report = of(&["--profile", "dxr", "--format", format]);
+        for id in [&single, &group, &end] {
+            assert!(report.contains(id), "{format}: {id}");
+        }
+    }
+    let markdown = of(&["--profile", "dxr", "--format", "markdown"]);
+    assert!(markdown.contains("| mine (dxr) |"), "{markdown}");
+    for (id, line) in [(single, "truth transversal"), (group, "together"), (end, ", t at_m")] {
+        let (explained, _) = ends(&scratch("verify-explain"), &["explain", &id], 0);
+        assert!(explained.contains(line), "{explained}");
+    }
+    // One wrong answer less: better, and nothing worse.
+    let folder = scratch("verify-diff");
+    let before = of(&["--format", "record"]);
+    let mended = [vec![(answers[0].0.clone(), json!("hit"))], answers[1..].to_vec()].concat();
+    let after = verify(&results(&mended), &["--format", "record"], 0).0;
+    fs::write(folder.join("before.json"), before).unwrap();
+    fs::write(folder.join("after.json"), after).unwrap();
+    let (diff, _) = ends(&folder, &["diff", "before.json", "after.json"], 0);
+    assert!(diff.contains("0 worse, 1 better"), "{diff}");
 }
 
 #[test]

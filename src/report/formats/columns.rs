@@ -5,6 +5,7 @@ use super::record::*;
 use super::row_view::RowView;
 use crate::audit::{Trials, is_of_mesh};
 use crate::family::Question;
+use crate::vectors;
 
 /// The sources of one question, all of them samples or all of them complete sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,8 +25,9 @@ enum Topic {
 impl Column {
     /// The column of a source by its name.
     fn of(family: &str, complete: bool) -> Column {
-        let topic = match family_of(family) {
-            Some(family) => Topic::Families(family.question),
+        let question = family_of(family).map(|family| family.question);
+        let topic = match question.or_else(|| vectors::question_of(family)) {
+            Some(question) => Topic::Families(question),
             None if is_of_mesh(family) => Topic::Mesh,
             None => Topic::Stored,
         };

@@ -1,0 +1,256 @@
+//! The answers of a product, judged: as counts and a list, and as the record that every other format is made
+//! from.
+
+use crate::judge::{GroupTruth, Obligation};
+use crate::report::{AnsweredTest, Asked, Product, Record, answered, number_of};
+use crate::vectors::Test;
+use crate::vectors::profile::{Answered, Profile, Saying, demanded};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// How many wrong answers the text shows.
+const SHOWN: usize = 20;
+
+/// An answer that was judged.
+pub struct Judged<'a> {
+    pub test: &'a Test,
+    pub demanded: &'static str,
+    pub answer: Answered,
+    pub right: bool,
+}
+
+/// All answers of a product, by topic.
+pub struct Sheet<'a> {
+    product: &'a str,
+    vectors: &'a str,
+    profile: Option<&'a Profile>,
+    topics: Vec<Topic<'a>>,
+}
+
+/// The answers to a file of the vectors.
+struct Topic<'a> {
+    name: &'static str,
+    judged: Vec<Judged<'a>>,
+    missing: Vec<&'a str>,
+}
+
+/// What `--format json` writes.
+#[derive(Serialize)]
+pub struct Report<'a> {
+    product: &'a str,
+    vectors: &'a str,
+    profile: Option<&'a str>,
+    total: Counts,
+    topics: Vec<(&'static str, Counts)>,
+    wrong: Vec<Wrong<'a>>,
+    missing: Vec<&'a str>,
+    /// What the profile's specification says that makes an answer wrong.
+    sayings: Vec<Saying<'a>>,
+}
+
+#[derive(Clone, Copy, Default, Serialize)]
+struct Counts {
+    tests: usize,
+    right: usize,
+    wrong: usize,
+    /// Answered, and free to be either.
+    free: usize,
+    missing: usize,
+}
+
+#[derive(Serialize)]
+struct Wrong<'a> {
+    id: &'a str,
+    demanded: &'static str,
+    answered: String,
+    comment: &'a str,
+    /// The words of the profile that demand it; none if every reading does.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    demanded_by: Vec<&'static str>,
+}
+
+impl<'a> Sheet<'a> {
+    /// Without answers yet.
+    pub fn new(product: &'a str, vectors: &'a str, profile: Option<&'a Profile>) -> Sheet<'a> {
+        Sheet { product, vectors, profile, topics: Vec::new() }
+    }
+
+    /// Begins a topic.
+    pub fn begin(&mut self, name: &'static str) {
+        self.topics.push(Topic { name, judged: Vec::new(), missing: Vec::new() });
+    }
+
+    /// What is demanded of a test.
+    pub fn demanded(&self, test: &Test) -> &'static str {
+        demanded(test, self.profile)
+    }
+
+    /// Adds an answer to the topic.
+    pub fn add(&mut self, judged: Judged<'a>) {
+        self.topics.last_mut().expect("a topic was begun").judged.push(judged);
+    }
+
+    /// Adds a test without an answer to the topic.
+    pub fn missing(&mut self, test: &'a Test) {
+        self.topics.last_mut().expect("a topic was begun").missing.push(&test.id);
+    }
+
+    /// Whether there is no answer.
+    pub fn is_empty(&self) -> bool {
+        self.judged().next().is_none()
+    }
+
+    /// Whether an answer is wrong.
+    pub fn has_wrong(&self) -> bool {
+        self.judged().any(|judged| !judged.right)
+    }
+
+    fn judged(&self) -> impl Iterator<Item = &Judged<'a>> {
+        self.topics.iter().flat_map(|topic| &topic.judged)
+    }
+
+    fn sayings_of(&self, test: &Test) -> Vec<Saying<'a>> {
+        self.profile.map_or(Vec::new(), |profile| profile.sayings(test))
+    }
+
+    /// Counts, wrong answers and missing ids.
+    pub fn report(&self) -> Report<'a> {
+        let mut report = Report {
+            product: self.product,
+            vectors: self.vectors,
+            profile: self.profile.map(|profile| profile.name.as_str()),
+            total: Counts::default(),
+            topics: self.topics.iter().map(|topic| (topic.name, topic.counts())).collect(),
+            wrong: Vec::new(),
+            missing: self.topics.iter().flat_map(|topic| &topic.missing).copied().collect(),
+            sayings: Vec::new(),
+        };
+        report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
+        for Judged { test, demanded, answer, .. } in self.judged().filter(|judged| !judged.right) {
+            let sayings = self.sayings_of(test);
+            report.wrong.push(Wrong {
+                id: &test.id,
+                demanded,
+                answered: answer.to_string(),
+                comment: &test.comment,
+                demanded_by: sayings.iter().map(|saying| saying.word).collect(),
+            });
+            let new = sayings.into_iter().filter(|saying| !report.sayings.contains(saying));
+            report.sayings.extend(new.collect::<Vec<_>>());
+        }
+        report
+    }
+
+    /// The record, from which every other format is made.
+    pub fn record(&self) -> Record {
+        let tests: Vec<AnsweredTest> = self
+            .topics
+            .iter()
+            .flat_map(|topic| topic.judged.iter().map(|judged| judged.answered(topic.name)))
+            .collect();
+        let count = self.topics.iter().map(|topic| topic.missing.len()).sum::<usize>() as u64;
+        let missing = number_of(count, "test has", "tests have");
+        let product = Product {
+            name: self.product,
+            judged_by: self.profile.map_or("vectors", |profile| &profile.name),
+            contract: match self.profile {
+                None => "the test vectors: hit or miss where every reading agrees".to_owned(),
+                Some(profile) => format!("the test vectors by {}", profile.specification),
+            },
+            vectors: self.vectors,
+            note: (0 < count).then(|| format!("{missing} no result")),
+        };
+        answered(&product, &tests)
+    }
+}
+
+impl Judged<'_> {
+    fn answered<'a>(&'a self, topic: &'a str) -> AnsweredTest<'a> {
+        let asked = match (&self.test.group, self.demanded) {
+            (None, "hit") => Asked::Single(Obligation::MustHit),
+            (None, "miss") => Asked::Single(Obligation::MustMiss),
+            (None, _) => Asked::Single(Obligation::Free),
+            (Some(_), "exactly-one" | "at-least-one") => Asked::Group(GroupTruth::Crossing),
+            (Some(_), word @ ("odd" | "even")) => {
+                Asked::Group(GroupTruth::Fold { odd: word == "odd" })
+            }
+            (Some(_), _) => Asked::Group(GroupTruth::Free),
+        };
+        let hits = match self.answer {
+            Answered::Single(hit) => usize::from(hit),
+            // More than one is no double where that is right.
+            Answered::Hits(hits) if self.demanded == "at-least-one" => usize::from(0 < hits),
+            Answered::Hits(hits) => hits as usize,
+        };
+        AnsweredTest { topic, test: self.test, asked, hits }
+    }
+}
+
+impl Topic<'_> {
+    fn counts(&self) -> Counts {
+        let missing = self.missing.len();
+        let mut counts =
+            Counts { tests: self.judged.len() + missing, missing, ..Counts::default() };
+        for judged in &self.judged {
+            match judged.right {
+                false => counts.wrong += 1,
+                true if judged.demanded == "free" => counts.free += 1,
+                true => counts.right += 1,
+            }
+        }
+        counts
+    }
+}
+
+impl Counts {
+    fn add(&mut self, other: &Counts) {
+        self.tests += other.tests;
+        self.right += other.right;
+        self.wrong += other.wrong;
+        self.free += other.free;
+        self.missing += other.missing;
+    }
+}
+
+impl Report<'_> {
+    /// Counts by topic, the first wrong answers, and what demands them.
+    pub fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Counts { tests, right, wrong, free, missing } = self.total;
+        let answers = number_of(wrong as u64, "wrong answer", "wrong answers");
+        write!(out, "{}: {answers}, {right} right", self.product.escape_debug())?;
+        if let Some(profile) = self.profile {
+            write!(out, " by profile {profile}")?;
+        }
+        writeln!(out, "; {free} free to be either, {missing} of {tests} tests without a result\n")?;
+        let head = ["topic", "tests", "wrong", "right", "free", "missing"];
+        let [topic, rest @ ..] = head;
+        writeln!(out, "{topic:<14}{}", rest.map(|word| format!("{word:>8}")).concat())?;
+        for (name, Counts { tests, right, wrong, free, missing }) in &self.topics {
+            let numbers = [tests, wrong, right, free, missing].map(|n| format!("{n:>8}")).concat();
+            writeln!(out, "{name:<14}{numbers}")?;
+        }
+        if !self.wrong.is_empty() {
+            writeln!(out)?;
+        }
+        for Wrong { id, demanded, answered, comment, demanded_by } in self.wrong.iter().take(SHOWN)
+        {
+            let by = match demanded_by.is_empty() {
+                true => String::new(),
+                false => format!(" by '{}'", demanded_by.join("' and '")),
+            };
+            writeln!(out, "{id}: {answered}, expected {demanded}{by} ({comment})")?;
+        }
+        let more = self.wrong.len().saturating_sub(SHOWN);
+        if 0 < more {
+            writeln!(out, "... and {more} more: --format json has them all")?;
+        }
+        if let Some(Wrong { id, .. }) = self.wrong.first() {
+            writeln!(out, "\nTo see one with its exact values: hairline explain {id}")?;
+        }
+        for Saying { word, section, sentence } in &self.sayings {
+            let section = section.map_or(String::new(), |section| format!(" ({section})"));
+            writeln!(out, "\n'{word}'{section}: {sentence}")?;
+        }
+        Ok(())
+    }
+}
