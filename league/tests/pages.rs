@@ -85,3 +85,40 @@ fn the_pages_in_python_run() {
 fn the_pages_in_javascript_run() {
     run(Path::new("node"), "javascript", "javascript/node_modules", "page.mjs");
 }
+
+/// The names and versions of a page's line of installation: `cargo add a@=1.0.0 b@=2.0.0`.
+fn installed(page: &str) -> Vec<(String, String)> {
+    let line = page.lines().find(|line| line.contains(", after `") || line.starts_with("After `"));
+    let words = line.unwrap_or_default().split([' ', '`', ':']);
+    let pinned = words.filter_map(|word| {
+        let (name, version) = word.split_once("==").or_else(|| word.split_once('@'))?;
+        Some((name.to_owned(), version.trim_start_matches('=').to_owned()))
+    });
+    pinned.collect()
+}
+
+#[test]
+fn every_page_installs_what_its_code_uses_in_the_versions_that_were_tried() {
+    let read = |path: &str| fs::read_to_string(league().join(path)).unwrap();
+    let rust = read("Cargo.lock") + &read("heavy/Cargo.lock");
+    let (npm, pip) = (read("javascript/package.json"), read("python/requirements.txt"));
+    for (page, text) in pages() {
+        let installed = installed(&text);
+        assert!(!installed.is_empty(), "{page}: nothing is installed");
+        for (name, version) in &installed {
+            let places = [
+                format!("name = \"{name}\"\nversion = \"{version}\"\n"),
+                format!("\"{name}\": \"{version}\""),
+                format!("{name}=={version}\n"),
+            ];
+            let tried = [&rust, &npm, &pip].iter().zip(&places).any(|(all, it)| all.contains(it));
+            assert!(tried, "{page}: {name} {version} is not what was tried");
+        }
+        let code = code(&text, "rust").unwrap_or_default();
+        for used in code.lines().filter_map(|line| line.strip_prefix("use ")) {
+            let used = used.split("::").next().unwrap().replace('_', "-");
+            let is_there = installed.iter().any(|(name, _)| name.replace('_', "-") == used);
+            assert!(is_there, "{page}: {used} is used and not installed");
+        }
+    }
+}

@@ -198,8 +198,7 @@ fn scalar_result(
         "at-least-one" => cracks.count > 0,
         _ => false,
     };
-    // Half of the digits of the scalar are right, or fewer.
-    let half = if scalar == "f32" { 2f64.powi(12) } else { 2f64.powf(26.5) };
+    let half = half_of_digits(scalar);
     let verdict = match () {
         () if entrant.claim.is_empty() => "none",
         () if is_broken => "refuted",
@@ -222,6 +221,11 @@ fn scalar_result(
         t_error_ulps: t.and_then(|t| Some([t.median?, t.percent_99?])),
         nanoseconds: nanoseconds.map(f64::round),
     }
+}
+
+/// The ulps beyond which half of the digits of a scalar are right, or fewer.
+pub fn half_of_digits(scalar: &str) -> f64 {
+    if scalar == "f32" { 2f64.powi(12) } else { 2f64.powf(26.5) }
 }
 
 /// Of the worst case of a finding: how far it is from where the verdict would be right.

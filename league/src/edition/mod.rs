@@ -4,7 +4,7 @@
 mod audit;
 mod tables;
 
-pub use audit::{Depth, EntrantResult, GROUPS, ScalarResult, Share};
+pub use audit::{Depth, EntrantResult, GROUPS, ScalarResult, Share, half_of_digits};
 pub use tables::{CAPTION, HEAD, Order, html, latex, markdown, rows};
 
 use hmac_sha256::Hash;

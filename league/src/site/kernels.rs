@@ -5,7 +5,7 @@ use crate::cases;
 use crate::findings::Finding;
 use crate::page::{Pages, slug, table};
 use hairline::internals::audit::shell_word;
-use hairline_league::edition::{Depth, EntrantResult, GROUPS, ScalarResult, Share};
+use hairline_league::edition::{Depth, EntrantResult, GROUPS, ScalarResult, Share, half_of_digits};
 use hairline_league::{Entrant, entrants};
 use maud::{Markup, html};
 
@@ -89,7 +89,7 @@ fn section(
         }
     };
     html! {
-        h3 { (scalar) ": " span class=(result.verdict.split(' ').next_back().unwrap_or_default()) { (verdict) } }
+        h3 { (scalar) ": " span class=(result.verdict.split(' ').next_back().unwrap_or_default()) { (verdict) } (refuting(facts, scalar, result)) }
         (table(&format!("By kind of rays, {scalar}"), &head, &body))
         @if let Some(facts) = facts { pre { code { (command(entrant, facts, scalar)) } } }
         p { "Rays through shared edges and vertices: " (of(result.cracks)) " hit nothing, " (of(result.doubles)) " more than one triangle." }
@@ -99,6 +99,21 @@ fn section(
         @for (what, depth) in [("false miss", &result.deepest_miss), ("false hit", &result.deepest_hit)] {
             @if let Some(depth) = depth { (deepest(what, depth)) }
         }
+    }
+}
+
+/// What refutes a claim, if one is refuted: the deepest case, or what slips through shared edges.
+fn refuting(facts: Option<&Entrant>, scalar: &str, result: &ScalarResult) -> Markup {
+    let depths = [("miss", &result.deepest_miss), ("hit", &result.deepest_hit)];
+    let depths = depths.into_iter().filter_map(|(what, depth)| Some((what, depth.as_ref()?)));
+    let deepest = depths.max_by(|(_, a), (_, b)| a.ulps.total_cmp(&b.ulps));
+    let by_depth = !facts.is_some_and(|facts| facts.only_shared);
+    let deepest = deepest.filter(|(_, depth)| by_depth && half_of_digits(scalar) < depth.ulps);
+    html! {
+        @if !result.verdict.starts_with("refuted") {}
+        @else if let Some((what, depth)) = deepest {
+            ": " a href={ "../case/" (cases::slug_of(depth)) ".html" } { "a false " (what) ", " " " (short(depth.ulps)) " ulps deep" }
+        } @else { ": rays through shared edges and vertices, counted below" }
     }
 }
 
