@@ -4,14 +4,13 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
-use super::reporting::{ReportArguments, self_check};
+use super::reporting::{ReportArguments, illustrated, self_check};
 use crate::audit::{Plan, Source, StoredSource};
 use crate::corpus::InputError;
-use crate::engine::Unobserved;
 use crate::family::{MeshFamily, Stratum};
 use crate::kernel;
 use crate::mesh::{Part, SceneMesh, Surface};
-use crate::report::{illustrations, mergeable, merged};
+use crate::report::{mergeable, merged};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -60,7 +59,7 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     })?;
     let quiet = arguments.report.quiet;
     let progress = Progress::new(0, "indices", true);
-    let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrations(plan, &Unobserved));
+    let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrated(plan));
     let record =
         merged(parts, illustrate, &progress, |source, scalars| open(source, scalars, quiet))
             .map_err(|Unmergeable(failure)| failure)?;

@@ -12,14 +12,13 @@ use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, find_kernel, unknown};
 use super::input::read_text;
 use super::output::write_result;
-use crate::audit::{EpsilonChoice, shell_word};
+use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::case;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
-use crate::report::write_json;
+use crate::report::{ProofPart, write_json};
 use clap::{Args, ValueEnum};
 use job::{Epsilons, Job, Parts};
-use rayon::prelude::*;
 use record::{DomainPart, GatePart, Record};
 use scenes::{degrees, mesh_scene, range};
 use witnesses::{KNOWN, merge, read_witnesses};
@@ -128,6 +127,25 @@ enum OutputFormat {
     Gappa,
 }
 
+/// What is proved of the kernels of some rows, each once, with the witnesses that the program was built with.
+pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
+    let stored =
+        read_witnesses(KNOWN, "corpora/proofs/witnesses.ndjson").expect("tests read these");
+    let mut entries: Vec<&Entry> = rows.iter().map(|row| row.entry).collect();
+    entries.dedup_by_key(|entry| entry.info.name);
+    let job = Job {
+        scene: None,
+        shapes: Vec::new(),
+        domain: Domain::UNIT,
+        effort: Effort { evaluations: 0, seed: 1 },
+        epsilons: Epsilons::None,
+        stored: &stored,
+        shared: false,
+    };
+    let parts = job.run_all(&entries, scalars);
+    parts.into_iter().filter_map(Parts::in_short).collect()
+}
+
 /// Runs the command.
 pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     if !arguments.kernel_lib.is_empty() || !arguments.kernel_cmd.is_empty() {
@@ -172,15 +190,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
     let job = Job { scene, shapes, domain, effort, epsilons, stored: &stored, shared };
-    let tasks: Vec<(&Entry, bool)> = entries
-        .iter()
-        .flat_map(|entry| [(*entry, false), (*entry, true)])
-        .filter(|(_, is_f64)| scalars[usize::from(*is_f64)])
-        .collect();
-    let parts: Vec<Parts> = tasks
-        .par_iter()
-        .map(|(entry, is_f64)| if *is_f64 { job.run::<f64>(entry) } else { job.run::<f32>(entry) })
-        .collect();
+    let parts = job.run_all(&entries, scalars);
     let mut record = Record {
         schema: "hairline/proof-1",
         version: env!("CARGO_PKG_VERSION"),

@@ -6,13 +6,14 @@ use super::flags::{OUTPUT, RUNNING};
 use super::output::{ColorChoice, paired_outputs, write_results};
 use super::plugins;
 use super::progress::Progress;
+use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Plan, Shard, Source};
 use crate::engine::Unobserved;
 use crate::report::{
-    Context, FORMATS, Format, HTML, PartialPart, PlanFlags, Record, Style, build, group_digits,
-    illustrations, number_of, shard_part,
+    Context, FORMATS, Format, HTML, Illustrations, PartialPart, PlanFlags, Record, Style, build,
+    group_digits, illustrations, number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -193,11 +194,17 @@ impl RunArguments {
         if illustrate {
             let progress = Progress::without_end(self.report.quiet);
             progress.tell("epsilons and maps for the pictures".to_owned());
-            record.illustrations = Some(illustrations(plan, &Unobserved));
+            record.illustrations = Some(illustrated(plan));
             progress.finish();
         }
         Ok(record)
     }
+}
+
+/// What the pictures of a plan's report are drawn from, and what is proved of its kernels.
+pub fn illustrated(plan: &Plan) -> Illustrations {
+    let proofs = prove::proofs(&plan.rows, plan.scalars);
+    Illustrations { proofs, ..illustrations(plan, &Unobserved) }
 }
 
 /// A family that breaks its own promise is a fault of this tool.

@@ -21,11 +21,18 @@ const PIXELS: usize = 64;
 /// The questions of a response's counts.
 const QUESTIONS: [Question; 3] = [Question::FalseMiss, Question::OwnFalseHit, Question::Crack];
 
-/// Computes what the pictures of a plan's report are drawn from: the same whatever the number of threads.
+/// Computes what the pictures of a plan's report are drawn from, without proofs: the same whatever the number of
+/// threads.
 pub fn illustrations(plan: &Plan, observer: &dyn Observer) -> Illustrations {
     let sources = few(&plan.sources, FEW);
     let families = sources.iter().map(Source::name).collect();
-    let mut all = Illustrations { indices: FEW, families, responses: Vec::new(), maps: Vec::new() };
+    let mut all = Illustrations {
+        indices: FEW,
+        families,
+        responses: Vec::new(),
+        maps: Vec::new(),
+        proofs: Vec::new(),
+    };
     if plan.scalars[0] {
         add::<f32>(plan, &sources, observer, &mut all);
     }

@@ -3,6 +3,7 @@
 
 use crate::audit::Trials;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// What pictures are drawn from; only where they were asked for.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -17,6 +18,25 @@ pub struct Illustrations {
     pub responses: Vec<ResponsePart>,
     /// For each row and scalar: about an edge, about a vertex, grazing.
     pub maps: Vec<MapPart>,
+    /// For each kernel and scalar whose formula can be recorded: what holds for every float.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub proofs: Vec<ProofPart>,
+}
+
+/// What is proved of a kernel for every float of the unit domain.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ProofPart {
+    /// The kernel's name.
+    pub kernel: String,
+    /// `f32` or `f64`.
+    pub scalar: String,
+    /// Whether and how far it is watertight, in a sentence.
+    pub edges: String,
+    /// By gate that compares a number: what it compares is never wrong by more, and the largest error that is
+    /// known; in units of 2^-24 in f32 and 2^-53 in f64. A bound is none where none is proved.
+    pub gates: BTreeMap<String, (Option<f64>, Option<f64>)>,
 }
 
 /// What a kernel row says of the rays around one, float by float, as a picture.

@@ -103,6 +103,25 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
         }
     }
     assert!(20 < examples, "{examples}");
+    // What is proved of each gate, as the text of `prove` has it.
+    let mut bounds = 0;
+    for kernel in ["moller-trumbore", "havel-herout"] {
+        let (proofs, _) = ends(&folder, &["prove", "--format", "json", "--kernel", kernel], 0);
+        let proofs: Value = serde_json::from_str(&proofs).unwrap();
+        for gate in proofs["gates"].as_array().unwrap() {
+            let shown = match (gate["bound_units"].as_f64(), &gate["witness"]["units"]) {
+                (None, _) => "<td>no bound</td>".to_owned(),
+                (Some(bound), known) => {
+                    let [bound, known] =
+                        [(bound * 100.0).ceil(), (known.as_f64().unwrap() * 100.0).floor()];
+                    format!("<td>{:.2} u ({:.2} u)</td>", bound / 100.0, known / 100.0)
+                }
+            };
+            assert!(page.contains(&shown), "{kernel}: {gate}");
+            bounds += 1;
+        }
+    }
+    assert_eq!(bounds, 10);
     // The verdict of a check.
     let (out, _) = ends(&folder, &["check", "--record", "r.json", "--format", "html", "-q"], 1);
     assert!(out.contains("<h1>✕ Does not conform: "), "{}", &out[..6000]);

@@ -9,6 +9,8 @@ use crate::prove::{
     Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Shape, Summary, Symmetry,
     Triangles, about_edges, statements,
 };
+use crate::report::ProofPart;
+use rayon::prelude::*;
 
 /// What is the same for all kernels.
 pub struct Job<'a> {
@@ -60,7 +62,38 @@ pub struct Parts {
     pub contradiction: Option<String>,
 }
 
+impl Parts {
+    /// As a report shows it beside the gates; none without a program.
+    pub fn in_short(self) -> Option<ProofPart> {
+        let KernelPart { kernel, scalar, edges, .. } = self.kernel?;
+        let gates = self.gates.into_iter().map(|gate| {
+            let known = gate.witness.map(|witness| witness.units);
+            (gate.gate.to_owned(), (gate.bound_units, known))
+        });
+        Some(ProofPart {
+            kernel,
+            scalar: scalar.to_owned(),
+            edges: edges.to_owned(),
+            gates: gates.collect(),
+        })
+    }
+}
+
 impl Job<'_> {
+    /// Proves and searches for each kernel in each chosen scalar.
+    pub fn run_all(&self, entries: &[&Entry], scalars: [bool; 2]) -> Vec<Parts> {
+        let tasks: Vec<(&Entry, bool)> = entries
+            .iter()
+            .flat_map(|entry| [(*entry, false), (*entry, true)])
+            .filter(|(_, is_f64)| scalars[usize::from(*is_f64)])
+            .collect();
+        let run = |(entry, is_f64): &(&Entry, bool)| match is_f64 {
+            false => self.run::<f32>(entry),
+            true => self.run::<f64>(entry),
+        };
+        tasks.par_iter().map(run).collect()
+    }
+
     /// Proves and searches.
     pub fn run<F: Searched + Scalar>(&self, entry: &Entry) -> Parts {
         let name = entry.info.name;

@@ -2,8 +2,8 @@ use super::*;
 use crate::report::formats::net::{NET_TITLE, net_lines};
 use crate::report::record::*;
 use crate::report::{
-    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ResponsePart, RowChange,
-    Unproved, Verdict,
+    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ProofPart, ResponsePart,
+    RowChange, Unproved, Verdict,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -192,6 +192,12 @@ fn hostile() -> Record {
                 png: png.to_owned(),
             })
             .into(),
+        proofs: vec![ProofPart {
+            kernel: name.clone(),
+            scalar: name.clone(),
+            edges: name.clone(),
+            gates: [(name.clone(), (Some(f64::MAX), Some(f64::NAN)))].into(),
+        }],
     });
     record
 }
