@@ -78,7 +78,8 @@ struct Block {
 fn read_blocks(reader: &mut impl BufRead) -> Vec<Block> {
     let mut blocks = Vec::new();
     while blocks.len() < BLOCKS {
-        let mut bytes = Vec::new();
+        // A line more, as a rule; grown step by step it would be copied again and again.
+        let mut bytes = Vec::with_capacity(BLOCK as usize + (1 << 12));
         let start = reader.by_ref().take(BLOCK).read_to_end(&mut bytes);
         // The rest of a line, unless it is too long for one.
         let mut rest = || reader.take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut bytes);
@@ -116,7 +117,9 @@ struct Decided {
 }
 
 fn decide(block: Block, file: &str, exact: bool) -> Decided {
-    let mut decided = Decided::default();
+    // A truth is about as long as its case.
+    let truths = Vec::with_capacity(block.bytes.len() * 5 / 4);
+    let mut decided = Decided { truths, ..Decided::default() };
     let reader = block.bytes.chain(BufReader::new(block.failure));
     let mut texts = TextLines::new(reader, file, LONGEST_LINE);
     for text in texts.by_ref() {
