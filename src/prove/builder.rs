@@ -5,7 +5,7 @@ use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
 use super::{Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 impl Prover<'_> {
     /// The formula of a number, and what its corners say.
@@ -57,11 +57,34 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// The formula and its corners; the last step is the result.
     fn finish(mut self) -> Result<(Formula, Maximum), String> {
+        self.find_unit_vector();
         let maximum = self.formula.maximum(self.prover.format)?;
         for bound in &self.formula.bounds {
             self.prover.check_range(bound.computed)?;
         }
         Ok((self.formula, maximum))
+    }
+
+    /// Coordinates of a unit vector are variables like others, unless the formula is linear in one such vector.
+    fn find_unit_vector(&mut self) {
+        let Formula { sources, .. } = &self.formula;
+        let part = |source: &Source| match *source {
+            Source::Part(place) => self.prover.quotient(place),
+            _ => None,
+        };
+        let lengths = sources.iter().filter_map(part).map(|(_, length, _)| length);
+        let coordinates = sources.iter().filter_map(part).map(|(coordinate, ..)| coordinate);
+        let is_one = lengths.collect::<HashSet<Place>>().len() == 1
+            && coordinates.clone().collect::<HashSet<_>>().len() == coordinates.count();
+        self.formula.unit =
+            (0..sources.len()).filter(|v| matches!(sources[*v], Source::Part(_))).collect();
+        if !is_one || self.formula.linear_steps().is_none() {
+            for v in std::mem::take(&mut self.formula.unit) {
+                if let Source::Part(place) = self.formula.sources[v] {
+                    self.formula.sources[v] = Source::Cut(place);
+                }
+            }
+        }
     }
 
     /// A step that does not round; it is given if something is known of it.
@@ -98,7 +121,9 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// A number that is a variable here; its lemma says the rest.
     fn cut(&mut self, place: Place) -> Result<usize, String> {
         let bound = self.prover.bound(place)?;
-        let step = self.variable(Source::Cut(place), bound);
+        let is_part = self.prover.unit(place).is_some();
+        let source = if is_part { Source::Part(place) } else { Source::Cut(place) };
+        let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);
         Ok(step)
     }
