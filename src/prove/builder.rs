@@ -15,13 +15,14 @@ impl Prover<'_> {
         builder.finish()
     }
 
-    /// numerator - quotient * divisor, the quotient of this size; no numerator is one.
+    /// numerator - quotient * divisor, the quotient of this size; no numerator is one. And of which of both the
+    /// last rounding is left out.
     pub(super) fn formula_of_quotient(
         &mut self,
         numerator: Option<Place>,
         divisor: Place,
         size: Dyadic,
-    ) -> Result<(Formula, Maximum), String> {
+    ) -> Result<(Formula, Maximum, [bool; 2]), String> {
         let mut builder = Builder::new(self);
         let n = match numerator {
             Some(numerator) => builder.expand(numerator)?,
@@ -31,7 +32,8 @@ impl Prover<'_> {
         let q = builder.variable(Source::Quotient, exactly(size));
         let product = builder.push(Step::Mul(q, d), None);
         builder.push(Step::Sub(n, product), None);
-        builder.finish()
+        let left_out = [n, d].map(|step| builder.leave_out(step));
+        builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
     }
 }
 
@@ -63,6 +65,18 @@ impl<'p, 'a> Builder<'p, 'a> {
             self.prover.check_range(bound.computed)?;
         }
         Ok((self.formula, maximum))
+    }
+
+    /// Leaves out the rounding of a step that is used once; whether it did.
+    fn leave_out(&mut self, step: usize) -> bool {
+        let Formula { steps, given, rounds, .. } = &mut self.formula;
+        let operands = steps.iter().flat_map(Step::operands);
+        if !rounds[step] || operands.filter(|operand| *operand == step).count() != 1 {
+            return false;
+        }
+        rounds[step] = false;
+        given[step].iter_mut().for_each(|bound| bound.error = Dyadic::ZERO);
+        true
     }
 
     /// Coordinates of a unit vector are variables like others, unless the formula is linear in one such vector.

@@ -95,17 +95,23 @@ impl Maximum {
 }
 
 impl Step {
+    /// The earlier steps in it.
+    pub fn operands(&self) -> Vec<usize> {
+        match *self {
+            Step::Variables(_) | Step::Number(_) => vec![],
+            Step::Neg(a) => vec![a],
+            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => vec![a, b],
+            Step::Fma(a, b, c) => vec![a, b, c],
+            Step::Minor(a, b, c, d) => vec![a, b, c, d],
+        }
+    }
+
     /// The variables in it as bits, from those in earlier steps. Beyond 64 variables, which are too many, two may
     /// share a bit.
     pub fn support(&self, earlier: &[u64]) -> u64 {
-        let of = |i: usize| earlier[i];
-        match *self {
-            Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
-            Step::Number(_) => 0,
-            Step::Neg(a) => of(a),
-            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => of(a) | of(b),
-            Step::Fma(a, b, c) => of(a) | of(b) | of(c),
-            Step::Minor(a, b, c, d) => of(a) | of(b) | of(c) | of(d),
+        match self {
+            Step::Variables(sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
+            _ => self.operands().iter().fold(0, |bits, i| bits | earlier[*i]),
         }
     }
 }

@@ -36,7 +36,8 @@ impl Prover<'_> {
     ) -> Result<(Formula, Maximum, Bound), String> {
         let below = self.bound(divisor)?;
         let floor = self.floor(divisor);
-        if floor <= below.error {
+        let least = Big::from(floor) - Big::from(below.error);
+        if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {
             return Err(
                 "divisors may be so small in this domain that rounding makes one zero".to_owned()
             );
@@ -56,10 +57,23 @@ impl Prover<'_> {
             None => limit,
         };
         let size = round_up(&size, SIZE_DIGITS);
-        let (formula, maximum) = self.formula_of_quotient(numerator, divisor, size)?;
-        // The quotient of the computed numbers against the exact one, then the roundings of the division.
-        let least = Big::from(floor) - Big::from(below.error);
-        let before = maximum.error() / &least;
+        let (formula, maximum, left_out) = self.formula_of_quotient(numerator, divisor, size)?;
+        // The quotient of the numbers before their last roundings against the exact one, then these roundings,
+        // then those of the division.
+        let [_, of_divisor] = left_out;
+        let closest = match of_divisor {
+            true => Big::from(floor) - self.error_before_rounding(divisor)?,
+            false => least.clone(),
+        };
+        let mut before = maximum.error() / closest;
+        let left_out = left_out.into_iter().filter(|yes| *yes).count() as i128;
+        if left_out > 0 {
+            let tiny = Big::from(self.format.tiny()) / &least;
+            let one = Big::from(self.format.unit()) + &tiny;
+            let share =
+                &one / (Big::from(Dyadic::ONE) - &one) * Big::from(Dyadic::new(left_out, 0));
+            before = &before + share * (Big::from(size) + &before) + tiny;
+        }
         let quotient = Big::from(size) + &before;
         let mut error = before;
         let mut rounded = quotient.clone();

@@ -57,7 +57,7 @@ impl Prover<'_> {
     }
 
     /// The error of a number before its last operation rounds, where that is known to be smaller.
-    fn error_before_rounding(&mut self, place: Place) -> Result<Big, String> {
+    pub(super) fn error_before_rounding(&mut self, place: Place) -> Result<Big, String> {
         let error = Big::from(self.bound(place)?.error);
         let place = unsigned(self.path, place);
         let lemma = self.lemmas.iter().find(|lemma| lemma.place == place).expect("it has a bound");

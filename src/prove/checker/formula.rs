@@ -29,6 +29,8 @@ pub struct Step<'a> {
     /// Whether its error is also at most u times its size before it is rounded, and a tiny number.
     rounds: bool,
     relative: bool,
+    /// Whether its rounding is left out: its quotient's lemma takes it as a share of the quotient.
+    left_out: bool,
 }
 
 /// What the corners of a formula show.
@@ -74,6 +76,9 @@ impl<'a> Formula<'a> {
         ensure(is_whole, "found steps that the last one does not use, or none")?;
         let is_linear = formula.unit.is_empty() || formula.is_linear(formula.steps.len() - 1);
         ensure(is_linear, "found a last step without a part, expected one with parts")?;
+        if quotient.is_some() {
+            formula.leave_out();
+        }
         if reader.is_next("relative") {
             let steps = &mut formula.steps;
             reader.read("relative STEPS, each an earlier one that rounds once", |words| {
@@ -113,6 +118,7 @@ impl<'a> Formula<'a> {
             given: None,
             rounds: false,
             relative: false,
+            left_out: false,
         };
         if name == "variables" {
             let variable = |word: &&str| {
@@ -179,6 +185,28 @@ impl<'a> Formula<'a> {
                 place.is_some() && name != "neg" && (!is_minor || program.format.parameters == F32);
         }
         Ok(step)
+    }
+
+    /// Of numerator and divisor, in the last steps of a quotient's formula, each if no other step uses it.
+    fn leave_out(&mut self) {
+        let last = self.steps.iter().rev().take(2).flat_map(|step| step.terms.clone());
+        let operands = |(_, a, b): Term| [Some(a), b].into_iter().flatten();
+        let last: Vec<usize> = last.flat_map(operands).collect();
+        let all = self.steps.iter().flat_map(|step| step.terms.clone()).flat_map(operands);
+        let all: Vec<usize> = all.collect();
+        for step in last {
+            let is_used_once = all.iter().filter(|other| **other == step).count() == 1;
+            let step = &mut self.steps[step];
+            if step.rounds && is_used_once {
+                (step.rounds, step.left_out) = (false, true);
+                step.given.iter_mut().for_each(|bound| bound.error = Number::zero());
+            }
+        }
+    }
+
+    /// Whether the last rounding of an operation is left out.
+    pub fn leaves_out(&self, place: usize) -> bool {
+        self.steps.iter().any(|step| step.left_out && step.place == Some(place))
     }
 
     /// Whether a part is in a step.
@@ -362,7 +390,7 @@ impl Step<'_> {
         let size = products(|bound| &bound.size).iter().sum::<Number>().min(corner.clone());
         let products = products(|bound| &bound.computed);
         let z = products.iter().sum::<Number>().min(&size + before);
-        if self.place.is_none() || self.name == "neg" {
+        if self.place.is_none() || self.name == "neg" || self.left_out {
             return Bound { size, computed: format.float_up(&z), error: Number::zero() };
         }
         let mut bound = format.rounded(size, &z);

@@ -172,7 +172,8 @@ fn quotient(
     let (n, d) = found.ok_or("found a rule that does not fit its operation")?;
     let n = (by_reciprocal || !is_one(program, n)).then_some(n);
     let one = Bound::exactly(&Number::one());
-    let (above, below) = (n.map_or(Ok(&one), |n| program.bound(n))?, program.bound(d)?);
+    let above = n.map_or(Ok(&one), |n| program.bound(n))?;
+    let Lemma { bound: below, before: below_before, .. } = program.lemma(d)?;
     // Whether |n| <= |d|. A decision is about computed numbers, but inputs are exact.
     let ordered = |a: usize, b: usize| program.at_most.contains(&(a, b));
     let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
@@ -182,7 +183,7 @@ fn quotient(
     let floor = &program.domain.0[if is_largest { DIRECTION_FLOOR } else { FLOOR }];
     let least = floor - &below.error;
     ensure(
-        least.is_positive(),
+        least > &format.tiny + &format.tiny,
         "found a divisor that may be rounded to zero, expected a larger floor",
     )?;
     if by_reciprocal {
@@ -199,8 +200,18 @@ fn quotient(
         formula.is_quotient_of(n, d),
         "found other last steps, expected numerator - quotient * divisor",
     )?;
-    let mut error = formula.maximum(format, work, reader)?.error / least;
+    let of_divisor = formula.leaves_out(d);
+    let closest = if of_divisor { floor - below_before } else { least.clone() };
+    let mut error = formula.maximum(format, work, reader)?.error / closest;
     let mut before = &size + &error;
+    let left_out = u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(n)));
+    if left_out > 0 {
+        let tiny = &format.tiny / least;
+        let share = &format.unit + &tiny;
+        let share = &share / (Number::one() - &share) * Number::from_integer(left_out.into());
+        error += share * before + tiny;
+        before = &size + &error;
+    }
     if by_reciprocal {
         let reciprocal = &format.unit * &before + &format.tiny * &above.computed;
         error += &reciprocal;

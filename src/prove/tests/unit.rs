@@ -1,4 +1,4 @@
-//! Unit vectors in formats of a few digits, where terms of higher order count.
+//! Quotients and unit vectors in formats of a few digits, where terms of higher order count.
 
 use super::super::{Bound, Domain, Dyadic, Format, Prover, Source};
 use super::tiny::round;
@@ -55,7 +55,8 @@ fn values(path: &Path, inputs: &[f64; 17], digits: u32) -> Vec<f64> {
     values
 }
 
-/// The largest error beside its bound, where the vector is at least as long as the floor of the domain.
+/// The largest error beside its bound, where divisors and lengths are at least the floor of the domain, and quotients
+/// at most 1.
 fn largest_share(run: &dyn Fn() -> Recorded, digits: u32, floor: f64) -> f64 {
     let (path, place) = recorded(run);
     let floor = Dyadic::from_f64(floor).expect("finite");
@@ -63,8 +64,6 @@ fn largest_share(run: &dyn Fn() -> Recorded, digits: u32, floor: f64) -> f64 {
     let format = Format { digits, smallest: -200, largest: 200 };
     let mut prover = Prover::new(&path, domain, format);
     let Bound { error, computed, .. } = prover.bound(place).expect("a bound");
-    let is_root = |operation: &Operation| matches!(operation, Operation::Sqrt(_));
-    let length = path.operations.iter().position(is_root).expect("a length");
     let (mut worst, mut tried) = (0.0f64, 0);
     let mut draw = Draw::new("unit", 1, u64::from(digits));
     for _ in 0..400_000 {
@@ -72,7 +71,15 @@ fn largest_share(run: &dyn Fn() -> Recorded, digits: u32, floor: f64) -> f64 {
         let mut inputs: [f64; 17] = std::array::from_fn(|_| round(draw.symmetric(), digits));
         (6..15).for_each(|i| inputs[i] *= 0.5);
         let exact = values(&path, &inputs, 53);
-        if exact[length] < floor.to_f64() {
+        let size = |place: Place| exact[place as usize].abs();
+        let is_inside = |(place, operation): (usize, &Operation)| match *operation {
+            Operation::Div(a, b) => {
+                let is_one = path.operations[a as usize] == Operation::Number(1);
+                size(b) >= floor.to_f64() && (is_one || size(place as Place) <= 1.0)
+            }
+            _ => true,
+        };
+        if !path.operations.iter().enumerate().all(is_inside) {
             continue;
         }
         tried += 1;
@@ -85,10 +92,21 @@ fn largest_share(run: &dyn Fn() -> Recorded, digits: u32, floor: f64) -> f64 {
 }
 
 #[test]
-fn no_unit_vector_in_a_tiny_format_passes_its_bound() {
+fn no_quotient_and_no_unit_vector_in_a_tiny_format_passes_its_bound() {
     let direction = || [3, 4, 5].map(Recorded::input);
     let first = |[x, _, _]: [Recorded; 3]| x;
-    let cases: [(&str, &dyn Fn() -> Recorded, f64); 5] = [
+    let last = |[_, _, z]: [Recorded; 3]| z;
+    // One product in numerator and divisor.
+    let share = || {
+        let product = difference(2, 1, 0) * &difference(3, 1, 1);
+        product.clone() / &(product + &Recorded::input(3))
+    };
+    let cases: [(&str, &dyn Fn() -> Recorded, f64); 10] = [
+        ("a share of a sum", &share, 0.25),
+        ("a quotient of inputs", &|| Recorded::input(3) / &Recorded::input(4), 0.5),
+        ("of differences", &|| difference(2, 1, 0) / &difference(3, 1, 1), 0.5),
+        ("of an input and a determinant", &|| Recorded::input(3) / &last(normal()), 0.5),
+        ("of determinants", &|| first(normal()) / &last(normal()), 0.5),
         ("a direction's coordinate", &|| first(unit(direction(), true)), 0.5),
         ("by divisions", &|| first(unit(direction(), false)), 0.5),
         ("a difference's coordinate", &|| first(unit(edge(), true)), 0.5),

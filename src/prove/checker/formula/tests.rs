@@ -105,6 +105,7 @@ fn step<'a>(name: &'a str, terms: Vec<Term>, given: Option<Bound>) -> Step<'a> {
         given,
         rounds: false,
         relative: false,
+        left_out: false,
     }
 }
 
