@@ -1,5 +1,5 @@
 //! Bounds of a program's rounding errors in a domain: formulas where nothing is divided, and quotients,
-//! roots and whatever meets itself as variables of their own.
+//! coordinates of unit vectors and whatever meets itself as variables of their own.
 
 use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
@@ -53,8 +53,13 @@ pub enum Rule {
         /// The least size of the exact divisor.
         floor: Dyadic,
     },
-    /// The number is the length of a vector: of these three coordinates. There is no formula.
-    Length([Place; 3]),
+    /// The number is a coordinate of a vector divided by its length. There is no formula.
+    Unit {
+        /// The coordinates of the vector.
+        vector: [Place; 3],
+        /// The length.
+        length: Place,
+    },
 }
 
 /// The proofs of one program in one domain.
@@ -93,14 +98,15 @@ impl<'a> Prover<'a> {
 
     fn prove(&mut self, place: Place) -> Result<Bound, String> {
         let (rule, formula, maximum, bound);
-        if let Some((numerator, divisor, twice)) = self.quotient(place) {
+        if let Some((vector, length)) = self.unit(place) {
+            rule = Rule::Unit { vector, length };
+            (formula, maximum, bound) =
+                (Formula::default(), Maximum::default(), self.bound_of_unit(vector)?);
+        } else if let Some((numerator, divisor, twice)) = self.quotient(place) {
             rule = Rule::Quotient { twice, divisor, floor: self.floor(divisor) };
             (formula, maximum, bound) = self.divide(numerator, divisor, twice)?;
-        } else if let Operation::Sqrt(inner) = self.operation(place) {
-            let vector = self.squares(inner).ok_or("its root is not the length of a vector")?;
-            rule = Rule::Length(vector);
-            (formula, maximum, bound) =
-                (Formula::default(), Maximum::default(), self.length(vector)?);
+        } else if let Operation::Sqrt(_) = self.operation(place) {
+            return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
             rule = Rule::Sum;
             (formula, maximum) = self.formula(place)?;
@@ -160,13 +166,13 @@ impl<'a> Prover<'a> {
     /// The numbers whose lemmas a lemma uses.
     fn needs(&self, lemma: &Lemma) -> Vec<Place> {
         let cut = |source: &Source| match source {
-            Source::Cut(place) => Some(*place),
+            Source::Cut(place) | Source::Part(place) => Some(*place),
             _ => None,
         };
         let mut needs: Vec<Place> = lemma.formula.sources.iter().filter_map(cut).collect();
         match lemma.rule {
             Rule::Sum => {}
-            Rule::Length(vector) => needs.extend(vector),
+            Rule::Unit { vector, .. } => needs.extend(vector),
             Rule::Quotient { .. } => {
                 let (numerator, divisor, _) = self.quotient(lemma.place).expect("a quotient");
                 needs.extend(numerator);

@@ -5,7 +5,7 @@ use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
 use super::{Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 impl Prover<'_> {
     /// The formula of a number, and what its corners say.
@@ -15,13 +15,14 @@ impl Prover<'_> {
         builder.finish()
     }
 
-    /// numerator - quotient * divisor, the quotient of this size; no numerator is one.
+    /// numerator - quotient * divisor, the quotient of this size; no numerator is one. And of which of both the
+    /// last rounding is left out.
     pub(super) fn formula_of_quotient(
         &mut self,
         numerator: Option<Place>,
         divisor: Place,
         size: Dyadic,
-    ) -> Result<(Formula, Maximum), String> {
+    ) -> Result<(Formula, Maximum, [bool; 2]), String> {
         let mut builder = Builder::new(self);
         let n = match numerator {
             Some(numerator) => builder.expand(numerator)?,
@@ -31,7 +32,8 @@ impl Prover<'_> {
         let q = builder.variable(Source::Quotient, exactly(size));
         let product = builder.push(Step::Mul(q, d), None);
         builder.push(Step::Sub(n, product), None);
-        builder.finish()
+        let left_out = [n, d].map(|step| builder.leave_out(step));
+        builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
     }
 }
 
@@ -57,11 +59,46 @@ impl<'p, 'a> Builder<'p, 'a> {
 
     /// The formula and its corners; the last step is the result.
     fn finish(mut self) -> Result<(Formula, Maximum), String> {
+        self.find_unit_vector();
         let maximum = self.formula.maximum(self.prover.format)?;
         for bound in &self.formula.bounds {
             self.prover.check_range(bound.computed)?;
         }
         Ok((self.formula, maximum))
+    }
+
+    /// Leaves out the rounding of a step that is used once; whether it did.
+    fn leave_out(&mut self, step: usize) -> bool {
+        let Formula { steps, given, rounds, .. } = &mut self.formula;
+        let operands = steps.iter().flat_map(Step::operands);
+        if !rounds[step] || operands.filter(|operand| *operand == step).count() != 1 {
+            return false;
+        }
+        rounds[step] = false;
+        given[step].iter_mut().for_each(|bound| bound.error = Dyadic::ZERO);
+        true
+    }
+
+    /// Coordinates of a unit vector are variables like others, unless the formula is linear in one such vector.
+    fn find_unit_vector(&mut self) {
+        let Formula { sources, .. } = &self.formula;
+        let part = |source: &Source| match *source {
+            Source::Part(place) => self.prover.quotient(place),
+            _ => None,
+        };
+        let lengths = sources.iter().filter_map(part).map(|(_, length, _)| length);
+        let coordinates = sources.iter().filter_map(part).map(|(coordinate, ..)| coordinate);
+        let is_one = lengths.collect::<HashSet<Place>>().len() == 1
+            && coordinates.clone().collect::<HashSet<_>>().len() == coordinates.count();
+        self.formula.unit =
+            (0..sources.len()).filter(|v| matches!(sources[*v], Source::Part(_))).collect();
+        if !is_one || self.formula.linear_steps().is_none() {
+            for v in std::mem::take(&mut self.formula.unit) {
+                if let Source::Part(place) = self.formula.sources[v] {
+                    self.formula.sources[v] = Source::Cut(place);
+                }
+            }
+        }
     }
 
     /// A step that does not round; it is given if something is known of it.
@@ -98,7 +135,9 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// A number that is a variable here; its lemma says the rest.
     fn cut(&mut self, place: Place) -> Result<usize, String> {
         let bound = self.prover.bound(place)?;
-        let step = self.variable(Source::Cut(place), bound);
+        let is_part = self.prover.unit(place).is_some();
+        let source = if is_part { Source::Part(place) } else { Source::Cut(place) };
+        let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);
         Ok(step)
     }

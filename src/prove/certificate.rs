@@ -99,7 +99,7 @@ fn lemma_text(lemma: &Lemma) -> String {
         Rule::Sum => "sum".to_owned(),
         Rule::Quotient { twice: false, .. } => "quotient".to_owned(),
         Rule::Quotient { twice: true, .. } => "quotient-by-reciprocal".to_owned(),
-        Rule::Length([x, y, z]) => format!("length {x} {y} {z}"),
+        Rule::Unit { .. } => "unit".to_owned(),
     };
     let mut text = format!("lemma {} {rule}\n", lemma.place);
     for source in &lemma.formula.sources {
@@ -109,6 +109,7 @@ fn lemma_text(lemma: &Lemma) -> String {
             Source::Leaf(Leaf::Direction(axis)) => format!("direction {axis}"),
             Source::Leaf(Leaf::End(end)) => format!("end {end}"),
             Source::Cut(place) => format!("cut {place}"),
+            Source::Part(place) => format!("part {place}"),
             Source::Quotient => "quotient".to_owned(),
         };
         writeln!(text, "variable {source}").expect("a string");

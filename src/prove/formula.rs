@@ -57,6 +57,8 @@ pub struct Formula {
     pub variables: Vec<Dyadic>,
     /// What each variable is.
     pub sources: Vec<Source>,
+    /// The variables that are coordinates of one unit vector in which the formula is linear, if it has one.
+    pub unit: Vec<usize>,
     /// What follows for each step: its exact size, its computed size, and h, its largest error of its own.
     pub bounds: Vec<Bound>,
 }
@@ -68,6 +70,8 @@ pub enum Source {
     Leaf(Leaf),
     /// A number of the program that has a lemma of its own.
     Cut(Place),
+    /// The same of a coordinate of a unit vector in which the formula is linear.
+    Part(Place),
     /// The quotient that a lemma is about.
     Quotient,
 }
@@ -91,31 +95,33 @@ impl Maximum {
 }
 
 impl Step {
+    /// The earlier steps in it.
+    pub fn operands(&self) -> Vec<usize> {
+        match *self {
+            Step::Variables(_) | Step::Number(_) => vec![],
+            Step::Neg(a) => vec![a],
+            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => vec![a, b],
+            Step::Fma(a, b, c) => vec![a, b, c],
+            Step::Minor(a, b, c, d) => vec![a, b, c, d],
+        }
+    }
+
     /// The variables in it as bits, from those in earlier steps. Beyond 64 variables, which are too many, two may
     /// share a bit.
     pub fn support(&self, earlier: &[u64]) -> u64 {
-        let of = |i: usize| earlier[i];
-        match *self {
-            Step::Variables(ref sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
-            Step::Number(_) => 0,
-            Step::Neg(a) => of(a),
-            Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => of(a) | of(b),
-            Step::Fma(a, b, c) => of(a) | of(b) | of(c),
-            Step::Minor(a, b, c, d) => of(a) | of(b) | of(c) | of(d),
+        match self {
+            Step::Variables(sum) => sum.iter().fold(0, |bits, (v, _)| bits | 1 << (v % 64)),
+            _ => self.operands().iter().fold(0, |bits, i| bits | earlier[*i]),
         }
     }
 }
 
-/// More variables than this are too many corners.
-const MOST_VARIABLES: usize = 18;
-/// More variables than this are too many corners to try both bounds of each step's error.
-const MOST_TO_CHOOSE: usize = 12;
 /// Binary digits that the numbers of a lemma keep.
 pub const DIGITS: u32 = 24;
 
 impl Formula {
     /// Whether no product has one variable in both factors.
-    fn is_multi_affine(&self) -> bool {
+    pub(super) fn is_multi_affine(&self) -> bool {
         let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {
             let apart = |a: usize, b: usize| supports[a] & supports[b] == 0;
@@ -132,158 +138,10 @@ impl Formula {
         true
     }
 
-    /// The maximum over all corners, or in one sentence why there is none. Chooses, step by step, the bound
-    /// of its error that makes the maximum smaller.
-    pub fn maximum(&mut self, format: Format) -> Result<Maximum, String> {
-        let count = self.variables.len();
-        if count > MOST_VARIABLES {
-            return Err(format!(
-                "its formula has {count} variables, and {MOST_VARIABLES} can be tried"
-            ));
-        }
-        if !self.is_multi_affine() {
-            return Err("its formula has a variable in both factors of a product".to_owned());
-        }
-        let too_long = || "its bound needs more digits than there are".to_owned();
-        let sizes = self.corner_sizes();
-        if sizes.iter().any(|size| !size.is_number()) {
-            return Err(too_long());
-        }
-        self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
-        let mut values = vec![Dyadic::ZERO; self.steps.len()];
-        let mut slopes = values.clone();
-        let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
-        let choosing = count <= MOST_TO_CHOOSE && choices.len() > 1;
-        // By corner, what the steps that round contribute either way; and what the others contribute.
-        let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
-        let mut others = Vec::new();
-        let (mut first, mut at) = (Dyadic::ZERO, 0);
-        for corner in 0..1u64 << count {
-            self.evaluate(|v| negative_if(corner >> v & 1 == 1, self.variables[v]), &mut values);
-            self.slopes(&values, &mut slopes);
-            let effect = |i: usize| {
-                let slope = slopes[i].abs();
-                [slope * self.bounds[i].error, slope * values[i].abs() * format.unit()]
-            };
-            if choosing {
-                effects.push(choices.iter().map(|i| effect(*i)).collect());
-                let rest = (0..self.steps.len()).filter(|i| !self.rounds[*i]).map(|i| effect(i)[0]);
-                others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
-            } else {
-                let all = (0..self.steps.len()).map(|i| effect(i)[0]);
-                let sum = all.fold(Dyadic::ZERO, Dyadic::plus_up);
-                if first < sum {
-                    (first, at) = (sum, corner);
-                }
-            }
-        }
-        if choosing {
-            let mut chosen = vec![0; choices.len()];
-            let largest = |chosen: &[usize]| {
-                let sum = |corner: usize| {
-                    let parts = effects[corner].iter().zip(chosen).map(|(both, i)| both[*i]);
-                    parts.fold(others[corner], Dyadic::plus_up)
-                };
-                let sums = (0..effects.len()).map(|corner| (sum(corner), corner as u64));
-                // The first corner of the largest sum.
-                sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
-            };
-            (first, at) = largest(&chosen);
-            for k in (0..choices.len()).rev() {
-                chosen[k] = 1;
-                let tried = largest(&chosen);
-                if tried.0 < first {
-                    (first, at) = tried;
-                    self.relative[choices[k]] = true;
-                } else {
-                    chosen[k] = 0;
-                }
-            }
-        }
-        let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
-        let rest = self.higher_order(format, &self.relative, None).0;
-        if first.is_number() && rest.is_number() {
-            Ok(Maximum { first, rest, corner })
-        } else {
-            Err(too_long())
-        }
-    }
-
-    fn evaluate(&self, variable: impl Fn(usize) -> Dyadic, values: &mut [Dyadic]) {
-        for i in 0..self.steps.len() {
-            values[i] = match self.steps[i] {
-                Step::Variables(ref sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
-                    total + negative_if(*sign < 0, variable(*v))
-                }),
-                Step::Number(value) => Dyadic::new(value.into(), 0),
-                Step::Add(a, b) => values[a] + values[b],
-                Step::Sub(a, b) => values[a] - values[b],
-                Step::Mul(a, b) => values[a] * values[b],
-                Step::Neg(a) => -values[a],
-                Step::Fma(a, b, c) => values[a] * values[b] + values[c],
-                Step::Minor(a, b, c, d) => values[a] * values[b] - values[c] * values[d],
-            };
-        }
-    }
-
-    /// The derivative of the result by each step.
-    fn slopes(&self, values: &[Dyadic], slopes: &mut [Dyadic]) {
-        slopes.fill(Dyadic::ZERO);
-        let last = slopes.len() - 1;
-        slopes[last] = Dyadic::ONE;
-        for i in (0..=last).rev() {
-            let slope = slopes[i];
-            if slope.is_zero() {
-                continue;
-            }
-            let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
-            match self.steps[i] {
-                Step::Variables(_) | Step::Number(_) => {}
-                Step::Add(a, b) => {
-                    add(a, slope);
-                    add(b, slope);
-                }
-                Step::Sub(a, b) => {
-                    add(a, slope);
-                    add(b, -slope);
-                }
-                Step::Mul(a, b) => {
-                    add(a, slope * values[b]);
-                    add(b, slope * values[a]);
-                }
-                Step::Neg(a) => add(a, -slope),
-                Step::Fma(a, b, c) => {
-                    add(a, slope * values[b]);
-                    add(b, slope * values[a]);
-                    add(c, slope);
-                }
-                Step::Minor(a, b, c, d) => {
-                    add(a, slope * values[b]);
-                    add(b, slope * values[a]);
-                    add(c, -(slope * values[d]));
-                    add(d, -(slope * values[c]));
-                }
-            }
-        }
-    }
-
-    /// The largest size of each step at the corners, which is its largest size in the box.
-    fn corner_sizes(&self) -> Vec<Dyadic> {
-        let mut sizes = vec![Dyadic::ZERO; self.steps.len()];
-        let mut values = sizes.clone();
-        for corner in 0..1u64 << self.variables.len() {
-            self.evaluate(|v| negative_if(corner >> v & 1 == 1, self.variables[v]), &mut values);
-            for (size, value) in sizes.iter_mut().zip(&values) {
-                *size = (*size).max(value.abs());
-            }
-        }
-        sizes
-    }
-
     /// The terms of second and higher order, with every number at its largest size and nothing cancelled,
     /// rounded up. And the bounds of the steps: where the sizes at the corners are given they are made, else
     /// they are those known.
-    fn higher_order(
+    pub(super) fn higher_order(
         &self,
         format: Format,
         relative: &[bool],
@@ -389,8 +247,4 @@ fn minor_in_f64(size: Dyadic, [p, q]: [Big; 2]) -> Bound {
     let error = half_ulp(&rounded) + up(&remainders) + half_ulp(&remainders) + twice_tiny;
     let computed = up(&rounded) + up(&remainders);
     Bound { size, computed: round_up(&computed, format.digits), error: round_up(&error, DIGITS) }
-}
-
-fn negative_if(negative: bool, x: Dyadic) -> Dyadic {
-    if negative { -x } else { x }
 }

@@ -8,6 +8,7 @@ mod builder;
 pub mod certificate;
 pub mod checker;
 mod climb;
+mod corners;
 mod domain;
 mod dyadic;
 mod forms;
@@ -25,6 +26,7 @@ mod statement;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod unit;
 mod watertight;
 mod witness;
 

@@ -1,11 +1,10 @@
-//! Bounds of quotients, and of the lengths of vectors.
+//! Bounds of quotients.
 
 use super::Dyadic;
 use super::bound::{Bound, Prover, SIZE_DIGITS};
-use super::dyadic::{Big, root_up, round_up};
+use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
 use crate::arith::recorded::{Operation, Place};
-use num_traits::Signed;
 
 impl Prover<'_> {
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
@@ -37,7 +36,8 @@ impl Prover<'_> {
     ) -> Result<(Formula, Maximum, Bound), String> {
         let below = self.bound(divisor)?;
         let floor = self.floor(divisor);
-        if floor <= below.error {
+        let least = Big::from(floor) - Big::from(below.error);
+        if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {
             return Err(
                 "divisors may be so small in this domain that rounding makes one zero".to_owned()
             );
@@ -57,10 +57,23 @@ impl Prover<'_> {
             None => limit,
         };
         let size = round_up(&size, SIZE_DIGITS);
-        let (formula, maximum) = self.formula_of_quotient(numerator, divisor, size)?;
-        // The quotient of the computed numbers against the exact one, then the roundings of the division.
-        let least = Big::from(floor) - Big::from(below.error);
-        let before = maximum.error() / &least;
+        let (formula, maximum, left_out) = self.formula_of_quotient(numerator, divisor, size)?;
+        // The quotient of the numbers before their last roundings against the exact one, then these roundings,
+        // then those of the division.
+        let [_, of_divisor] = left_out;
+        let closest = match of_divisor {
+            true => Big::from(floor) - self.error_before_rounding(divisor)?,
+            false => least.clone(),
+        };
+        let mut before = maximum.error() / closest;
+        let left_out = left_out.into_iter().filter(|yes| *yes).count() as i128;
+        if left_out > 0 {
+            let tiny = Big::from(self.format.tiny()) / &least;
+            let one = Big::from(self.format.unit()) + &tiny;
+            let share =
+                &one / (Big::from(Dyadic::ONE) - &one) * Big::from(Dyadic::new(left_out, 0));
+            before = &before + share * (Big::from(size) + &before) + tiny;
+        }
         let quotient = Big::from(size) + &before;
         let mut error = before;
         let mut rounded = quotient.clone();
@@ -81,53 +94,6 @@ impl Prover<'_> {
             rounded = Big::from(Dyadic::ONE);
         }
         self.bound_of_rounded(size, error, &rounded).map(|bound| (formula, maximum, bound))
-    }
-
-    /// The length of a vector. The sum of the squares is right to 4u, for no term is negative, and to as
-    /// much again where squares underflow; so the root is right to 3u before it is rounded.
-    pub(super) fn length(&mut self, vector: [Place; 3]) -> Result<Bound, String> {
-        let (mut errors, mut sizes) = (Big::from(Dyadic::ZERO), Big::from(Dyadic::ZERO));
-        for place in vector {
-            let Bound { size, error, .. } = self.bound(place)?;
-            errors += Big::from(error) * Big::from(error);
-            sizes += Big::from(size) * Big::from(size);
-        }
-        let shift = Big::from(root_up(&errors, DIGITS));
-        let size = root_up(&sizes, SIZE_DIGITS);
-        let (unit, three) = (Big::from(self.format.unit()), Big::from(Dyadic::new(3, 0)));
-        let least = Big::from(self.domain.floor) - &shift;
-        let tiny = Big::from(self.format.tiny()) * &three;
-        if !least.is_positive() || tiny > &unit * &least * &least {
-            return Err(
-                "lengths may be so small in this domain that rounding makes one zero".to_owned()
-            );
-        }
-        let largest = Big::from(size) + &shift;
-        let relative = three * unit * &largest;
-        let rounded = largest + &relative;
-        if &rounded * &rounded >= Big::from(Dyadic::power(self.format.largest)) {
-            return Err("the square of a length may overflow".to_owned());
-        }
-        self.bound_of_rounded(size, shift + relative, &rounded)
-    }
-
-    /// Squares that are added up to a number, if that is what it is.
-    pub(super) fn squares(&self, place: Place) -> Option<[Place; 3]> {
-        let mut squares = Vec::new();
-        let mut open = vec![place];
-        while let Some(place) = open.pop() {
-            match self.operation(place) {
-                Operation::Mul(a, b) if a == b => squares.push(a),
-                Operation::Fma(a, b, c) if a == b => {
-                    squares.push(a);
-                    open.push(c);
-                }
-                Operation::Add(a, b) => open.extend([a, b]),
-                _ => return None,
-            }
-        }
-        squares.sort_unstable();
-        squares.try_into().ok()
     }
 
     /// One more rounding of a number of the given size before it.

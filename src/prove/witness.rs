@@ -104,9 +104,9 @@ impl<'a, F: Searched> Search<'a, F> {
             let at = |place: Place| renamed[place as usize];
             match lemma.rule {
                 Rule::Sum => {}
-                Rule::Length(_) => {
+                Rule::Unit { length, .. } => {
                     let floor = domain.floor.to_f64();
-                    conditions.extend(at(lemma.place).map(|p| Condition::AtLeast(p, floor)));
+                    conditions.extend(at(length).map(|p| Condition::AtLeast(p, floor)));
                 }
                 Rule::Quotient { divisor, floor, .. } => {
                     let size = lemma.bound.size.to_f64();

@@ -111,19 +111,19 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
         let out = text(&[&kernel[..], &["--epsilon", epsilon]].concat());
         out.split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    // The bounds are 1.014e-6 of the determinant and 8.58e-6 of u and v.
+    // The bounds are 1.014e-6 of the determinant and 7.87e-6 of u and v.
     let out = words("parallel=1e-7,edge=-1e-5");
     assert!(
         out.contains("e = 1e-7 is proved to refuse every parallel ray where coordinates of edges")
     );
     assert!(!out.contains("(jolt)"), "{out}");
-    let all = "e = -1e-5 loses no hit; it lets no miss of this domain through farther outside than 1.86e-5 of the way";
+    let all = "e = -1e-5 loses no hit; it lets no miss of this domain through farther outside than 1.79e-5 of the way";
     assert!(out.contains(all), "{out}");
     let out = words("edge=1e-5");
-    let none = "e = 1e-5 loses no hit deeper inside than 1.86e-5 of the way across the triangle; it lets no miss of this domain through.";
+    let none = "e = 1e-5 loses no hit deeper inside than 1.79e-5 of the way across the triangle; it lets no miss of this domain through.";
     assert!(out.contains(none), "{out}");
     let out = words("edge=2e-6");
-    let both = "deeper inside than 1.06e-5 of the way across the triangle; it lets no miss of this domain through farther outside than 6.58e-6 of";
+    let both = "deeper inside than 9.87e-6 of the way across the triangle; it lets no miss of this domain through farther outside than 5.87e-6 of";
     assert!(out.contains(both), "{out}");
     let wrong = |epsilon: &str, message: &str| {
         refused(&[&kernel[..], &["--epsilon", epsilon]].concat(), 2, message);

@@ -49,7 +49,7 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     // A determinant by differences, in f64.
     let triple = path::<f64>("scalar-triple");
     let triple_places = &triple.compared[0].quantities;
-    // A length, and products with a reciprocal.
+    // A unit vector, and a formula that is linear in it.
     let plane = path::<f32>("plane-unit-normal");
     let plane_places: Vec<u32> = first(&program(&plane), "abs", 1);
     // Quotients by the largest coordinate of the direction, and a shear of errors that grow with it.
@@ -70,7 +70,7 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
         (
             "plane",
             certificate_of(&plane, "f32", Domain::UNIT, &plane_places),
-            &["reach", "world", "extent", "direction-floor"],
+            &["reach", "world", "extent", "direction-floor", "quotient"],
         ),
         (
             "woop",
@@ -267,24 +267,47 @@ fn an_order_that_no_decision_states_is_refused() {
 
 #[test]
 fn a_bound_whose_way_overflows_is_refused() {
-    // The squares of a length overflow, though the length does not; or a reciprocal does, though the
-    // product with it does not.
-    let large = Domain { edge: Dyadic::power(50), floor: Dyadic::power(90), ..Domain::UNIT };
+    // A reciprocal overflows, though the product with it does not.
     let tiny = Dyadic::power(-130);
-    let steep = Domain { direction: tiny, direction_floor: tiny, reach: tiny, ..Domain::UNIT };
+    let domain = Domain { direction: tiny, direction_floor: tiny, reach: tiny, ..Domain::UNIT };
+    let path = path::<f32>("woop-watertight");
+    let is_reciprocal = |place: u32| matches!(path.operations[place as usize], Operation::Div(one, _) if path.operations[one as usize] == Operation::Number(1));
+    let is_product = |op: &Operation| matches!(op, Operation::Mul(a, _) if is_reciprocal(*a));
+    let place = path.operations.iter().position(is_product).unwrap() as u32;
+    // The prover may refuse it too.
+    if Prover::new(&path, domain, Format::F32).bound(place).is_ok() {
+        let text = certificate_of(&path, "f32", domain, &[place]);
+        assert!(refusal(&text).ends_with("which may overflow"), "{}", refusal(&text));
+    }
+}
+
+/// A certificate of the same in a format whose numbers are finite below 2^largest.
+fn with_largest(text: &str, largest: i32) -> String {
+    let line = |word: &str| text.lines().find(|line| line.starts_with(word)).unwrap();
+    let (format, kernel) = (line("format "), line("kernel "));
+    let (rest, _) = format.rsplit_once(' ').unwrap();
+    let text = text.replacen(format, &format!("{rest} {largest}"), 1);
+    text.replacen(kernel, "kernel k float", 1)
+}
+
+#[test]
+fn a_unit_vector_whose_way_overflows_is_refused() {
+    let path = path::<f32>("plane-unit-normal");
     let is_root = |operation: &Operation| matches!(operation, Operation::Sqrt(_));
-    for (kernel, domain) in [("plane-unit-normal", large), ("woop-watertight", steep)] {
-        let path = path::<f32>(kernel);
-        let is_reciprocal = |place: u32| matches!(path.operations[place as usize], Operation::Div(one, _) if path.operations[one as usize] == Operation::Number(1));
-        let place = path.operations.iter().position(|operation| {
-            is_root(operation) || matches!(operation, Operation::Mul(a, _) if is_reciprocal(*a))
-        });
-        let place = place.unwrap() as u32;
-        // The prover may refuse it too.
-        if Prover::new(&path, domain, Format::F32).bound(place).is_ok() {
-            let text = certificate_of(&path, "f32", domain, &[place]);
-            assert!(refusal(&text).ends_with("which may overflow"), "{}", refusal(&text));
-        }
+    let root = path.operations.iter().position(is_root).unwrap() as u32;
+    // The root, its reciprocal, and the first coordinate.
+    let place = root + 2;
+    let small = Domain { edge: Dyadic::power(-3), floor: Dyadic::power(-6), ..Domain::UNIT };
+    // The squares of the normal are at most 12, of the small one much less; but its reciprocal may be above 64.
+    for (domain, largest) in [(Domain::UNIT, 4), (small, 7)] {
+        let text = certificate_of(&path, "f32", domain, &[place]);
+        let accepted = check(&with_largest(&text, largest));
+        assert!(accepted.is_ok(), "{accepted:?}");
+        let message = refusal(&with_largest(&text, largest - 1));
+        let lemma = format!("lemma {place} unit");
+        let line = 1 + text.lines().position(|line| line == lemma).unwrap();
+        assert!(message.starts_with(&format!("line {line}: ")), "{message}");
+        assert!(message.ends_with("which may overflow"), "{message}");
     }
 }
 
@@ -328,14 +351,8 @@ fn what_is_wrong_is_named_with_its_line() {
 #[test]
 fn a_number_that_may_overflow_is_refused() {
     let text = sample("triple");
-    let format = text.lines().find(|line| line.starts_with("format ")).unwrap();
-    let (rest, _) = format.rsplit_once(' ').unwrap();
-    let kernel = text.lines().find(|line| line.starts_with("kernel ")).unwrap();
     // The number itself is at most 3.992.
-    let with = |largest: i32| {
-        let text = text.replacen(format, &format!("{rest} {largest}"), 1);
-        text.replacen(kernel, "kernel k float", 1)
-    };
+    let with = |largest: i32| with_largest(&text, largest);
     assert!(check(&with(2)).is_ok());
     let message = refusal(&with(1));
     assert!(message.contains("which may overflow"), "{message}");
@@ -371,7 +388,8 @@ fn hostile_text_is_refused_at_once() {
         assert!(check(&text.replacen(from, to, 1)).is_err(), "{to}");
     }
     let many = "variable quotient\n".repeat(40);
-    assert!(check(&text.replacen("variable quotient\n", &many, 1)).is_err());
+    let message = refusal(&sample("woop").replacen("variable quotient\n", &many, 1));
+    assert!(message.contains("found more than 18 variables"), "{message}");
     assert!(check(&"\n".repeat(1 << 23)).is_err());
     // Any byte may change to any other, and any piece may be missing: never a panic.
     let mut state = 1u64;
@@ -420,4 +438,54 @@ fn a_length_that_may_be_rounded_to_zero_is_refused() {
     words[floor] = "1*2^-60";
     let error = refusal(&text.replacen(domain, &words.join(" "), 1));
     assert!(error.contains("found a length that may be rounded to zero"), "{error}");
+}
+
+#[test]
+fn a_root_of_more_or_less_than_three_squares_is_no_length() {
+    let text = sample("plane");
+    let program = ["op 33 mul 25 25", "op 34 mul 28 28", "op 37 add 35 36"];
+    for changed in [
+        // Of three squares and the number 1; of four; of two.
+        ["op 33 fma 25 25 32", "op 34 fma 28 28 33", "op 37 fma 31 31 34"],
+        ["op 33 mul 25 25", "op 34 fma 28 28 33", "op 37 add 34 35"],
+        ["op 33 mul 25 25", "op 34 mul 28 28", "op 37 add 33 34"],
+    ] {
+        let mut other = text.clone();
+        for (from, to) in program.iter().zip(changed) {
+            assert!(other.contains(from), "{from}");
+            other = other.replacen(from, to, 1);
+        }
+        let message = refusal(&other);
+        assert!(message.contains("expected a part of a vector by its length"), "{message}");
+    }
+}
+
+#[test]
+fn parts_are_coordinates_of_one_unit_vector_in_which_the_formula_is_linear() {
+    let text = sample("plane");
+    let refused = |changes: &[(&str, &str)], expected: &str| {
+        let mut changed = text.clone();
+        for (from, to) in changes {
+            assert!(changed.contains(from), "{from}");
+            changed = changed.replacen(from, to, 1);
+        }
+        let message = refusal(&changed);
+        assert!(message.contains(expected), "{message}");
+    };
+    let of_vector = "expected different coordinates of one unit vector";
+    refused(&[("variable part 41\n", "variable part 40\n")], of_vector);
+    refused(&[("variable part 41\n", "variable part 25\n")], of_vector);
+    // A sum of a term with a part and one without, a product of two, and a result without any.
+    let linear = "expected terms that are all linear in parts, or all without one";
+    refused(
+        &[("op 45 add 43 44", "op 45 add 43 4"), ("step 45 add 2 5", "step 45 add 2 4")],
+        linear,
+    );
+    refused(
+        &[("op 44 mul 41 4", "op 44 mul 41 40"), ("step 44 mul 3 4", "step 44 mul 3 0")],
+        linear,
+    );
+    let without =
+        "lemma 17 sum\nvariable difference 2 1 0\nvariable part 40\nstep 17 variables +0\n";
+    refused(&[("claim ", &format!("{without}claim "))], "found a last step without a part");
 }

@@ -1,5 +1,6 @@
 //! All corners of a box, in integers: the largest size of each step, and the largest sum of the effects of
-//! all rounding errors.
+//! all rounding errors. Where some variables are the coordinates of a unit vector, every axis instead of their
+//! signs.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed};
@@ -20,20 +21,25 @@ pub struct Row<T> {
 /// The weight of a step's error, and whether it is multiplied by the step.
 pub type Weight<T> = (T, bool);
 
-/// The largest sum, and the first corner that has it: bit v is set where variable v is negative.
-pub struct Found<T> {
-    pub sum: T,
+/// What is largest, and the first corner that has it: bit v is set where variable v is negative.
+pub struct Found {
+    /// The sum of the effects that do not depend on a unit vector; all of them if there is none.
+    pub sum: BigInt,
+    /// The sum of the squares, axis by axis, of the sums of all others.
+    pub squares: BigInt,
     pub corner: usize,
-    /// The largest size of each step.
-    pub sizes: Vec<T>,
+    /// The size of each step; of steps that depend on the unit vector, the sum of the squares.
+    pub sizes: Vec<BigInt>,
 }
 
-/// Every corner of the box. Without weights, only the sizes are searched for. None if numbers are too long.
+/// Every corner of the box, and every axis of `unit`, the variables that are coordinates of a unit vector in
+/// which the last step is linear. Without weights, only the sizes are searched for. None if numbers are too long.
 pub fn search(
     rows: &[Row<BigInt>],
     weights: &[Weight<BigInt>],
     bounds: &[BigInt],
-) -> Option<Found<BigInt>> {
+    unit: &[usize],
+) -> Option<Found> {
     // With every sign plus and zeros as ones, the sum is longer than any number that the search meets,
     // for the last step depends on every step.
     let not_zero = |x: &BigInt| x.abs().max(BigInt::one());
@@ -47,10 +53,11 @@ pub fn search(
     let weight = |k: usize| (weights.get(k).map_or(BigInt::one(), |(w, _)| not_zero(w)), true);
     let all: Vec<_> = (0..rows.len()).map(weight).collect();
     let boxes: Vec<_> = bounds.iter().map(not_zero).collect();
-    match search_in::<BigInt>(&plus, &all, &boxes, 1)?.sum.bits() {
-        0..=62 => search_in::<i64>(rows, weights, bounds, 1 << bounds.len()),
-        63..=126 => search_in::<i128>(rows, weights, bounds, 1 << bounds.len()),
-        127..=MOST_BITS => search_in::<BigInt>(rows, weights, bounds, 1 << bounds.len()),
+    let corners = 1 << bounds.len();
+    match search_in::<BigInt>(&plus, &all, &boxes, &[], 1)?.sum.bits() {
+        0..=62 => search_in::<i64>(rows, weights, bounds, unit, corners),
+        63..=126 => search_in::<i128>(rows, weights, bounds, unit, corners),
+        127..=MOST_BITS => search_in::<BigInt>(rows, weights, bounds, unit, corners),
         _ => None,
     }
 }
@@ -59,8 +66,9 @@ fn search_in<T>(
     rows: &[Row<BigInt>],
     weights: &[Weight<BigInt>],
     bounds: &[BigInt],
+    unit: &[usize],
     corners: usize,
-) -> Option<Found<BigInt>>
+) -> Option<Found>
 where
     T: Signed + Clone + PartialOrd + TryFrom<BigInt>,
     BigInt: From<T>,
@@ -77,57 +85,81 @@ where
     let weights = weights.iter().map(|(weight, relative)| Some((of(weight)?, *relative)));
     let weights: Vec<Weight<T>> = weights.collect::<Option<_>>()?;
     let (mut values, mut slopes) = (vec![T::zero(); rows.len()], vec![T::zero(); rows.len()]);
-    let (mut best, mut at, mut sizes) = (T::zero(), 0, values.clone());
-    for corner in 0..corners {
-        // A step stays as it was at the corner before if no changed variable is in it.
-        let changed = corner ^ corner.wrapping_sub(1);
-        let is_new = |row: &Row<T>| corner == 0 || row.support & changed != 0;
-        for (k, row) in rows.iter().enumerate().filter(|(_, row)| is_new(row)) {
-            let mut value = row.constant.clone();
-            for (c, v) in &row.variables {
-                let x = c.clone() * bounds[*v].clone();
-                value = if corner >> v & 1 == 1 { value - x } else { value + x };
+    let square = |x: &T| BigInt::from(x.clone()).pow(2);
+    let of_unit = unit.iter().fold(0, |bits, v| bits | 1 << v);
+    let (mut best, mut squares, mut at, mut last) = (T::zero(), BigInt::ZERO, 0, usize::MAX);
+    let (mut sizes, mut longest) = (values.clone(), vec![BigInt::ZERO; rows.len()]);
+    for corner in (0..corners).filter(|corner| corner & of_unit == 0) {
+        let (mut sum, mut of_axes) = (T::zero(), BigInt::ZERO);
+        let mut lengths = vec![BigInt::ZERO; if unit.is_empty() { 0 } else { rows.len() }];
+        for axis in 0..unit.len().max(1) {
+            // A step stays as it was before if no changed variable is in it.
+            let changed = (corner ^ last) | of_unit;
+            let is_new = |row: &Row<T>| last == usize::MAX || row.support & changed != 0;
+            for (k, row) in rows.iter().enumerate().filter(|(_, row)| is_new(row)) {
+                let mut value = row.constant.clone();
+                for (c, v) in &row.variables {
+                    if of_unit >> v & 1 == 0 || unit[axis] == *v {
+                        let x = c.clone() * bounds[*v].clone();
+                        value = if corner >> v & 1 == 1 { value - x } else { value + x };
+                    }
+                }
+                for (c, a, b) in &row.terms {
+                    let x = c.clone() * values[*a].clone();
+                    value = value + if let Some(b) = b { x * values[*b].clone() } else { x };
+                }
+                if row.support & of_unit != 0 {
+                    lengths[k] += square(&value);
+                } else if sizes[k] < value.abs() {
+                    sizes[k] = value.abs();
+                }
+                values[k] = value;
             }
-            for (c, a, b) in &row.terms {
-                let x = c.clone() * values[*a].clone();
-                value = value + if let Some(b) = b { x * values[*b].clone() } else { x };
+            last = corner;
+            if weights.is_empty() {
+                continue;
             }
-            if sizes[k] < value.abs() {
-                sizes[k] = value.abs();
-            }
-            values[k] = value;
-        }
-        if weights.is_empty() {
-            continue;
-        }
-        // The derivatives of the last step by each step.
-        slopes.fill(T::zero());
-        slopes[rows.len() - 1] = T::one();
-        let mut sum = T::zero();
-        for (k, row) in rows.iter().enumerate().rev() {
-            let slope = slopes[k].clone();
-            let mut add = |to: usize, x: T| slopes[to] = slopes[to].clone() + x;
-            for (c, a, b) in &row.terms {
-                let x = slope.clone() * c.clone();
-                if let Some(b) = b {
-                    add(*a, x.clone() * values[*b].clone());
-                    add(*b, x * values[*a].clone());
-                } else {
-                    add(*a, x);
+            // The derivatives of the last step by each step.
+            slopes.fill(T::zero());
+            slopes[rows.len() - 1] = T::one();
+            let mut of_axis = T::zero();
+            for (k, row) in rows.iter().enumerate().rev() {
+                let slope = slopes[k].clone();
+                let mut add = |to: usize, x: T| slopes[to] = slopes[to].clone() + x;
+                for (c, a, b) in &row.terms {
+                    let x = slope.clone() * c.clone();
+                    if let Some(b) = b {
+                        add(*a, x.clone() * values[*b].clone());
+                        add(*b, x * values[*a].clone());
+                    } else {
+                        add(*a, x);
+                    }
+                }
+                let (weight, is_relative) = &weights[k];
+                let effect = slope.abs() * weight.clone();
+                let effect = if *is_relative { effect * values[k].abs() } else { effect };
+                if !unit.is_empty() && (*is_relative || row.support & of_unit == 0) {
+                    of_axis = of_axis + effect;
+                } else if axis == 0 {
+                    sum = sum + effect;
                 }
             }
-            let effect = slope.abs() * weights[k].0.clone();
-            sum = sum + if weights[k].1 { effect * values[k].abs() } else { effect };
+            of_axes += square(&of_axis);
+        }
+        for (longest, length) in longest.iter_mut().zip(lengths) {
+            *longest = length.max(std::mem::take(longest));
         }
         if best < sum {
-            (best, at) = (sum, corner);
+            best = sum;
+            at = if unit.is_empty() { corner } else { at };
+        }
+        if squares < of_axes {
+            (squares, at) = (of_axes, corner);
         }
     }
-    Some(Found {
-        sum: best.into(),
-        corner: at,
-        sizes: sizes.into_iter().map(BigInt::from).collect(),
-    })
+    let sizes = sizes.into_iter().map(BigInt::from).zip(longest);
+    let sizes = sizes.map(|(size, longest)| size.max(longest)).collect();
+    Some(Found { sum: best.into(), squares, corner: at, sizes })
 }
 
 #[cfg(test)]

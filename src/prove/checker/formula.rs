@@ -1,23 +1,18 @@
 //! The formula of a lemma: variables, steps, and what their rounding errors add up to.
 
 use super::corners::{Row, search};
-use super::number::{Bound, ERROR_DIGITS, F32, F64, Format, Number, power, round_up, split};
+use super::number::{
+    Bound, ERROR_DIGITS, F32, F64, Format, Number, SIZE_DIGITS, power, root_up, round_up, split,
+};
 use super::program::{Leaf, MOST_ROWS, Program, Term, indices, terms};
 use super::reader::{Outcome, Reader, ensure};
+use super::variables::{self, Variable};
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 use std::collections::HashSet;
 
-/// A formula of n variables has 2^n corners. Work is counted in corners times steps.
-const MOST_VARIABLES: usize = 18;
+/// Work is counted in corners times steps.
 const MOST_WORK: u64 = 1 << 31;
-
-/// A variable: a leaf, a number with a lemma, or else the quotient that the lemma is about.
-struct Variable {
-    leaf: Option<Leaf>,
-    cut: Option<usize>,
-    bound: Bound,
-}
 
 /// A step, and what it adds up: variables, a constant, and earlier steps.
 pub struct Step<'a> {
@@ -34,6 +29,8 @@ pub struct Step<'a> {
     /// Whether its error is also at most u times its size before it is rounded, and a tiny number.
     rounds: bool,
     relative: bool,
+    /// Whether its rounding is left out: its quotient's lemma takes it as a share of the quotient.
+    left_out: bool,
 }
 
 /// What the corners of a formula show.
@@ -41,13 +38,16 @@ pub struct Shown {
     /// Of the last step.
     pub size: Number,
     pub computed: Number,
-    /// Of the last step's error, not rounded up.
+    /// Of the last step's error, not rounded up; and before it is rounded, if it is rounded once.
     pub error: Number,
+    pub before: Number,
 }
 
 /// The variables and the steps of a lemma.
 pub struct Formula<'a> {
     variables: Vec<Variable>,
+    /// The variables that are coordinates of one unit vector in which the last step is linear.
+    unit: Vec<usize>,
     pub steps: Vec<Step<'a>>,
 }
 
@@ -58,44 +58,9 @@ impl<'a> Formula<'a> {
         quotient: Option<&Number>,
         reader: &mut Reader<'a>,
     ) -> Outcome<Self> {
-        let mut formula = Formula { variables: Vec::new(), steps: Vec::new() };
-        // The component of each input, and of the ground under them, in the graph of the leaves.
-        let mut components: [usize; 18] = std::array::from_fn(|i| i);
-        while reader.is_next("variable") {
-            let form = "variable point P AXIS, difference P Q AXIS, direction AXIS, end N, \
-                        cut OPERATION or, in the rules of quotients, quotient";
-            let (leaf, cut) = reader.read(form, |words| {
-                let (kind, words) = words.split_first()?;
-                let point = |p: usize, axis: usize| if p == 0 { axis } else { 3 + 3 * p + axis };
-                Some(match (*kind, &indices(words, MOST_ROWS)?[..]) {
-                    ("point", &[p @ 0..4, axis @ 0..3]) => (Some((point(p, axis), None)), None),
-                    ("difference", &[p @ 0..4, q @ 0..4, axis @ 0..3]) => {
-                        (Some((point(p, axis), Some(point(q, axis)))), None)
-                    }
-                    ("direction", &[axis @ 0..3]) => (Some((3 + axis, None)), None),
-                    ("end", &[end @ 0..2]) => (Some((15 + end, None)), None),
-                    ("cut", &[place]) => (None, Some(place)),
-                    ("quotient", &[]) => quotient.map(|_| (None, None))?,
-                    _ => return None,
-                })
-            })?;
-            let bound = match (leaf, cut) {
-                (Some(leaf), _) => {
-                    let (from, to) = (components[leaf.0], components[leaf.1.unwrap_or(17)]);
-                    ensure(
-                        from != to,
-                        "found a variable that follows from those above, expected an independent one",
-                    )?;
-                    components.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
-                    Bound::exactly(program.domain.bound(leaf))
-                }
-                (_, Some(place)) => program.bound(place)?.clone(),
-                _ => quotient.map(Bound::exactly).ok_or("found a quotient, expected none")?,
-            };
-            formula.variables.push(Variable { leaf, cut, bound });
-            let is_fair = formula.variables.len() <= MOST_VARIABLES;
-            ensure(is_fair, format!("found more than {MOST_VARIABLES} variables"))?;
-        }
+        let variables = variables::read(program, quotient, reader)?;
+        let unit = (0..variables.len()).filter(|v| variables[*v].part.is_some()).collect();
+        let mut formula = Formula { variables, unit, steps: vec![] };
         while reader.is_next("step") {
             let words =
                 reader.read("step OPERATION KIND OPERANDS", |words| Some(words.to_vec()))?;
@@ -109,6 +74,11 @@ impl<'a> Formula<'a> {
             operands.flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]).collect();
         let is_whole = operands.len() + 1 == formula.steps.len();
         ensure(is_whole, "found steps that the last one does not use, or none")?;
+        let is_linear = formula.unit.is_empty() || formula.is_linear(formula.steps.len() - 1);
+        ensure(is_linear, "found a last step without a part, expected one with parts")?;
+        if quotient.is_some() {
+            formula.leave_out();
+        }
         if reader.is_next("relative") {
             let steps = &mut formula.steps;
             reader.read("relative STEPS, each an earlier one that rounds once", |words| {
@@ -148,6 +118,7 @@ impl<'a> Formula<'a> {
             given: None,
             rounds: false,
             relative: false,
+            left_out: false,
         };
         if name == "variables" {
             let variable = |word: &&str| {
@@ -200,6 +171,11 @@ impl<'a> Formula<'a> {
                 (a & b == 0).then_some(()).ok_or("factors without a variable in common")?;
                 step.support |= a | b;
             }
+            let factors = |(_, a, b): &Term| [Some(*a), *b].into_iter().flatten();
+            let parts = |term| factors(term).filter(|i| self.is_linear(*i)).count();
+            let first = parts(&step.terms[0]);
+            let is_fit = first < 2 && step.terms.iter().all(|term| parts(term) == first);
+            is_fit.then_some(()).ok_or("terms that are all linear in parts, or all without one")?;
             // In f64 a difference of products is rounded more than once.
             let is_minor = name == "minor";
             (!is_minor || [F32, F64].contains(&program.format.parameters))
@@ -209,6 +185,33 @@ impl<'a> Formula<'a> {
                 place.is_some() && name != "neg" && (!is_minor || program.format.parameters == F32);
         }
         Ok(step)
+    }
+
+    /// Of numerator and divisor, in the last steps of a quotient's formula, each if no other step uses it.
+    fn leave_out(&mut self) {
+        let last = self.steps.iter().rev().take(2).flat_map(|step| step.terms.clone());
+        let operands = |(_, a, b): Term| [Some(a), b].into_iter().flatten();
+        let last: Vec<usize> = last.flat_map(operands).collect();
+        let all = self.steps.iter().flat_map(|step| step.terms.clone()).flat_map(operands);
+        let all: Vec<usize> = all.collect();
+        for step in last {
+            let is_used_once = all.iter().filter(|other| **other == step).count() == 1;
+            let step = &mut self.steps[step];
+            if step.rounds && is_used_once {
+                (step.rounds, step.left_out) = (false, true);
+                step.given.iter_mut().for_each(|bound| bound.error = Number::zero());
+            }
+        }
+    }
+
+    /// Whether the last rounding of an operation is left out.
+    pub fn leaves_out(&self, place: usize) -> bool {
+        self.steps.iter().any(|step| step.left_out && step.place == Some(place))
+    }
+
+    /// Whether a part is in a step.
+    fn is_linear(&self, step: usize) -> bool {
+        self.unit.iter().any(|v| self.steps[step].support >> v & 1 == 1)
     }
 
     /// Whether the variables add up to a leaf, input by input.
@@ -285,13 +288,16 @@ impl<'a> Formula<'a> {
             });
             scales.push(scale);
         }
-        let found = search(&rows, &[], &boxes).ok_or(LONG)?;
-        let sizes = found
-            .sizes
-            .iter()
-            .zip(&scales)
-            .map(|(size, scale)| Number::from(size.clone()) * power(*scale));
-        let sizes: Vec<Number> = sizes.collect();
+        let found = search(&rows, &[], &boxes, &self.unit).ok_or(LONG)?;
+        let size = |(k, size): (usize, BigInt)| {
+            let scale = power(scales[k]);
+            if self.is_linear(k) {
+                root_up(&(Number::from(size) * &scale * scale), SIZE_DIGITS)
+            } else {
+                Number::from(size) * scale
+            }
+        };
+        let sizes: Vec<Number> = found.sizes.into_iter().enumerate().map(size).collect();
         let none = vec![None; self.steps.len()];
         let (bounds, _) = self.run(format, &sizes, &none, false);
         for bound in &bounds {
@@ -300,6 +306,8 @@ impl<'a> Formula<'a> {
         let weight = |k: usize| {
             if self.steps[k].relative {
                 format.unit.clone()
+            } else if self.steps[k].terms.is_empty() && self.is_linear(k) {
+                Number::zero()
             } else {
                 &bounds[k].error * power(-scales[k])
             }
@@ -309,8 +317,14 @@ impl<'a> Formula<'a> {
         let whole =
             |(w, step): (&Number, &Step)| ((w * power(-finest)).to_integer(), step.relative);
         let weights: Vec<_> = weights.iter().zip(&self.steps).map(whole).collect();
-        let found = search(&rows, &weights, &boxes).ok_or(LONG)?;
-        let first = Number::from(found.sum) * power(scales[scales.len() - 1] + finest);
+        let found = search(&rows, &weights, &boxes, &self.unit).ok_or(LONG)?;
+        let (last, scale) = (bounds.len() - 1, power(scales[scales.len() - 1] + finest));
+        let mut first = Number::from(found.sum) * &scale;
+        if let Some(v) = self.unit.first() {
+            // The vector's own error takes its place.
+            first += &self.variables[*v].bound.error * &bounds[last].size;
+            first += root_up(&(Number::from(found.squares) * &scale * scale), ERROR_DIGITS);
+        }
         let sign = |v: usize| if found.corner >> v & 1 == 1 { '-' } else { '+' };
         let signs: String = (0..self.variables.len()).map(sign).collect();
         reader.read(&format!("corner {signs}"), |words| (words.concat() == signs).then_some(()))?;
@@ -319,8 +333,11 @@ impl<'a> Formula<'a> {
         let (mut bounds, rest) = self.run(format, &sizes, &known, true);
         let rest = round_up(&rest, ERROR_DIGITS);
         reader.demand("rest", &rest)?;
-        let Bound { size, computed, .. } = bounds.pop().expect("a step");
-        Ok(Shown { size, computed, error: first + rest })
+        let Bound { size, computed, error: own } = bounds.pop().expect("a step");
+        let error = first + rest;
+        let is_known = self.steps[last].rounds && !self.steps[last].relative;
+        let before = if is_known { &error - own } else { error.clone() };
+        Ok(Shown { size, computed, error, before })
     }
 
     /// The bounds of the steps where they are not known, and the terms of second and higher order of the
@@ -373,7 +390,7 @@ impl Step<'_> {
         let size = products(|bound| &bound.size).iter().sum::<Number>().min(corner.clone());
         let products = products(|bound| &bound.computed);
         let z = products.iter().sum::<Number>().min(&size + before);
-        if self.place.is_none() || self.name == "neg" {
+        if self.place.is_none() || self.name == "neg" || self.left_out {
             return Bound { size, computed: format.float_up(&z), error: Number::zero() };
         }
         let mut bound = format.rounded(size, &z);

@@ -8,20 +8,19 @@ mod formula;
 mod number;
 mod program;
 mod reader;
+mod variables;
 
 pub use number::{Bound, Number};
 
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
-use number::{ERROR_DIGITS, F32, F64, Format, root_up, round_up};
-use program::{DIRECTION_FLOOR, Domain, FLOOR, Operation, Program, QUOTIENT, indices};
+use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, power, root_up, round_up};
+use program::{DIRECTION_FLOOR, Domain, FLOOR, Lemma, Operation, Program, QUOTIENT, indices};
 use reader::{Outcome, Reader, ensure};
 use std::fmt::{self, Display};
 
 /// Longer texts are refused.
 const MOST_BYTES: usize = 1 << 22;
-/// Binary digits of a lemma's size.
-const SIZE_DIGITS: i64 = 12;
 
 /// A bound that a certificate proves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -97,22 +96,17 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
 
 /// Reads and checks a lemma.
 fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> Outcome<()> {
-    let form = "lemma OPERATION sum, quotient, quotient-by-reciprocal or length X Y Z, \
+    let form = "lemma OPERATION sum, quotient, quotient-by-reciprocal or unit, \
                 for an operation without a lemma that is no neg or abs";
-    let (place, rule, vector) = reader.read(form, |words| {
-        let (&[place, rule], words) = words.split_first_chunk()?;
+    let (place, rule) = reader.read(form, |words| {
+        let &[place, rule] = words else { return None };
         let place = indices(&[place], program.operations.len())?[0];
-        let vector = indices(words, program.operations.len())?;
-        let is_known = match rule {
-            "length" => vector.len() == 3,
-            "sum" | "quotient" | "quotient-by-reciprocal" => vector.is_empty(),
-            _ => false,
-        };
+        let is_known = ["sum", "quotient", "quotient-by-reciprocal", "unit"].contains(&rule);
         let is_fit = !["neg", "abs"].contains(&program.operations[place].name);
         let is_new = !program.lemmas.contains_key(&place);
-        (is_known && is_fit && is_new).then_some((place, rule, vector))
+        (is_known && is_fit && is_new).then_some((place, rule))
     })?;
-    let bound = match rule {
+    let lemma = match rule {
         "sum" => {
             let formula = Formula::read(program, None, reader)?;
             let last = formula.steps[formula.steps.len() - 1].place;
@@ -123,15 +117,19 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
             let shown = formula.maximum(&program.format, work, reader)?;
             let size = round_up(&shown.size, SIZE_DIGITS);
             let error = round_up(&shown.error, ERROR_DIGITS);
-            Bound { computed: shown.computed.min(&size + &error), size, error }
+            let bound = Bound { computed: shown.computed.min(&size + &error), size, error };
+            Lemma { bound, before: shown.before, unit: None }
         }
-        "length" => length(program, place, vector)?,
-        _ => quotient(program, place, rule != "quotient", work, reader)?,
+        "unit" => unit(program, place)?,
+        _ => {
+            let bound = quotient(program, place, rule != "quotient", work, reader)?;
+            Lemma { before: bound.error.clone(), bound, unit: None }
+        }
     };
-    reader.demand("size", &bound.size)?;
-    reader.demand("computed", &bound.computed)?;
-    reader.demand("error", &bound.error)?;
-    program.lemmas.insert(place, bound);
+    reader.demand("size", &lemma.bound.size)?;
+    reader.demand("computed", &lemma.bound.computed)?;
+    reader.demand("error", &lemma.bound.error)?;
+    program.lemmas.insert(place, lemma);
     Ok(())
 }
 
@@ -140,6 +138,24 @@ fn rounded(format: &Format, size: Number, error: Number, before: &Number) -> Out
     let bound = format.rounded(size, before);
     format.finite(&bound.computed)?;
     Ok(Bound { error: round_up(&(error + bound.error), ERROR_DIGITS), ..bound })
+}
+
+fn is_one(program: &Program, place: usize) -> bool {
+    let Operation { name, value, .. } = program.operations[place];
+    (name, value) == ("number", 1)
+}
+
+/// Numerator and divisor of n/d, or of n*(1/d).
+fn fraction(program: &Program, place: usize) -> Option<(usize, usize)> {
+    let operands = |place: usize, name: &str| {
+        let Operation { name: found, operands, .. } = &program.operations[place];
+        (*found == name).then(|| (operands[0], operands[1]))
+    };
+    let times = |n: usize, place: usize| {
+        operands(place, "div").filter(|(one, _)| is_one(program, *one)).map(|(_, d)| (n, d))
+    };
+    let product = || operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)));
+    operands(place, "div").or_else(product)
 }
 
 /// The bound of n/d, or `by_reciprocal` of n*(1/d).
@@ -151,26 +167,13 @@ fn quotient(
     reader: &mut Reader,
 ) -> Outcome<Bound> {
     let format = &program.format;
-    let operands = |place: usize, name: &str| {
-        let Operation { name: found, operands, .. } = &program.operations[place];
-        (*found == name).then(|| (operands[0], operands[1]))
-    };
-    let is_one = |place: usize| {
-        let Operation { name, value, .. } = program.operations[place];
-        (name, value) == ("number", 1)
-    };
-    let times = |n: usize, place: usize| {
-        operands(place, "div").filter(|(one, _)| is_one(*one)).map(|(_, d)| (n, d))
-    };
-    let found = if by_reciprocal {
-        operands(place, "mul").and_then(|(a, b)| times(a, b).or_else(|| times(b, a)))
-    } else {
-        operands(place, "div")
-    };
+    let is_fit = by_reciprocal == (program.operations[place].name == "mul");
+    let found = fraction(program, place).filter(|_| is_fit);
     let (n, d) = found.ok_or("found a rule that does not fit its operation")?;
-    let n = (by_reciprocal || !is_one(n)).then_some(n);
+    let n = (by_reciprocal || !is_one(program, n)).then_some(n);
     let one = Bound::exactly(&Number::one());
-    let (above, below) = (n.map_or(Ok(&one), |n| program.bound(n))?, program.bound(d)?);
+    let above = n.map_or(Ok(&one), |n| program.bound(n))?;
+    let Lemma { bound: below, before: below_before, .. } = program.lemma(d)?;
     // Whether |n| <= |d|. A decision is about computed numbers, but inputs are exact.
     let ordered = |a: usize, b: usize| program.at_most.contains(&(a, b));
     let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
@@ -180,7 +183,7 @@ fn quotient(
     let floor = &program.domain.0[if is_largest { DIRECTION_FLOOR } else { FLOOR }];
     let least = floor - &below.error;
     ensure(
-        least.is_positive(),
+        least > &format.tiny + &format.tiny,
         "found a divisor that may be rounded to zero, expected a larger floor",
     )?;
     if by_reciprocal {
@@ -197,8 +200,18 @@ fn quotient(
         formula.is_quotient_of(n, d),
         "found other last steps, expected numerator - quotient * divisor",
     )?;
-    let mut error = formula.maximum(format, work, reader)?.error / least;
+    let of_divisor = formula.leaves_out(d);
+    let closest = if of_divisor { floor - below_before } else { least.clone() };
+    let mut error = formula.maximum(format, work, reader)?.error / closest;
     let mut before = &size + &error;
+    let left_out = u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(n)));
+    if left_out > 0 {
+        let tiny = &format.tiny / least;
+        let share = &format.unit + &tiny;
+        let share = &share / (Number::one() - &share) * Number::from_integer(left_out.into());
+        error += share * before + tiny;
+        before = &size + &error;
+    }
     if by_reciprocal {
         let reciprocal = &format.unit * &before + &format.tiny * &above.computed;
         error += &reciprocal;
@@ -209,11 +222,46 @@ fn quotient(
     rounded(format, size, error, &before)
 }
 
-/// The bound of the length of a vector: the root of the sum of three squares.
-fn length(program: &Program, place: usize, vector: Vec<usize>) -> Outcome<Bound> {
-    let (format, root) = (&program.format, &program.operations[place]);
+/// The bound of a coordinate of a vector that is divided by its length: the error is that of all of them.
+fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
+    let found = fraction(program, place);
+    let vector = found.and_then(|(n, length)| {
+        squares(program, length).filter(|vector| vector.len() == 3 && vector.contains(&n))
+    });
+    let vector =
+        vector.ok_or("found another operation, expected a part of a vector by its length")?;
+    let (mut before, mut sizes) = (Number::zero(), Number::zero());
+    for place in vector {
+        let lemma = program.lemma(place)?;
+        before += &lemma.before * &lemma.before;
+        sizes += &lemma.bound.computed * &lemma.bound.computed;
+    }
+    let (before, size) = (root_up(&before, ERROR_DIGITS), root_up(&sizes, ERROR_DIGITS));
+    let Format { unit, tiny, .. } = &program.format;
+    let (floor, one) = (&program.domain.0[FLOOR], Number::one());
+    let times = |n: i64, x: &Number| Number::from_integer(n.into()) * x;
+    let shift = &before + unit * (&before + floor) + times(2, tiny);
+    let least = floor - &shift;
+    let is_safe = least.is_positive() && times(6, tiny) <= unit * unit * &least * &least;
+    ensure(is_safe, "found a length that may be rounded to zero, expected a larger floor")?;
+    let (longest, third) = (&size * (&one + times(2, unit)), &one - times(3, unit));
+    program.format.finite(&round_up(&(&longest * &longest), ERROR_DIGITS))?;
+    program.format.finite(&round_up(&(least * &third).recip(), ERROR_DIGITS))?;
+    let (turn, stretch) = (&shift / (floor - &shift * power(-1)), times(4, unit) / third);
+    let before = &stretch * &stretch + (&one + &stretch) * &turn * &turn;
+    let before = root_up(&before, ERROR_DIGITS) + size * tiny;
+    let rounded = &one + &before;
+    let error = round_up(&(&before + unit * &rounded + times(2, tiny)), ERROR_DIGITS);
+    let computed = program.format.float_up(&rounded);
+    program.format.finite(&computed)?;
+    Ok(Lemma { before: error.clone(), bound: Bound { size: one, computed, error }, unit: found })
+}
+
+/// The numbers whose squares an operation adds up before it takes the root; more than three if they are too many.
+fn squares(program: &Program, root: usize) -> Option<Vec<usize>> {
+    let root = Some(&program.operations[root]).filter(|root| root.name == "sqrt")?;
     let (mut squares, mut open) = (Vec::new(), root.operands.clone());
-    while let Some(place) = open.pop().filter(|_| squares.len() + open.len() < 3) {
+    while let Some(place) = open.pop().filter(|_| squares.len() < 4) {
         match (program.operations[place].name, &program.operations[place].operands[..]) {
             ("mul", &[a, b]) if a == b => squares.push(a),
             ("fma", &[a, b, c]) if a == b => {
@@ -221,26 +269,8 @@ fn length(program: &Program, place: usize, vector: Vec<usize>) -> Outcome<Bound>
                 open.push(c);
             }
             ("add", &[a, b]) => open.extend([a, b]),
-            _ => break,
+            _ => return None,
         }
     }
-    squares.sort_unstable();
-    let is_root = root.name == "sqrt" && squares == vector;
-    ensure(is_root, "found another operation, expected the root of the sum of these squares")?;
-    let (mut errors, mut sizes) = (Number::zero(), Number::zero());
-    for place in vector {
-        let bound = program.bound(place)?;
-        errors += &bound.error * &bound.error;
-        sizes += &bound.size * &bound.size;
-    }
-    let (shift, size) = (root_up(&errors, ERROR_DIGITS), root_up(&sizes, SIZE_DIGITS));
-    let three = Number::from_integer(3.into());
-    let least = &program.domain.0[FLOOR] - &shift;
-    let is_safe = least.is_positive() && &three * &format.tiny <= &format.unit * &least * &least;
-    ensure(is_safe, "found a length that may be rounded to zero, expected a larger floor")?;
-    let largest = &size + &shift;
-    let relative = three * &format.unit * &largest;
-    let before = largest + &relative;
-    format.finite(&(&before * &before))?;
-    rounded(format, size, shift + relative, &before)
+    Some(squares)
 }

@@ -9,6 +9,8 @@ pub type Number = BigRational;
 
 /// Binary digits of a lemma's errors.
 pub const ERROR_DIGITS: i64 = 24;
+/// Binary digits of a lemma's size.
+pub const SIZE_DIGITS: i64 = 12;
 /// Larger exponents are not read.
 const MOST_EXPONENT: i64 = 1 << 12;
 

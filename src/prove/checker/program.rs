@@ -75,7 +75,16 @@ pub struct Program<'a> {
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub at_most: HashSet<(usize, usize)>,
-    pub lemmas: HashMap<usize, Bound>,
+    pub lemmas: HashMap<usize, Lemma>,
+}
+
+/// What is proved of a number.
+pub struct Lemma {
+    pub bound: Bound,
+    /// The error before the operation rounds, if it rounds once; else that of the number.
+    pub before: Number,
+    /// If it is a coordinate of a vector divided by the vector's length: the coordinate and the length.
+    pub unit: Option<(usize, usize)>,
 }
 
 impl<'a> Program<'a> {
@@ -160,8 +169,12 @@ impl<'a> Program<'a> {
         (are_points && i % 3 == j % 3 && i != j).then_some((i, Some(j)))
     }
 
-    /// What an earlier lemma says of a number, or of the number in its neg or abs.
     pub fn bound(&self, place: usize) -> Outcome<&Bound> {
+        Ok(&self.lemma(place)?.bound)
+    }
+
+    /// What is said of a number, or of the number in its neg or abs.
+    pub fn lemma(&self, place: usize) -> Outcome<&Lemma> {
         let mut inner = place;
         while let Some(Operation { name: "neg" | "abs", operands, .. }) = self.operations.get(inner)
         {

@@ -4,6 +4,7 @@ mod gappa;
 mod permanent;
 mod sign;
 mod tiny;
+mod unit;
 
 use crate::arith::recorded::{Place, Recorded, record};
 use crate::kernel::Path;

@@ -14,7 +14,7 @@ fn format(digits: u32) -> Format {
 }
 
 /// Rounded to so many digits, ties to even.
-fn round(x: f64, digits: u32) -> f64 {
+pub fn round(x: f64, digits: u32) -> f64 {
     let drop = 53 - digits;
     let bits = x.to_bits();
     let half = (1 << (drop - 1)) - 1 + (bits >> drop & 1);

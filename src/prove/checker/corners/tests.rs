@@ -24,37 +24,58 @@ fn at_corner(rows: &Rows, bounds: &[BigInt], corner: usize, by: usize) -> Vec<[B
     all
 }
 
-/// The largest sum, its first corner, and the sizes of the steps.
-fn expected(
-    rows: &Rows,
-    weights: &[Weight<BigInt>],
-    bounds: &[BigInt],
-) -> (BigInt, usize, Vec<BigInt>) {
+/// The largest sum, its first corner, the sizes of the steps, and the squares that a unit vector has instead.
+type All = (BigInt, usize, Vec<BigInt>, BigInt);
+
+/// At every corner, and at every axis there.
+fn expected(rows: &Rows, weights: &[Weight<BigInt>], bounds: &[BigInt], unit: &[usize]) -> All {
     let (mut sum, mut first, mut sizes) = (BigInt::ZERO, 0, vec![BigInt::ZERO; rows.len()]);
-    for corner in 0..1 << bounds.len() {
-        let mut effects = BigInt::ZERO;
-        for k in 0..rows.len() {
-            let all = at_corner(rows, bounds, corner, k);
-            let size = all[k][0].abs();
-            sizes[k] = size.clone().max(sizes[k].clone());
-            if let Some((weight, is_relative)) = weights.get(k) {
-                let slope = all[rows.len() - 1][1].abs();
-                effects += slope * weight * if *is_relative { size } else { BigInt::one() };
+    let mut squares = BigInt::ZERO;
+    let is_positive = |corner: &usize| unit.iter().all(|v| corner & (1 << v) == 0);
+    let is_linear = |k: usize| unit.iter().any(|v| rows[k].support & (1 << v) != 0);
+    for corner in (0..1 << bounds.len()).filter(is_positive) {
+        let mut alone = BigInt::ZERO;
+        let mut effects = vec![BigInt::ZERO; unit.len().max(1)];
+        let mut lengths = vec![BigInt::ZERO; rows.len()];
+        for (axis, effects) in effects.iter_mut().enumerate() {
+            let mut bounds = bounds.to_vec();
+            unit.iter().filter(|v| **v != unit[axis]).for_each(|v| bounds[*v] = BigInt::ZERO);
+            alone = BigInt::ZERO;
+            for k in 0..rows.len() {
+                let all = at_corner(rows, &bounds, corner, k);
+                let size = all[k][0].abs();
+                lengths[k] += &size * &size;
+                if !is_linear(k) {
+                    sizes[k] = size.clone().max(sizes[k].clone());
+                }
+                if let Some((weight, is_relative)) = weights.get(k) {
+                    let slope = all[rows.len() - 1][1].abs();
+                    let effect = slope * weight * if *is_relative { size } else { BigInt::one() };
+                    let depends = !unit.is_empty() && (*is_relative || !is_linear(k));
+                    *if depends { &mut *effects } else { &mut alone } += effect;
+                }
             }
         }
-        if sum < effects {
-            (sum, first) = (effects, corner);
+        for k in (0..rows.len()).filter(|k| is_linear(*k)) {
+            sizes[k] = lengths[k].clone().max(sizes[k].clone());
         }
+        let here: BigInt = effects.iter().map(|effect| effect * effect).sum();
+        if if unit.is_empty() { sum < alone } else { squares < here } {
+            first = corner;
+        }
+        (sum, squares) = (sum.max(alone), squares.max(here));
     }
-    (sum, first, sizes)
+    (sum, first, sizes, squares)
 }
 
 fn found(
     rows: &Rows,
     weights: &[Weight<BigInt>],
     bounds: &[BigInt],
-) -> Option<(BigInt, usize, Vec<BigInt>)> {
-    search(rows, weights, bounds).map(|found| (found.sum, found.corner, found.sizes))
+    unit: &[usize],
+) -> Option<All> {
+    let found = search(rows, weights, bounds, unit)?;
+    Some((found.sum, found.corner, found.sizes, found.squares))
 }
 
 /// A number of at most so many bits, which may be 0.
@@ -112,15 +133,64 @@ fn the_largest_sum_is_that_of_every_corner_by_itself_in_integers_of_any_width() 
         let rows = random_rows(&mut draw, variables, bits);
         let bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
         let weights: Vec<_> = rows.iter().map(|_| (number(&mut draw, bits), draw.coin())).collect();
-        let sum = expected(&rows, &weights, &bounds);
+        let sum = expected(&rows, &weights, &bounds, &[]);
         widths[match sum.0.bits() {
             0..=62 => 0,
             63..=126 => 1,
             _ => 2,
         }] += 1;
-        assert_eq!(found(&rows, &weights, &bounds), Some(sum));
+        assert_eq!(found(&rows, &weights, &bounds, &[]), Some(sum));
         // Without weights only sizes are wanted.
-        assert_eq!(found(&rows, &[], &bounds), Some(expected(&rows, &[], &bounds)));
+        assert_eq!(found(&rows, &[], &bounds, &[]), Some(expected(&rows, &[], &bounds, &[])));
+    }
+    assert!(widths.into_iter().all(|n| 20 < n), "{widths:?}");
+}
+
+/// Steps that are linear in three more variables: random numbers times them, added up, and multiplied again.
+fn linear_rows(draw: &mut Draw, variables: usize, bits: usize) -> Rows {
+    let mut rows = random_rows(draw, variables, bits);
+    let count = rows.len();
+    let push = |rows: &mut Rows, variables, terms: Vec<(BigInt, usize, Option<usize>)>, support| {
+        let operands = terms.iter().flat_map(|(_, a, b)| [*a, b.unwrap_or(*a)]);
+        let support = operands.fold(support, |bits, a| bits | rows[a].support);
+        rows.push(Row { constant: BigInt::ZERO, variables, terms, support });
+        rows.len() - 1
+    };
+    let mut sum = Vec::new();
+    for v in variables..variables + 3 {
+        let part = push(&mut rows, vec![(BigInt::one(), v)], vec![], 1 << v);
+        // The last of the random steps depends on all of them.
+        let by = if sum.is_empty() { count - 1 } else { draw.below(count) };
+        let term = (factor(draw), by, Some(part));
+        let product = push(&mut rows, vec![], vec![term], 0);
+        sum.push((sign(draw), product, None));
+    }
+    let last = push(&mut rows, vec![], sum, 0);
+    let term = (sign(draw), last, draw.coin().then(|| draw.below(count)));
+    push(&mut rows, vec![], vec![term], 0);
+    rows
+}
+
+#[test]
+fn a_unit_vector_is_every_axis_in_turn_in_integers_of_any_width() {
+    let mut draw = Draw::new("units", 1, 0);
+    let mut widths = [0; 3];
+    for _ in 0..1000 {
+        let (variables, bits) = (1 + draw.below(3), 1 + draw.below(60));
+        let rows = linear_rows(&mut draw, variables, bits);
+        let mut bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
+        bounds.extend([(); 3].map(|()| BigInt::from(1 + draw.below(2))));
+        let weights: Vec<_> = rows.iter().map(|_| (number(&mut draw, bits), draw.coin())).collect();
+        let unit = [variables, variables + 1, variables + 2];
+        let all = expected(&rows, &weights, &bounds, &unit);
+        widths[match all.3.bits() {
+            0..=124 => 0,
+            125..=252 => 1,
+            _ => 2,
+        }] += 1;
+        assert_eq!(found(&rows, &weights, &bounds, &unit), Some(all));
+        let sizes = expected(&rows, &[], &bounds, &unit);
+        assert_eq!(found(&rows, &[], &bounds, &unit), Some(sizes));
     }
     assert!(widths.into_iter().all(|n| 20 < n), "{widths:?}");
 }
@@ -135,7 +205,7 @@ fn numbers_that_are_too_long_are_refused() {
     }];
     let weights = [(BigInt::one(), true)];
     let longest: BigInt = (BigInt::one() << MOST_BITS) - 1;
-    let all = |bound: &BigInt| found(&rows, &weights, std::slice::from_ref(bound));
-    assert_eq!(all(&longest), Some((longest.clone(), 0, vec![longest.clone()])));
+    let all = |bound: &BigInt| found(&rows, &weights, std::slice::from_ref(bound), &[]);
+    assert_eq!(all(&longest), Some((longest.clone(), 0, vec![longest.clone()], BigInt::ZERO)));
     assert_eq!(all(&(longest + 1)), None);
 }

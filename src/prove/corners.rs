@@ -1,0 +1,309 @@
+//! All corners of a formula's box: the largest size of each step, and the largest sum of the effects of all
+//! rounding errors.
+//!
+//! The coordinates of a unit vector n are in no box. A formula that is linear in n is taken, at each corner of
+//! the other variables, where n is the first, the second and the third axis. By Cauchy and Schwarz a step that
+//! is linear in n is at most the root of the sum of the squares there. So are the effects of errors, each sum
+//! of them being at most Σ|n_i| times that sum at axis i.
+
+use super::bound::SIZE_DIGITS;
+use super::dyadic::{Big, root_up};
+use super::formula::{DIGITS, Formula, Maximum, Step};
+use super::{Dyadic, Format};
+use num_traits::Zero;
+
+/// More variables than this are too many corners.
+const MOST_VARIABLES: usize = 18;
+/// More variables than this are too many corners to try both bounds of each step's error.
+const MOST_TO_CHOOSE: usize = 12;
+
+impl Formula {
+    /// The maximum over all corners, or in one sentence why there is none. Chooses, step by step, the bound
+    /// of its error that makes the maximum smaller.
+    pub fn maximum(&mut self, format: Format) -> Result<Maximum, String> {
+        let count = self.variables.len();
+        if count > MOST_VARIABLES {
+            return Err(format!(
+                "its formula has {count} variables, and {MOST_VARIABLES} can be tried"
+            ));
+        }
+        if !self.is_multi_affine() {
+            return Err("its formula has a variable in both factors of a product".to_owned());
+        }
+        let too_long = || "its bound needs more digits than there are".to_owned();
+        let sizes = self.corner_sizes();
+        if sizes.iter().any(|size| !size.is_number()) {
+            return Err(too_long());
+        }
+        self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
+        let (first, at) = if self.unit.is_empty() {
+            self.first_in_box(format)
+        } else {
+            self.first_of_unit(format).ok_or_else(too_long)?
+        };
+        let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
+        let rest = self.higher_order(format, &self.relative, None).0;
+        if first.is_number() && rest.is_number() {
+            Ok(Maximum { first, rest, corner })
+        } else {
+            Err(too_long())
+        }
+    }
+
+    /// The largest first order, and the first corner that has it.
+    fn first_in_box(&mut self, format: Format) -> (Dyadic, u64) {
+        let count = self.variables.len();
+        let mut values = vec![Dyadic::ZERO; self.steps.len()];
+        let mut slopes = values.clone();
+        let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
+        let choosing = count <= MOST_TO_CHOOSE && choices.len() > 1;
+        // By corner, what the steps that round contribute either way; and what the others contribute.
+        let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
+        let mut others = Vec::new();
+        let (mut first, mut at) = (Dyadic::ZERO, 0);
+        for corner in 0..1u64 << count {
+            self.evaluate(corner, 0, &mut values);
+            self.slopes(&values, &mut slopes);
+            let effect = |i: usize| {
+                let slope = slopes[i].abs();
+                [slope * self.bounds[i].error, slope * values[i].abs() * format.unit()]
+            };
+            if choosing {
+                effects.push(choices.iter().map(|i| effect(*i)).collect());
+                let rest = (0..self.steps.len()).filter(|i| !self.rounds[*i]).map(|i| effect(i)[0]);
+                others.push(rest.fold(Dyadic::ZERO, Dyadic::plus_up));
+            } else {
+                let all = (0..self.steps.len()).map(|i| effect(i)[0]);
+                let sum = all.fold(Dyadic::ZERO, Dyadic::plus_up);
+                if first < sum {
+                    (first, at) = (sum, corner);
+                }
+            }
+        }
+        if choosing {
+            let mut chosen = vec![0; choices.len()];
+            let largest = |chosen: &[usize]| {
+                let sum = |corner: usize| {
+                    let parts = effects[corner].iter().zip(chosen).map(|(both, i)| both[*i]);
+                    parts.fold(others[corner], Dyadic::plus_up)
+                };
+                let sums = (0..effects.len()).map(|corner| (sum(corner), corner as u64));
+                // The first corner of the largest sum.
+                sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
+            };
+            (first, at) = largest(&chosen);
+            for k in (0..choices.len()).rev() {
+                chosen[k] = 1;
+                let tried = largest(&chosen);
+                if tried.0 < first {
+                    (first, at) = tried;
+                    self.relative[choices[k]] = true;
+                } else {
+                    chosen[k] = 0;
+                }
+            }
+        }
+        (first, at)
+    }
+
+    /// The same of a formula that is linear in a unit vector; none if a number is too long.
+    fn first_of_unit(&mut self, format: Format) -> Option<(Dyadic, u64)> {
+        let linear = self.linear_steps()?;
+        // Of each step that rounds, the largest squares of its effects by either bound.
+        let mut either = vec![[0.0f64; 2]; self.steps.len()];
+        self.each_corner(|_, at_axes| {
+            for (i, either) in either.iter_mut().enumerate() {
+                let effect = |(value, slope): &(Dyadic, Dyadic)| {
+                    let by_size =
+                        if linear[i] { Dyadic::ZERO } else { *slope * self.bounds[i].error };
+                    [by_size, *slope * *value * format.unit()].map(Dyadic::to_f64)
+                };
+                let squares = at_axes.iter().map(|axis| effect(&axis[i]).map(|x| x * x));
+                let mut sum = squares.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+                if linear[i] {
+                    sum[0] = (at_axes[0][i].1 * self.bounds[i].error).to_f64().powi(2);
+                }
+                *either = [either[0].max(sum[0]), either[1].max(sum[1])];
+            }
+        });
+        for (i, [by_size, in_proportion]) in either.into_iter().enumerate() {
+            self.relative[i] = self.rounds[i] && in_proportion < by_size;
+        }
+        // What does not depend on the vector, and the squares of what does, axis by axis.
+        let (mut alone, mut squares, mut near, mut at) = (Dyadic::ZERO, Big::zero(), 0.0, 0);
+        let mut is_short = true;
+        self.each_corner(|corner, at_axes| {
+            let mut here = Dyadic::ZERO;
+            let mut sums = vec![Dyadic::ZERO; at_axes.len()];
+            for i in (0..self.steps.len()).filter(|i| !self.is_part(*i)) {
+                for (axis, sum) in at_axes.iter().zip(&mut sums) {
+                    let (value, slope) = axis[i];
+                    match (self.relative[i], linear[i]) {
+                        (true, _) => *sum = *sum + (slope * value).abs() * format.unit(),
+                        (_, false) => *sum = *sum + slope.abs() * self.bounds[i].error,
+                        _ => {}
+                    }
+                }
+                if linear[i] && !self.relative[i] {
+                    here = here + at_axes[0][i].1.abs() * self.bounds[i].error;
+                }
+            }
+            alone = alone.max(here);
+            is_short &= here.is_number() && sums.iter().all(|sum| sum.is_number());
+            let found: f64 = sums.iter().map(|sum| sum.to_f64().powi(2)).sum();
+            if is_short && near * (1.0 - 1e-9) <= found {
+                let exact = |sum: &Dyadic| Big::from(*sum) * Big::from(*sum);
+                let exact: Big = sums.iter().map(exact).sum();
+                if squares < exact {
+                    (squares, near, at) = (exact, found, corner);
+                }
+            }
+        });
+        // The vector's own error, in the place of the vector.
+        let part = (0..self.steps.len()).find(|i| self.is_part(*i))?;
+        let own = self.bounds[part].error * self.bounds.last()?.size;
+        is_short.then(|| (alone + root_up(&squares, DIGITS) + own, at))
+    }
+
+    /// Visits the corners, with value and slope of each step, or each triple of them where the unit vector
+    /// is an axis.
+    fn each_corner(&self, mut visit: impl FnMut(u64, &[Vec<(Dyadic, Dyadic)>])) {
+        let mut values = vec![Dyadic::ZERO; self.steps.len()];
+        let mut slopes = values.clone();
+        let mut at_axes = vec![Vec::new(); self.unit.len().max(1)];
+        for corner in self.corners() {
+            for (axis, pairs) in at_axes.iter_mut().enumerate() {
+                self.evaluate(corner, axis, &mut values);
+                self.slopes(&values, &mut slopes);
+                pairs.clear();
+                pairs.extend(values.iter().copied().zip(slopes.iter().copied()));
+            }
+            visit(corner, &at_axes);
+        }
+    }
+
+    /// The corners as bits, set where a variable is at its negative end.
+    fn corners(&self) -> impl Iterator<Item = u64> + use<> {
+        let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
+        (0..1u64 << self.variables.len()).filter(move |corner| corner & unit == 0)
+    }
+
+    /// Whether a step is a coordinate of the unit vector.
+    fn is_part(&self, i: usize) -> bool {
+        matches!(self.steps[i], Step::Variables(ref sum) if sum.iter().any(|(v, _)| self.unit.contains(v)))
+    }
+
+    /// Which steps are linear in the unit vector, all others being free of it; none if that is not so, or the
+    /// last step is not linear.
+    pub fn linear_steps(&self) -> Option<Vec<bool>> {
+        let mut linear: Vec<bool> = Vec::with_capacity(self.steps.len());
+        for (i, step) in self.steps.iter().enumerate() {
+            let of = |i: usize| linear[i];
+            let product = |a: usize, b: usize| (!of(a) || !of(b)).then_some(of(a) || of(b));
+            let both = |a: bool, b: bool| (a == b).then_some(a);
+            linear.push(match *step {
+                Step::Variables(_) => self.is_part(i),
+                Step::Number(_) => false,
+                Step::Neg(a) => of(a),
+                Step::Add(a, b) | Step::Sub(a, b) => both(of(a), of(b))?,
+                Step::Mul(a, b) => product(a, b)?,
+                Step::Fma(a, b, c) => both(product(a, b)?, of(c))?,
+                Step::Minor(a, b, c, d) => both(product(a, b)?, product(c, d)?)?,
+            });
+        }
+        linear.last().is_some_and(|last| *last).then_some(linear)
+    }
+
+    /// The exact value of each step at a corner, the unit vector being an axis.
+    fn evaluate(&self, corner: u64, axis: usize, values: &mut [Dyadic]) {
+        let variable = |v: usize| {
+            if self.unit.contains(&v) && self.unit[axis] != v {
+                return Dyadic::ZERO;
+            }
+            negative_if(corner >> v & 1 == 1, self.variables[v])
+        };
+        for i in 0..self.steps.len() {
+            values[i] = match self.steps[i] {
+                Step::Variables(ref sum) => sum.iter().fold(Dyadic::ZERO, |total, (v, sign)| {
+                    total + negative_if(*sign < 0, variable(*v))
+                }),
+                Step::Number(value) => Dyadic::new(value.into(), 0),
+                Step::Add(a, b) => values[a] + values[b],
+                Step::Sub(a, b) => values[a] - values[b],
+                Step::Mul(a, b) => values[a] * values[b],
+                Step::Neg(a) => -values[a],
+                Step::Fma(a, b, c) => values[a] * values[b] + values[c],
+                Step::Minor(a, b, c, d) => values[a] * values[b] - values[c] * values[d],
+            };
+        }
+    }
+
+    /// The derivative of the result by each step.
+    fn slopes(&self, values: &[Dyadic], slopes: &mut [Dyadic]) {
+        slopes.fill(Dyadic::ZERO);
+        let last = slopes.len() - 1;
+        slopes[last] = Dyadic::ONE;
+        for i in (0..=last).rev() {
+            let slope = slopes[i];
+            if slope.is_zero() {
+                continue;
+            }
+            let mut add = |to: usize, amount: Dyadic| slopes[to] = slopes[to] + amount;
+            match self.steps[i] {
+                Step::Variables(_) | Step::Number(_) => {}
+                Step::Add(a, b) => {
+                    add(a, slope);
+                    add(b, slope);
+                }
+                Step::Sub(a, b) => {
+                    add(a, slope);
+                    add(b, -slope);
+                }
+                Step::Mul(a, b) => {
+                    add(a, slope * values[b]);
+                    add(b, slope * values[a]);
+                }
+                Step::Neg(a) => add(a, -slope),
+                Step::Fma(a, b, c) => {
+                    add(a, slope * values[b]);
+                    add(b, slope * values[a]);
+                    add(c, slope);
+                }
+                Step::Minor(a, b, c, d) => {
+                    add(a, slope * values[b]);
+                    add(b, slope * values[a]);
+                    add(c, -(slope * values[d]));
+                    add(d, -(slope * values[c]));
+                }
+            }
+        }
+    }
+
+    /// The largest size of each step at the corners, which is its largest size in the box.
+    fn corner_sizes(&self) -> Vec<Dyadic> {
+        let linear = self.linear_steps().filter(|_| !self.unit.is_empty());
+        let linear = linear.unwrap_or(vec![false; self.steps.len()]);
+        let mut sizes = vec![Dyadic::ZERO; self.steps.len()];
+        let mut values = sizes.clone();
+        for corner in self.corners() {
+            let mut squares = vec![Dyadic::ZERO; self.unit.len().min(1) * sizes.len()];
+            for axis in 0..self.unit.len().max(1) {
+                self.evaluate(corner, axis, &mut values);
+                for (square, value) in squares.iter_mut().zip(&values) {
+                    *square = *square + *value * *value;
+                }
+            }
+            for (i, size) in sizes.iter_mut().enumerate() {
+                *size = (*size).max(if linear[i] { squares[i] } else { values[i].abs() });
+            }
+        }
+        let root = |(size, linear): (Dyadic, bool)| {
+            if linear && size.is_number() { root_up(&Big::from(size), SIZE_DIGITS) } else { size }
+        };
+        sizes.into_iter().zip(linear).map(root).collect()
+    }
+}
+
+fn negative_if(negative: bool, x: Dyadic) -> Dyadic {
+    if negative { -x } else { x }
+}
