@@ -62,7 +62,7 @@ impl CaseArguments {
             return Ok(stored_cases(&stored.ok_or_else(missing)??));
         }
         if let Some(test) = self.test_vector() {
-            return Ok(test);
+            return test;
         }
         let id: CaseId = self.case.parse().map_err(|error| {
             Failure::usage(format!("{error}; for the name of a stored case add --corpus FILE"))
@@ -73,18 +73,22 @@ impl CaseArguments {
         }
     }
 
-    /// The cases of a test of the core set of vectors.
-    fn test_vector(&self) -> Option<Cases> {
+    /// The cases of a test of the core set of vectors; none if the word is not like its ids.
+    fn test_vector(&self) -> Option<Result<Cases, Failure>> {
         let (_, digest) = self.case.rsplit_once('-')?;
-        if digest.len() != DIGITS || self.case.contains('/') {
+        let is_digest = digest.len() == DIGITS && digest.bytes().all(|b| b.is_ascii_hexdigit());
+        if !is_digest || self.case.contains('/') {
             return None;
         }
         let mut tests = vectors::core().into_iter().flat_map(|(_, tests)| tests);
-        let Test { cases, grouping, .. } = tests.find(|test| test.id == self.case)?;
-        Some(match &cases[0] {
+        let Some(Test { cases, grouping, .. }) = tests.find(|test| test.id == self.case) else {
+            let message = format!("no test of the core set of vectors has the id '{}'", self.case);
+            return Some(Err(Failure::usage(message)));
+        };
+        Some(Ok(match &cases[0] {
             AnyCase::F32(_) => Cases::F32(Group::alone(in_scalar(&cases), grouping)),
             AnyCase::F64(_) => Cases::F64(Group::alone(in_scalar(&cases), grouping)),
-        })
+        }))
     }
 
     fn stored(&self, path: &str) -> Result<Cases, Failure> {

@@ -1,15 +1,18 @@
 //! The record of what a product answered to test vectors, from the answers that were judged one by one.
 
 use super::build::{Context, across_part, counts, finding_part, provenance_of, severity_part};
+use super::disagreement::PARITY;
 use super::{
-    Example, KernelResult, PlanPart, PlannedSource, Rate, Record, ResultPart, RowPart, RowTotal,
-    SCHEMA, SourcePart, distribution,
+    AcrossPart, Example, KernelResult, PlanPart, PlannedSource, Rate, Record, ResultPart, RowPart,
+    RowTotal, SCHEMA, SourcePart, distribution,
 };
 use crate::arith::Float;
 use crate::audit::{Digest, Judged, Place, Severities, Tally};
 use crate::contract::{Across, Extent};
+use crate::corpus::hex;
 use crate::judge::{Class, Distances, Finding, GroupTruth, Obligation};
-use crate::vectors::{CLOSED, DIGITS, PREFIX, Test};
+use crate::vectors::{CLOSED, PREFIX, Test};
+use hmac_sha256::Hash;
 use std::collections::BTreeMap;
 
 /// How many examples of each finding a record keeps.
@@ -27,6 +30,15 @@ pub struct AnsweredTest<'a> {
     pub hits: usize,
 }
 
+impl AnsweredTest<'_> {
+    /// A triangle that every reading misses, of a group of which every reading hits one.
+    fn surely_missed(&self) -> Option<u32> {
+        let one = self.test.group.is_some_and(|group| group.counts == [1, 1]);
+        let mut triangles = (0..).zip(&self.test.triangles).filter(|_| one);
+        triangles.find(|(_, triangle)| triangle.closed() == Obligation::MustMiss).map(|(i, _)| i)
+    }
+}
+
 /// What is demanded of a test.
 #[derive(Clone, Copy)]
 pub enum Asked {
@@ -34,6 +46,27 @@ pub enum Asked {
     Single(Obligation),
     /// Of triangles together.
     Group(GroupTruth),
+}
+
+/// What is demanded of the hits on a group, whatever it is.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Promised {
+    /// One at least.
+    AtLeastOne,
+    /// One.
+    ExactlyOne,
+    /// An odd or an even number.
+    Parity,
+}
+
+impl Promised {
+    fn name(self) -> &'static str {
+        match self {
+            Promised::AtLeastOne => Across::AtLeastOne.name(),
+            Promised::ExactlyOne => Across::ExactlyOne.name(),
+            Promised::Parity => PARITY,
+        }
+    }
 }
 
 /// What a product is, and what it was asked.
@@ -44,8 +77,8 @@ pub struct Product<'a> {
     pub judged_by: &'a str,
     /// The same in a sentence.
     pub contract: String,
-    /// The SHA-256 of the vectors.
-    pub vectors: &'a str,
+    /// What is demanded of every group.
+    pub promised: Promised,
     /// What should be known beside the answers.
     pub note: Option<String>,
 }
@@ -58,7 +91,7 @@ pub fn answered(product: &Product, tests: &[AnsweredTest]) -> Record {
             let tests: Vec<&AnsweredTest> =
                 tests.iter().filter(|answered| answered.test.scalar == scalar).collect();
             if !tests.is_empty() {
-                sets.push(Set::new(scalar, tests));
+                sets.push(Set::new(scalar, tests, product.promised));
             }
         }
     }
@@ -91,16 +124,20 @@ impl Product<'_> {
             contract: self.contract.clone(),
             contract_words: "own".to_owned(),
         };
-        let mut counts: BTreeMap<String, u64> = BTreeMap::new();
-        sets.iter().for_each(|set| *counts.entry(set.name()).or_default() += set.count());
-        let source = |(name, count): (String, u64)| PlannedSource {
-            set: format!("{name}@{}", &self.vectors[..DIGITS]),
+        let mut answered: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+        for set in sets {
+            let ids = set.tests.iter().map(|answered| answered.test.id.as_str());
+            answered.entry(set.name()).or_default().extend(ids);
+        }
+        // Without an answer a test is no case of the source: two records are of the same cases if the ids are.
+        let source = |(name, ids): (String, Vec<&str>)| PlannedSource {
+            set: format!("{name}@{}", hex(&Hash::hash(ids.join(" ").as_bytes())[..8])),
             family: name,
-            count,
+            count: ids.len() as u64,
         };
         let mut scalars: Vec<String> = sets.iter().map(|set| set.scalar.to_owned()).collect();
         scalars.dedup();
-        let sources = counts.into_iter().map(source).collect();
+        let sources = answered.into_iter().map(source).collect();
         PlanPart { hash: String::new(), rows: vec![row], sources, scalars }.hashed()
     }
 
@@ -130,14 +167,22 @@ struct Set<'a> {
 }
 
 impl<'a> Set<'a> {
-    fn new(scalar: &'static str, tests: Vec<&'a AnsweredTest<'a>>) -> Set<'a> {
+    fn new(scalar: &'static str, tests: Vec<&'a AnsweredTest<'a>>, promised: Promised) -> Set<'a> {
         let mut tally = Tally::new(EXAMPLES, 0);
         for (index, answered) in (0..).zip(&tests) {
+            let hit = 0 < answered.hits;
             match answered.asked {
                 Asked::Single(obligation) => {
-                    add(&mut tally, index, answered, obligation);
+                    add(&mut tally, Place { index, triangle: 0 }, answered, (obligation, hit));
                 }
                 Asked::Group(truth) => {
+                    // Where one hit is right by every reading, a second is on a triangle that must be missed.
+                    let must_miss =
+                        answered.surely_missed().filter(|_| promised == Promised::AtLeastOne);
+                    if let Some(triangle) = must_miss {
+                        let asked = (Obligation::MustMiss, 1 < answered.hits);
+                        add(&mut tally, Place { index, triangle }, answered, asked);
+                    }
                     let (cases, hits) = (0..answered.test.cases.len(), answered.hits);
                     tally.group(&Judged { index, cases, truth, hits, elsewhere: false });
                 }
@@ -176,7 +221,7 @@ impl<'a> Set<'a> {
         let findings = tally.examples.iter().map(|((class, finding), examples)| {
             let rate = Rate::new(tally.trials(Some(class), finding), false);
             finding_part((class, finding), rate, examples, None, |place, severe| {
-                example(self.tests[place.index as usize].test, severe)
+                example(self.tests[place.index as usize].test, place.triangle as usize, severe)
             })
         });
         let has_groups = self.tests.iter().any(|answered| answered.test.group.is_some());
@@ -191,18 +236,26 @@ impl<'a> Set<'a> {
             findings: findings.collect(),
             severity: distribution::severities(&tally.severities),
             accuracy: BTreeMap::new(),
-            across: has_groups.then(|| across_part(Across::ExactlyOne, &tally.groups, false, id)),
+            across: has_groups.then(|| {
+                let part = across_part(product.promised.name(), &tally.groups, false, id);
+                AcrossPart { missed_folds: Rate::default(), ..part }
+            }),
             polygons: None,
             self_hits: None,
         }
     }
 }
 
-/// Counts the answer to a test of one triangle.
-fn add(tally: &mut Tally, index: u64, answered: &AnsweredTest, obligation: Obligation) {
-    let truth = &answered.test.triangles[0].truth;
+/// Counts an answer on one triangle: what was asked, and whether it is hit.
+fn add(
+    tally: &mut Tally,
+    place: Place,
+    answered: &AnsweredTest,
+    (obligation, hit): (Obligation, bool),
+) {
+    let triangle = place.triangle as usize;
+    let truth = &answered.test.triangles[triangle].truth;
     let class = Class::of(truth);
-    let hit = 0 < answered.hits;
     let count = &mut tally.classes[class.number()];
     count.ask(obligation, 1);
     count.hits += u64::from(hit);
@@ -212,17 +265,17 @@ fn add(tally: &mut Tally, index: u64, answered: &AnsweredTest, obligation: Oblig
         (Obligation::MustMiss, true) => Finding::FalseHit,
         _ => return,
     };
-    let distances = (!class.is_invalid())
-        .then(|| either_scalar!(&answered.test.cases[0], case => Distances::of(case, truth)));
+    let distances = (!class.is_invalid()).then(
+        || either_scalar!(&answered.test.cases[triangle], case => Distances::of(case, truth)),
+    );
     let severity =
         distances.map(|found| (found.nearest_change(truth, &CLOSED), found.edge_in_ulps));
-    let place = Place { index, triangle: 0 };
     tally.find(class, finding, (place, Digest::hash(place)), severity);
 }
 
-/// A test of one triangle that was answered wrongly.
-fn example(test: &Test, severe: bool) -> Example {
-    let (bits, severity) = either_scalar!(&test.cases[0], case => (
+/// A triangle of a test that was answered wrongly.
+fn example(test: &Test, triangle: usize, severe: bool) -> Example {
+    let (bits, severity) = either_scalar!(&test.cases[triangle], case => (
         case.hex(),
         severe.then(|| severity_part(case, Extent::Interval)).flatten(),
     ));

@@ -8,7 +8,7 @@ use crate::audit::{
     Source, SourceSummary, Tally, Trials, exact_severity,
 };
 use crate::case::Case;
-use crate::contract::{Across, Boundary, Extent};
+use crate::contract::{Boundary, Extent};
 use crate::corpus::hex;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
@@ -235,14 +235,14 @@ pub(super) fn severity_part<F: Float>(case: &Case<F>, extent: Extent) -> Option<
 
 /// What groups did, of which the contract promises something, with the id of each.
 pub(super) fn across_part(
-    promised: Across,
+    promised: &str,
     groups: &GroupCount,
     sample: bool,
     id: impl Fn(u64) -> String,
 ) -> AcrossPart {
     let ids = |indices: &[u64]| indices.iter().map(|i| id(*i)).collect();
     AcrossPart {
-        promised: promised.name().to_owned(),
+        promised: promised.to_owned(),
         cracks: rate(groups.cracks, groups.crossings, sample),
         doubles: rate(groups.doubles, groups.crossings, sample),
         odd_folds: rate(groups.odd_folds, groups.folds, sample),
@@ -264,7 +264,7 @@ fn across_in_source<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) 
     AcrossPart {
         file: source.file_flag(),
         elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
-        ..across_part(row.contract.across, groups, sample, |i| source.id::<F>(i, None))
+        ..across_part(row.contract.across.name(), groups, sample, |i| source.id::<F>(i, None))
     }
 }
 

@@ -127,7 +127,7 @@ pub(crate) fn counts_alone(part: &KernelResult, finding: &str) -> bool {
 }
 
 /// What the contract promises across triangles, and of a scene cracks in any case, with what came of it.
-fn across(part: &KernelResult) -> Vec<Together<'_>> {
+pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(across) = &part.across else { return Vec::new() };
     let cracks: Together =
         ("crack", &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
@@ -139,9 +139,13 @@ fn across(part: &KernelResult) -> Vec<Together<'_>> {
         "nothing" if is_shared_in_scene(&part.family) => vec![cracks],
         "nothing" => Vec::new(),
         "at-least-one" => vec![cracks],
+        PARITY => vec![folds],
         _ => vec![cracks, doubles, folds],
     }
 }
+
+/// What is promised across triangles where only an odd or an even number of hits is demanded.
+pub(super) const PARITY: &str = "parity";
 
 /// What was found of whole polygons.
 pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {

@@ -64,12 +64,17 @@ enum Single {
     Free,
 }
 
+/// What a specification demands of the hits on a group.
 #[derive(Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Groups {
+pub enum Groups {
+    /// One hit.
     ExactlyOne,
+    /// One hit or more.
     AtLeastOne,
+    /// An odd or an even number.
     Parity,
+    /// Any number.
     Free,
 }
 
@@ -152,11 +157,20 @@ impl Answers {
 }
 
 impl Profile {
+    /// What is demanded of groups on which readings differ.
+    pub fn of_groups(&self) -> Groups {
+        self.answers.groups.result
+    }
+
     /// What the specification says that decides a test; nothing if it is decided without.
     pub fn sayings(&self, test: &Test) -> Vec<Saying<'_>> {
         if let Some(group) = &test.group {
             let groups = &self.answers.groups;
-            let decides = groups.result == Groups::Parity || group.result() == "at-least-one";
+            let decides = match groups.result {
+                Groups::Parity => true,
+                Groups::ExactlyOne => group.result() == "at-least-one",
+                Groups::AtLeastOne | Groups::Free => false,
+            };
             return Vec::from_iter(decides.then(|| groups.saying("groups")));
         }
         let asked = of_triangle(&test.triangles[0], Some(self));

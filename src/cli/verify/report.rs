@@ -2,9 +2,9 @@
 //! from.
 
 use crate::judge::{GroupTruth, Obligation};
-use crate::report::{AnsweredTest, Asked, Product, Record, answered, number_of};
+use crate::report::{AnsweredTest, Asked, Product, Promised, Record, answered, number_of};
 use crate::vectors::Test;
-use crate::vectors::profile::{Answered, Profile, Saying, demanded};
+use crate::vectors::profile::{Answered, Groups, Profile, Saying, demanded};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -157,7 +157,11 @@ impl<'a> Sheet<'a> {
                 None => "the test vectors: hit or miss where every reading agrees".to_owned(),
                 Some(profile) => format!("the test vectors by {}", profile.specification),
             },
-            vectors: self.vectors,
+            promised: match self.profile.map(Profile::of_groups) {
+                Some(Groups::ExactlyOne) => Promised::ExactlyOne,
+                Some(Groups::Parity) => Promised::Parity,
+                None | Some(Groups::AtLeastOne | Groups::Free) => Promised::AtLeastOne,
+            },
             note: (0 < count).then(|| format!("{missing} no result")),
         };
         answered(&product, &tests)
@@ -178,8 +182,6 @@ impl Judged<'_> {
         };
         let hits = match self.answer {
             Answered::Single(hit) => usize::from(hit),
-            // More than one is no double where that is right.
-            Answered::Hits(hits) if self.demanded == "at-least-one" => usize::from(0 < hits),
             Answered::Hits(hits) => hits as usize,
         };
         AnsweredTest { topic, test: self.test, asked, hits }

@@ -92,7 +92,9 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
 
 fn facts(view: &View, row: &Row) -> Markup {
     let plan_flags = view.record.provenance.plan_flags.clone().unwrap_or_default();
-    let info = kernel::find(&row.part.kernel).map(|entry| entry.info);
+    // Answers from elsewhere have no selector, whatever their product is called.
+    let is_run = !row.part.selector.is_empty();
+    let info = kernel::find(&row.part.kernel).filter(|_| is_run).map(|entry| entry.info);
     let gates: &[Gate] = info.map_or(&[], |info| info.gates);
     let unknown = row
         .part
@@ -112,7 +114,7 @@ fn facts(view: &View, row: &Row) -> Markup {
                 dt { "Edges" @if alike.len() < proofs.len() { ", " (alike[0].scalar) } }
                 dd { (shortened(&alike[0].edges, 600)) }
             }
-            dt { "Run again" } dd { (code(&plan_flags.command(&row.part.flags()))) }
+            @if is_run { dt { "Run again" } dd { (code(&plan_flags.command(&row.part.flags()))) } }
         }
         @if !row.part.epsilons.is_empty() || !gates.is_empty() {
             div.scroll tabindex="0" role="group" aria-label="Gates" {
@@ -143,8 +145,10 @@ fn facts(view: &View, row: &Row) -> Markup {
             }
             @if !proofs.is_empty() {
                 p.note {
-                    "Proved: what the gate compares is never wrong by more, for any floats where coordinates and directions are at most 1 and divisors at least 1/2; "
-                    "u is 2" sup { "−24" } " in f32 and 2" sup { "−53" } " in f64. Known: the worst case found. For other sizes: "
+                    "Proved: in the unit domain what the gate compares is never wrong by more. The domain: coordinates of points and of their "
+                    "differences, and of d, at most 1; where a kernel divides, divisors of 1/2 and more and quotients of at most 1. A bound supposes "
+                    "only what the gate's numbers use. u is 2" sup { "−24" } " in f32 and 2" sup { "−53" } " in f64. Known: the worst case found. "
+                    "What each bound supposes: " (code("hairline prove")) ". For other sizes: "
                     (code(&format!("hairline prove --kernel {} --scene city", row.part.kernel)))
                 }
             }

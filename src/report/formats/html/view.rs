@@ -1,5 +1,6 @@
 //! A record by kernel row, as the report walks through it.
 
+use crate::report::disagreement::{across, polygons};
 use crate::report::formats::columns::{Across, Column};
 use crate::report::formats::lines::{Line, lines};
 use crate::report::formats::pool::Pool;
@@ -99,7 +100,7 @@ impl View<'_> {
 }
 
 impl Row<'_> {
-    /// How many findings of all kinds.
+    /// How many findings of all kinds, of single triangles and of what is promised across several.
     pub fn findings(&self) -> u64 {
         let of = |counts: &Counts| {
             [&counts.false_misses, &counts.false_hits, &counts.bad_values]
@@ -110,6 +111,10 @@ impl Row<'_> {
                 + counts.crashes
                 + counts.timeouts
         };
-        self.scalars.iter().flat_map(|part| &part.results).map(|result| of(&result.total)).sum()
+        let together = |result: &KernelResult| -> u64 {
+            across(result).iter().chain(&polygons(result)).map(|(_, rate, ..)| rate.count).sum()
+        };
+        let results = self.scalars.iter().flat_map(|part| &part.results);
+        results.map(|result| of(&result.total) + together(result)).sum()
     }
 }
