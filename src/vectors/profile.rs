@@ -164,14 +164,9 @@ impl Profile {
 
     /// What the specification says that decides a test; nothing if it is decided without.
     pub fn sayings(&self, test: &Test) -> Vec<Saying<'_>> {
-        if let Some(group) = &test.group {
-            let groups = &self.answers.groups;
-            let decides = match groups.result {
-                Groups::Parity => true,
-                Groups::ExactlyOne => group.result() == "at-least-one",
-                Groups::AtLeastOne | Groups::Free => false,
-            };
-            return Vec::from_iter(decides.then(|| groups.saying("groups")));
+        if test.group.is_some() {
+            let decides = demanded(test, Some(self)) != demanded(test, None);
+            return Vec::from_iter(decides.then(|| self.answers.groups.saying("groups")));
         }
         let asked = of_triangle(&test.triangles[0], Some(self));
         let decides = |result| match asked {

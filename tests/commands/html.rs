@@ -5,6 +5,7 @@ use crate::program;
 
 use program::{ends, scratch};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -103,22 +104,29 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
         }
     }
     assert!(20 < examples, "{examples}");
-    // What is proved of each gate, as the text of `prove` has it.
+    // What is proved of each gate, as `prove` has it: in the gate's row of the kernel's section, f32 before f64.
     let mut bounds = 0;
     for kernel in ["moller-trumbore", "havel-herout"] {
         let (proofs, _) = ends(&folder, &["prove", "--format", "json", "--kernel", kernel], 0);
         let proofs: Value = serde_json::from_str(&proofs).unwrap();
+        let section = page.split_once(&format!("<h3>{kernel} ")).unwrap().1;
+        let mut cells: BTreeMap<&str, String> = BTreeMap::new();
         for gate in proofs["gates"].as_array().unwrap() {
-            let shown = match (gate["bound_units"].as_f64(), &gate["witness"]["units"]) {
-                (None, _) => "<td>no bound</td>".to_owned(),
-                (Some(bound), known) => {
-                    let [bound, known] =
-                        [(bound * 100.0).ceil(), (known.as_f64().unwrap() * 100.0).floor()];
-                    format!("<td>{:.2} u ({:.2} u)</td>", bound / 100.0, known / 100.0)
-                }
-            };
-            assert!(page.contains(&shown), "{kernel}: {gate}");
+            let hundredths = |x: &Value| x.as_f64().unwrap() * 100.0;
+            *cells.entry(gate["gate"].as_str().unwrap()).or_default() +=
+                &if gate["bound_units"].is_null() {
+                    "<td>no bound</td>".to_owned()
+                } else {
+                    let bound = hundredths(&gate["bound_units"]).ceil() / 100.0;
+                    let known = hundredths(&gate["witness"]["units"]).floor() / 100.0;
+                    format!("<td>{bound:.2} u ({known:.2} u)</td>")
+                };
             bounds += 1;
+        }
+        for (gate, cells) in cells {
+            let row = section.split_once(&format!("<th scope=\"row\">{gate}</th>")).unwrap().1;
+            let row = row.split_once("</tr>").unwrap().0;
+            assert!(row.ends_with(&cells), "{kernel} {gate}: {row}");
         }
     }
     assert_eq!(bounds, 10);

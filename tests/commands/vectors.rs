@@ -374,6 +374,10 @@ fn every_report_of_an_audit_is_one_of_results_and_each_case_in_it_is_explained()
     assert!(!page.contains("No findings") && page.contains(" 1 finding"), "{group}");
     let (page, _) = verify(&alone, &["--format", "markdown"], 0);
     assert!(page.contains("&gt;= 1: kept") || page.contains(">= 1: kept"), "{page}");
+    // No hit at all is wrong by every reading: no profile is to blame.
+    let none = results(&[(group.clone(), json!(0))]);
+    let (text, _) = verify(&none, &["--profile", "dxr"], 1);
+    assert!(text.contains(&format!("{group}: 0, expected exactly-one (")), "{text}");
     let (_, error) = ends(&scratch("verify-unknown"), &["explain", "edges-0000000000000000"], 2);
     assert!(error.contains("no test of the core set of vectors"), "{error}");
     for (id, line) in [(single, "truth transversal"), (group, "together"), (end, ", t at_m")] {

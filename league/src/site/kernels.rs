@@ -102,20 +102,32 @@ fn section(
     }
 }
 
-/// What refutes a claim, if one is refuted: the deepest case, or what slips through shared edges.
+/// What refutes a claim, if one is refuted and that is known: the deepest case of the groups that the verdict is
+/// about, or what slips through shared edges.
 fn refuting(facts: Option<&Entrant>, scalar: &str, result: &ScalarResult) -> Markup {
     let depths = [("miss", &result.deepest_miss), ("hit", &result.deepest_hit)];
     let depths = depths.into_iter().filter_map(|(what, depth)| Some((what, depth.as_ref()?)));
     let deepest = depths.max_by(|(_, a), (_, b)| a.ulps.total_cmp(&b.ulps));
-    let by_depth = !facts.is_some_and(|facts| facts.only_shared);
-    let deepest = deepest.filter(|(_, depth)| by_depth && half_of_digits(scalar) < depth.ulps);
+    let deepest = deepest.filter(|(_, depth)| half_of_digits(scalar) < depth.ulps);
+    let sized = GROUPS.iter().find(|(group, _)| *group == "size").map_or(&[][..], |(_, all)| all);
+    let only_shared = facts.is_some_and(|facts| facts.only_shared);
     html! {
-        @if !result.verdict.starts_with("refuted") {}
-        @else if let Some((what, depth)) = deepest {
-            ": " a href={ "../case/" (cases::slug_of(depth)) ".html" } { "a false " (what) ", " " " (short(depth.ulps)) " ulps deep" }
-        } @else { ": rays through shared edges and vertices, counted below" }
+        @match (result.verdict.as_str(), deepest) {
+            ("refuted", _) if only_shared => (SHARED),
+            ("refuted", None) => (SHARED),
+            (verdict @ ("refuted" | "refuted by size"), Some((what, depth)))
+                if sized.contains(&depth.family.as_str()) == (verdict == "refuted by size") =>
+            {
+                ": " a href={ "../case/" (cases::slug_of(depth)) ".html" } {
+                    "a false " (what) ", " (short(depth.ulps)) " ulps deep"
+                }
+            }
+            _ => {}
+        }
     }
 }
+
+const SHARED: &str = ": rays through shared edges and vertices, counted below";
 
 fn of(share: Share) -> String {
     format!("{} of {}", share.count, share.of)

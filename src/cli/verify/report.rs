@@ -4,7 +4,7 @@
 use crate::judge::{GroupTruth, Obligation};
 use crate::report::{AnsweredTest, Asked, Product, Promised, Record, answered, number_of};
 use crate::vectors::Test;
-use crate::vectors::profile::{Answered, Groups, Profile, Saying, demanded};
+use crate::vectors::profile::{Answered, Groups, Profile, Saying, demanded, is_right};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -109,8 +109,10 @@ impl<'a> Sheet<'a> {
         self.topics.iter().flat_map(|topic| &topic.judged)
     }
 
-    fn sayings_of(&self, test: &Test) -> Vec<Saying<'a>> {
-        self.profile.map_or(Vec::new(), |profile| profile.sayings(test))
+    /// What makes an answer wrong that is not wrong by every reading.
+    fn sayings_of(&self, test: &Test, answer: Answered) -> Vec<Saying<'a>> {
+        let profile = self.profile.filter(|_| is_right(demanded(test, None), answer) == Some(true));
+        profile.map_or(Vec::new(), |profile| profile.sayings(test))
     }
 
     /// Counts, wrong answers and missing ids.
@@ -127,7 +129,7 @@ impl<'a> Sheet<'a> {
         };
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
         for Judged { test, demanded, answer, .. } in self.judged().filter(|judged| !judged.right) {
-            let sayings = self.sayings_of(test);
+            let sayings = self.sayings_of(test, *answer);
             report.wrong.push(Wrong {
                 id: &test.id,
                 demanded,
