@@ -14,7 +14,7 @@ pub(crate) use outcome::conforms;
 use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source};
 use crate::case::{Parameters, Scene};
 use crate::contract::{Across, Contract};
-use crate::engine::Unobserved;
+use crate::engine::{self, Unobserved};
 use crate::family::{FAMILIES, Family, Stratum, find};
 use crate::kernel::{Entry, kept};
 use crate::report::{Context, build};
@@ -239,7 +239,7 @@ impl Request {
             attribute: 0,
         };
         let sums = audit::run(&plan, &Unobserved);
-        let context = Context { seconds: 0.0, threads: rayon::current_num_threads() };
+        let context = Context { seconds: 0.0, threads: engine::threads() };
         #[allow(unused_mut)]
         let mut record = build(&plan, &sums, &context);
         #[cfg(feature = "cli")]

@@ -2,9 +2,14 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "studies")]
 use rayon::prelude::*;
+#[cfg(not(feature = "studies"))]
+use std::num::NonZero;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
+#[cfg(any(test, not(feature = "studies")))]
+use std::{panic, thread};
 
 /// What a run tells while it goes on, and where it reads a clock.
 pub trait Observer: Sync {
@@ -49,7 +54,7 @@ pub fn sum<S: Merge>(
         let first = (number < chunks).then(|| start + number * chunk)?;
         Some(first..end.min(first.saturating_add(chunk)))
     };
-    let of_thread = |_| {
+    let of_thread = || {
         let mut sum = empty();
         while let Some(indices) = take() {
             let count = indices.end - indices.start;
@@ -62,8 +67,55 @@ pub fn sum<S: Merge>(
         sum.merge(more);
         sum
     };
-    let threads = (0..rayon::current_num_threads()).into_par_iter().with_max_len(1);
-    threads.map(of_thread).reduce_with(merged).unwrap_or_else(&empty)
+    let threads = usize::try_from(chunks).unwrap_or(usize::MAX).min(threads());
+    on_threads(threads, of_thread).into_iter().reduce(merged).unwrap_or_else(&empty)
+}
+
+/// What each item becomes, in their order.
+pub fn map<T: Sync, U: Send>(items: &[T], become_of: impl Fn(&T) -> U + Sync) -> Vec<U> {
+    struct Numbered<U>(Vec<(u64, U)>);
+    impl<U: Send> Merge for Numbered<U> {
+        fn merge(&mut self, other: Numbered<U>) {
+            self.0.extend(other.0);
+        }
+    }
+    let mut all = sum(
+        0..items.len() as u64,
+        1,
+        &Unobserved,
+        || Numbered(Vec::new()),
+        |Numbered(some), indices| {
+            some.extend(indices.map(|index| (index, become_of(&items[index as usize]))));
+        },
+    );
+    all.0.sort_unstable_by_key(|(index, _)| *index);
+    all.0.into_iter().map(|(_, item)| item).collect()
+}
+
+/// How many threads there are.
+pub fn threads() -> usize {
+    #[cfg(feature = "studies")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "studies"))]
+    thread::available_parallelism().map_or(1, NonZero::get)
+}
+
+/// What a function returns on each of some threads.
+fn on_threads<S: Send>(threads: usize, run: impl Fn() -> S + Sync) -> Vec<S> {
+    #[cfg(feature = "studies")]
+    return (0..threads).into_par_iter().with_max_len(1).map(|_| run()).collect();
+    #[cfg(not(feature = "studies"))]
+    on_new_threads(threads, run)
+}
+
+/// The same without a pool: rayon takes longer to build than an audit in a test takes to run.
+#[cfg(any(test, not(feature = "studies")))]
+fn on_new_threads<S: Send>(threads: usize, run: impl Fn() -> S + Sync) -> Vec<S> {
+    thread::scope(|scope| {
+        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(&run)).collect();
+        let sums = threads.into_iter().map(|thread| thread.join());
+        sums.map(|sum| sum.unwrap_or_else(|cause| panic::resume_unwind(cause))).collect()
+    })
 }
 
 #[cfg(test)]
@@ -110,5 +162,21 @@ mod tests {
                 assert_eq!(counter.0.into_inner(), range.end - range.start);
             }
         }
+    }
+
+    #[test]
+    fn every_item_becomes_one_in_their_order() {
+        let squares = map(&(0..1000).collect::<Vec<u64>>(), |n| n * n);
+        assert!(squares.into_iter().eq((0..1000).map(|n| n * n)));
+        assert!(map(&[], |item: &u64| *item).is_empty());
+    }
+
+    #[test]
+    fn new_threads_return_once_each_and_hand_a_panic_on() {
+        let next = AtomicU64::new(0);
+        let mut numbers = on_new_threads(5, || next.fetch_add(1, Ordering::Relaxed));
+        numbers.sort_unstable();
+        assert_eq!(numbers, [0, 1, 2, 3, 4]);
+        assert!(panic::catch_unwind(|| on_new_threads::<()>(2, || panic!("on purpose"))).is_err());
     }
 }

@@ -55,8 +55,7 @@ impl<'a, F: Scalar> Answers<'a, F> {
     pub fn finish(self, source: &Source, audit: &mut Audit) {
         let first = audit.cells.len();
         self.runner.add_to(self.sums, audit);
-        for cell in &mut audit.cells[first..] {
-            self.runner.finish_cell(source, self.examples, cell);
-        }
+        let cells = audit.cells[first..].iter_mut().collect();
+        self.runner.finish_cells(cells, |_| source, self.examples);
     }
 }

@@ -11,7 +11,6 @@ use crate::family::Grouping;
 use crate::judge::{Class, Finding, asked};
 use crate::kernel::Scalar;
 use crate::oracle;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// How often each cause was to blame.
@@ -78,8 +77,8 @@ pub(super) fn causes<F: Scalar>(
     let told = tally.examples.iter().filter(|((_, finding), _)| !finding.is_failure());
     let counted = told.map(|(key, examples)| {
         let places = &examples.first[..examples.first.len().min(most)];
-        let rays = places.par_chunk_by(|a, b| a.index == b.index);
-        (key, rays.map(of_ray).reduce(Causes::default, Causes::merged))
+        let rays = places.chunk_by(|a, b| a.index == b.index);
+        (key, rays.map(of_ray).fold(Causes::default(), Causes::merged))
     });
     if most == 0 { BTreeMap::new() } else { counted.collect() }
 }

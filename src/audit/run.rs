@@ -103,9 +103,8 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
 
 fn finish_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
     let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
-    for cell in audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME) {
-        runner.finish_cell(&plan.sources[cell.source], plan.examples, cell);
-    }
+    let cells = audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME).collect();
+    runner.finish_cells(cells, |number| &plan.sources[number], plan.examples);
 }
 
 impl Audit {
@@ -189,13 +188,26 @@ impl<'a, F: Scalar> Runner<'a, F> {
         }));
     }
 
-    /// Finds the causes of a cell's findings, and keeps as many examples as asked.
-    pub fn finish_cell(&self, source: &Source, examples: usize, cell: &mut Cell) {
-        if let Some(row) = self.rows.each.iter().find(|row| row.number == cell.row) {
-            let contract = &self.rows.contracts[row.contract];
-            cell.causes = causes::causes(source, row, contract, &cell.tally, self.attribute);
+    /// Finds the causes of the cells' findings, and keeps as many examples as asked.
+    pub fn finish_cells<'s>(
+        &self,
+        cells: Vec<&mut Cell>,
+        source: impl Fn(usize) -> &'s Source + Sync,
+        examples: usize,
+    ) {
+        let causes = engine::map(&cells, |cell| self.causes(source(cell.source), cell));
+        for (cell, causes) in cells.into_iter().zip(causes) {
+            cell.causes = causes;
+            cell.tally.keep_examples(examples);
         }
-        cell.tally.keep_examples(examples);
+    }
+
+    fn causes(&self, source: &Source, cell: &Cell) -> BTreeMap<(Class, Finding), Causes> {
+        let row = self.rows.each.iter().find(|row| row.number == cell.row);
+        row.map_or_else(BTreeMap::new, |row| {
+            let contract = &self.rows.contracts[row.contract];
+            causes::causes(source, row, contract, &cell.tally, self.attribute)
+        })
     }
 
     /// What each contract asks on a chunk.

@@ -184,6 +184,7 @@ impl Source {
     }
 
     /// The groups at the edges and at the vertices of a mesh, in some scalars; none of other sources.
+    #[cfg(feature = "studies")]
     pub fn mesh_parts(&self, directions: u64, scalars: [bool; 2]) -> Vec<Source> {
         let Source::Mesh { family, parameters, seed, .. } = self else { return Vec::new() };
         let surface = Arc::new(Surface::new(family.clone(), scalars));

@@ -19,6 +19,8 @@ mod fans;
 mod incidence;
 mod neighbours;
 mod rays;
+#[cfg(feature = "studies")]
+mod recognise;
 mod scene;
 mod surface;
 mod topology;

@@ -16,6 +16,7 @@ pub struct Surface {
 
 impl Surface {
     /// In the chosen scalars.
+    #[cfg(feature = "studies")]
     pub fn new(family: Arc<MeshFamily>, scalars: [bool; 2]) -> Surface {
         let mesh = family.mesh();
         let f32 = scalars[0].then(|| Topology::of::<f32>(mesh));

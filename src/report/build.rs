@@ -10,11 +10,11 @@ use crate::audit::{
 use crate::case::Case;
 use crate::contract::{Boundary, Extent};
 use crate::corpus::hex;
+use crate::engine;
 use crate::family::Grouping;
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, Role, Scalar};
 use hmac_sha256::Hash;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// What a record says beside the sums.
@@ -27,16 +27,17 @@ pub struct Context {
 
 /// Makes the record of a run.
 pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
-    let results = audit.cells.par_iter();
-    let results =
-        results.map(|cell| in_named_scalar!(cell.scalar, F => kernel_result::<F>(plan, cell)));
+    let results = engine::map(
+        &audit.cells,
+        |cell| in_named_scalar!(cell.scalar, F => kernel_result::<F>(plan, cell)),
+    );
     Record {
         schema: SCHEMA.to_owned(),
         result: ResultPart {
             plan: plan_part(plan),
             partial: None,
             sources: audit.sources.iter().map(|summary| source_part(plan, summary)).collect(),
-            results: results.collect(),
+            results,
             totals: distribution::totals(plan, audit),
         },
         shard: None,
@@ -64,15 +65,18 @@ pub(super) fn row_part(row: &Row) -> RowPart {
 pub(super) fn plan_part(plan: &Plan) -> PlanPart {
     let names = [f32::NAME, f64::NAME];
     let scalars = names.iter().zip(plan.scalars).filter(|(_, wanted)| *wanted);
-    PlanPart {
+    let part = PlanPart {
         hash: String::new(),
         rows: plan.rows.iter().map(row_part).collect(),
         sources: plan.sources.iter().map(planned_source).collect(),
         scalars: scalars.map(|(name, _)| (*name).to_owned()).collect(),
-    }
-    .hashed()
+    };
+    #[cfg(feature = "studies")]
+    let part = part.hashed();
+    part
 }
 
+#[cfg(feature = "studies")]
 impl PlanPart {
     /// With the hash of the other fields.
     pub(super) fn hashed(mut self) -> PlanPart {

@@ -15,6 +15,7 @@ pub mod formats;
 #[cfg(feature = "cli")]
 mod illustrate;
 mod illustration;
+#[cfg(feature = "studies")]
 mod json;
 #[cfg(feature = "studies")]
 pub mod mesh;
@@ -22,6 +23,7 @@ mod rate;
 mod record;
 #[cfg(feature = "studies")]
 pub mod scene;
+#[cfg(feature = "studies")]
 mod shard;
 
 #[cfg(feature = "studies")]
@@ -37,10 +39,12 @@ pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ProofPart, ResponsePart};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
+#[cfg(feature = "studies")]
 pub use json::write_json;
 pub(crate) use rate::{interval_of, percent};
 pub use record::*;
-pub use shard::{Mergeable, PartialPart, ShardError, ShardPart, mergeable, merged, shard_part};
+#[cfg(feature = "studies")]
+pub use shard::{Mergeable, ShardError, mergeable, merged, shard_part};
 
 pub(crate) use crate::plot::group_digits;
 /// `3 findings`, `1 finding`.

@@ -4,14 +4,15 @@
 //! number of threads. `provenance` says where and how it was made and is never compared.
 
 mod finding;
+mod part;
 mod plan;
 
 use super::conformance::Conformance;
 use super::illustration::Illustrations;
 pub use super::rate::Rate;
-use super::shard::{PartialPart, ShardPart};
 use crate::audit::Trials;
 pub use finding::*;
+pub use part::*;
 pub use plan::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

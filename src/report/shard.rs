@@ -1,35 +1,11 @@
-//! Parts of a run: what a record of one holds, and how they become the record of the whole.
+//! Parts of a run: what the record of one holds beside its result, and how they become the record of the whole.
 
 use super::build::plan_part;
-use super::{Context, Illustrations, Provenance, Record, build};
-use crate::audit::{
-    self, Audit, MOST_SHARDS, Observer, Plan, Shard, Source, StoredPlan, StoredSource,
-};
+use super::{Context, Illustrations, PartialPart, Provenance, Record, ShardPart, build};
+use crate::audit::{self, Audit, MOST_SHARDS, Observer, Plan, Source, StoredPlan, StoredSource};
 use crate::corpus::hex;
 use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
-
-/// Which parts of a plan a result is of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct PartialPart {
-    /// How many parts there are.
-    pub of: u64,
-    /// Which are in it, counted from 0.
-    pub present: Vec<u64>,
-}
-
-/// What the record of a part holds beside its result, for `merge` of the same version alone.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct ShardPart {
-    /// The plan and the sums, as JSON of no stable form.
-    pub sums: String,
-    /// SHA-256 of them, the first 16 hexadecimal digits.
-    pub digest: String,
-}
 
 #[derive(Serialize, Deserialize)]
 struct Sums {
@@ -46,21 +22,6 @@ pub fn shard_part(plan: &Plan, audit: &Audit) -> ShardPart {
 
 fn digest(sums: &str) -> String {
     hex(&Hash::hash(sums.as_bytes())[..8])
-}
-
-impl PartialPart {
-    /// `shards 0, 2 of 3 only`.
-    pub(super) fn in_words(&self) -> String {
-        let present: Vec<String> = self.present.iter().map(u64::to_string).collect();
-        let noun = if present.len() == 1 { "shard" } else { "shards" };
-        format!("{noun} {} of {} only", present.join(", "), self.of)
-    }
-}
-
-impl From<Shard> for PartialPart {
-    fn from(shard: Shard) -> PartialPart {
-        PartialPart { of: shard.of(), present: vec![shard.index()] }
-    }
 }
 
 /// Why records cannot be merged: which of them, counted from 0, and what is wrong.

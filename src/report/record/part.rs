@@ -1,0 +1,41 @@
+//! What a record of a part of a run says of the others.
+
+use crate::audit::Shard;
+use serde::{Deserialize, Serialize};
+
+/// Which parts of a plan a result is of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PartialPart {
+    /// How many parts there are.
+    pub of: u64,
+    /// Which are in it, counted from 0.
+    pub present: Vec<u64>,
+}
+
+/// What the record of a part holds beside its result, for `merge` of the same version alone.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ShardPart {
+    /// The plan and the sums, as JSON of no stable form.
+    pub sums: String,
+    /// SHA-256 of them, the first 16 hexadecimal digits.
+    pub digest: String,
+}
+
+impl PartialPart {
+    /// `shards 0, 2 of 3 only`.
+    pub(in crate::report) fn in_words(&self) -> String {
+        let present: Vec<String> = self.present.iter().map(u64::to_string).collect();
+        let noun = if present.len() == 1 { "shard" } else { "shards" };
+        format!("{noun} {} of {} only", present.join(", "), self.of)
+    }
+}
+
+impl From<Shard> for PartialPart {
+    fn from(shard: Shard) -> PartialPart {
+        PartialPart { of: shard.of(), present: vec![shard.index()] }
+    }
+}
