@@ -7,7 +7,9 @@
 use crate::arith::Float;
 use crate::case::Case;
 use crate::judge::{Answer, Finding, Obligation, judge, judge_answer};
-use crate::kernel::{Gated, KernelInfo, Subject, TrackedRun, Tunable, Verdict, verdicts_of};
+use crate::kernel::{
+    ExactRun, Gives, KernelInfo, Subject, TrackedRun, Tunable, Verdict, verdicts_of,
+};
 use crate::truth::Truth;
 use std::slice;
 
@@ -61,12 +63,25 @@ pub fn attribute<F: Float>(
     truth: &Truth,
     obligation: Obligation,
 ) -> Option<Attribution> {
+    let exact = || subject.gated()?.run_exact(case, epsilons);
+    attribute_with(subject, case, epsilons, truth, obligation, exact)
+}
+
+/// The same with the run without rounding from elsewhere, which is asked for where it is needed.
+pub(crate) fn attribute_with<F: Float>(
+    subject: &dyn Subject<F>,
+    case: &Case<F>,
+    epsilons: &[F],
+    truth: &Truth,
+    obligation: Obligation,
+    exact: impl FnOnce() -> Option<ExactRun>,
+) -> Option<Attribution> {
     let subject = subject.gated()?;
     let gives = subject.info().gives;
     let right = |answer| judge_answer(obligation, truth, gives, answer).is_none();
     let given = subject.run_tracked(case, epsilons)?;
     let finding = judge(obligation, truth, gives, &given.verdict)?;
-    if right(without_rounding(subject, case, epsilons, &given)?) {
+    if right(without_rounding(gives, &given, exact)?) {
         let raised = match finding {
             Finding::BadValue => given.decision | given.values,
             _ => given.decision,
@@ -79,7 +94,7 @@ pub fn attribute<F: Float>(
     }
     let zeros = vec![F::zero(); epsilons.len()];
     let zero = subject.run_tracked(case, &zeros)?;
-    let answer = without_rounding(subject, case, &zeros, &zero)?;
+    let answer = without_rounding(gives, &zero, || subject.run_exact(case, &zeros))?;
     Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
 }
 
@@ -110,17 +125,16 @@ pub fn attribute_by_running<F: Float>(
 
 /// What the kernel answers where nothing rounds.
 fn without_rounding<F: Float>(
-    subject: &dyn Gated<F>,
-    case: &Case<F>,
-    epsilons: &[F],
+    gives: Gives,
     float: &TrackedRun<F>,
+    exact: impl FnOnce() -> Option<ExactRun>,
 ) -> Option<Answer> {
-    let answer = Answer::of(subject.info().gives, &float.verdict);
+    let answer = Answer::of(gives, &float.verdict);
     let decided = !float.decision.inexact;
     if decided && !(answer.hit && float.values.inexact) {
         return Some(answer);
     }
-    let exact = subject.run_exact(case, epsilons)?;
+    let exact = exact()?;
     if decided {
         return Some(Answer { finite: exact.finite, ..answer });
     }

@@ -39,6 +39,7 @@ pub use crate::engine::{Observer, Unobserved};
 pub(crate) use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
 pub use answers::{Answers, Given};
+pub(crate) use attribution::attribute_with;
 pub use attribution::{Attribution, attribute, attribute_by_running};
 pub use by_finding::ByFinding;
 pub use causes::Causes;

@@ -28,7 +28,7 @@ pub struct TruthArguments {
 
 /// The bytes that one thread decides at once, or a line more.
 const BLOCK: u64 = 1 << 16;
-/// The blocks that are read before they are decided, by all threads.
+/// The blocks of a batch.
 const BLOCKS: usize = 64;
 
 /// Runs the command. A line that is no case ends it with an error; a stored truth is checked.
@@ -39,28 +39,36 @@ pub fn run(arguments: &TruthArguments) -> Result<Status, Failure> {
     let mut bad_input: Option<Failure> = None;
     let (mut lines_before, mut cases) = (0, 0);
     let written = write_result(&arguments.output, |out| {
-        let mut stop = |failure| {
+        let mut stop = |failure: Failure| {
             bad_input = Some(failure);
-            Err(io::Error::other("stopped"))
+            io::Error::other("stopped")
         };
-        loop {
-            let blocks = read_blocks(&mut reader);
-            if blocks.is_empty() {
-                let message = format!("{file}: no cases in it");
-                let failure = || Failure::Message(Status::NothingSelected, message);
-                return if cases > 0 { Ok(()) } else { stop(failure()) };
-            }
-            let decide = |block| decide(block, file, arguments.exact);
-            for decided in blocks.into_par_iter().map(decide).collect::<Vec<_>>() {
-                out.write_all(&decided.truths)?;
-                if let Some(mut error) = decided.error {
-                    error.line = error.line.map(|line| lines_before + line);
-                    return stop(error.into());
+        // While all threads decide one batch, this one writes what they decided before and reads the next.
+        let mut batch = read_batch(&mut reader);
+        let mut before: Vec<Decided> = Vec::new();
+        while !(batch.blocks.is_empty() && before.is_empty()) {
+            let Batch { blocks, is_last } = batch;
+            let mut decided = Vec::new();
+            batch = rayon::in_place_scope(|scope| {
+                let decide = |block| decide(block, file, arguments.exact);
+                let decided = &mut decided;
+                scope.spawn(move |_| blocks.into_par_iter().map(decide).collect_into_vec(decided));
+                for block in before {
+                    out.write_all(&block.truths)?;
+                    if let Some(mut error) = block.error {
+                        error.line = error.line.map(|line| lines_before + line);
+                        return Err(stop(error.into()));
+                    }
+                    lines_before += block.lines;
+                    cases += block.cases;
                 }
-                lines_before += decided.lines;
-                cases += decided.cases;
-            }
+                Ok(if is_last { Batch::default() } else { read_batch(&mut reader) })
+            })?;
+            before = decided;
         }
+        let message = format!("{file}: no cases in it");
+        let failure = Failure::Message(Status::NothingSelected, message);
+        if cases > 0 { Ok(()) } else { Err(stop(failure)) }
     });
     match bad_input {
         Some(failure) => Err(failure),
@@ -74,26 +82,29 @@ struct Block {
     failure: Failing,
 }
 
-/// The next blocks; none at the end.
-fn read_blocks(reader: &mut impl BufRead) -> Vec<Block> {
-    let mut blocks = Vec::new();
-    while blocks.len() < BLOCKS {
+/// The blocks that are decided together; none at the end.
+#[derive(Default)]
+struct Batch {
+    blocks: Vec<Block>,
+    /// Whether nothing more is read: at the end, where reading fails, and where a line is too long.
+    is_last: bool,
+}
+
+fn read_batch(reader: &mut impl BufRead) -> Batch {
+    let mut batch = Batch::default();
+    while batch.blocks.len() < BLOCKS && !batch.is_last {
         // A line more, as a rule; grown step by step it would be copied again and again.
         let mut bytes = Vec::with_capacity(BLOCK as usize + (1 << 12));
         let start = reader.by_ref().take(BLOCK).read_to_end(&mut bytes);
         // The rest of a line, unless it is too long for one.
         let mut rest = || reader.take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut bytes);
         let failure = start.and_then(|_| rest()).err();
-        // At the end, where reading fails, and where a line is too long: that is said before more is read.
-        let is_last = bytes.last() != Some(&b'\n') || failure.is_some();
+        batch.is_last = bytes.last() != Some(&b'\n') || failure.is_some();
         if failure.is_some() || !bytes.is_empty() {
-            blocks.push(Block { bytes, failure: Failing(failure) });
-        }
-        if is_last {
-            break;
+            batch.blocks.push(Block { bytes, failure: Failing(failure) });
         }
     }
-    blocks
+    batch
 }
 
 /// A reader that fails once, if there is an error for it.

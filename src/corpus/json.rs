@@ -133,7 +133,7 @@ fn end_of_first(values: &str) -> usize {
             return values.byte_offset();
         }
     }
-    values.find(',').unwrap_or(values.len())
+    values.bytes().position(|byte| byte == b',').unwrap_or(values.len())
 }
 
 /// The beginning of an input, on one line.

@@ -28,7 +28,7 @@ pub use domain::Domain;
 pub use moves::mutate;
 pub use objective::{Objective, Scorer, Target};
 pub(crate) use objective::{scale, verdict_and_finding};
-pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored};
+pub use shrink::{KEPT_SHARE, Shrunk, shrink, shrink_finding, shrink_scored, shrink_within};
 pub use signature::Signature;
 pub use simplify::{Change, SIMPLIFICATIONS, ScaleBy, Simplification, Size};
 pub use snippet::{c_snippet, rust_snippet};

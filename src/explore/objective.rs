@@ -271,13 +271,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
 }
 
 /// The first gate that refuses in exact arithmetic; none if the formula without rounding hits.
-pub(crate) fn exactly_refusing<F: Scalar>(
-    row: &Row,
-    epsilons: &[F],
-    case: &Case<F>,
-) -> Option<usize> {
-    let run = F::subject(row.entry)?.gated()?.run_exact(case, epsilons)?;
-    run.passed.iter().position(|passes| !passes)
+fn exactly_refusing<F: Scalar>(row: &Row, epsilons: &[F], case: &Case<F>) -> Option<usize> {
+    F::subject(row.entry)?.gated()?.run_exact(case, epsilons)?.refused_by()
 }
 
 /// The truth, the kernel's verdict, and what `judge` makes of the two. Cases are judged one by one:

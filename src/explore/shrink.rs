@@ -39,17 +39,25 @@ pub struct Shrunk<F: Float> {
 /// assert!(coordinates.iter().flatten().all(|x| x.fract() == 0.0 && x.abs() <= 3.0));
 /// ```
 pub fn shrink<F: Float>(case: &Case<F>, keeps: impl Fn(&Case<F>) -> bool) -> Shrunk<F> {
+    shrink_within(case, usize::MAX, keeps)
+}
+
+/// The same, but what was found when so many cases were tried.
+pub fn shrink_within<F: Float>(
+    case: &Case<F>,
+    most: usize,
+    keeps: impl Fn(&Case<F>) -> bool,
+) -> Shrunk<F> {
     let steps = Simplification::all();
     let (mut shrunk, mut size) = (Shrunk { case: *case, steps: 0, tried: 0 }, Size::of(case));
     // A place in the list of steps, and how many in a row led nowhere.
     let (mut next, mut idle) = (0, 0);
-    while idle < steps.len() {
+    while idle < steps.len() && shrunk.tried < most {
         let candidate = steps[next].apply(&shrunk.case);
-        let candidate_size = Size::of(&candidate);
-        let simpler = candidate_size < size;
-        shrunk.tried += usize::from(simpler);
-        if simpler && keeps(&candidate) {
-            (shrunk.case, size) = (candidate, candidate_size);
+        let simpler = Size::below(&candidate, &size);
+        shrunk.tried += usize::from(simpler.is_some());
+        if let Some(simpler) = simpler.filter(|_| keeps(&candidate)) {
+            (shrunk.case, size) = (candidate, simpler);
             shrunk.steps += 1;
             idle = 0;
         } else {

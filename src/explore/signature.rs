@@ -1,10 +1,10 @@
 //! What makes two findings the same kind.
 
-use super::objective::{exactly_refusing, verdict_and_finding};
-use crate::audit::{Attribution, Row, attribute};
+use super::objective::verdict_and_finding;
+use crate::audit::{Attribution, Row, attribute_with};
 use crate::case::Case;
 use crate::judge::{Class, Finding, asked};
-use crate::kernel::Scalar;
+use crate::kernel::{ExactRun, Scalar};
 use std::fmt;
 
 /// The kind of a finding: a reader needs to see only one of the findings with the same signature.
@@ -36,7 +36,9 @@ impl Signature {
         let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);
         let finding = finding?;
         let name = |gate: usize| row.entry.info.gates[gate].name;
-        let (subject, asked) = (F::subject(row.entry), asked(case, &truth, &row.contract, false));
+        let asked = asked(case, &truth, &row.contract, false);
+        let subject = F::subject(row.entry);
+        let exact = subject.and_then(|subject| subject.gated()?.run_exact(case, &epsilons));
         Some(Signature {
             kernel: row.entry.info.name,
             scalar: F::NAME,
@@ -44,9 +46,10 @@ impl Signature {
             finding,
             class: Class::of(&truth),
             gate: verdict.refused_by.map(usize::from).map(name),
-            exactly: exactly_refusing(row, &epsilons, case).map(name),
-            attribution: subject
-                .and_then(|subject| attribute(subject, case, &epsilons, &truth, asked)),
+            exactly: exact.as_ref().and_then(ExactRun::refused_by).map(name),
+            attribution: subject.and_then(|subject| {
+                attribute_with(subject, case, &epsilons, &truth, asked, || exact)
+            }),
         })
     }
 

@@ -2,8 +2,8 @@
 
 use crate::arith::{Float, Vector, decompose, scale_by_power_of_two};
 use crate::case::{Case, Ray, Triangle};
+use std::array;
 use std::cmp::Reverse;
-use std::collections::BTreeSet;
 
 /// How simple a case is; smaller is simpler. A total order on cases:
 /// 1. the bits that its seventeen numbers need: of ±m·2^e with m odd, those of m, those of |e|, and
@@ -26,20 +26,34 @@ impl Size {
     /// Of a case.
     pub fn of<F: Float>(case: &Case<F>) -> Size {
         let coordinates = case.vectors();
-        let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-        let far = if t_max == F::infinity() { 0 } else { 1 + number_bits(t_max) };
-        let bits = coordinates.iter().flatten().map(|x| number_bits(*x)).sum::<u32>();
-        let ends = [t_min, t_max];
-        let all = coordinates.iter().flatten().chain(&ends);
-        let values: BTreeSet<u64> = all.map(|x| x.abs().to_bits()).collect();
+        let ends = [case.ray.t_min, case.ray.t_max];
+        let mut all = coordinates.iter().flatten().chain(&ends);
+        let mut values: [u64; 17] = array::from_fn(|_| all.next().map_or(0, |x| x.abs().to_bits()));
+        values.sort_unstable();
         let parts = coordinates.iter().flatten().chain(&ends).filter_map(|x| odd_and_exponent(*x));
         Size {
-            bits: bits + number_bits(t_min) + far,
-            values: values.len(),
+            bits: bits(case),
+            values: values.chunk_by(u64::eq).count(),
             exponents: parts.map(|(_, exponent)| exponent.unsigned_abs()).sum(),
             patterns: case.bits(),
         }
     }
+
+    /// Of a case that is simpler than another.
+    pub fn below<F: Float>(case: &Case<F>, other: &Size) -> Option<Size> {
+        // The bits decide most, and are the quickest to count.
+        (bits(case) <= other.bits).then(|| Size::of(case)).filter(|size| size < other)
+    }
+}
+
+/// The bits that a case's numbers need.
+fn bits<F: Float>(case: &Case<F>) -> u32 {
+    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
+    let far = if t_max == F::infinity() { 0 } else { 1 + number_bits(t_max) };
+    let coordinates = case.vectors();
+    coordinates.as_flattened().iter().map(|x| number_bits(*x)).sum::<u32>()
+        + number_bits(t_min)
+        + far
 }
 
 /// The bits that a number needs; more than any finite number for an infinity and a NaN.

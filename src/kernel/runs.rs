@@ -27,6 +27,11 @@ pub struct ExactRun {
 }
 
 impl ExactRun {
+    /// The first gate that refuses; none if it hits.
+    pub fn refused_by(&self) -> Option<usize> {
+        self.passed.iter().position(|passes| !passes)
+    }
+
     /// Whether it is a hit.
     pub fn hit(&self) -> bool {
         self.passed.iter().all(|passes| *passes)

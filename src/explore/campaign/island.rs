@@ -8,7 +8,7 @@ use crate::arith::Float;
 use crate::audit::{Row, RowSpec};
 use crate::case::{Case, Draw, Parameters};
 use crate::corpus::lines::AnyCase;
-use crate::explore::{Signature, family_case, mutate, shrink};
+use crate::explore::{Signature, family_case, mutate, shrink_within};
 use crate::kernel::Scalar;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -158,12 +158,7 @@ impl<F: Scalar> Newcomer<F> {
     pub fn into_find(self, seed: u64, evaluations: u64) -> Find {
         let Newcomer { individual: Individual { case, row }, kind } = self;
         let signature = Signature { epsilons: row.epsilon_argument(), ..kind };
-        let tried = std::cell::Cell::new(0);
-        let keeps = |case: &Case<F>| {
-            tried.set(tried.get() + 1);
-            tried.get() <= EFFORT && signature.is_shown(&row, case)
-        };
-        let case = shrink(&case, keeps).case;
+        let case = shrink_within(&case, EFFORT, |case| signature.is_shown(&row, case)).case;
         Find {
             case: AnyCase::from(case),
             row: Row::clone(&row),
