@@ -1,4 +1,4 @@
-//! Parts of a run: what the record of one holds beside its result, and how they become the record of the whole.
+//! How the records of a run's parts become the record of the whole.
 
 use super::build::plan_part;
 use super::{Context, Illustrations, PartialPart, Provenance, Record, ShardPart, build};

@@ -1,4 +1,4 @@
-//! What a record of a part of a run says of the others.
+//! Of a run in parts: which parts a record is of, and what merging needs beside its result.
 
 use crate::audit::Shard;
 use serde::{Deserialize, Serialize};
