@@ -4,6 +4,7 @@
 use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::order::{follows, unsigned};
+use super::run::cone;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
@@ -34,8 +35,37 @@ pub struct Lemma {
     pub formula: Formula,
     /// What its corners say.
     pub maximum: Maximum,
+    /// Another formula, where the first one supposes one of two things of which one is true.
+    pub or: Option<(Formula, Maximum)>,
     /// What follows for the number.
     pub bound: Bound,
+}
+
+impl Bound {
+    /// Where one of both holds.
+    fn or(self, other: Bound) -> Bound {
+        Bound {
+            size: self.size.max(other.size),
+            computed: self.computed.max(other.computed),
+            error: self.error.max(other.error),
+        }
+    }
+}
+
+impl Lemma {
+    /// The variables of its formulas.
+    pub fn sources(&self) -> impl Iterator<Item = &Source> {
+        let or = self.or.iter().flat_map(|(formula, _)| &formula.sources);
+        self.formula.sources.iter().chain(or)
+    }
+}
+
+/// What holds for the last step of a formula.
+fn bound_of_sum(formula: &Formula, maximum: &Maximum) -> Bound {
+    let Bound { size, computed, .. } = formula.bounds[formula.bounds.len() - 1];
+    let size = size.round_up(SIZE_DIGITS);
+    let error = round_up(&maximum.error(), DIGITS);
+    Bound { size, computed: computed.min(size.plus_up(error)), error }
 }
 
 /// How a lemma's bound follows from its formula.
@@ -69,6 +99,8 @@ pub struct Prover<'a> {
     pub(super) domain: Domain,
     pub(super) format: Format,
     bounds: HashMap<Place, Result<Bound, String>>,
+    /// Of each number, whether its conditions count; none if all do.
+    counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.
     pub lemmas: Vec<Lemma>,
 }
@@ -76,7 +108,23 @@ pub struct Prover<'a> {
 impl<'a> Prover<'a> {
     /// Nothing is proved yet.
     pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
-        Prover { path, domain, format, bounds: HashMap::new(), lemmas: Vec::new() }
+        Prover { path, domain, format, bounds: HashMap::new(), counts: None, lemmas: Vec::new() }
+    }
+
+    /// From here on proofs are of this number and what it is made from: they suppose nothing of other quotients of
+    /// the path.
+    pub fn limit_to(&mut self, place: Place) {
+        let (_, needed) = cone(&self.path.operations, place);
+        self.counts = Some(needed.iter().map(Option::is_some).collect());
+        if self.has_ratios() {
+            self.bounds.clear();
+            self.lemmas.clear();
+        }
+    }
+
+    /// Whether proofs may suppose something of a number.
+    pub(super) fn counts(&self, place: usize) -> bool {
+        self.counts.as_ref().is_none_or(|counts| counts[place])
     }
 
     pub(super) fn operation(&self, place: Place) -> Operation {
@@ -98,6 +146,7 @@ impl<'a> Prover<'a> {
 
     fn prove(&mut self, place: Place) -> Result<Bound, String> {
         let (rule, formula, maximum, bound);
+        let mut or = None;
         if let Some((vector, length)) = self.unit(place) {
             rule = Rule::Unit { vector, length };
             (formula, maximum, bound) =
@@ -109,16 +158,23 @@ impl<'a> Prover<'a> {
             return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
             rule = Rule::Sum;
-            (formula, maximum) = self.formula(place)?;
-            let Bound { size, computed, .. } = formula.bounds[formula.bounds.len() - 1];
-            let size = size.round_up(SIZE_DIGITS);
-            let error = round_up(&maximum.error(), DIGITS);
-            bound = Bound { size, computed: computed.min(size.plus_up(error)), error };
+            let same_sign;
+            (formula, maximum, same_sign) = self.formula(place, None)?;
+            let first = bound_of_sum(&formula, &maximum);
+            bound = match same_sign {
+                None => first,
+                Some(same_sign) => {
+                    let (formula, maximum, _) = self.formula(place, Some(same_sign.or()))?;
+                    let second = bound_of_sum(&formula, &maximum);
+                    or = Some((formula, maximum));
+                    first.or(second)
+                }
+            };
         }
         if [bound.error, bound.size, bound.computed].iter().any(|x| !x.is_number()) {
             return Err("its bound needs more digits than there are".to_owned());
         }
-        self.lemmas.push(Lemma { place, rule, formula, maximum, bound: bound.clone() });
+        self.lemmas.push(Lemma { place, rule, formula, maximum, or, bound: bound.clone() });
         Ok(bound)
     }
 
@@ -166,10 +222,10 @@ impl<'a> Prover<'a> {
     /// The numbers whose lemmas a lemma uses.
     fn needs(&self, lemma: &Lemma) -> Vec<Place> {
         let cut = |source: &Source| match source {
-            Source::Cut(place) | Source::Part(place) => Some(*place),
+            Source::Cut(place) | Source::Part(place) | Source::Third(_, place) => Some(*place),
             _ => None,
         };
-        let mut needs: Vec<Place> = lemma.formula.sources.iter().filter_map(cut).collect();
+        let mut needs: Vec<Place> = lemma.sources().filter_map(cut).collect();
         match lemma.rule {
             Rule::Sum => {}
             Rule::Unit { vector, .. } => needs.extend(vector),

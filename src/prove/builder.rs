@@ -3,16 +3,25 @@
 use super::bound::{Bound, Prover};
 use super::forms::{Forms, Leaf};
 use super::formula::{Formula, Maximum, Source, Step};
+use super::rows::SameSign;
 use super::{Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use std::collections::{HashMap, HashSet};
 
 impl Prover<'_> {
-    /// The formula of a number, and what its corners say.
-    pub(super) fn formula(&mut self, place: Place) -> Result<(Formula, Maximum), String> {
+    /// The formula of a number, and what its corners say. It may suppose that two edges are of the same sign along
+    /// an axis: as given, or as found.
+    pub(super) fn formula(
+        &mut self,
+        place: Place,
+        given: Option<SameSign>,
+    ) -> Result<(Formula, Maximum, Option<SameSign>), String> {
         let mut builder = Builder::new(self);
+        builder.same_sign = given;
+        builder.may_suppose = true;
         builder.expand(place)?;
-        builder.finish()
+        let same_sign = builder.same_sign;
+        builder.finish().map(|(formula, maximum)| (formula, maximum, same_sign))
     }
 
     /// numerator - quotient * divisor, the quotient of this size; no numerator is one. And of which of both the
@@ -22,6 +31,7 @@ impl Prover<'_> {
         numerator: Option<Place>,
         divisor: Place,
         size: Dyadic,
+        floor: Dyadic,
     ) -> Result<(Formula, Maximum, [bool; 2]), String> {
         let mut builder = Builder::new(self);
         let n = match numerator {
@@ -33,6 +43,7 @@ impl Prover<'_> {
         let product = builder.push(Step::Mul(q, d), None);
         builder.push(Step::Sub(n, product), None);
         let left_out = [n, d].map(|step| builder.leave_out(step));
+        builder.narrow(divisor, floor);
         builder.finish().map(|(formula, maximum)| (formula, maximum, left_out))
     }
 }
@@ -44,6 +55,9 @@ struct Builder<'p, 'a> {
     supports: Vec<u64>,
     steps: HashMap<Place, usize>,
     forms: Forms,
+    /// What it supposes of two edges, and whether it may.
+    same_sign: Option<SameSign>,
+    may_suppose: bool,
 }
 
 impl<'p, 'a> Builder<'p, 'a> {
@@ -54,6 +68,8 @@ impl<'p, 'a> Builder<'p, 'a> {
             supports: Vec::new(),
             steps: HashMap::new(),
             forms: Forms::default(),
+            same_sign: None,
+            may_suppose: false,
         }
     }
 
@@ -77,6 +93,17 @@ impl<'p, 'a> Builder<'p, 'a> {
         rounds[step] = false;
         given[step].iter_mut().for_each(|bound| bound.error = Dyadic::ZERO);
         true
+    }
+
+    /// Notes which variables the path divides by the divisor too.
+    fn narrow(&mut self, divisor: Place, floor: Dyadic) {
+        let Formula { sources, variables, narrow, .. } = &mut self.formula;
+        let largest = floor * self.prover.domain.quotient;
+        for (v, source) in sources.iter().enumerate() {
+            let Source::Leaf(leaf) = *source else { continue };
+            let found = self.prover.ratio(leaf, divisor);
+            narrow.extend(found.map(|ratio| (v, ratio, largest.min(variables[v]))));
+        }
     }
 
     /// Coordinates of a unit vector are variables like others, unless the formula is linear in one such vector.
@@ -135,11 +162,36 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// A number that is a variable here; its lemma says the rest.
     fn cut(&mut self, place: Place) -> Result<usize, String> {
         let bound = self.prover.bound(place)?;
+        if let Some(step) = self.cut_by_third(place, &bound) {
+            return Ok(step);
+        }
         let is_part = self.prover.unit(place).is_some();
         let source = if is_part { Source::Part(place) } else { Source::Cut(place) };
         let step = self.variable(source, bound);
         self.formula.places[step] = Some(place);
         Ok(step)
+    }
+
+    /// A quotient as the sum of another one that is a variable here already, or its negative, and one of the third
+    /// edge, if the edges are of the same sign.
+    fn cut_by_third(&mut self, place: Place, bound: &Bound) -> Option<usize> {
+        let sources = &self.formula.sources;
+        let mut found = (0..sources.len()).filter(|_| self.may_suppose).filter_map(|v| {
+            let Source::Cut(known) = sources[v] else { return None };
+            let (same_sign, sign) = self.prover.third(known, place)?;
+            Some((v, known, same_sign, sign))
+        });
+        let (v, known, same_sign, sign) = found.next()?;
+        if *self.same_sign.get_or_insert(same_sign) != same_sign {
+            return None;
+        }
+        let size = self.formula.variables[v].max(bound.size);
+        self.formula.variables.push(size);
+        self.formula.sources.push(Source::Third(known, place));
+        let sum = vec![(self.formula.variables.len() - 1, 1), (v, sign)];
+        let step = self.push(Step::Variables(sum), Some(bound.clone()));
+        self.formula.places[step] = Some(place);
+        Some(step)
     }
 
     fn leaf(&mut self, leaf: Leaf) -> usize {

@@ -3,7 +3,7 @@
 //! The format is described in docs/guide/proof.md.
 
 use super::forms::Leaf;
-use super::formula::{Formula, Source, Step};
+use super::formula::{Formula, Maximum, Source, Step};
 use super::{Domain, Dyadic, Format, Lemma, Rule};
 use crate::arith::recorded::{Comparison, Operation};
 use crate::kernel::Path;
@@ -102,7 +102,20 @@ fn lemma_text(lemma: &Lemma) -> String {
         Rule::Unit { .. } => "unit".to_owned(),
     };
     let mut text = format!("lemma {} {rule}\n", lemma.place);
-    for source in &lemma.formula.sources {
+    text.push_str(&formula_text(&lemma.formula, &lemma.maximum));
+    if let Some((formula, maximum)) = &lemma.or {
+        text.push_str("or\n");
+        text.push_str(&formula_text(formula, maximum));
+    }
+    let bound = &lemma.bound;
+    writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
+        .expect("a string");
+    text
+}
+
+fn formula_text(formula: &Formula, maximum: &Maximum) -> String {
+    let mut text = String::new();
+    for (v, source) in formula.sources.iter().enumerate() {
         let source = match *source {
             Source::Leaf(Leaf::Point(p, axis)) => format!("point {p} {axis}"),
             Source::Leaf(Leaf::Difference(p, q, axis)) => format!("difference {p} {q} {axis}"),
@@ -110,27 +123,27 @@ fn lemma_text(lemma: &Lemma) -> String {
             Source::Leaf(Leaf::End(end)) => format!("end {end}"),
             Source::Cut(place) => format!("cut {place}"),
             Source::Part(place) => format!("part {place}"),
+            Source::Third(p, q) => format!("third {p} {q}"),
             Source::Quotient => "quotient".to_owned(),
         };
-        writeln!(text, "variable {source}").expect("a string");
+        let narrow = formula.narrow.iter().find(|(narrow, ..)| *narrow == v);
+        let over = narrow.map_or(String::new(), |(_, ratio, _)| format!(" over {ratio}"));
+        writeln!(text, "variable {source}{over}").expect("a string");
     }
-    for (i, step) in lemma.formula.steps.iter().enumerate() {
-        writeln!(text, "step {}", step_text(&lemma.formula, i, step)).expect("a string");
+    for (i, step) in formula.steps.iter().enumerate() {
+        writeln!(text, "step {}", step_text(formula, i, step)).expect("a string");
     }
-    let relative = lemma.formula.relative.iter().enumerate().filter(|(_, yes)| **yes);
+    let relative = formula.relative.iter().enumerate().filter(|(_, yes)| **yes);
     let relative: Vec<String> = relative.map(|(i, _)| i.to_string()).collect();
     if !relative.is_empty() {
         writeln!(text, "relative {}", relative.join(" ")).expect("a string");
     }
-    if !lemma.formula.steps.is_empty() {
-        let corner = lemma.maximum.corner.iter().map(|minus| if *minus { '-' } else { '+' });
+    if !formula.steps.is_empty() {
+        let corner = maximum.corner.iter().map(|minus| if *minus { '-' } else { '+' });
         writeln!(text, "corner {}", corner.collect::<String>()).expect("a string");
-        writeln!(text, "first {}", lemma.maximum.first).expect("a string");
-        writeln!(text, "rest {}", lemma.maximum.rest).expect("a string");
+        writeln!(text, "first {}", maximum.first).expect("a string");
+        writeln!(text, "rest {}", maximum.rest).expect("a string");
     }
-    let bound = &lemma.bound;
-    writeln!(text, "size {}\ncomputed {}\nerror {}", bound.size, bound.computed, bound.error)
-        .expect("a string");
     text
 }
 

@@ -36,11 +36,19 @@ impl Formula {
             return Err(too_long());
         }
         self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
-        let (first, at) = if self.unit.is_empty() {
-            self.first_in_box(format)
+        let (mut first, mut at) = if self.unit.is_empty() {
+            self.first_in_box(format, count <= MOST_TO_CHOOSE)
         } else {
             self.first_of_unit(format).ok_or_else(too_long)?
         };
+        let in_narrow_box = self.first_in_narrow_box(format);
+        match in_narrow_box.filter(|(smaller, _)| *smaller < first) {
+            Some(found) => {
+                (first, at) = found;
+                self.relative.fill(false);
+            }
+            None => self.narrow.clear(),
+        }
         let corner = (0..count).map(|v| at >> v & 1 == 1).collect();
         let rest = self.higher_order(format, &self.relative, None).0;
         if first.is_number() && rest.is_number() {
@@ -51,12 +59,12 @@ impl Formula {
     }
 
     /// The largest first order, and the first corner that has it.
-    fn first_in_box(&mut self, format: Format) -> (Dyadic, u64) {
+    fn first_in_box(&mut self, format: Format, may_choose: bool) -> (Dyadic, u64) {
         let count = self.variables.len();
         let mut values = vec![Dyadic::ZERO; self.steps.len()];
         let mut slopes = values.clone();
         let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
-        let choosing = count <= MOST_TO_CHOOSE && choices.len() > 1;
+        let choosing = may_choose && choices.len() > 1;
         // By corner, what the steps that round contribute either way; and what the others contribute.
         let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
         let mut others = Vec::new();
@@ -104,6 +112,63 @@ impl Formula {
             }
         }
         (first, at)
+    }
+
+    /// The same where the effects of errors are shares of a divisor; none if they cannot be.
+    fn first_in_narrow_box(&mut self, format: Format) -> Option<(Dyadic, u64)> {
+        if self.narrow.is_empty() || !self.unit.is_empty() || !self.is_fit_to_narrow() {
+            return None;
+        }
+        let variables = self.variables.clone();
+        for (v, _, size) in &self.narrow {
+            self.variables[*v] = *size;
+        }
+        let found = self.first_in_box(format, false);
+        self.variables = variables;
+        Some(found)
+    }
+
+    /// Whether every slope of a step with an error is of at most first degree in the narrow variables together.
+    fn is_fit_to_narrow(&self) -> bool {
+        let is_narrow = |v: usize| usize::from(self.narrow.iter().any(|(other, ..)| *other == v));
+        let mut degrees: Vec<usize> = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            let of = |i: usize| degrees[i];
+            degrees.push(match *step {
+                Step::Variables(ref sum) => {
+                    sum.iter().map(|(v, _)| is_narrow(*v)).max().unwrap_or(0)
+                }
+                Step::Number(_) => 0,
+                Step::Neg(a) => of(a),
+                Step::Add(a, b) | Step::Sub(a, b) => of(a).max(of(b)),
+                Step::Mul(a, b) => of(a) + of(b),
+                Step::Fma(a, b, c) => (of(a) + of(b)).max(of(c)),
+                Step::Minor(a, b, c, d) => (of(a) + of(b)).max(of(c) + of(d)),
+            });
+        }
+        let mut slopes = vec![0; self.steps.len()];
+        for (i, step) in self.steps.iter().enumerate().rev() {
+            let own = slopes[i];
+            let mut raise = |to: usize, by: usize| slopes[to] = slopes[to].max(own + by);
+            match *step {
+                Step::Variables(_) | Step::Number(_) => {}
+                Step::Neg(a) => raise(a, 0),
+                Step::Add(a, b) | Step::Sub(a, b) => [a, b].into_iter().for_each(|to| raise(to, 0)),
+                Step::Mul(a, b) => {
+                    [(a, b), (b, a)].into_iter().for_each(|(to, by)| raise(to, degrees[by]))
+                }
+                Step::Fma(a, b, c) => {
+                    [(a, degrees[b]), (b, degrees[a]), (c, 0)]
+                        .into_iter()
+                        .for_each(|(to, by)| raise(to, by));
+                }
+                Step::Minor(a, b, c, d) => {
+                    let pairs = [(a, b), (b, a), (c, d), (d, c)];
+                    pairs.into_iter().for_each(|(to, by)| raise(to, degrees[by]));
+                }
+            }
+        }
+        (0..slopes.len()).all(|i| slopes[i] < 2 || self.bounds[i].error.is_zero())
     }
 
     /// The same of a formula that is linear in a unit vector; none if a number is too long.

@@ -59,6 +59,9 @@ pub struct Formula {
     pub sources: Vec<Source>,
     /// The variables that are coordinates of one unit vector in which the formula is linear, if it has one.
     pub unit: Vec<usize>,
+    /// In the lemma of a quotient, the variables that the path divides by its divisor too: where, and the box that
+    /// is enough for the effects of errors.
+    pub narrow: Vec<(usize, Place, Dyadic)>,
     /// What follows for each step: its exact size, its computed size, and h, its largest error of its own.
     pub bounds: Vec<Bound>,
 }
@@ -72,6 +75,8 @@ pub enum Source {
     Cut(Place),
     /// The same of a coordinate of a unit vector in which the formula is linear.
     Part(Place),
+    /// What is added to the first quotient, or its negative, to make the second one: a quotient of the third edge.
+    Third(Place, Place),
     /// The quotient that a lemma is about.
     Quotient,
 }

@@ -65,13 +65,13 @@ impl Quantity {
         let mut uses = Uses::default();
         for lemma in &self.lemmas {
             uses.floor |= lemma.rule != Rule::Sum;
-            for source in &lemma.formula.sources {
+            for source in lemma.sources() {
                 match source {
                     Source::Leaf(Leaf::Point(..)) => uses.world = true,
                     Source::Leaf(Leaf::Difference(0, ..) | Leaf::Difference(_, 0, _)) => {
                         uses.reach = true;
                     }
-                    Source::Leaf(Leaf::Difference(..)) => uses.edge = true,
+                    Source::Leaf(Leaf::Difference(..)) | Source::Third(..) => uses.edge = true,
                     Source::Leaf(Leaf::End(_)) => uses.extent = true,
                     _ => {}
                 }
@@ -129,6 +129,7 @@ pub fn each_quantity(
                 let place = unsigned(path, *place);
                 let program = canonical(&prover, path, place);
                 if program.len() > 2 && seen.insert((compared.gate, program)) {
+                    prover.limit_to(place);
                     visit(index, compared, place, &mut prover);
                 }
             }

@@ -19,6 +19,7 @@ mod gates;
 mod order;
 mod permanent;
 mod quotient;
+mod rows;
 mod run;
 mod scene;
 mod sizes;

@@ -57,7 +57,8 @@ impl Prover<'_> {
             None => limit,
         };
         let size = round_up(&size, SIZE_DIGITS);
-        let (formula, maximum, left_out) = self.formula_of_quotient(numerator, divisor, size)?;
+        let (formula, maximum, left_out) =
+            self.formula_of_quotient(numerator, divisor, size, floor)?;
         // The quotient of the numbers before their last roundings against the exact one, then these roundings,
         // then those of the division.
         let [_, of_divisor] = left_out;

@@ -38,6 +38,19 @@ fn quantities<F: Scalar>(kernel: &str, scalar: &str) -> String {
     certificate_of(&path, scalar, Domain::UNIT, &places)
 }
 
+/// The quotients of the edges ab and ac by one area, two along one axis and two along another.
+fn rows_of(path: &Path) -> [u32; 4] {
+    let text = certificate::program(path, &[], &[]);
+    let operations = text.lines().filter_map(|line| line.strip_prefix("op "));
+    let quotients = operations.filter(|line| line.split(' ').nth(1) == Some("div"));
+    let of = |i: usize| -> u32 {
+        let line = quotients.clone().nth(i).unwrap();
+        line.split(' ').next().unwrap().parse().unwrap()
+    };
+    // Each row is divided one coefficient after the other, and the last ones are no edges.
+    [of(0), of(3), of(1), of(4)]
+}
+
 /// Short certificates with every rule in them, and the domain's names that do not matter to each.
 fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     let first = |text: &str, word: &str, count: usize| -> Vec<u32> {
@@ -59,6 +72,16 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
     // Quotients of differences that are sums of variables.
     let baldwin = path::<f32>("baldwin-weber");
     let baldwin_places = first(&program(&baldwin), "div", 6);
+    // Two of them along one axis, whose sum is a quotient of the third edge; beside that, the other axis.
+    let mut rows = baldwin.clone();
+    let [p, q, r, s] = rows_of(&baldwin);
+    let last = rows.operations.len() as u32;
+    rows.operations.extend([
+        Operation::Add(p, q),
+        Operation::Add(r, s),
+        Operation::Add(last, last + 1),
+    ]);
+    let rows_places = [last + 2];
     // So low that the order of the direction's coordinates is needed.
     let low = Domain { floor: Dyadic::power(-8), quotient: Dyadic::power(2), ..Domain::UNIT };
     vec![
@@ -81,6 +104,11 @@ fn samples() -> Vec<(&'static str, String, &'static [&'static str])> {
             "baldwin",
             certificate_of(&baldwin, "f32", Domain::UNIT, &baldwin_places),
             &["reach", "direction", "extent", "direction-floor"],
+        ),
+        (
+            "rows",
+            certificate_of(&rows, "f32", Domain::UNIT, &rows_places),
+            &["reach", "world", "direction", "extent", "direction-floor"],
         ),
     ]
 }
@@ -488,4 +516,64 @@ fn parts_are_coordinates_of_one_unit_vector_in_which_the_formula_is_linear() {
     let without =
         "lemma 17 sum\nvariable difference 2 1 0\nvariable part 40\nstep 17 variables +0\n";
     refused(&[("claim ", &format!("{without}claim "))], "found a last step without a part");
+}
+
+#[test]
+fn a_third_edge_needs_both_alternatives_and_an_area() {
+    let text = sample("rows");
+    check(&text).unwrap();
+    let (start, rest) = text.rsplit_once("\nlemma ").unwrap();
+    let (first, second) = rest.split_once("or\n").unwrap();
+    let (_, first_formula) = first.split_once('\n').unwrap();
+    let tail = &second[second.find("size ").unwrap()..];
+    // The same alternative twice.
+    let twice = format!("{start}\nlemma {first}or\n{first_formula}{tail}");
+    assert!(refusal(&twice).contains("expected it along the other one"), "{}", refusal(&twice));
+    let alone = format!("{start}\nlemma {first}{tail}");
+    assert!(refusal(&alone).contains("expected `or`"), "{}", refusal(&alone));
+    // An area of other edges, or none: a sum of two products.
+    let area = text.lines().find(|line| line.starts_with("op 31 sub ")).unwrap();
+    let sum = text.replacen(area, &area.replacen("sub", "add", 1), 1);
+    assert!(check(&sum).is_err());
+    // Edges and quotients whose product is not below 1.
+    let wide = text.replacen("domain edge 1023*2^-10", "domain edge 1", 1);
+    assert!(check(&wide).is_err());
+}
+
+/// (b-a)·(b-a)'·(b-a)'' over a coordinate of the direction, along three axes, and each of them over it.
+#[test]
+fn an_error_whose_effect_is_no_share_of_the_divisor_is_refused() {
+    use Operation::{Div, Input, Mul, Sub};
+    let mut operations: Vec<Operation> = [3, 6, 7, 8, 9, 10, 11].map(Input).to_vec();
+    operations.extend([Sub(4, 1), Sub(5, 2), Sub(6, 3), Mul(7, 8), Mul(10, 9), Div(11, 0)]);
+    operations.extend([Div(7, 0), Div(8, 0), Div(9, 0)]);
+    let path = Path { operations, decisions: vec![], compared: vec![] };
+    let text = certificate_of(&path, "f32", Domain::UNIT, &[0, 7, 8, 9, 12]);
+    check(&text).unwrap();
+    assert!(!text.contains(" over "), "{text}");
+    // The second product's first factor is linear in two of them.
+    let (start, end) = text.rsplit_once("\nlemma 12 ").unwrap();
+    let narrow = |axes: &[usize]| {
+        let mut end = end.to_owned();
+        for axis in axes {
+            let line = format!("variable difference 2 1 {axis}");
+            assert!(end.contains(&line), "{text}");
+            end = end.replacen(&line, &format!("{line} over {}", 13 + axis), 1);
+        }
+        let lines = end.lines().filter(|line| !line.starts_with("relative"));
+        refusal(&format!("{start}\nlemma 12 {}", lines.collect::<Vec<_>>().join("\n")))
+    };
+    assert!(narrow(&[0, 1, 2]).contains("no share of the divisor"), "{}", narrow(&[0, 1, 2]));
+    let one = narrow(&[0]);
+    assert!(!one.contains("share"), "{one}");
+    // Another number over the divisor.
+    let wrong = format!(
+        "{start}\nlemma 12 {}",
+        end.replacen("variable difference 2 1 0", "variable difference 2 1 0 over 14", 1)
+    );
+    assert!(
+        refusal(&wrong).contains("expected the variable over the divisor"),
+        "{}",
+        refusal(&wrong)
+    );
 }

@@ -1,18 +1,15 @@
-//! The formula of a lemma: variables, steps, and what their rounding errors add up to.
+//! The formula of a lemma: its variables and steps.
 
-use super::corners::{Row, search};
-use super::number::{
-    Bound, ERROR_DIGITS, F32, F64, Format, Number, SIZE_DIGITS, power, root_up, round_up, split,
-};
+mod errors;
+
+use super::edges::SameSign;
+use super::number::{Bound, F32, F64, Number};
 use super::program::{Leaf, MOST_ROWS, Program, Term, indices, terms};
 use super::reader::{Outcome, Reader, ensure};
-use super::variables::{self, Variable};
+use super::variables::{self, Quotient, Variable};
 use num_bigint::BigInt;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 use std::collections::HashSet;
-
-/// Work is counted in corners times steps.
-const MOST_WORK: u64 = 1 << 31;
 
 /// A step, and what it adds up: variables, a constant, and earlier steps.
 pub struct Step<'a> {
@@ -33,34 +30,30 @@ pub struct Step<'a> {
     left_out: bool,
 }
 
-/// What the corners of a formula show.
-pub struct Shown {
-    /// Of the last step.
-    pub size: Number,
-    pub computed: Number,
-    /// Of the last step's error, not rounded up; and before it is rounded, if it is rounded once.
-    pub error: Number,
-    pub before: Number,
-}
-
 /// The variables and the steps of a lemma.
 pub struct Formula<'a> {
     variables: Vec<Variable>,
     /// The variables that are coordinates of one unit vector in which the last step is linear.
     unit: Vec<usize>,
     pub steps: Vec<Step<'a>>,
+    /// What its variables of third edges suppose.
+    pub same_sign: Option<SameSign>,
 }
 
 impl<'a> Formula<'a> {
-    /// The quotient is at most `quotient`, in the lemmas that have one.
+    /// With the quotient, in the lemmas that have one.
     pub fn read(
         program: &Program,
-        quotient: Option<&Number>,
+        quotient: Option<Quotient>,
         reader: &mut Reader<'a>,
     ) -> Outcome<Self> {
         let variables = variables::read(program, quotient, reader)?;
         let unit = (0..variables.len()).filter(|v| variables[*v].part.is_some()).collect();
-        let mut formula = Formula { variables, unit, steps: vec![] };
+        let mut thirds = variables.iter().filter_map(|v| Some(v.third.as_ref()?.same_sign));
+        let same_sign = thirds.next();
+        let is_one = thirds.all(|other| Some(other) == same_sign);
+        ensure(is_one, "found third edges of two kinds, expected one axis and one pair of edges")?;
+        let mut formula = Formula { variables, unit, steps: vec![], same_sign };
         while reader.is_next("step") {
             let words =
                 reader.read("step OPERATION KIND OPERANDS", |words| Some(words.to_vec()))?;
@@ -136,12 +129,22 @@ impl<'a> Formula<'a> {
                 [(false, v)] if self.variables[v].leaf.is_none() => Some(&self.variables[v]),
                 _ => None,
             };
+            let by_third = match step.variables[..] {
+                [(false, v), (minus, p)] => {
+                    let third = self.variables[v].third.as_ref().filter(|t| t.minus == minus);
+                    let is_plain = self.variables[p].part.is_none();
+                    third.filter(|t| is_plain && self.variables[p].cut == Some(t.first))
+                }
+                _ => None,
+            };
+            let by_third = by_third.filter(|third| Some(third.second) == place);
             let is_leaf = |leaf: &Leaf| self.is_sum(*leaf, &step.variables);
             let leaf = place.and_then(|place| program.leaf(place)).filter(is_leaf);
             step.rounds = leaf.is_some_and(|(_, other)| other.is_some());
-            step.given = match (single.filter(|v| v.cut == place), leaf) {
-                (Some(variable), _) => Some(variable.bound.clone()),
-                (_, Some(leaf)) => {
+            step.given = match (single.filter(|v| v.cut == place), by_third, leaf) {
+                (Some(variable), ..) => Some(variable.bound.clone()),
+                (_, Some(third), _) => Some(third.bound.clone()),
+                (.., Some(leaf)) => {
                     let size = program.domain.bound(leaf);
                     Some(if step.rounds {
                         program.format.rounded(size.clone(), size)
@@ -251,163 +254,6 @@ impl<'a> Formula<'a> {
             && self.steps[above].place == n
             && self.steps[divisor].place == Some(d)
             && (q_at, below) == (before.len(), before.len() + 1)
-    }
-
-    /// What the corners show. Reads the corner and both parts of the error's bound.
-    pub fn maximum(&self, format: &Format, work: &mut u64, reader: &mut Reader) -> Outcome<Shown> {
-        *work += (self.steps.len() as u64) << self.variables.len();
-        ensure(*work <= MOST_WORK, "found too many corners of too many steps in this file")?;
-        const LONG: &str = "found numbers that are too long";
-        // Every value is an integer times a power of two that does not depend on the corner.
-        let split_bounds = self.variables.iter().map(|v| split(&v.bound.size));
-        let (boxes, exponents): (Vec<BigInt>, Vec<i64>) = split_bounds.unzip();
-        let mut scales: Vec<i64> = Vec::new();
-        let mut rows = Vec::new();
-        for step in &self.steps {
-            let of_term = |b: &Option<usize>| b.map_or(0, |b| scales[b]);
-            let of_variables = step.variables.iter().map(|(_, v)| exponents[*v]);
-            let of_terms = step.terms.iter().map(|(_, a, b)| scales[*a] + of_term(b));
-            let scale = of_variables.clone().chain(of_terms.clone()).min().unwrap_or(0);
-            let factor =
-                |minus: bool, of: i64| BigInt::from(if minus { -1 } else { 1 }) << (of - scale);
-            let variables = step
-                .variables
-                .iter()
-                .zip(of_variables)
-                .map(|((minus, v), of)| (factor(*minus, of), *v));
-            let terms = step
-                .terms
-                .iter()
-                .zip(of_terms)
-                .map(|((minus, a, b), of)| (factor(*minus, of), *a, *b));
-            rows.push(Row {
-                constant: step.constant.into(),
-                variables: variables.collect(),
-                terms: terms.collect(),
-                support: step.support,
-            });
-            scales.push(scale);
-        }
-        let found = search(&rows, &[], &boxes, &self.unit).ok_or(LONG)?;
-        let size = |(k, size): (usize, BigInt)| {
-            let scale = power(scales[k]);
-            if self.is_linear(k) {
-                root_up(&(Number::from(size) * &scale * scale), SIZE_DIGITS)
-            } else {
-                Number::from(size) * scale
-            }
-        };
-        let sizes: Vec<Number> = found.sizes.into_iter().enumerate().map(size).collect();
-        let none = vec![None; self.steps.len()];
-        let (bounds, _) = self.run(format, &sizes, &none, false);
-        for bound in &bounds {
-            format.finite(&bound.computed)?;
-        }
-        let weight = |k: usize| {
-            if self.steps[k].relative {
-                format.unit.clone()
-            } else if self.steps[k].terms.is_empty() && self.is_linear(k) {
-                Number::zero()
-            } else {
-                &bounds[k].error * power(-scales[k])
-            }
-        };
-        let weights: Vec<Number> = (0..self.steps.len()).map(weight).collect();
-        let finest = weights.iter().filter(|w| !w.is_zero()).map(|w| split(w).1).min().unwrap_or(0);
-        let whole =
-            |(w, step): (&Number, &Step)| ((w * power(-finest)).to_integer(), step.relative);
-        let weights: Vec<_> = weights.iter().zip(&self.steps).map(whole).collect();
-        let found = search(&rows, &weights, &boxes, &self.unit).ok_or(LONG)?;
-        let (last, scale) = (bounds.len() - 1, power(scales[scales.len() - 1] + finest));
-        let mut first = Number::from(found.sum) * &scale;
-        if let Some(v) = self.unit.first() {
-            // The vector's own error takes its place.
-            first += &self.variables[*v].bound.error * &bounds[last].size;
-            first += root_up(&(Number::from(found.squares) * &scale * scale), ERROR_DIGITS);
-        }
-        let sign = |v: usize| if found.corner >> v & 1 == 1 { '-' } else { '+' };
-        let signs: String = (0..self.variables.len()).map(sign).collect();
-        reader.read(&format!("corner {signs}"), |words| (words.concat() == signs).then_some(()))?;
-        reader.demand("first", &first)?;
-        let known: Vec<_> = bounds.into_iter().map(Some).collect();
-        let (mut bounds, rest) = self.run(format, &sizes, &known, true);
-        let rest = round_up(&rest, ERROR_DIGITS);
-        reader.demand("rest", &rest)?;
-        let Bound { size, computed, error: own } = bounds.pop().expect("a step");
-        let error = first + rest;
-        let is_known = self.steps[last].rounds && !self.steps[last].relative;
-        let before = if is_known { &error - own } else { error.clone() };
-        Ok(Shown { size, computed, error, before })
-    }
-
-    /// The bounds of the steps where they are not known, and the terms of second and higher order of the
-    /// last step, with every number at its largest size and nothing cancelled.
-    fn run(
-        &self,
-        format: &Format,
-        sizes: &[Number],
-        known: &[Option<Bound>],
-        relative: bool,
-    ) -> (Vec<Bound>, Number) {
-        // Of each step: its terms of first order, and the others.
-        let (mut bounds, mut orders): (Vec<Bound>, Vec<[Number; 2]>) = (Vec::new(), Vec::new());
-        for (k, step) in self.steps.iter().enumerate() {
-            let (mut first, mut rest) = (Number::zero(), Number::zero());
-            for (_, a, b) in &step.terms {
-                let (size, [f, r]) = (&bounds[*a].size, &orders[*a]);
-                if let Some(b) = b {
-                    let (other, [g, s]) = (&bounds[*b].size, &orders[*b]);
-                    first += size * g + f * other;
-                    rest += f * g + r * (other + g + s) + (size + f) * s;
-                } else {
-                    first += f;
-                    rest += r;
-                }
-            }
-            let given = step.given.clone().or(known[k].clone());
-            let bound =
-                given.unwrap_or_else(|| step.bound(format, &bounds, &sizes[k], &first + &rest));
-            if relative && step.relative {
-                rest += &format.unit * (&first + &rest) + &format.tiny;
-                first += &format.unit * &bound.size;
-            } else {
-                first += &bound.error;
-            }
-            bounds.push(bound);
-            orders.push([first, rest]);
-        }
-        (bounds, orders.pop().map_or(Number::zero(), |[_, rest]| rest))
-    }
-}
-
-impl Step<'_> {
-    /// What follows from the operands' bounds, the size at the corners, and the error before this step.
-    fn bound(&self, format: &Format, bounds: &[Bound], corner: &Number, before: Number) -> Bound {
-        let products = |part: fn(&Bound) -> &Number| -> Vec<Number> {
-            let of = |i: usize| part(&bounds[i]).clone();
-            self.terms.iter().map(|(_, a, b)| of(*a) * b.map_or(Number::one(), of)).collect()
-        };
-        let size = products(|bound| &bound.size).iter().sum::<Number>().min(corner.clone());
-        let products = products(|bound| &bound.computed);
-        let z = products.iter().sum::<Number>().min(&size + before);
-        if self.place.is_none() || self.name == "neg" || self.left_out {
-            return Bound { size, computed: format.float_up(&z), error: Number::zero() };
-        }
-        let mut bound = format.rounded(size, &z);
-        if self.name == "minor" && format.parameters == F32 {
-            // It is rounded to f64 before it is rounded to f32.
-            bound.error += Format::of(F64).half_ulp(&z);
-        } else if self.name == "minor" {
-            // p and q are the rounded products: (p - q) + (remainder of p - remainder of q).
-            let rounded: Number = products.iter().map(|x| format.float_up(x)).sum();
-            let twice = &format.tiny + &format.tiny;
-            let remainders = products.iter().map(|x| format.half_ulp(x)).sum::<Number>() + &twice;
-            let both = format.float_up(&remainders);
-            let error = format.half_ulp(&rounded) + &both + format.half_ulp(&remainders) + twice;
-            bound.error = round_up(&error, ERROR_DIGITS);
-            bound.computed = format.float_up(&(format.float_up(&rounded) + both));
-        }
-        bound
     }
 }
 

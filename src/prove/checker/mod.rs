@@ -4,6 +4,7 @@
 //! number that a rule determines must be exactly that number: one unit more or less is refused.
 
 mod corners;
+mod edges;
 mod formula;
 mod number;
 mod program;
@@ -12,12 +13,14 @@ mod variables;
 
 pub use number::{Bound, Number};
 
+use edges::SameSign;
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
 use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, power, root_up, round_up};
 use program::{DIRECTION_FLOOR, Domain, FLOOR, Lemma, Operation, Program, QUOTIENT, indices};
 use reader::{Outcome, Reader, ensure};
 use std::fmt::{self, Display};
+use variables::Quotient;
 
 /// Longer texts are refused.
 const MOST_BYTES: usize = 1 << 22;
@@ -107,19 +110,7 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
         (is_known && is_fit && is_new).then_some((place, rule))
     })?;
     let lemma = match rule {
-        "sum" => {
-            let formula = Formula::read(program, None, reader)?;
-            let last = formula.steps[formula.steps.len() - 1].place;
-            ensure(
-                last == Some(place),
-                format!("found another last step, expected operation {place}"),
-            )?;
-            let shown = formula.maximum(&program.format, work, reader)?;
-            let size = round_up(&shown.size, SIZE_DIGITS);
-            let error = round_up(&shown.error, ERROR_DIGITS);
-            let bound = Bound { computed: shown.computed.min(&size + &error), size, error };
-            Lemma { bound, before: shown.before, unit: None }
-        }
+        "sum" => sum(program, place, work, reader)?,
         "unit" => unit(program, place)?,
         _ => {
             let bound = quotient(program, place, rule != "quotient", work, reader)?;
@@ -131,6 +122,45 @@ fn lemma<'a>(program: &mut Program, work: &mut u64, reader: &mut Reader<'a>) -> 
     reader.demand("error", &lemma.bound.error)?;
     program.lemmas.insert(place, lemma);
     Ok(())
+}
+
+/// A sum of products; or the larger bound of two, where each supposes one of two things of which one is true.
+fn sum<'a>(
+    program: &Program,
+    place: usize,
+    work: &mut u64,
+    reader: &mut Reader<'a>,
+) -> Outcome<Lemma> {
+    let (lemma, supposed) = formula(program, place, work, reader)?;
+    let Some(supposed) = supposed else { return Ok(lemma) };
+    reader.read("or", |words| words.is_empty().then_some(()))?;
+    let (other, also) = formula(program, place, work, reader)?;
+    let is_fit = also.is_none_or(|also| also == supposed.or());
+    ensure(is_fit, "found the third edge along an axis, expected it along the other one")?;
+    let (one, other) = (lemma.bound, other.bound);
+    let bound = Bound {
+        size: one.size.max(other.size),
+        computed: one.computed.max(other.computed),
+        error: one.error.max(other.error),
+    };
+    Ok(Lemma { before: bound.error.clone(), bound, unit: None })
+}
+
+/// What a formula of a number shows, and what it supposes.
+fn formula<'a>(
+    program: &Program,
+    place: usize,
+    work: &mut u64,
+    reader: &mut Reader<'a>,
+) -> Outcome<(Lemma, Option<SameSign>)> {
+    let formula = Formula::read(program, None, reader)?;
+    let last = formula.steps[formula.steps.len() - 1].place;
+    ensure(last == Some(place), format!("found another last step, expected operation {place}"))?;
+    let shown = formula.maximum(&program.format, work, reader)?;
+    let size = round_up(&shown.size, SIZE_DIGITS);
+    let error = round_up(&shown.error, ERROR_DIGITS);
+    let bound = Bound { computed: shown.computed.min(&size + &error), size, error };
+    Ok((Lemma { bound, before: shown.before, unit: None }, formula.same_sign))
 }
 
 /// The bound of a number that is rounded once more: its exact size, and its error and size before that.
@@ -195,7 +225,8 @@ fn quotient(
         None => floor.recip(),
     };
     let size = round_up(&size, SIZE_DIGITS);
-    let formula = Formula::read(program, Some(&size), reader)?;
+    let about = Quotient { size: &size, divisor: d, floor };
+    let formula = Formula::read(program, Some(about), reader)?;
     ensure(
         formula.is_quotient_of(n, d),
         "found other last steps, expected numerator - quotient * divisor",

@@ -2,6 +2,7 @@ mod constants;
 mod fpcore;
 mod gappa;
 mod permanent;
+mod rows;
 mod sign;
 mod tiny;
 mod unit;

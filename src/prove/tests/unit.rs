@@ -36,7 +36,7 @@ fn along_direction([x, y, z]: [Recorded; 3]) -> Recorded {
 }
 
 /// Computed with so many digits, or exactly for 53.
-fn values(path: &Path, inputs: &[f64; 17], digits: u32) -> Vec<f64> {
+pub fn values(path: &Path, inputs: &[f64; 17], digits: u32) -> Vec<f64> {
     let mut values: Vec<f64> = Vec::new();
     for operation in &path.operations {
         let of = |place: Place| values[place as usize];
@@ -47,6 +47,7 @@ fn values(path: &Path, inputs: &[f64; 17], digits: u32) -> Vec<f64> {
             Operation::Sub(a, b) => of(a) - of(b),
             Operation::Mul(a, b) => of(a) * of(b),
             Operation::Div(a, b) => of(a) / of(b),
+            Operation::Neg(a) => -of(a),
             Operation::Sqrt(a) => of(a).sqrt(),
             other => panic!("{other:?}"),
         };

@@ -1,0 +1,157 @@
+//! Coordinates of edges over twice an area: what is said of them in proof.md, in whole numbers and in formats of
+//! a few digits.
+
+use super::super::{Bound, Domain, Dyadic, Format, Prover, Source};
+use super::tiny::round;
+use super::unit::values;
+use super::{difference, recorded};
+use crate::arith::recorded::{Operation, Place, Recorded};
+use crate::case::Draw;
+
+/// The edges from the vertex a to b and c, in the plane of x and y.
+fn edges() -> [[Recorded; 2]; 2] {
+    [2, 3].map(|p| [0, 1].map(|axis| difference(p, 1, axis)))
+}
+
+fn area() -> Recorded {
+    let [[u, v], [w, x]] = edges();
+    u * &x - v * &w
+}
+
+/// The coordinates of a point in the triangle's plane, times rows that are edges by twice the area; both together, as
+/// a kernel adds u and v.
+fn both_rows() -> Recorded {
+    let [u, v] = edges();
+    let row = |[i, j]: [Recorded; 2]| {
+        let (along_i, along_j) = (j / &area(), -i / &area());
+        along_i * &Recorded::input(0) + along_j * &Recorded::input(1)
+    };
+    row(v) + (-row(u))
+}
+
+/// The same with one coordinate only.
+fn one_axis() -> Recorded {
+    let [[_, u], [_, v]] = edges();
+    let (first, second) = (v / &area(), -u / &area());
+    first * &Recorded::input(0) + second * &Recorded::input(0)
+}
+
+/// A quotient of the area and an edge beside it.
+fn beside_an_edge() -> Recorded {
+    let [[u, _], [_, x]] = edges();
+    let quotient = difference(3, 1, 2) * &u.clone() / &area();
+    quotient + u / &area() + x / &area()
+}
+
+const EDGE: Dyadic = Dyadic::BELOW_ONE;
+
+/// The largest error beside its bound, in the domain where every quotient is at most 1.
+fn largest_share(run: fn() -> Recorded, digits: u32) -> f64 {
+    let (path, place) = recorded(run);
+    let domain = Domain { edge: EDGE, floor: Dyadic::HALF, ..Domain::UNIT };
+    let format = Format { digits, smallest: -200, largest: 200 };
+    let mut prover = Prover::new(&path, domain, format);
+    let Bound { error, computed, .. } = prover.bound(place).expect("a bound");
+    let (mut worst, mut tried) = (0.0f64, 0);
+    let mut draw = Draw::new("rows", 1, u64::from(digits));
+    for _ in 0..600_000 {
+        let mut inputs: [f64; 17] = std::array::from_fn(|_| round(draw.symmetric(), digits));
+        (6..9).for_each(|i| inputs[i] *= 0.0625);
+        let exact = values(&path, &inputs, 53);
+        let size = |place: Place| exact[place as usize].abs();
+        let is_inside = |(place, operation): (usize, &Operation)| match *operation {
+            Operation::Div(_, b) => size(b) >= 0.5 && size(place as Place) <= 1.0,
+            Operation::Sub(a, b) if a < 17 && b < 17 => size(place as Place) <= EDGE.to_f64(),
+            _ => true,
+        };
+        let mut edges = (0..3).flat_map(|k| [9, 12].map(|p| inputs[p + k] - inputs[6 + k]));
+        let is_short = edges.all(|x| x.abs() <= EDGE.to_f64());
+        if !is_short || !path.operations.iter().enumerate().all(is_inside) {
+            continue;
+        }
+        tried += 1;
+        let found = values(&path, &inputs, digits)[place as usize];
+        assert!(found.abs() <= computed.to_f64());
+        worst = worst.max((found - exact[place as usize]).abs() / error.to_f64());
+    }
+    assert!(tried > 300, "{tried}");
+    worst
+}
+
+#[test]
+fn no_sum_of_rows_in_a_tiny_format_passes_its_bound() {
+    let cases: [(&str, fn() -> Recorded); 3] =
+        [("both rows", both_rows), ("one axis", one_axis), ("beside an edge", beside_an_edge)];
+    for digits in [4, 5, 8] {
+        for (name, run) in cases {
+            let worst = largest_share(run, digits);
+            println!("{name}, p={digits}: {worst:.3} of the bound");
+            assert!(0.1 < worst && worst <= 1.0, "{name}, p={digits}: {worst}");
+        }
+    }
+}
+
+/// Which variables of third edges a number's proof has, and how many narrow ones.
+fn thirds(run: fn() -> Recorded, domain: Domain) -> ([usize; 2], usize) {
+    let (path, place) = recorded(run);
+    let mut prover = Prover::new(&path, domain, Format::F32);
+    prover.bound(place).expect("a bound");
+    let narrow = prover.lemmas.iter().map(|lemma| lemma.formula.narrow.len()).sum();
+    let lemma = prover.lemmas.last().expect("a lemma");
+    let count =
+        |sources: &[Source]| sources.iter().filter(|s| matches!(s, Source::Third(..))).count();
+    let or = lemma.or.as_ref().map_or(0, |(formula, _)| count(&formula.sources));
+    ([count(&lemma.formula.sources), or], narrow)
+}
+
+#[test]
+fn rules_of_rows_are_used_where_their_conditions_hold() {
+    let domain = Domain { edge: EDGE, floor: Dyadic::HALF, ..Domain::UNIT };
+    let (found, narrow) = thirds(both_rows, domain);
+    assert_eq!(found, [1, 1]);
+    assert!(narrow > 3, "{narrow}");
+    assert_eq!(thirds(one_axis, domain).0, [1, 0]);
+    // Edges and quotients whose product is 1 and more prove nothing of the third edge.
+    assert_eq!(thirds(both_rows, Domain { edge: Dyadic::ONE, ..domain }).0, [0, 0]);
+    // The sum of the edges' lengths along different axes is no area.
+    let no_area = || {
+        let [[u, v], [w, x]] = edges();
+        let divisor = u * &v - &(w.clone() * &x);
+        w / &divisor - difference(2, 1, 0) / &divisor
+    };
+    assert_eq!(thirds(no_area, domain).0, [0, 0]);
+}
+
+/// Of all triangles on a grid whose edges' coordinates are below n, and at most |D|·n/(n+1): in units of 1/(n+1).
+#[test]
+fn two_edges_are_of_one_sign_along_one_axis_at_least() {
+    const N: i64 = 9;
+    let mut found = [0; 3];
+    let all = |f: &mut dyn FnMut([i64; 4])| {
+        let range = || -N..=N;
+        for u in range() {
+            for v in range() {
+                for w in range() {
+                    for x in range() {
+                        f([u, v, w, x]);
+                    }
+                }
+            }
+        }
+    };
+    all(&mut |[u, v, w, x]| {
+        // Every coordinate is at most N of N + 1, so at most the area if it is at most area of (N + 1)².
+        let area = (u * x - v * w).abs();
+        let is_inside = [u, v, w, x].iter().all(|e| e.abs() * (N + 1) <= area);
+        if area == 0 || !is_inside {
+            return;
+        }
+        let same = [u * w >= 0, v * x >= 0];
+        assert!(same[0] || same[1], "{u} {v} {w} {x}");
+        for (is_same, third) in [(same[0], u - w), (same[1], v - x)] {
+            assert!(!is_same || third.abs() * (N + 1) <= area, "{u} {v} {w} {x}");
+        }
+        found[usize::from(same[0]) + usize::from(same[1])] += 1;
+    });
+    assert!(found[1] > 10, "{found:?}");
+}
