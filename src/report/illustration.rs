@@ -34,9 +34,19 @@ pub struct ProofPart {
     pub scalar: String,
     /// Whether and how far it is watertight, in a sentence.
     pub edges: String,
-    /// By gate that compares a number: what it compares is never wrong by more, and the largest error that is
-    /// known; in units of 2^-24 in f32 and 2^-53 in f64. A bound is none where none is proved.
-    pub gates: BTreeMap<String, (Option<f64>, Option<f64>)>,
+    /// By gate that compares a number.
+    pub gates: BTreeMap<String, ProvedGate>,
+}
+
+/// How wrong what a gate compares can be, in units of 2^-24 in f32 and 2^-53 in f64.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ProvedGate {
+    /// It is never wrong by more; none where none is proved.
+    pub bound: Option<f64>,
+    /// The largest error that is known.
+    pub known: Option<f64>,
 }
 
 /// What a kernel row says of the rays around one, float by float, as a picture.

@@ -36,7 +36,7 @@ pub use disagreement::{ALL_CLASSES, Disagreement, FINDING_KINDS, Key, disagreeme
 pub use formats::{FORMATS, Format, HTML, MARKDOWN_LIMIT, Style, markdown_within};
 #[cfg(feature = "cli")]
 pub use illustrate::illustrations;
-pub use illustration::{Illustrations, MapPart, ProofPart, ResponsePart};
+pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate, ResponsePart};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
 #[cfg(feature = "studies")]

@@ -9,7 +9,7 @@ use crate::prove::{
     Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Shape, Summary, Symmetry,
     Triangles, about_edges, statements,
 };
-use crate::report::ProofPart;
+use crate::report::{ProofPart, ProvedGate};
 use rayon::prelude::*;
 
 /// What is the same for all kernels.
@@ -68,7 +68,7 @@ impl Parts {
         let KernelPart { kernel, scalar, edges, .. } = self.kernel?;
         let gates = self.gates.into_iter().map(|gate| {
             let known = gate.witness.map(|witness| witness.units);
-            (gate.gate.to_owned(), (gate.bound_units, known))
+            (gate.gate.to_owned(), ProvedGate { bound: gate.bound_units, known })
         });
         Some(ProofPart {
             kernel,

@@ -9,10 +9,10 @@ use super::view::{Kind, Row, View};
 use super::words::{apart, code, counts, percent, share, shortened};
 use crate::kernel::{self, Gate, Tunable};
 use crate::prove::units;
-use crate::report::ProofPart;
 use crate::report::formats::row_view::RowView;
 use crate::report::formats::why::{CauseShare, cause_shares, short};
 use crate::report::record::*;
+use crate::report::{ProofPart, ProvedGate};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, PreEscaped, html};
 use std::collections::HashMap;
@@ -161,9 +161,9 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
     let units = |error: f64, up: bool| format!("{} u", units(error, up));
     match proof.gates.get(gate) {
         None => "–".to_owned(),
-        Some((None, _)) => "no bound".to_owned(),
-        Some((Some(bound), None)) => units(*bound, true),
-        Some((Some(bound), Some(known))) => {
+        Some(ProvedGate { bound: None, .. }) => "no bound".to_owned(),
+        Some(ProvedGate { bound: Some(bound), known: None }) => units(*bound, true),
+        Some(ProvedGate { bound: Some(bound), known: Some(known) }) => {
             format!("{} ({})", units(*bound, true), units(*known, false))
         }
     }

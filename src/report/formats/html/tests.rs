@@ -2,8 +2,8 @@ use super::*;
 use crate::report::formats::net::{NET_TITLE, net_lines};
 use crate::report::record::*;
 use crate::report::{
-    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ProofPart, ResponsePart,
-    RowChange, Unproved, Verdict,
+    Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ProofPart, ProvedGate,
+    ResponsePart, RowChange, Unproved, Verdict,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -196,7 +196,8 @@ fn hostile() -> Record {
             kernel: name.clone(),
             scalar: name.clone(),
             edges: name.clone(),
-            gates: [(name.clone(), (Some(f64::MAX), Some(f64::NAN)))].into(),
+            gates: [(name.clone(), ProvedGate { bound: Some(f64::MAX), known: Some(f64::NAN) })]
+                .into(),
         }],
     });
     record
