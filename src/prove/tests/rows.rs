@@ -80,7 +80,8 @@ fn largest_share(run: fn() -> Recorded, digits: u32) -> f64 {
 
 #[test]
 fn no_sum_of_rows_in_a_tiny_format_passes_its_bound() {
-    let cases: [(&str, fn() -> Recorded); 3] =
+    type Run = fn() -> Recorded;
+    let cases: [(&str, Run); 3] =
         [("both rows", both_rows), ("one axis", one_axis), ("beside an edge", beside_an_edge)];
     for digits in [4, 5, 8] {
         for (name, run) in cases {
