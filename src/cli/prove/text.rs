@@ -108,10 +108,14 @@ fn wrapped(text: &str, indent: usize) -> String {
 }
 
 fn domain(record: &Record, scene: Option<&Scene>) -> String {
+    let part = &record.domain;
     match scene {
-        Some(scene) => wrapped(&format!("Scene: {}", scene_text(scene)), 0),
+        Some(scene) => {
+            let most = units(part.quotient_at_most, true);
+            let text = scene_text(scene);
+            wrapped(&format!("Scene: {text}; where a kernel divides, quotients up to {most}"), 0)
+        }
         None => {
-            let part = &record.domain;
             format!(
                 "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a \
                  kernel divides,\ndivisors of {} and more (the largest coordinate of d too), quotients up to {}. A \

@@ -1,11 +1,11 @@
 //! Coordinates of edges over twice an area: what is said of them in proof.md, in whole numbers and in formats of
 //! a few digits.
 
-use super::super::{Bound, Domain, Dyadic, Format, Prover, Source};
+use super::super::{Domain, Dyadic, Format, Prover, Source};
 use super::tiny::round;
-use super::unit::values;
+use super::unit::largest_share;
 use super::{difference, recorded};
-use crate::arith::recorded::{Operation, Place, Recorded};
+use crate::arith::recorded::Recorded;
 use crate::case::Draw;
 
 /// The edges from the vertex a to b and c, in the plane of x and y.
@@ -45,35 +45,21 @@ fn beside_an_edge() -> Recorded {
 
 const EDGE: Dyadic = Dyadic::BELOW_ONE;
 
-/// The largest error beside its bound, in the domain where every quotient is at most 1.
-fn largest_share(run: fn() -> Recorded, digits: u32) -> f64 {
-    let (path, place) = recorded(run);
-    let domain = Domain { edge: EDGE, floor: Dyadic::HALF, ..Domain::UNIT };
-    let format = Format { digits, smallest: -200, largest: 200 };
-    let mut prover = Prover::new(&path, domain, format);
-    let Bound { error, computed, .. } = prover.bound(place).expect("a bound");
-    let (mut worst, mut tried) = (0.0f64, 0);
+const DOMAIN: Domain = Domain { edge: EDGE, floor: Dyadic::HALF, ..Domain::UNIT };
+
+/// The largest error beside its bound, where both edges are short and every quotient is at most 1.
+fn share_of_short_edges(run: fn() -> Recorded, digits: u32) -> f64 {
     let mut draw = Draw::new("rows", 1, u64::from(digits));
-    for _ in 0..600_000 {
+    let is_short = |inputs: &[f64; 17]| {
+        let mut edges = (0..3).flat_map(|k| [9, 12].map(|p| inputs[p + k] - inputs[6 + k]));
+        edges.all(|x| x.abs() <= EDGE.to_f64())
+    };
+    let all = (0..600_000).map(|_| {
         let mut inputs: [f64; 17] = std::array::from_fn(|_| round(draw.symmetric(), digits));
         (6..9).for_each(|i| inputs[i] *= 0.0625);
-        let exact = values(&path, &inputs, 53);
-        let size = |place: Place| exact[place as usize].abs();
-        let is_inside = |(place, operation): (usize, &Operation)| match *operation {
-            Operation::Div(_, b) => size(b) >= 0.5 && size(place as Place) <= 1.0,
-            Operation::Sub(a, b) if a < 17 && b < 17 => size(place as Place) <= EDGE.to_f64(),
-            _ => true,
-        };
-        let mut edges = (0..3).flat_map(|k| [9, 12].map(|p| inputs[p + k] - inputs[6 + k]));
-        let is_short = edges.all(|x| x.abs() <= EDGE.to_f64());
-        if !is_short || !path.operations.iter().enumerate().all(is_inside) {
-            continue;
-        }
-        tried += 1;
-        let found = values(&path, &inputs, digits)[place as usize];
-        assert!(found.abs() <= computed.to_f64());
-        worst = worst.max((found - exact[place as usize]).abs() / error.to_f64());
-    }
+        inputs
+    });
+    let (worst, tried) = largest_share(recorded(run), DOMAIN, digits, all.filter(is_short));
     assert!(tried > 300, "{tried}");
     worst
 }
@@ -85,7 +71,7 @@ fn no_sum_of_rows_in_a_tiny_format_passes_its_bound() {
         [("both rows", both_rows), ("one axis", one_axis), ("beside an edge", beside_an_edge)];
     for digits in [4, 5, 8] {
         for (name, run) in cases {
-            let worst = largest_share(run, digits);
+            let worst = share_of_short_edges(run, digits);
             println!("{name}, p={digits}: {worst:.3} of the bound");
             assert!(0.05 < worst && worst <= 1.0, "{name}, p={digits}: {worst}");
         }
@@ -107,20 +93,19 @@ fn thirds(run: fn() -> Recorded, domain: Domain) -> ([usize; 2], usize) {
 
 #[test]
 fn rules_of_rows_are_used_where_their_conditions_hold() {
-    let domain = Domain { edge: EDGE, floor: Dyadic::HALF, ..Domain::UNIT };
-    let (found, narrow) = thirds(both_rows, domain);
+    let (found, narrow) = thirds(both_rows, DOMAIN);
     assert_eq!(found, [1, 1]);
     assert!(narrow > 3, "{narrow}");
-    assert_eq!(thirds(one_axis, domain).0, [1, 0]);
+    assert_eq!(thirds(one_axis, DOMAIN).0, [1, 0]);
     // Edges and quotients whose product is 1 and more prove nothing of the third edge.
-    assert_eq!(thirds(both_rows, Domain { edge: Dyadic::ONE, ..domain }).0, [0, 0]);
+    assert_eq!(thirds(both_rows, Domain { edge: Dyadic::ONE, ..DOMAIN }).0, [0, 0]);
     // The sum of the edges' lengths along different axes is no area.
     let no_area = || {
         let [[u, v], [w, x]] = edges();
         let divisor = u * &v - &(w.clone() * &x);
         w / &divisor - difference(2, 1, 0) / &divisor
     };
-    assert_eq!(thirds(no_area, domain).0, [0, 0]);
+    assert_eq!(thirds(no_area, DOMAIN).0, [0, 0]);
 }
 
 /// Of all triangles on a grid whose edges' coordinates are below n, and at most |D|·n/(n+1): in units of 1/(n+1).
