@@ -3,9 +3,10 @@
 
 use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
+use super::measures::{Limit, Samples};
 use super::order::{follows, unsigned};
 use super::run::cone;
-use super::{Domain, Dyadic, Format};
+use super::{Domain, Dyadic, Format, Measures};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
 use std::collections::HashMap;
@@ -81,7 +82,9 @@ pub enum Rule {
         /// What it is divided by.
         divisor: Place,
         /// The least size of the exact divisor.
-        floor: Dyadic,
+        floor: Limit,
+        /// The largest size of the exact quotient.
+        most: Limit,
     },
     /// The number is a coordinate of a vector divided by its length. There is no formula.
     Unit {
@@ -89,6 +92,8 @@ pub enum Rule {
         vector: [Place; 3],
         /// The length.
         length: Place,
+        /// The least length.
+        floor: Limit,
     },
 }
 
@@ -99,6 +104,8 @@ pub struct Prover<'a> {
     pub(super) domain: Domain,
     pub(super) format: Format,
     bounds: HashMap<Place, Result<Bound, String>>,
+    /// In a scene, what says which numbers it knows.
+    pub(super) samples: Option<(Samples, Measures)>,
     /// Of each number, whether its conditions count; none if all do.
     counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.
@@ -108,7 +115,9 @@ pub struct Prover<'a> {
 impl<'a> Prover<'a> {
     /// Nothing is proved yet.
     pub fn new(path: &'a Path, domain: Domain, format: Format) -> Prover<'a> {
-        Prover { path, domain, format, bounds: HashMap::new(), counts: None, lemmas: Vec::new() }
+        let samples = domain.measures.map(|measures| (Samples::new(path), measures));
+        let bounds = HashMap::new();
+        Prover { path, domain, format, bounds, samples, counts: None, lemmas: Vec::new() }
     }
 
     /// From here on proofs are of this number and what it is made from: they suppose nothing of other quotients of
@@ -148,12 +157,18 @@ impl<'a> Prover<'a> {
         let (rule, formula, maximum, bound);
         let mut or = None;
         if let Some((vector, length)) = self.unit(place) {
-            rule = Rule::Unit { vector, length };
+            let floor = self.floor(length);
+            rule = Rule::Unit { vector, length, floor };
             (formula, maximum, bound) =
-                (Formula::default(), Maximum::default(), self.bound_of_unit(vector)?);
+                (Formula::default(), Maximum::default(), self.bound_of_unit(vector, floor.size())?);
         } else if let Some((numerator, divisor, twice)) = self.quotient(place) {
-            rule = Rule::Quotient { twice, divisor, floor: self.floor(divisor) };
-            (formula, maximum, bound) = self.divide(numerator, divisor, twice)?;
+            let floor = self.floor(divisor);
+            // A reciprocal is known by its divisor.
+            let is_known = numerator.is_some() || self.samples.is_none();
+            let most = if is_known { self.most(place) } else { None };
+            (formula, maximum, bound) = self.divide(numerator, divisor, twice, (floor, most))?;
+            let most = most.unwrap_or(Limit::Own(bound.size));
+            rule = Rule::Quotient { twice, divisor, floor, most };
         } else if let Operation::Sqrt(_) = self.operation(place) {
             return Err("its root is used otherwise than to divide a vector by its length".into());
         } else {
@@ -184,15 +199,6 @@ impl<'a> Prover<'a> {
             Ok(())
         } else {
             Err("it may overflow".to_owned())
-        }
-    }
-
-    /// The least size of a divisor in the domain.
-    pub(super) fn floor(&self, divisor: Place) -> Dyadic {
-        if self.is_largest_of_direction(divisor) {
-            self.domain.direction_floor
-        } else {
-            self.domain.floor
         }
     }
 

@@ -98,11 +98,12 @@ impl<'p, 'a> Builder<'p, 'a> {
     /// Notes which variables the path divides by the divisor too.
     fn narrow(&mut self, divisor: Place, floor: Dyadic) {
         let Formula { sources, variables, narrow, .. } = &mut self.formula;
-        let largest = floor * self.prover.domain.quotient;
         for (v, source) in sources.iter().enumerate() {
             let Source::Leaf(leaf) = *source else { continue };
             let found = self.prover.ratio(leaf, divisor);
-            narrow.extend(found.map(|ratio| (v, ratio, largest.min(variables[v]))));
+            let most = |ratio: Place| self.prover.most(ratio).map(|most| (ratio, most.size()));
+            let found = found.and_then(most);
+            narrow.extend(found.map(|(ratio, most)| (v, ratio, variables[v].min(floor * most))));
         }
     }
 

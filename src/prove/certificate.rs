@@ -4,9 +4,10 @@
 
 use super::forms::Leaf;
 use super::formula::{Formula, Maximum, Source, Step};
-use super::{Domain, Dyadic, Format, Lemma, Rule};
-use crate::arith::recorded::{Comparison, Operation};
+use super::{Domain, Dyadic, Format, Lemma, Limit, Rule};
+use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::Path;
+use std::collections::BTreeSet;
 use std::fmt::{self, Display, Write};
 
 impl Display for Dyadic {
@@ -42,7 +43,7 @@ pub struct Claim<'a> {
 /// The first lines.
 pub fn heading(h: &Heading) -> String {
     let Format { digits, smallest, largest } = h.format;
-    let Domain { edge, reach, world, direction, extent, direction_floor, floor, quotient } =
+    let Domain { edge, reach, world, direction, extent, direction_floor, floor, quotient, .. } =
         h.domain;
     format!(
         "hairline proof 1\nkernel {} {}\nformat {digits} {smallest} {largest}\n\
@@ -68,6 +69,9 @@ pub fn program(path: &Path, lemmas: &[Lemma], claims: &[Claim]) -> String {
         };
         writeln!(text, "decision {comparison} {answer}").expect("a string");
     }
+    for limit in limits(lemmas) {
+        writeln!(text, "{limit}").expect("a string");
+    }
     for lemma in lemmas {
         text.push_str(&lemma_text(lemma));
     }
@@ -76,6 +80,22 @@ pub fn program(path: &Path, lemmas: &[Lemma], claims: &[Claim]) -> String {
     }
     text.push_str("end\n");
     text
+}
+
+/// What is supposed of divisors and quotients instead of the domain's limits.
+fn limits(lemmas: &[Lemma]) -> BTreeSet<String> {
+    let line = |word: &str, place: Place, limit: Limit| match limit {
+        Limit::Domain(_) => None,
+        Limit::Scene(_, size) | Limit::Own(size) => Some(format!("{word} {place} {size}")),
+    };
+    let of_lemma = |lemma: &Lemma| match lemma.rule {
+        Rule::Sum => [None, None],
+        Rule::Unit { length, floor, .. } => [line("at-least", length, floor), None],
+        Rule::Quotient { divisor, floor, most, .. } => {
+            [line("at-least", divisor, floor), line("at-most", lemma.place, most)]
+        }
+    };
+    lemmas.iter().flat_map(of_lemma).flatten().collect()
 }
 
 fn operation_text(operation: &Operation) -> String {

@@ -1,7 +1,7 @@
 //! The domain of a proof, and the format of its floats.
 
-use super::Dyadic;
 use super::dyadic::{Big, ceil_log2};
+use super::{Dyadic, Measures};
 
 /// A binary float format, rounded to nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +66,8 @@ pub struct Domain {
     pub floor: Dyadic,
     /// Every quotient is at most this, but those of one and a divisor.
     pub quotient: Dyadic,
+    /// What a scene says of divisors and quotients that it knows, instead of both.
+    pub measures: Option<Measures>,
 }
 
 impl Domain {
@@ -80,5 +82,6 @@ impl Domain {
         direction_floor: Dyadic::HALF,
         floor: Dyadic::FLOOR,
         quotient: Dyadic::ONE,
+        measures: None,
     };
 }

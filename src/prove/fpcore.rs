@@ -137,8 +137,11 @@ fn conditions(
     let mut floors: Vec<(Place, Dyadic)> = Vec::new();
     for at in places {
         let (of, floor) = match path.operations[*at as usize] {
-            Operation::Div(_, divisor) => (divisor, prover.floor(divisor)),
-            Operation::Sqrt(square) => (square, domain.floor * domain.floor),
+            Operation::Div(_, divisor) => (divisor, prover.floor(divisor).size()),
+            Operation::Sqrt(square) => (square, {
+                let floor = prover.floor(*at).size();
+                floor * floor
+            }),
             _ => continue,
         };
         if !floors.iter().any(|(known, _)| *known == of) {

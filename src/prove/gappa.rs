@@ -153,7 +153,7 @@ impl Script<'_> {
             Some(numerator) => self.define(numerator)?,
             None => ["1".to_owned(), "1".to_owned()],
         };
-        let floor = number(self.prover.floor(divisor));
+        let floor = number(self.prover.floor(divisor).size());
         let size = self.prover.bound(place)?.size;
         self.assume(large, size);
         if !twice {

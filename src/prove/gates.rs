@@ -4,7 +4,7 @@ use super::bound::{Lemma, Prover};
 use super::forms::Leaf;
 use super::formula::Source;
 use super::order::{is_impossible, unsigned};
-use super::{Bound, Domain, Format, Rule};
+use super::{Bound, Domain, Dyadic, Format, Limit, Rule};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::{Compared, Path};
 use std::collections::{BTreeSet, HashMap};
@@ -52,6 +52,17 @@ pub struct Uses {
     pub floor: bool,
 }
 
+/// A limit that a bound supposes in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Supposed {
+    /// Whether the size of the number is at most the limit; else it is at least that.
+    pub is_most: bool,
+    /// The number.
+    pub name: &'static str,
+    /// The limit.
+    pub limit: Dyadic,
+}
+
 impl Uses {
     /// Whether it supposes nothing but a bound of the edges, and of the direction.
     pub fn is_of_edges_alone(self) -> bool {
@@ -60,6 +71,29 @@ impl Uses {
 }
 
 impl Quantity {
+    /// The limits of divisors and of quotients that its bound supposes.
+    pub fn limits(&self) -> Vec<Supposed> {
+        let supposed = |is_most: bool, limit: Limit| {
+            let (name, limit) = match limit {
+                Limit::Own(_) => return None,
+                Limit::Scene(name, size) => (name, size),
+                Limit::Domain(size) if is_most => ("any other quotient", size),
+                Limit::Domain(size) => ("any other divisor", size),
+            };
+            Some(Supposed { is_most, name, limit })
+        };
+        let of_lemma = |lemma: &Lemma| match lemma.rule {
+            Rule::Sum => [None, None],
+            Rule::Unit { floor, .. } => [supposed(false, floor), None],
+            Rule::Quotient { floor, most, .. } => {
+                // Else the largest numerator over the least divisor is smaller.
+                let most = Some(most).filter(|most| most.size() <= lemma.bound.size);
+                [supposed(false, floor), most.and_then(|most| supposed(true, most))]
+            }
+        };
+        self.lemmas.iter().flat_map(of_lemma).flatten().collect()
+    }
+
     /// What its bound supposes.
     pub fn uses(&self) -> Uses {
         let mut uses = Uses::default();

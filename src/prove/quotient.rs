@@ -4,6 +4,7 @@ use super::Dyadic;
 use super::bound::{Bound, Prover, SIZE_DIGITS};
 use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
+use super::measures::Limit;
 use crate::arith::recorded::{Operation, Place};
 
 impl Prover<'_> {
@@ -27,15 +28,17 @@ impl Prover<'_> {
         }
     }
 
-    /// The bound of a quotient, and the formula that it follows from.
+    /// The bound of a quotient, and the formula that it follows from. Given the least size of the divisor, and the
+    /// largest of the quotient if it is known.
     pub(super) fn divide(
         &mut self,
         numerator: Option<Place>,
         divisor: Place,
         twice: bool,
+        (floor, most): (Limit, Option<Limit>),
     ) -> Result<(Formula, Maximum, Bound), String> {
         let below = self.bound(divisor)?;
-        let floor = self.floor(divisor);
+        let floor = floor.size();
         let least = Big::from(floor) - Big::from(below.error);
         if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {
             return Err(
@@ -53,7 +56,7 @@ impl Prover<'_> {
             && numerator.is_some_and(|n| self.is_at_most_in_size(n, divisor));
         let size = match numerator {
             Some(_) if at_most_one => Big::from(Dyadic::ONE),
-            Some(_) => limit.min(Big::from(self.domain.quotient)),
+            Some(_) => most.map_or(limit.clone(), |most| limit.min(Big::from(most.size()))),
             None => limit,
         };
         let size = round_up(&size, SIZE_DIGITS);

@@ -1,9 +1,9 @@
 //! Coordinates of edges divided by one number: what the domain says of such quotients together.
 
+use super::Dyadic;
 use super::bound::Prover;
 use super::forms::Leaf;
 use super::order::unsigned;
-use super::{Domain, Dyadic};
 use crate::arith::recorded::{Operation, Place};
 
 /// An edge as a sum of the vertices a, b and c.
@@ -60,8 +60,8 @@ impl Prover<'_> {
             return None;
         };
         let ((u, axis), (v, along)) = (self.edge(n)?, self.edge(m)?);
-        let Domain { edge, quotient, .. } = self.domain;
-        if divisor != other || axis != along || edge * quotient >= Dyadic::ONE {
+        let most = self.most(p)?.size().max(self.most(q)?.size());
+        if divisor != other || axis != along || self.domain.edge * most >= Dyadic::ONE {
             return None;
         }
         let third = |sign: i8| [0, 1, 2].map(|i| v[i] - sign * u[i]);

@@ -1,6 +1,6 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
-use super::{Domain, Dyadic};
+use super::{Domain, Dyadic, Measures};
 use crate::case::{self, DirectionLength};
 
 /// What the triangles and rays of a scene are like, in one unit of length.
@@ -91,8 +91,16 @@ impl Scene {
         let shape = self.least_shape();
         let divisors = [shape * sine(grazing), shape * shape, shape * 0.577, sine(grazing)];
         let floor = divisors.into_iter().fold(f64::INFINITY, f64::min);
-        let floor = Dyadic::from_f64(floor * 0.999_999).expect("finite").round_down(DIGITS);
-        let quotient = up(distance.max(1.0 / (shortest * sine(min_angle))).max(1.0));
+        // Edges over twice the area.
+        let slope = (1.0 / (shortest * sine(min_angle))).min(longest / shape);
+        let down = |x: f64| Dyadic::from_f64(x * 0.999_999).expect("finite").round_down(DIGITS);
+        let measures = Measures {
+            area: down(shape),
+            sine: down(sine(grazing)),
+            slope: up(slope),
+            world: up(coordinates),
+            distance: up(distance),
+        };
         Ok(Domain {
             edge: up(longest),
             reach: up(reach),
@@ -100,8 +108,9 @@ impl Scene {
             direction: Dyadic::ONE,
             extent: up(distance),
             direction_floor: Dyadic::HALF,
-            floor,
-            quotient,
+            floor: down(floor),
+            quotient: up(distance.max(1.0)),
+            measures: Some(measures),
         })
     }
 

@@ -1,5 +1,6 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
+use super::gates::Supposed;
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness, format_of, paths_of};
 use super::witness::Searched;
@@ -34,7 +35,9 @@ pub fn statements<F: Searched + Scalar>(
     let beta = bound.to_f64();
     let unit = summary.format.unit().to_f64();
     let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit, true));
-    let where_ = if gate.uses.floor {
+    let where_ = if scene.is_some() {
+        supposed(&gate.limits)
+    } else if gate.uses.floor {
         let Domain { floor, quotient, .. } = summary.domain;
         format!(
             ", where divisors are at least {} and quotients at most {}",
@@ -96,6 +99,20 @@ pub fn statements<F: Searched + Scalar>(
         _ => {}
     }
     lines
+}
+
+/// The limits that a bound in a scene supposes.
+fn supposed(limits: &[Supposed]) -> String {
+    let texts = limits.iter().map(|Supposed { is_most, name, limit }| match is_most {
+        true => format!("{name} at most {}", above(limit.to_f64())),
+        false => format!("{name} at least {}", below(limit.to_f64())),
+    });
+    let texts: Vec<String> = texts.collect();
+    if texts.is_empty() {
+        String::new()
+    } else {
+        format!(", the size of {} (N = (b-a)x(c-a))", texts.join(", of "))
+    }
 }
 
 fn parallel<F: Searched + Scalar>(

@@ -1,6 +1,6 @@
 //! What is proved of a kernel, and the worst that is known, gate by gate.
 
-use super::gates::{Proof, Quantity, Uses};
+use super::gates::{Proof, Quantity, Supposed, Uses};
 use super::permanent::{Relative, relative};
 use super::watertight::{Symmetry, symmetry};
 use super::witness::{Goal, Inputs, Search, Searched};
@@ -39,6 +39,8 @@ pub struct GateSummary<F> {
     pub relative: Option<Relative>,
     /// What the bound supposes.
     pub uses: Uses,
+    /// In a scene, the limits of divisors and of quotients that it supposes.
+    pub limits: Vec<Supposed>,
     /// Whether what it compares is compared with the epsilon itself; else with zero, at an epsilon of 0.
     pub is_margin: bool,
     /// The worst inputs known for each goal, in the order of [`GOALS`].
@@ -102,6 +104,9 @@ impl<F: Searched + Scalar> Summary<F> {
             let bound = proof.gate(index)?;
             let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
             let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::or);
+            let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
+            limits.sort_unstable();
+            limits.dedup();
             let forms = of_gate().map(|quantity| {
                 let path = &proof.paths[quantity.path];
                 relative(path, quantity.place, domain, format).ok()
@@ -128,7 +133,16 @@ impl<F: Searched + Scalar> Summary<F> {
                 found.max_by(|a, b| a.score.total_cmp(&b.score))
             });
             let bound = bound.map(|q| q.bound.as_ref().expect("it has one").error);
-            Some(GateSummary { index, gate: *gate, bound, relative, uses, is_margin, witnesses })
+            Some(GateSummary {
+                index,
+                gate: *gate,
+                bound,
+                relative,
+                uses,
+                limits,
+                is_margin,
+                witnesses,
+            })
         });
         let gates: Vec<GateSummary<F>> = gates.collect();
         let edges = |path: usize| {

@@ -17,8 +17,13 @@ impl Prover<'_> {
         vector.contains(&numerator?).then_some((vector, length))
     }
 
-    /// What holds for each coordinate of a unit vector. The error is that of the whole vector, by Euclid.
-    pub(super) fn bound_of_unit(&mut self, vector: [Place; 3]) -> Result<Bound, String> {
+    /// What holds for each coordinate of a unit vector. The error is that of the whole vector, by Euclid. Its
+    /// length is at least the floor.
+    pub(super) fn bound_of_unit(
+        &mut self,
+        vector: [Place; 3],
+        floor: Dyadic,
+    ) -> Result<Bound, String> {
         let (mut before, mut sizes) = (Big::zero(), Big::zero());
         for place in vector {
             let error = self.error_before_rounding(place)?;
@@ -28,7 +33,7 @@ impl Prover<'_> {
         }
         let (before, size) = (Big::from(root_up(&before, DIGITS)), root_up(&sizes, DIGITS));
         let whole = |n: i128| Big::from(Dyadic::new(n, 0));
-        let (one, two, floor) = (whole(1), whole(2), Big::from(self.domain.floor));
+        let (one, two, floor) = (whole(1), whole(2), Big::from(floor));
         let (unit, tiny) = (Big::from(self.format.unit()), Big::from(self.format.tiny()));
         // Of the vector: each coordinate's last rounding is in proportion to the coordinate.
         let shift = &before + &unit * (&before + &floor) + &two * &tiny;

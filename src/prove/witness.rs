@@ -104,14 +104,15 @@ impl<'a, F: Searched> Search<'a, F> {
             let at = |place: Place| renamed[place as usize];
             match lemma.rule {
                 Rule::Sum => {}
-                Rule::Unit { length, .. } => {
-                    let floor = domain.floor.to_f64();
+                Rule::Unit { length, floor, .. } => {
+                    let floor = floor.size().to_f64();
                     conditions.extend(at(length).map(|p| Condition::AtLeast(p, floor)));
                 }
                 Rule::Quotient { divisor, floor, .. } => {
+                    let floor = floor.size().to_f64();
                     let size = lemma.bound.size.to_f64();
                     conditions.extend(at(lemma.place).map(|p| Condition::AtMost(p, size)));
-                    conditions.extend(at(divisor).map(|p| Condition::AtLeast(p, floor.to_f64())));
+                    conditions.extend(at(divisor).map(|p| Condition::AtLeast(p, floor)));
                 }
             }
         }

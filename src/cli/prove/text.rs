@@ -110,11 +110,7 @@ fn wrapped(text: &str, indent: usize) -> String {
 fn domain(record: &Record, scene: Option<&Scene>) -> String {
     let part = &record.domain;
     match scene {
-        Some(scene) => {
-            let most = units(part.quotient_at_most, true);
-            let text = scene_text(scene);
-            wrapped(&format!("Scene: {text}; where a kernel divides, quotients up to {most}"), 0)
-        }
+        Some(scene) => wrapped(&format!("Scene: {}", scene_text(scene)), 0),
         None => {
             format!(
                 "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a \

@@ -1,7 +1,7 @@
 //! Quotients of edges' coordinates by one number, and what follows for the third edge.
 
 use super::number::{Bound, Number};
-use super::program::{Operation, Program, QUOTIENT, terms};
+use super::program::{Operation, Program, terms};
 use super::reader::Outcome;
 use num_traits::One;
 use std::collections::HashMap;
@@ -55,8 +55,8 @@ fn kind(program: &Program, first: usize, second: usize) -> Option<(bool, SameSig
         (*name == "div").then(|| Some((edge(program, operands[0])?, operands[1])))?
     };
     let (((u, axis), divisor), ((v, along), other_divisor)) = (quotient(first)?, quotient(second)?);
-    // The domain's bounds: of an edge, and of the quotients.
-    let most = program.domain.bound((6, Some(9))) * &program.domain.0[QUOTIENT];
+    let quotients = program.most(first).max(program.most(second));
+    let most = program.domain.bound((6, Some(9))) * quotients;
     if divisor != other_divisor || axis != along || most >= Number::one() {
         return None;
     }

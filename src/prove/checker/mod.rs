@@ -17,7 +17,7 @@ use edges::SameSign;
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
 use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, power, root_up, round_up};
-use program::{DIRECTION_FLOOR, Domain, FLOOR, Lemma, Operation, Program, QUOTIENT, indices};
+use program::{Domain, Lemma, Operation, Program, indices};
 use reader::{Outcome, Reader, ensure};
 use std::fmt::{self, Display};
 use variables::Quotient;
@@ -208,9 +208,7 @@ fn quotient(
     let ordered = |a: usize, b: usize| program.at_most.contains(&(a, b));
     let (numerator, divisor) = (n.and_then(|n| program.input(n)), program.input(d));
     let is_ordered = numerator.zip(divisor).is_some_and(|(n, d)| ordered(n, d));
-    let is_largest = divisor
-        .is_some_and(|d| (3..6).contains(&d) && (3..6).all(|axis| axis == d || ordered(axis, d)));
-    let floor = &program.domain.0[if is_largest { DIRECTION_FLOOR } else { FLOOR }];
+    let floor = program.floor(d);
     let least = floor - &below.error;
     ensure(
         least > &format.tiny + &format.tiny,
@@ -221,7 +219,7 @@ fn quotient(
     }
     let size = match n {
         Some(_) if is_ordered => Number::one(),
-        Some(_) => (&above.size / floor).min(program.domain.0[QUOTIENT].clone()),
+        Some(_) => (&above.size / floor).min(program.most(place).clone()),
         None => floor.recip(),
     };
     let size = round_up(&size, SIZE_DIGITS);
@@ -257,9 +255,10 @@ fn quotient(
 fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
     let found = fraction(program, place);
     let vector = found.and_then(|(n, length)| {
-        squares(program, length).filter(|vector| vector.len() == 3 && vector.contains(&n))
+        let is_fit = |vector: &Vec<usize>| vector.len() == 3 && vector.contains(&n);
+        squares(program, length).filter(is_fit).map(|vector| (vector, length))
     });
-    let vector =
+    let (vector, length) =
         vector.ok_or("found another operation, expected a part of a vector by its length")?;
     let (mut before, mut sizes) = (Number::zero(), Number::zero());
     for place in vector {
@@ -269,7 +268,7 @@ fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
     }
     let (before, size) = (root_up(&before, ERROR_DIGITS), root_up(&sizes, ERROR_DIGITS));
     let Format { unit, tiny, .. } = &program.format;
-    let (floor, one) = (&program.domain.0[FLOOR], Number::one());
+    let (floor, one) = (program.floor(length), Number::one());
     let times = |n: i64, x: &Number| Number::from_integer(n.into()) * x;
     let shift = &before + unit * (&before + floor) + times(2, tiny);
     let least = floor - &shift;

@@ -18,9 +18,9 @@ const REACH: usize = 1;
 const WORLD: usize = 2;
 const DIRECTION: usize = 3;
 const EXTENT: usize = 4;
-pub const DIRECTION_FLOOR: usize = 5;
-pub const FLOOR: usize = 6;
-pub const QUOTIENT: usize = 7;
+const DIRECTION_FLOOR: usize = 5;
+const FLOOR: usize = 6;
+const QUOTIENT: usize = 7;
 
 /// A leaf of a formula: an input, or the difference of two points' inputs along one axis.
 pub type Leaf = (usize, Option<usize>);
@@ -75,6 +75,8 @@ pub struct Program<'a> {
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub at_most: HashSet<(usize, usize)>,
+    /// What is supposed of divisors and of quotients instead of the domain's limits.
+    pub limits: [HashMap<usize, Number>; 2],
     pub lemmas: HashMap<usize, Lemma>,
 }
 
@@ -115,8 +117,9 @@ impl<'a> Program<'a> {
                 })
             })?);
         }
-        let mut program =
-            Program { format, domain, operations, at_most: HashSet::new(), lemmas: HashMap::new() };
+        let (at_most, lemmas) = (HashSet::new(), HashMap::new());
+        let limits = [HashMap::new(), HashMap::new()];
+        let mut program = Program { format, domain, operations, at_most, limits, lemmas };
         while reader.is_next("decision") {
             let count = program.operations.len();
             let fact = reader.read("decision COMPARISON OPERATIONS yes or no", |words| {
@@ -134,6 +137,18 @@ impl<'a> Program<'a> {
             if let (Some(a), Some(b)) = (program.input_in_abs(fact.0), program.input_in_abs(fact.1))
             {
                 program.at_most.insert((a, b));
+            }
+        }
+        for (limits, word) in program.limits.iter_mut().zip(["at-least", "at-most"]) {
+            while reader.is_next(word) {
+                let count = program.operations.len();
+                let form = format!("{word} OPERATION X, once for an operation");
+                let (place, limit) = reader.read(&form, |words| {
+                    let &[place, limit] = words else { return None };
+                    let place = indices(&[place], count)?[0];
+                    Some((place, number(limit)?)).filter(|_| !limits.contains_key(&place))
+                })?;
+                limits.insert(place, limit);
             }
         }
         // Warshall's closure.
@@ -167,6 +182,22 @@ impl<'a> Program<'a> {
         let (i, j) = (self.input(operation.operands[0])?, self.input(operation.operands[1])?);
         let are_points = [i, j].iter().all(|i| (0..3).contains(i) || (6..15).contains(i));
         (are_points && i % 3 == j % 3 && i != j).then_some((i, Some(j)))
+    }
+
+    /// The least size of a divisor.
+    pub fn floor(&self, divisor: usize) -> &Number {
+        self.limits[0].get(&divisor).unwrap_or_else(|| {
+            let is_smaller = |axis: usize, d: usize| axis == d || self.at_most.contains(&(axis, d));
+            let is_largest =
+                |d: &usize| (3..6).contains(d) && (3..6).all(|axis| is_smaller(axis, *d));
+            let largest = self.input(divisor).filter(is_largest);
+            &self.domain.0[if largest.is_some() { DIRECTION_FLOOR } else { FLOOR }]
+        })
+    }
+
+    /// The largest size of a quotient.
+    pub fn most(&self, quotient: usize) -> &Number {
+        self.limits[1].get(&quotient).unwrap_or(&self.domain.0[QUOTIENT])
     }
 
     pub fn bound(&self, place: usize) -> Outcome<&Bound> {

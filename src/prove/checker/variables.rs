@@ -2,7 +2,7 @@
 
 use super::edges::{Third, third};
 use super::number::{Bound, Number};
-use super::program::{Leaf, MOST_ROWS, Operation, Program, QUOTIENT, indices};
+use super::program::{Leaf, MOST_ROWS, Operation, Program, indices};
 use super::reader::{Outcome, Reader, ensure};
 
 /// A formula of n variables has 2^n corners.
@@ -102,7 +102,7 @@ pub fn read(
                         is_fit,
                         "found another operation, expected the variable over the divisor",
                     )?;
-                    let narrow = quotient.floor * &program.domain.0[QUOTIENT];
+                    let narrow = quotient.floor * program.most(ratio);
                     variable.narrow = Some(narrow.min(size.clone()));
                 }
             }

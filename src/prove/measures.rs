@@ -1,0 +1,221 @@
+//! What a scene says of numbers that kernels divide by, and of quotients: each is known by its value, in whatever
+//! order a program computes it.
+
+use super::bound::Prover;
+use super::run::run;
+use super::{Domain, Dyadic};
+use crate::arith::recorded::{Comparison, Operation, Place};
+use crate::case::Draw;
+use crate::kernel::Path;
+use glam::DVec3;
+
+/// Of a scene's triangles and rays; N = (b-a)×(c-a).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Measures {
+    /// |N| at least.
+    pub area: Dyadic,
+    /// |N·d|/|N| at least, for |d| = 1.
+    pub sine: Dyadic,
+    /// The length of an edge over |N| at most: the reciprocal of a height.
+    pub slope: Dyadic,
+    /// Every coordinate of a point at most.
+    pub world: Dyadic,
+    /// |t| at most.
+    pub distance: Dyadic,
+}
+
+/// A limit of the size of a number, and where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// The domain's limit of all divisors, or of all quotients.
+    Domain(Dyadic),
+    /// The scene's, which knows the number by this name.
+    Scene(&'static str, Dyadic),
+    /// The largest numerator over the least divisor. It supposes nothing more.
+    Own(Dyadic),
+}
+
+impl Limit {
+    /// The limit itself.
+    pub fn size(self) -> Dyadic {
+        match self {
+            Limit::Domain(size) | Limit::Scene(_, size) | Limit::Own(size) => size,
+        }
+    }
+}
+
+/// A number that a scene knows.
+struct Known {
+    name: &'static str,
+    limit: Dyadic,
+    value: f64,
+}
+
+/// How many inputs show whether two formulas are the same. Random ones: different rational functions are equal
+/// nearly nowhere.
+const SAMPLES: u64 = 3;
+
+/// Values of all numbers of a program and of those that a scene knows, at some inputs.
+#[derive(Debug)]
+pub(super) struct Samples(Vec<(Vec<f64>, [f64; 17])>);
+
+impl Samples {
+    pub(super) fn new(path: &Path) -> Samples {
+        let sample = |i: u64| {
+            let mut draw = Draw::new("measures", 1, i);
+            let inputs: [f64; 17] = std::array::from_fn(|_| draw.symmetric());
+            let mut values = Vec::new();
+            run(&path.operations, path.operations.len() as Place - 1, &inputs, &mut values);
+            (values, inputs)
+        };
+        Samples((0..SAMPLES).map(sample).collect())
+    }
+
+    /// The first of the known numbers that a number is, up to its sign.
+    fn find(&self, place: Place, known: impl Fn(&[f64; 17]) -> Vec<Known>) -> Option<Known> {
+        let mut lists: Vec<Vec<Known>> = self.0.iter().map(|(_, inputs)| known(inputs)).collect();
+        let is_same = |i: usize| {
+            self.0.iter().zip(&lists).all(|((values, _), list)| {
+                let (x, y) = (values[place as usize].abs(), list[i].value.abs());
+                (x - y).abs() <= 1e-9 * y
+            })
+        };
+        let found = (0..lists[0].len()).find(|i| is_same(*i))?;
+        Some(lists[0].swap_remove(found))
+    }
+}
+
+/// A triangle and a ray.
+struct Sample {
+    origin: DVec3,
+    direction: DVec3,
+    vertices: [DVec3; 3],
+    edges: [DVec3; 3],
+    normal: DVec3,
+}
+
+impl Sample {
+    fn of(inputs: &[f64; 17]) -> Sample {
+        let [origin, direction, a, b, c] =
+            [0, 3, 6, 9, 12].map(|i| DVec3::from_slice(&inputs[i..]));
+        let edges = [b - a, c - a, c - b];
+        Sample { origin, direction, vertices: [a, b, c], edges, normal: edges[0].cross(edges[1]) }
+    }
+}
+
+/// Slightly more than √2: a vector at right angles to N has coordinates of at most √2|N_k|/|N|, N_k being the largest.
+const ROOT: f64 = 1.415;
+
+impl Measures {
+    /// Divisors. Coordinates of N only where a path compares them: it chose the largest one.
+    fn divisors(&self, sample: &Sample, has_largest: bool) -> Vec<Known> {
+        let Measures { area, sine, .. } = *self;
+        let normal = sample.normal;
+        let (volume, length) = (normal.dot(sample.direction), normal.length());
+        let known =
+            |name, limit: Dyadic, value| Known { name, limit: limit.round_down(DIGITS), value };
+        let largest = area * below(0.577);
+        let mut all = vec![
+            known("N·d", area * sine, volume),
+            known("N·N", area * area, normal.dot(normal)),
+            known("the length of N", area, length),
+            known("N·d over the length of N", sine, volume / length),
+        ];
+        for k in (0..3).filter(|_| has_largest) {
+            all.push(known("the largest coordinate of N", largest, normal[k]));
+            all.push(known("N·d over the largest coordinate of N", sine, volume / normal[k]));
+        }
+        all
+    }
+
+    /// Quotients.
+    fn quotients(&self, sample: &Sample) -> Vec<Known> {
+        let Measures { slope, world, distance, .. } = *self;
+        let Sample { origin, direction, vertices, edges, normal } = *sample;
+        let [a, b, c] = vertices;
+        let known =
+            |name, limit: Dyadic, value| Known { name, limit: limit.round_up(DIGITS), value };
+        let square = normal.dot(normal);
+        let t = normal.dot(a - origin) / normal.dot(direction);
+        let p = origin + t * direction - a;
+        let [v, u] = [edges[0].cross(p), p.cross(edges[1])].map(|x| normal.dot(x) / square);
+        let mut all = vec![known("t", distance, t)];
+        all.extend([u, v, 1.0 - u - v].map(|w| known("a barycentric coordinate", Dyadic::ONE, w)));
+        for k in 0..3 {
+            let over = |name, limit, value: f64| known(name, limit, value / normal[k]);
+            for i in (0..3).filter(|i| *i != k) {
+                let name = "two coordinates of N, the second one the largest,";
+                all.push(over(name, above(1.01), normal[i]));
+                let name = "an edge over the largest coordinate of N";
+                all.extend(edges.map(|edge| over(name, slope * above(ROOT), edge[i])));
+            }
+            let name = "N·a over the largest coordinate of N";
+            all.push(over(name, world * above(3.03), a.dot(normal)));
+            // p×q = p×(q-p).
+            let name = "the cross product of two vertices over the largest coordinate of N";
+            for (p, q) in [(a, b), (a, c), (b, c)] {
+                all.push(over(name, world * slope * above(2.0 * ROOT), p.cross(q)[k]));
+            }
+            let name = "an edge times N over N·N";
+            all.extend(edges.map(|edge| known(name, slope, edge.cross(normal)[k] / square)));
+        }
+        all
+    }
+}
+
+/// Binary digits of what a scene says.
+pub(super) const DIGITS: u32 = 10;
+
+fn above(x: f64) -> Dyadic {
+    Dyadic::from_f64(x).expect("finite").round_up(DIGITS)
+}
+
+fn below(x: f64) -> Dyadic {
+    Dyadic::from_f64(x).expect("finite").round_down(DIGITS)
+}
+
+impl Prover<'_> {
+    /// The least size of a divisor.
+    pub(super) fn floor(&self, divisor: Place) -> Limit {
+        let Domain { direction_floor, floor, .. } = self.domain;
+        if self.is_largest_of_direction(divisor) {
+            return Limit::Domain(direction_floor);
+        }
+        let found = self.samples.as_ref().and_then(|(samples, measures)| {
+            let has_largest = self.compares_sizes();
+            samples.find(divisor, |inputs| measures.divisors(&Sample::of(inputs), has_largest))
+        });
+        found.map_or(Limit::Domain(floor), |Known { name, limit, .. }| Limit::Scene(name, limit))
+    }
+
+    /// The largest size of a quotient; none if a scene knows nothing of it.
+    pub(super) fn most(&self, quotient: Place) -> Option<Limit> {
+        let all = Limit::Domain(self.domain.quotient);
+        let Some((samples, measures)) = &self.samples else { return Some(all) };
+        let found = samples.find(quotient, |inputs| measures.quotients(&Sample::of(inputs)));
+        let found = found.map(|Known { name, limit, .. }| Limit::Scene(name, limit));
+        // Rays are those that matter. Of triangles a scene has every one.
+        found.or_else(|| self.is_of_ray(quotient).then_some(all))
+    }
+
+    /// Whether the path orders sizes of numbers that are no inputs.
+    fn compares_sizes(&self) -> bool {
+        let is_size = |place: &Place| match self.operation(*place) {
+            Operation::Abs(inner) => !matches!(self.operation(inner), Operation::Input(_)),
+            _ => false,
+        };
+        let decisions = self.path.decisions.iter();
+        let mut orders = decisions.filter(|(comparison, _)| {
+            matches!(comparison, Comparison::Less(..) | Comparison::AtMost(..))
+        });
+        orders.any(|(comparison, _)| comparison.places().iter().any(is_size))
+    }
+
+    /// Whether origin, direction or interval are in a number.
+    fn is_of_ray(&self, place: Place) -> bool {
+        match self.operation(place) {
+            Operation::Input(i) => !(6..15).contains(&i),
+            operation => operation.operands().iter().any(|operand| self.is_of_ray(*operand)),
+        }
+    }
+}
