@@ -137,6 +137,7 @@ pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
         scene: None,
         shapes: Vec::new(),
         domain: Domain::UNIT,
+        parts: Vec::new(),
         effort: Effort { evaluations: 0, seed: 1 },
         epsilons: Epsilons::None,
         stored: &stored,
@@ -165,6 +166,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         Some(scene) => scene.domain().map_err(Failure::usage)?,
         None => Domain::UNIT,
     };
+    let parts = scene.as_ref().map_or(Vec::new(), |scene| scene.parts(&shapes));
     let mut stored = match &arguments.update {
         Some(path) if std::fs::exists(path).map_err(|e| Failure::of_file(path, &e))? => {
             read_witnesses(&read_text(path)?, path)?
@@ -182,14 +184,14 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         return files::export(arguments, &entries, scalars, domain);
     }
     if let Some(path) = &arguments.certificate {
-        return files::certify(&entries, scalars, domain, path);
+        return files::certify(&entries, scalars, (domain, &parts), path);
     }
     if arguments.epsilon.is_some() && entries.len() != 1 {
         return Err(Failure::usage("--epsilon is of one --kernel"));
     }
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
-    let job = Job { scene, shapes, domain, effort, epsilons, stored: &stored, shared };
+    let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
     let parts = job.run_all(&entries, scalars);
     let mut record = Record {
         schema: "hairline/proof-1",

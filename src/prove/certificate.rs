@@ -28,8 +28,6 @@ pub struct Heading<'a> {
     pub scalar: &'a str,
     /// The format of the floats.
     pub format: Format,
-    /// The domain.
-    pub domain: Domain,
 }
 
 /// What is claimed of a program: a gate's quantity, and its lemma's place.
@@ -43,13 +41,19 @@ pub struct Claim<'a> {
 /// The first lines.
 pub fn heading(h: &Heading) -> String {
     let Format { digits, smallest, largest } = h.format;
-    let Domain { edge, reach, world, direction, extent, direction_floor, floor, quotient, .. } =
-        h.domain;
     format!(
-        "hairline proof 1\nkernel {} {}\nformat {digits} {smallest} {largest}\n\
-         domain edge {edge} reach {reach} world {world} direction {direction} extent {extent} \
-         direction-floor {direction_floor} floor {floor} quotient {quotient}\n",
+        "hairline proof 1\nkernel {} {}\nformat {digits} {smallest} {largest}\n",
         h.kernel, h.scalar
+    )
+}
+
+/// The domain of the programs that follow.
+pub fn domain(domain: &Domain) -> String {
+    let Domain { edge, reach, world, direction, extent, direction_floor, floor, quotient, .. } =
+        domain;
+    format!(
+        "domain edge {edge} reach {reach} world {world} direction {direction} extent {extent} \
+         direction-floor {direction_floor} floor {floor} quotient {quotient}\n"
     )
 }
 

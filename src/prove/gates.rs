@@ -31,6 +31,8 @@ pub struct Quantity {
     pub decisions: usize,
     /// Its place in the path's program, without a sign around it.
     pub place: Place,
+    /// The domain of its bound.
+    pub domain: Domain,
     /// Its bound, or why there is none.
     pub bound: Result<Bound, String>,
     /// The lemmas of the bound, its own last.
@@ -127,12 +129,34 @@ impl Proof {
                 is_margin: compared.refuse.is_some(),
                 decisions: compared.decisions,
                 place,
+                domain,
                 bound: prover.bound(place),
                 lemmas: prover.lemmas_of(place),
             });
         });
         quantities.sort_by_key(|quantity| quantity.gate);
         Proof { paths, quantities }
+    }
+
+    /// The same where the inputs lie in one of several domains, each a part of this one: what divides is proved in
+    /// each of them.
+    pub fn split(mut self, domains: &[Domain], format: Format) -> Proof {
+        let Proof { paths, quantities } = &mut self;
+        let divides = |quantity: &Quantity| quantity.bound.is_err() || quantity.uses().floor;
+        let prove = |quantity: &Quantity| {
+            let path = &paths[quantity.path];
+            let tries = domains.iter().filter(|_| divides(quantity)).map(|domain| {
+                let mut prover = Prover::new(path, *domain, format);
+                prover.limit_to(quantity.place);
+                let bound = prover.bound(quantity.place);
+                let lemmas = prover.lemmas_of(quantity.place);
+                Quantity { domain: *domain, bound, lemmas, ..quantity.clone() }
+            });
+            let found: Vec<Quantity> = tries.collect();
+            if found.is_empty() { vec![quantity.clone()] } else { found }
+        };
+        *quantities = quantities.iter().flat_map(prove).collect();
+        self
     }
 
     /// The quantity of a gate with the largest error; an error in one sentence if one has no bound.

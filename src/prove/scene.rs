@@ -2,6 +2,7 @@
 
 use super::{Domain, Dyadic, Measures};
 use crate::case::{self, DirectionLength};
+use std::collections::BTreeMap;
 
 /// What the triangles and rays of a scene are like, in one unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +84,12 @@ impl Scene {
                 "{name}: expected above 0 and at most {most} degrees, found {value}"
             ));
         }
+        Ok(self.domain_of(longest, longest))
+    }
+
+    /// The domain of triangles with such edges: the largest coordinate, and the length.
+    fn domain_of(&self, size: f64, longest: f64) -> Domain {
+        let Scene { coordinates, edge: [shortest, _], distance, min_angle, grazing, .. } = *self;
         // Slightly more, for what rounding took from the numbers themselves.
         let up = |x: f64| Dyadic::from_f64(x * (1.0 + 1e-9)).expect("finite").round_up(DIGITS);
         // A difference of coordinates is at most twice the largest of them.
@@ -101,8 +108,8 @@ impl Scene {
             world: up(coordinates),
             distance: up(distance),
         };
-        Ok(Domain {
-            edge: up(longest),
+        Domain {
+            edge: up(size),
             reach: up(reach),
             world: up(coordinates),
             direction: Dyadic::ONE,
@@ -111,7 +118,25 @@ impl Scene {
             floor: down(floor),
             quotient: up(distance.max(1.0)),
             measures: Some(measures),
-        })
+        }
+    }
+
+    /// The domains of its triangles of about one size each, of which these are the shapes.
+    pub fn parts(&self, shapes: &[Shape]) -> Vec<Domain> {
+        let mut sizes: BTreeMap<i32, Shape> = BTreeMap::new();
+        for (size, shape) in shapes.iter().filter(|(_, shape)| shape.is_finite()) {
+            let (largest, least) =
+                sizes.entry((2.0 * size.log2()).ceil() as i32).or_insert((*size, *shape));
+            *largest = largest.max(*size);
+            *least = least.min(*shape);
+        }
+        let part = |(size, least): &Shape| {
+            // A mesh's sizes are coordinates: an edge is no longer than √3 times the largest.
+            let factor = if self.shape.is_some() { 1.733 } else { 1.0 };
+            let longest = (factor * size).min(self.edge[1]);
+            Scene { shape: Some(*least), ..*self }.domain_of(*size, longest)
+        };
+        sizes.values().map(part).collect()
     }
 
     /// Twice the smallest area, or slightly less.

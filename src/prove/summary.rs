@@ -89,24 +89,34 @@ pub struct Effort {
 }
 
 impl<F: Searched + Scalar> Summary<F> {
-    /// Proves and searches; an error in one sentence if the kernel has no program.
+    /// Proves and searches, in a domain and where things are divided in each of its parts, if it has some; an error
+    /// in one sentence if the kernel has no program.
     pub fn new(
         entry: &Entry,
         domain: Domain,
+        parts: &[Domain],
         known: &[Inputs<F>],
         effort: Effort,
     ) -> Result<Summary<F>, String> {
         let format = format_of::<F>();
-        let proof = Proof::new(paths_of::<F>(entry)?, None, domain, format);
-        let known = scaled(known, &domain);
+        let proof = Proof::new(paths_of::<F>(entry)?, None, domain, format).split(parts, format);
+        let evaluations = effort.evaluations / parts.len().max(1) as u64;
+        let effort = Effort { evaluations, ..effort };
         let mut contradiction = None;
         let gates = entry.info.gates.iter().enumerate().filter_map(|(index, gate)| {
             let bound = proof.gate(index)?;
             let of_gate = || proof.quantities.iter().filter(move |q| q.gate == index);
             let uses = of_gate().map(Quantity::uses).fold(Uses::default(), Uses::or);
             let mut limits: Vec<Supposed> = of_gate().flat_map(Quantity::limits).collect();
+            // The weakest of each.
             limits.sort_unstable();
-            limits.dedup();
+            limits.dedup_by(|later, kept| {
+                let is_same = (kept.is_most, kept.name) == (later.is_most, later.name);
+                if is_same && kept.is_most {
+                    kept.limit = later.limit;
+                }
+                is_same
+            });
             let forms = of_gate().map(|quantity| {
                 let path = &proof.paths[quantity.path];
                 relative(path, quantity.place, domain, format).ok()
@@ -118,7 +128,7 @@ impl<F: Searched + Scalar> Summary<F> {
                 let wanted = goal == Goal::Error || goal == goal_of(gate.role);
                 let quantities = of_gate().filter(|q| wanted && q.bound.is_ok());
                 let found = quantities.filter_map(|quantity| {
-                    let found = worst::<F>(&proof, quantity, domain, goal, &known, effort)?;
+                    let found = worst::<F>(&proof, quantity, goal, known, effort)?;
                     let bound = quantity.bound.as_ref().map_or(0.0, |bound| bound.error.to_f64());
                     // Both are rounded to floats.
                     if goal == Goal::Error && found.score > bound * (1.0 + 1e-12) {
@@ -164,12 +174,12 @@ fn goal_of(role: Role) -> Goal {
 fn worst<F: Searched>(
     proof: &Proof,
     quantity: &Quantity,
-    domain: Domain,
     goal: Goal,
     known: &[Inputs<F>],
     effort: Effort,
 ) -> Option<Witness<F>> {
-    let mut search = Search::<F>::new(proof, quantity, domain);
+    let mut search = Search::<F>::new(proof, quantity, quantity.domain);
+    let known = scaled(known, &quantity.domain);
     let witness = |inputs: Inputs<F>, score: f64| Witness { inputs, score };
     let from_known = known
         .iter()

@@ -12,7 +12,7 @@ fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
         for arithmetic in [Arithmetic::IEEE, Arithmetic::FMA] {
             let entry = in_arithmetic(kernel, arithmetic).unwrap();
             let effort = Effort { evaluations, seed: 7 };
-            let summary = Summary::<F>::new(entry, Domain::UNIT, &[], effort).unwrap();
+            let summary = Summary::<F>::new(entry, Domain::UNIT, &[], &[], effort).unwrap();
             assert_eq!(summary.contradiction, None, "{}", entry.info.name);
             let bounded = summary.gates.iter().filter(|gate| gate.bound.is_ok());
             assert!(bounded.clone().count() > 0, "{}", entry.info.name);
@@ -42,7 +42,7 @@ fn no_error_is_above_its_bound_in_f64() {
 fn the_determinant_of_moller_trumbore_is_bounded_as_by_hand() {
     let kernel = find("moller-trumbore").unwrap();
     let summary =
-        Summary::<f32>::new(kernel, Domain::UNIT, &[], Effort { evaluations: 0, seed: 1 }).unwrap();
+        Summary::<f32>::new(kernel, Domain::UNIT, &[], &[], Effort { evaluations: 0, seed: 1 }).unwrap();
     let units = summary.gates[0].bound.as_ref().unwrap().to_f64() * 2f64.powi(24);
     let below_one = 1.0 - 2f64.powi(-10);
     assert!(units <= 17.0 && units >= 17.0 * below_one * below_one, "{units}");
@@ -95,7 +95,7 @@ fn edge_values_are_exact_negatives_where_it_is_said() {
     ] {
         let kernel = find(name).unwrap();
         let effort = Effort { evaluations: 0, seed: 1 };
-        let summary = Summary::<f32>::new(kernel, Domain::UNIT, &[], effort).unwrap();
+        let summary = Summary::<f32>::new(kernel, Domain::UNIT, &[], &[], effort).unwrap();
         assert_eq!(summary.symmetry, symmetry, "{name}");
         let gate = summary.gates.iter().find(|gate| gate.gate.name == "edge").unwrap();
         // The value of edge bc where the kernel has one: b and c exchanged.

@@ -6,7 +6,7 @@ use crate::cli::input::read_text;
 use crate::cli::output::write_result;
 use crate::corpus::InputError;
 use crate::kernel::{self, Entry, Path, Scalar};
-use crate::prove::certificate::{Claim, Heading, heading, program};
+use crate::prove::certificate::{self, Claim, Heading, heading, program};
 use crate::prove::{
     Domain, Effort, Format, Quantity, Searched, Summary, checker, each_quantity, format_of, fpcore,
     gappa, is_impossible, paths_of,
@@ -20,16 +20,16 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 pub fn certify(
     entries: &[&'static Entry],
     scalars: [bool; 2],
-    domain: Domain,
+    domains: (Domain, &[Domain]),
     path: &str,
 ) -> Result<Status, Failure> {
     let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
         return Err(Failure::usage("--certificate is of one --kernel in one --scalar"));
     };
     let text = if scalars[0] {
-        certificate::<f32>(entry, domain)
+        certificate_of::<f32>(entry, domains)
     } else {
-        certificate::<f64>(entry, domain)
+        certificate_of::<f64>(entry, domains)
     };
     let text = text.map_err(|why| {
         let message = format!("{}: no certificate: {why}", entry.info.name);
@@ -39,23 +39,24 @@ pub fn certify(
     Ok(Status::Success)
 }
 
-fn certificate<F: Searched + Scalar>(entry: &Entry, domain: Domain) -> Result<String, String> {
+fn certificate_of<F: Searched + Scalar>(
+    entry: &Entry,
+    (domain, parts): (Domain, &[Domain]),
+) -> Result<String, String> {
     let effort = Effort { evaluations: 0, seed: 1 };
-    let summary = Summary::<F>::new(entry, domain, &[], effort)?;
-    let head = Heading {
-        kernel: entry.info.name,
-        scalar: F::NAME,
-        format: summary.format,
-        domain: summary.domain,
-    };
+    let summary = Summary::<F>::new(entry, domain, parts, &[], effort)?;
+    let head = Heading { kernel: entry.info.name, scalar: F::NAME, format: summary.format };
     let mut text = heading(&head);
-    let mut is_empty = true;
+    let mut stated = None;
     for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
         let claim = Claim { gate: entry.info.gates[quantity.gate].name, place: quantity.place };
+        if stated != Some(quantity.domain) {
+            text.push_str(&certificate::domain(&quantity.domain));
+            stated = Some(quantity.domain);
+        }
         text.push_str(&program(&summary.proof.paths[quantity.path], &quantity.lemmas, &[claim]));
-        is_empty = false;
     }
-    if is_empty { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
+    if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
 }
 
 /// Checks certificates, and says what they prove.
@@ -150,7 +151,7 @@ fn programs<F: Searched + Scalar>(
     write: impl Fn(&Path, &Quantity, Domain, Format, &str) -> Option<String>,
 ) -> Result<(), String> {
     let effort = Effort { evaluations: 0, seed: 1 };
-    let summary = Summary::<F>::new(entry, domain, &[], effort)?;
+    let summary = Summary::<F>::new(entry, domain, &[], &[], effort)?;
     let mut numbers = vec![0; entry.info.gates.len()];
     let one = only.filter(|(_, one)| *one).and_then(|(gate, _)| summary.proof.gate(gate)?.ok());
     for quantity in &summary.proof.quantities {

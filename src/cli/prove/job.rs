@@ -18,6 +18,8 @@ pub struct Job<'a> {
     /// The sizes and areas of its triangles.
     pub shapes: Vec<Shape>,
     pub domain: Domain,
+    /// Its parts, if it has some.
+    pub parts: Vec<Domain>,
     pub effort: Effort,
     /// Of which epsilons to say how far they carry.
     pub epsilons: Epsilons,
@@ -102,7 +104,8 @@ impl Job<'_> {
         let is_of = |w: &&StoredWitness| is_scalar(w) && (self.shared || w.kernel == name);
         let known: Vec<[F; 17]> =
             self.stored.iter().filter(is_of).filter_map(StoredWitness::nearest).collect();
-        let summary = match Summary::<F>::new(entry, self.domain, &known, self.effort) {
+        let summary = match Summary::<F>::new(entry, self.domain, &self.parts, &known, self.effort)
+        {
             Ok(summary) => summary,
             Err(why) => {
                 let note = Some(format!("{name}, {}: no proof: {why}", F::NAME));

@@ -75,9 +75,13 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
         };
         is_right.then(|| Format::of(format))
     })?;
-    let domain = reader.read("domain edge X reach X world X direction X …", Domain::parse)?;
+    let form = "domain edge X reach X world X direction X …";
+    let mut domain = reader.read(form, Domain::parse)?;
     let (mut proved, mut work, mut number) = (Vec::new(), 0, 0);
     while reader.lines.peek().is_some() {
+        if reader.is_next("domain") {
+            domain = reader.read(form, Domain::parse)?;
+        }
         let mut program = Program::read(format.clone(), domain.clone(), reader)?;
         while reader.is_next("lemma") {
             lemma(&mut program, &mut work, reader)?;
