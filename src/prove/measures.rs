@@ -8,8 +8,10 @@ use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::case::Draw;
 use crate::kernel::Path;
 use glam::DVec3;
+use std::ops::Range;
 
-/// Of a scene's triangles and rays; N = (b-a)×(c-a).
+/// Of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate and N_i
+/// another one, e an edge, p and q are vertices, and u stands for all three barycentric coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measures {
     /// |N| at least.
@@ -45,10 +47,10 @@ impl Limit {
 }
 
 /// A number that a scene knows.
-struct Known {
-    name: &'static str,
-    limit: Dyadic,
-    value: f64,
+pub(super) struct Known {
+    pub name: &'static str,
+    pub limit: Dyadic,
+    pub value: f64,
 }
 
 /// How many inputs show whether two formulas are the same. Random ones: different rational functions are equal
@@ -86,16 +88,16 @@ impl Samples {
 }
 
 /// A triangle and a ray.
-struct Sample {
+pub(super) struct Sample {
     origin: DVec3,
     direction: DVec3,
     vertices: [DVec3; 3],
     edges: [DVec3; 3],
-    normal: DVec3,
+    pub normal: DVec3,
 }
 
 impl Sample {
-    fn of(inputs: &[f64; 17]) -> Sample {
+    pub fn of(inputs: &[f64; 17]) -> Sample {
         let [origin, direction, a, b, c] =
             [0, 3, 6, 9, 12].map(|i| DVec3::from_slice(&inputs[i..]));
         let edges = [b - a, c - a, c - b];
@@ -107,8 +109,8 @@ impl Sample {
 const ROOT: f64 = 1.415;
 
 impl Measures {
-    /// Divisors. Coordinates of N only where a path compares them: it chose the largest one.
-    fn divisors(&self, sample: &Sample, has_largest: bool) -> Vec<Known> {
+    /// Divisors. N may have its largest coordinate along these axes.
+    pub(super) fn divisors(&self, sample: &Sample, axes: Range<usize>) -> Vec<Known> {
         let Measures { area, sine, .. } = *self;
         let normal = sample.normal;
         let (volume, length) = (normal.dot(sample.direction), normal.length());
@@ -118,18 +120,18 @@ impl Measures {
         let mut all = vec![
             known("N·d", area * sine, volume),
             known("N·N", area * area, normal.dot(normal)),
-            known("the length of N", area, length),
-            known("N·d over the length of N", sine, volume / length),
+            known("N", area, length),
+            known("N·d/|N|", sine, volume / length),
         ];
-        for k in (0..3).filter(|_| has_largest) {
-            all.push(known("the largest coordinate of N", largest, normal[k]));
-            all.push(known("N·d over the largest coordinate of N", sine, volume / normal[k]));
+        for k in axes {
+            all.push(known("N_k", largest, normal[k]));
+            all.push(known("N·d/N_k", sine, volume / normal[k]));
         }
         all
     }
 
     /// Quotients.
-    fn quotients(&self, sample: &Sample) -> Vec<Known> {
+    pub(super) fn quotients(&self, sample: &Sample, axes: Range<usize>) -> Vec<Known> {
         let Measures { slope, world, distance, .. } = *self;
         let Sample { origin, direction, vertices, edges, normal } = *sample;
         let [a, b, c] = vertices;
@@ -140,24 +142,26 @@ impl Measures {
         let p = origin + t * direction - a;
         let [v, u] = [edges[0].cross(p), p.cross(edges[1])].map(|x| normal.dot(x) / square);
         let mut all = vec![known("t", distance, t)];
-        all.extend([u, v, 1.0 - u - v].map(|w| known("a barycentric coordinate", Dyadic::ONE, w)));
-        for k in 0..3 {
+        all.extend([u, v, 1.0 - u - v].map(|w| known("u", Dyadic::ONE, w)));
+        for k in axes {
             let over = |name, limit, value: f64| known(name, limit, value / normal[k]);
             for i in (0..3).filter(|i| *i != k) {
-                let name = "two coordinates of N, the second one the largest,";
+                let name = "N_i/N_k";
                 all.push(over(name, above(1.01), normal[i]));
-                let name = "an edge over the largest coordinate of N";
+                let name = "e_i/N_k";
                 all.extend(edges.map(|edge| over(name, slope * above(ROOT), edge[i])));
             }
-            let name = "N·a over the largest coordinate of N";
+            let name = "N·a/N_k";
             all.push(over(name, world * above(3.03), a.dot(normal)));
             // p×q = p×(q-p).
-            let name = "the cross product of two vertices over the largest coordinate of N";
+            let name = "(p×q)_k/N_k";
             for (p, q) in [(a, b), (a, c), (b, c)] {
                 all.push(over(name, world * slope * above(2.0 * ROOT), p.cross(q)[k]));
             }
-            let name = "an edge times N over N·N";
-            all.extend(edges.map(|edge| known(name, slope, edge.cross(normal)[k] / square)));
+        }
+        let name = "(e×N)_i/N·N";
+        for i in 0..3 {
+            all.extend(edges.map(|edge| known(name, slope, edge.cross(normal)[i] / square)));
         }
         all
     }
@@ -182,8 +186,9 @@ impl Prover<'_> {
             return Limit::Domain(direction_floor);
         }
         let found = self.samples.as_ref().and_then(|(samples, measures)| {
-            let has_largest = self.compares_sizes();
-            samples.find(divisor, |inputs| measures.divisors(&Sample::of(inputs), has_largest))
+            // A path that compares coordinates of N chose the largest one.
+            let axes = if self.compares_sizes() { 0..3 } else { 0..0 };
+            samples.find(divisor, |inputs| measures.divisors(&Sample::of(inputs), axes.clone()))
         });
         found.map_or(Limit::Domain(floor), |Known { name, limit, .. }| Limit::Scene(name, limit))
     }
@@ -192,7 +197,7 @@ impl Prover<'_> {
     pub(super) fn most(&self, quotient: Place) -> Option<Limit> {
         let all = Limit::Domain(self.domain.quotient);
         let Some((samples, measures)) = &self.samples else { return Some(all) };
-        let found = samples.find(quotient, |inputs| measures.quotients(&Sample::of(inputs)));
+        let found = samples.find(quotient, |inputs| measures.quotients(&Sample::of(inputs), 0..3));
         let found = found.map(|Known { name, limit, .. }| Limit::Scene(name, limit));
         // Rays are those that matter. Of triangles a scene has every one.
         found.or_else(|| self.is_of_ray(quotient).then_some(all))

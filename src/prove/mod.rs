@@ -39,7 +39,7 @@ pub use forms::Leaf;
 pub use formula::{Formula, Maximum, Source, Step};
 pub use fpcore::fpcore;
 pub use gappa::gappa;
-pub use gates::{Proof, Quantity, Uses, each_quantity};
+pub use gates::{Proof, Quantity, Supposed, Uses, each_quantity};
 pub use measures::{Limit, Measures};
 pub use order::is_impossible;
 pub use permanent::{Relative, Roundings, relative};

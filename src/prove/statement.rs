@@ -1,10 +1,9 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
-use super::gates::Supposed;
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness, format_of, paths_of};
 use super::witness::Searched;
-use super::{Domain, Proof, Quantity, Relative, Scene, Shape, Symmetry, Uses};
+use super::{Domain, Proof, Quantity, Relative, Scene, Shape, Supposed, Symmetry, Uses};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -35,9 +34,7 @@ pub fn statements<F: Searched + Scalar>(
     let beta = bound.to_f64();
     let unit = summary.format.unit().to_f64();
     let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit, true));
-    let where_ = if scene.is_some() {
-        supposed(&gate.limits)
-    } else if gate.uses.floor {
+    let where_ = if scene.is_none() && gate.uses.floor {
         let Domain { floor, quotient, .. } = summary.domain;
         format!(
             ", where divisors are at least {} and quotients at most {}",
@@ -52,6 +49,9 @@ pub fn statements<F: Searched + Scalar>(
     });
     let what = "What it compares is never wrong by more than";
     let mut lines = vec![format!("{what} {}{where_}{known}.", in_units(beta))];
+    if scene.is_some() && !gate.limits.is_empty() {
+        lines.push(supposed(&gate.limits));
+    }
     if let Some(Relative { factor, underflow, .. }) = &gate.relative {
         lines.push(format!(
             "At any exponents, short of overflow, it is wrong by at most {} u times its permanent (the sum of the \
@@ -101,18 +101,29 @@ pub fn statements<F: Searched + Scalar>(
     lines
 }
 
-/// The limits that a bound in a scene supposes.
+/// The limits that a bound in a scene supposes, and what the letters in them mean.
 fn supposed(limits: &[Supposed]) -> String {
-    let texts = limits.iter().map(|Supposed { is_most, name, limit }| match is_most {
-        true => format!("{name} at most {}", above(limit.to_f64())),
-        false => format!("{name} at least {}", below(limit.to_f64())),
+    let texts = limits.iter().map(|Supposed { is_most, name, limit }| {
+        let name = if name.contains(' ') { (*name).to_owned() } else { format!("|{name}|") };
+        match is_most {
+            true => format!("{name} at most {}", above(limit.to_f64())),
+            false => format!("{name} at least {}", below(limit.to_f64())),
+        }
     });
     let texts: Vec<String> = texts.collect();
-    if texts.is_empty() {
-        String::new()
-    } else {
-        format!(", the size of {} (N = (b-a)x(c-a))", texts.join(", of "))
-    }
+    let has = |letter: &str| limits.iter().any(|limit| limit.name.contains(letter));
+    let letters = [
+        ("N", "N = (b-a)×(c-a)"),
+        ("N_k", "N_k its largest coordinate"),
+        ("e_i", "e an edge"),
+        ("p×q", "p and q vertices"),
+        ("u", "u any barycentric coordinate"),
+    ];
+    let letters: Vec<&str> =
+        letters.into_iter().filter(|(letter, _)| has(letter)).map(|(_, text)| text).collect();
+    let letters =
+        if letters.is_empty() { String::new() } else { format!(" ({})", letters.join(", ")) };
+    format!("It supposes of the exact numbers: {}{letters}.", texts.join(", "))
 }
 
 fn parallel<F: Searched + Scalar>(

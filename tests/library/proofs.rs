@@ -24,7 +24,8 @@ fn certificate_of(path: &Path, scalar: &str, domain: Domain, places: &[u32]) -> 
         prover.bound(*place).unwrap();
     }
     let claims: Vec<_> = places.iter().map(|place| Claim { gate: "gate", place: *place }).collect();
-    certificate::heading(&Heading { kernel: "kernel", scalar, format }) + &certificate::domain(&domain)
+    certificate::heading(&Heading { kernel: "kernel", scalar, format })
+        + &certificate::domain(&domain)
         + &certificate::program(path, &prover.lemmas, &claims)
 }
 

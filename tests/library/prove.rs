@@ -42,7 +42,8 @@ fn no_error_is_above_its_bound_in_f64() {
 fn the_determinant_of_moller_trumbore_is_bounded_as_by_hand() {
     let kernel = find("moller-trumbore").unwrap();
     let summary =
-        Summary::<f32>::new(kernel, Domain::UNIT, &[], &[], Effort { evaluations: 0, seed: 1 }).unwrap();
+        Summary::<f32>::new(kernel, Domain::UNIT, &[], &[], Effort { evaluations: 0, seed: 1 })
+            .unwrap();
     let units = summary.gates[0].bound.as_ref().unwrap().to_f64() * 2f64.powi(24);
     let below_one = 1.0 - 2f64.powi(-10);
     assert!(units <= 17.0 && units >= 17.0 * below_one * below_one, "{units}");

@@ -1,6 +1,7 @@
 mod constants;
 mod fpcore;
 mod gappa;
+mod measures;
 mod permanent;
 mod rows;
 mod sign;

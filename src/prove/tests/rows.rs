@@ -1,7 +1,7 @@
 //! Coordinates of edges over twice an area: what is said of them in proof.md, in whole numbers and in formats of
 //! a few digits.
 
-use super::super::{Domain, Dyadic, Format, Prover, Source};
+use super::super::{Domain, Dyadic, Format, Formula, Leaf, Prover, Source, Step};
 use super::tiny::round;
 use super::unit::largest_share;
 use super::{difference, recorded};
@@ -76,6 +76,85 @@ fn no_sum_of_rows_in_a_tiny_format_passes_its_bound() {
             assert!(0.05 < worst && worst <= 1.0, "{name}, p={digits}: {worst}");
         }
     }
+}
+
+/// The effects of a formula's errors at a point, where each is as large as its bound.
+fn effects(formula: &Formula, variables: &[f64], values: &mut Vec<f64>) -> f64 {
+    values.clear();
+    for step in &formula.steps {
+        let of = |i: usize| values[i];
+        let sum = |sum: &[(usize, i8)]| {
+            sum.iter().map(|(v, sign)| f64::from(*sign) * variables[*v]).sum()
+        };
+        values.push(match *step {
+            Step::Variables(ref all) => sum(all),
+            Step::Number(value) => value.into(),
+            Step::Neg(a) => -of(a),
+            Step::Add(a, b) => of(a) + of(b),
+            Step::Sub(a, b) => of(a) - of(b),
+            Step::Mul(a, b) => of(a) * of(b),
+            Step::Fma(a, b, c) => of(a) * of(b) + of(c),
+            Step::Minor(a, b, c, d) => of(a) * of(b) - of(c) * of(d),
+        });
+    }
+    let mut slopes = vec![0.0; values.len()];
+    *slopes.last_mut().unwrap() = 1.0;
+    for (i, step) in formula.steps.iter().enumerate().rev() {
+        let (own, of) = (slopes[i], |i: usize| values[i]);
+        let parts: &[(usize, f64)] = match *step {
+            Step::Variables(_) | Step::Number(_) => &[],
+            Step::Neg(a) => &[(a, -1.0)],
+            Step::Add(a, b) => &[(a, 1.0), (b, 1.0)],
+            Step::Sub(a, b) => &[(a, 1.0), (b, -1.0)],
+            Step::Mul(a, b) => &[(a, of(b)), (b, of(a))],
+            Step::Fma(a, b, c) => &[(a, of(b)), (b, of(a)), (c, 1.0)],
+            Step::Minor(a, b, c, d) => &[(a, of(b)), (b, of(a)), (c, -of(d)), (d, -of(c))],
+        };
+        parts.iter().for_each(|(to, by)| slopes[*to] += own * by);
+    }
+    slopes
+        .iter()
+        .zip(&formula.bounds)
+        .map(|(slope, bound)| slope.abs() * bound.error.to_f64())
+        .sum()
+}
+
+/// Of an edge over the area no effects are a larger share of the divisor than those at the corners of the narrow
+/// box, and some are nearly that.
+#[test]
+fn effects_as_a_share_of_the_divisor_are_largest_in_the_narrow_box() {
+    let floor = Dyadic::power(-3);
+    let (path, place) = recorded(|| edges()[0][0].clone() / &area());
+    let mut prover = Prover::new(&path, Domain { floor, ..DOMAIN }, Format::F32);
+    prover.bound(place).expect("a bound");
+    let lemma = prover.lemmas.last().expect("of the quotient");
+    let (formula, floor) = (&lemma.formula, floor.to_f64());
+    assert!(!formula.narrow.is_empty() && formula.relative.iter().all(|yes| !yes));
+    let Some(Step::Mul(_, divisor)) = formula.steps.iter().nth_back(1) else { panic!("q * d") };
+    let most = lemma.maximum.first.to_f64() / floor;
+    let mut draw = Draw::new("effects", 1, 1);
+    let (mut best, mut values) = (0.0f64, Vec::new());
+    for k in 0..400_000 {
+        // Close to corners of boxes of all sizes.
+        let scale = if k % 2 == 0 { 1.0 } else { 2.0 * floor.sqrt() };
+        let point = formula.variables.iter().zip(&formula.sources).map(|(size, source)| {
+            let x: f64 = draw.symmetric();
+            let x = x.signum() * (1.0 - x * x * x * x);
+            let is_edge = matches!(source, Source::Leaf(Leaf::Difference(..)));
+            size.to_f64() * x * if is_edge { scale } else { 1.0 }
+        });
+        let point: Vec<f64> = point.collect();
+        let found = effects(formula, &point, &mut values);
+        let size = values[*divisor].abs();
+        // The path divides these edges too, and no quotient is above 1.
+        let is_inside = formula.narrow.iter().all(|(v, ..)| point[*v].abs() <= size);
+        if is_inside && floor <= size {
+            best = best.max(found / size);
+            assert!(found / size <= most, "{found} of {size} at {point:?}, beside {most}");
+        }
+    }
+    println!("{best:e} of {most:e}");
+    assert!(0.8 * most < best, "{best:e} of {most:e}");
 }
 
 /// Which variables of third edges a number's proof has, and how many narrow ones.
