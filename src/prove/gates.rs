@@ -79,7 +79,7 @@ impl Quantity {
             let (name, limit) = match limit {
                 Limit::Own(_) => return None,
                 Limit::Scene(name, size) => (name, size),
-                Limit::Domain(size) if is_most => ("any other quotient", size),
+                Limit::Domain(size) if is_most => ("any quotient", size),
                 Limit::Domain(size) => ("any other divisor", size),
             };
             Some(Supposed { is_most, name, limit })

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::ops::Range;
 
 /// Of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate and N_i
-/// another one, e an edge, p and q are vertices, and u stands for all three barycentric coordinates.
+/// another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three barycentric coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measures {
     /// |N| at least.
@@ -118,14 +118,14 @@ impl Measures {
             |name, limit: Dyadic, value| Known { name, limit: limit.round_down(DIGITS), value };
         let largest = area * below(0.577);
         let mut all = vec![
-            known("N·d", area * sine, volume),
-            known("N·N", area * area, normal.dot(normal)),
-            known("N", area, length),
-            known("N·d/|N|", sine, volume / length),
+            known("|N·d|", area * sine, volume),
+            known("|N·N|", area * area, normal.dot(normal)),
+            known("|N|", area, length),
+            known("|N·d|/|N|", sine, volume / length),
         ];
         for k in axes {
-            all.push(known("N_k", largest, normal[k]));
-            all.push(known("N·d/N_k", sine, volume / normal[k]));
+            all.push(known("|N_k|", largest, normal[k]));
+            all.push(known("|N·d/N_k|", sine, volume / normal[k]));
         }
         all
     }
@@ -141,25 +141,25 @@ impl Measures {
         let t = normal.dot(a - origin) / normal.dot(direction);
         let p = origin + t * direction - a;
         let [v, u] = [edges[0].cross(p), p.cross(edges[1])].map(|x| normal.dot(x) / square);
-        let mut all = vec![known("t", distance, t)];
-        all.extend([u, v, 1.0 - u - v].map(|w| known("u", Dyadic::ONE, w)));
+        let mut all = vec![known("|t|", distance, t)];
+        all.extend([u, v, 1.0 - u - v].map(|w| known("|u|", Dyadic::ONE, w)));
         for k in axes {
             let over = |name, limit, value: f64| known(name, limit, value / normal[k]);
             for i in (0..3).filter(|i| *i != k) {
-                let name = "N_i/N_k";
+                let name = "|N_i/N_k|";
                 all.push(over(name, above(1.01), normal[i]));
-                let name = "e_i/N_k";
+                let name = "|e_i/N_k|";
                 all.extend(edges.map(|edge| over(name, slope * above(ROOT), edge[i])));
             }
-            let name = "N·a/N_k";
+            let name = "|N·a/N_k|";
             all.push(over(name, world * above(3.03), a.dot(normal)));
             // p×q = p×(q-p).
-            let name = "(p×q)_k/N_k";
+            let name = "|(p×q)_k/N_k|";
             for (p, q) in [(a, b), (a, c), (b, c)] {
                 all.push(over(name, world * slope * above(2.0 * ROOT), p.cross(q)[k]));
             }
         }
-        let name = "(e×N)_i/N·N";
+        let name = "|(e×N)_i/N·N|";
         for i in 0..3 {
             all.extend(edges.map(|edge| known(name, slope, edge.cross(normal)[i] / square)));
         }
@@ -183,7 +183,10 @@ impl Prover<'_> {
     pub(super) fn floor(&self, divisor: Place) -> Limit {
         let Domain { direction_floor, floor, .. } = self.domain;
         if self.is_largest_of_direction(divisor) {
-            return Limit::Domain(direction_floor);
+            return match self.samples {
+                None => Limit::Domain(direction_floor),
+                Some(_) => Limit::Scene("|d_k|", direction_floor),
+            };
         }
         let found = self.samples.as_ref().and_then(|(samples, measures)| {
             // A path that compares coordinates of N chose the largest one.
@@ -195,12 +198,12 @@ impl Prover<'_> {
 
     /// The largest size of a quotient; none if a scene knows nothing of it.
     pub(super) fn most(&self, quotient: Place) -> Option<Limit> {
-        let all = Limit::Domain(self.domain.quotient);
-        let Some((samples, measures)) = &self.samples else { return Some(all) };
-        let found = samples.find(quotient, |inputs| measures.quotients(&Sample::of(inputs), 0..3));
-        let found = found.map(|Known { name, limit, .. }| Limit::Scene(name, limit));
-        // Rays are those that matter. Of triangles a scene has every one.
-        found.or_else(|| self.is_of_ray(quotient).then_some(all))
+        let Some((samples, measures)) = &self.samples else {
+            return Some(Limit::Domain(self.domain.quotient));
+        };
+        let found =
+            samples.find(quotient, |inputs| measures.quotients(&Sample::of(inputs), 0..3))?;
+        Some(Limit::Scene(found.name, found.limit))
     }
 
     /// Whether the path orders sizes of numbers that are no inputs.
@@ -214,13 +217,5 @@ impl Prover<'_> {
             matches!(comparison, Comparison::Less(..) | Comparison::AtMost(..))
         });
         orders.any(|(comparison, _)| comparison.places().iter().any(is_size))
-    }
-
-    /// Whether origin, direction or interval are in a number.
-    fn is_of_ray(&self, place: Place) -> bool {
-        match self.operation(place) {
-            Operation::Input(i) => !(6..15).contains(&i),
-            operation => operation.operands().iter().any(|operand| self.is_of_ray(*operand)),
-        }
     }
 }

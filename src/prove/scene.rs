@@ -141,7 +141,8 @@ impl Scene {
 
     /// Twice the smallest area, or slightly less.
     pub fn least_shape(&self) -> f64 {
-        let of_angles = self.edge[0] * self.edge[0] * sine(self.min_angle);
+        // The shortest edge twice, and the smallest angle twice; or an equilateral triangle.
+        let of_angles = self.edge[0] * self.edge[0] * sine((2.0 * self.min_angle).min(60.0));
         self.shape.map_or(of_angles, |shape| shape * 0.999_999)
     }
 
@@ -153,7 +154,7 @@ impl Scene {
         let mut size = shortest;
         while size < longest || shapes.is_empty() {
             let next = (size * std::f64::consts::SQRT_2).min(longest).max(size);
-            let least = (size * size / 2.0).max(shortest * shortest) * sine(self.min_angle);
+            let least = (size * size / 2.0 * sine(self.min_angle)).max(self.least_shape());
             shapes.push((next, least));
             if next <= size {
                 break;

@@ -103,21 +103,19 @@ pub fn statements<F: Searched + Scalar>(
 
 /// The limits that a bound in a scene supposes, and what the letters in them mean.
 fn supposed(limits: &[Supposed]) -> String {
-    let texts = limits.iter().map(|Supposed { is_most, name, limit }| {
-        let name = if name.contains(' ') { (*name).to_owned() } else { format!("|{name}|") };
-        match is_most {
-            true => format!("{name} at most {}", above(limit.to_f64())),
-            false => format!("{name} at least {}", below(limit.to_f64())),
-        }
+    let texts = limits.iter().map(|Supposed { is_most, name, limit }| match is_most {
+        true => format!("{name} at most {}", above(limit.to_f64())),
+        false => format!("{name} at least {}", below(limit.to_f64())),
     });
     let texts: Vec<String> = texts.collect();
     let has = |letter: &str| limits.iter().any(|limit| limit.name.contains(letter));
     let letters = [
         ("N", "N = (b-a)×(c-a)"),
         ("N_k", "N_k its largest coordinate"),
+        ("d_k", "d_k the largest coordinate of d"),
         ("e_i", "e an edge"),
         ("p×q", "p and q vertices"),
-        ("u", "u any barycentric coordinate"),
+        ("|u|", "u any barycentric coordinate"),
     ];
     let letters: Vec<&str> =
         letters.into_iter().filter(|(letter, _)| has(letter)).map(|(_, text)| text).collect();

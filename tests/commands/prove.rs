@@ -181,6 +181,46 @@ fn certificates_are_checked_and_a_changed_number_is_refused() {
 }
 
 #[test]
+fn a_certificate_of_a_scene_has_its_limits_of_divisors_and_quotients() {
+    let folder = scratch("scene-certificate");
+    let file = folder.join("scene.proof");
+    let kernel = ["--kernel", "plane-unit-normal", "--scalar", "f64"];
+    let scene = ["--coordinates", "4", "--edge", "0.5..4", "--distance", "8"];
+    text(&[&["prove"], &kernel[..], &scene, &["--certificate", file.to_str().unwrap()]].concat());
+    let proof = fs::read_to_string(&file).unwrap();
+    // Each size of triangles has a domain of its own.
+    let lines = |word: &str| proof.lines().filter(|line| line.starts_with(word)).count();
+    assert!(lines("domain ") > 5 && lines("at-least ") > 10 && lines("at-most ") > 10, "{proof}");
+    let shown = text(&[&["prove", "-n", "0"], &kernel[..], &scene].concat());
+    let out = text(&["prove", "--check", file.to_str().unwrap()]);
+    // The largest bound of a gate is that of the scene.
+    let (_, parallel) = out.split_once("parallel ").unwrap();
+    let (digits, exponent) = parallel.split(',').next().unwrap().split_once('e').unwrap();
+    let above = (digits.parse::<f64>().unwrap() * 100.0).ceil() / 100.0;
+    let bound = format!("never wrong by more than {above:.2}e{exponent} (");
+    assert!(shown.contains(&bound), "{out} {shown}");
+    // Less is supposed of one divisor: then the numbers after it are wrong.
+    let line = proof.lines().find(|line| line.starts_with("at-least ")).unwrap();
+    let (start, exponent) = line.split_once("*2^-").unwrap();
+    let less = format!("{start}*2^-{}", exponent.parse::<i32>().unwrap() + 1);
+    fs::write(&file, proof.replacen(line, &less, 1)).unwrap();
+    refused(&["prove", "--check", file.to_str().unwrap()], 65, "expected");
+    let twice = format!("{line}\n{line}");
+    fs::write(&file, proof.replacen(line, &twice, 1)).unwrap();
+    refused(
+        &["prove", "--check", file.to_str().unwrap()],
+        65,
+        "at-least OPERATION X, once for an operation",
+    );
+    fs::write(&file, proof.replacen(line, "at-least 9999 1", 1)).unwrap();
+    refused(
+        &["prove", "--check", file.to_str().unwrap()],
+        65,
+        "at-least OPERATION X, once for an operation",
+    );
+}
+
+#[test]
 fn stored_certificates_are_those_of_the_kernels() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/proofs");
     let mut files: Vec<String> = fs::read_dir(folder)
@@ -239,6 +279,13 @@ fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
         words(&out).contains("that epsilon refuses every parallel ray; it keeps every hit at"),
         "{out}"
     );
+    // What divides has a bound too, and what it supposes.
+    let divides = ["prove", "--kernel", "baldwin-weber", "--scalar", "f64", "-n", "0"];
+    let out = text(&[&divides[..], &scene[..]].concat());
+    assert!(!out.contains("No bound"), "{out}");
+    let supposed =
+        "It supposes of the exact numbers: |N_k| at least 2.00e-6, |N·d/N_k| at least 0.0174,";
+    assert!(words(&out).contains(supposed), "{out}");
     let bad = |coordinates: &str, edge: &str, message: &str| {
         let scene = ["prove", "--coordinates", coordinates, "--edge", edge];
         refused(&scene, 2, message);

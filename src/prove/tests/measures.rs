@@ -82,7 +82,7 @@ fn what_a_scene_says_of_divisors_and_quotients_is_true_of_its_triangles() {
     assert!(10_000 < tried, "{tried}");
     assert_eq!(closest.len(), 13, "{closest:?}");
     // No limit is far from what the scene has.
-    assert!(closest.values().all(|share| 0.3 < *share), "{closest:?}");
+    assert!(closest.values().all(|share| 0.4 < *share), "{closest:?}");
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn a_scene_knows_what_the_kernels_divide_by() {
         "moller-trumbore",
         "moller-trumbore+fma",
         "plane-unit-normal",
-        "havel-herout",
+        "woop-watertight",
     ] {
         let entry = kernel::find(name).unwrap();
         let summary = Summary::<f64>::new(entry, domain, &[], &[], effort).unwrap();
@@ -107,11 +107,14 @@ fn a_scene_knows_what_the_kernels_divide_by() {
     }
     println!("{all:?}");
     let expected: [(&str, &[&str]); 5] = [
-        ("baldwin-weber", &["(p×q)_k/N_k", "N_i/N_k", "N_k", "N·a/N_k", "N·d/N_k", "e_i/N_k", "t"]),
-        ("moller-trumbore", &["N·d", "u"]),
-        ("moller-trumbore+fma", &["N·d", "u"]),
-        ("plane-unit-normal", &["N", "N·d/|N|", "t"]),
-        ("havel-herout", &["(e×N)_i/N·N", "N·N"]),
+        (
+            "baldwin-weber",
+            &["|(p×q)_k/N_k|", "|N_i/N_k|", "|N_k|", "|N·a/N_k|", "|N·d/N_k|", "|e_i/N_k|", "|t|"],
+        ),
+        ("moller-trumbore", &["|N·d|", "|u|"]),
+        ("moller-trumbore+fma", &["|N·d|", "|u|"]),
+        ("plane-unit-normal", &["|N|", "|N·d|/|N|", "|t|"]),
+        ("woop-watertight", &["|d_k|"]),
     ];
     assert_eq!(all, expected.map(|(name, names)| (name, names.to_vec())));
 }
