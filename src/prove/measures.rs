@@ -1,17 +1,17 @@
 //! What a scene says of numbers that kernels divide by, and of quotients: each is known by its value, in whatever
 //! order a program computes it.
 
-use super::bound::Prover;
+use super::Dyadic;
 use super::run::run;
-use super::{Domain, Dyadic};
-use crate::arith::recorded::{Comparison, Operation, Place};
+use crate::arith::recorded::Place;
 use crate::case::Draw;
 use crate::kernel::Path;
 use glam::DVec3;
 use std::ops::Range;
 
 /// Of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate and N_i
-/// another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three barycentric coordinates.
+/// another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
+/// barycentric coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measures {
     /// |N| at least.
@@ -57,25 +57,26 @@ pub(super) struct Known {
 /// nearly nowhere.
 const SAMPLES: u64 = 3;
 
-/// Values of all numbers of a program and of those that a scene knows, at some inputs.
+/// Values of all numbers of a program at some inputs.
 #[derive(Debug)]
-pub(super) struct Samples(Vec<(Vec<f64>, [f64; 17])>);
+pub(super) struct Samples(Vec<(Vec<f64>, Sample)>);
 
 impl Samples {
-    pub(super) fn new(path: &Path) -> Samples {
+    pub fn new(path: &Path) -> Samples {
         let sample = |i: u64| {
             let mut draw = Draw::new("measures", 1, i);
             let inputs: [f64; 17] = std::array::from_fn(|_| draw.symmetric());
             let mut values = Vec::new();
             run(&path.operations, path.operations.len() as Place - 1, &inputs, &mut values);
-            (values, inputs)
+            (values, Sample::of(&inputs))
         };
         Samples((0..SAMPLES).map(sample).collect())
     }
 
-    /// The first of the known numbers that a number is, up to its sign.
-    fn find(&self, place: Place, known: impl Fn(&[f64; 17]) -> Vec<Known>) -> Option<Known> {
-        let mut lists: Vec<Vec<Known>> = self.0.iter().map(|(_, inputs)| known(inputs)).collect();
+    /// The limit of the first of the known numbers that a number is, up to its sign.
+    pub fn find(&self, place: Place, known: impl Fn(&Sample) -> Vec<Known>) -> Option<Limit> {
+        let of = |(_, sample): &(Vec<f64>, Sample)| known(sample);
+        let mut lists: Vec<Vec<Known>> = self.0.iter().map(of).collect();
         let is_same = |i: usize| {
             self.0.iter().zip(&lists).all(|((values, _), list)| {
                 let (x, y) = (values[place as usize].abs(), list[i].value.abs());
@@ -83,11 +84,13 @@ impl Samples {
             })
         };
         let found = (0..lists[0].len()).find(|i| is_same(*i))?;
-        Some(lists[0].swap_remove(found))
+        let Known { name, limit, .. } = lists[0].swap_remove(found);
+        Some(Limit::Scene(name, limit))
     }
 }
 
 /// A triangle and a ray.
+#[derive(Debug)]
 pub(super) struct Sample {
     origin: DVec3,
     direction: DVec3,
@@ -176,46 +179,4 @@ fn above(x: f64) -> Dyadic {
 
 fn below(x: f64) -> Dyadic {
     Dyadic::from_f64(x).expect("finite").round_down(DIGITS)
-}
-
-impl Prover<'_> {
-    /// The least size of a divisor.
-    pub(super) fn floor(&self, divisor: Place) -> Limit {
-        let Domain { direction_floor, floor, .. } = self.domain;
-        if self.is_largest_of_direction(divisor) {
-            return match self.samples {
-                None => Limit::Domain(direction_floor),
-                Some(_) => Limit::Scene("|d_k|", direction_floor),
-            };
-        }
-        let found = self.samples.as_ref().and_then(|(samples, measures)| {
-            // A path that compares coordinates of N chose the largest one.
-            let axes = if self.compares_sizes() { 0..3 } else { 0..0 };
-            samples.find(divisor, |inputs| measures.divisors(&Sample::of(inputs), axes.clone()))
-        });
-        found.map_or(Limit::Domain(floor), |Known { name, limit, .. }| Limit::Scene(name, limit))
-    }
-
-    /// The largest size of a quotient; none if a scene knows nothing of it.
-    pub(super) fn most(&self, quotient: Place) -> Option<Limit> {
-        let Some((samples, measures)) = &self.samples else {
-            return Some(Limit::Domain(self.domain.quotient));
-        };
-        let found =
-            samples.find(quotient, |inputs| measures.quotients(&Sample::of(inputs), 0..3))?;
-        Some(Limit::Scene(found.name, found.limit))
-    }
-
-    /// Whether the path orders sizes of numbers that are no inputs.
-    fn compares_sizes(&self) -> bool {
-        let is_size = |place: &Place| match self.operation(*place) {
-            Operation::Abs(inner) => !matches!(self.operation(inner), Operation::Input(_)),
-            _ => false,
-        };
-        let decisions = self.path.decisions.iter();
-        let mut orders = decisions.filter(|(comparison, _)| {
-            matches!(comparison, Comparison::Less(..) | Comparison::AtMost(..))
-        });
-        orders.any(|(comparison, _)| comparison.places().iter().any(is_size))
-    }
 }

@@ -1,13 +1,51 @@
 //! Bounds of quotients.
 
-use super::Dyadic;
 use super::bound::{Bound, Prover, SIZE_DIGITS};
 use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
 use super::measures::Limit;
-use crate::arith::recorded::{Operation, Place};
+use super::{Domain, Dyadic};
+use crate::arith::recorded::{Comparison, Operation, Place};
 
 impl Prover<'_> {
+    /// The least size of a divisor.
+    pub(super) fn floor(&self, divisor: Place) -> Limit {
+        let Domain { direction_floor, floor, .. } = self.domain;
+        if self.is_largest_of_direction(divisor) {
+            return match self.samples {
+                None => Limit::Domain(direction_floor),
+                Some(_) => Limit::Scene("|d_k|", direction_floor),
+            };
+        }
+        let found = self.samples.as_ref().and_then(|(samples, measures)| {
+            // A path that compares coordinates of N chose the largest one.
+            let axes = if self.compares_sizes() { 0..3 } else { 0..0 };
+            samples.find(divisor, |sample| measures.divisors(sample, axes.clone()))
+        });
+        found.unwrap_or(Limit::Domain(floor))
+    }
+
+    /// The largest size of a quotient; none if a scene knows nothing of it.
+    pub(super) fn most(&self, quotient: Place) -> Option<Limit> {
+        let Some((samples, measures)) = &self.samples else {
+            return Some(Limit::Domain(self.domain.quotient));
+        };
+        samples.find(quotient, |sample| measures.quotients(sample, 0..3))
+    }
+
+    /// Whether the path orders sizes of numbers that are no inputs.
+    fn compares_sizes(&self) -> bool {
+        let is_size = |place: &Place| match self.operation(*place) {
+            Operation::Abs(inner) => !matches!(self.operation(inner), Operation::Input(_)),
+            _ => false,
+        };
+        let decisions = self.path.decisions.iter();
+        let mut orders = decisions.filter(|(comparison, _)| {
+            matches!(comparison, Comparison::Less(..) | Comparison::AtMost(..))
+        });
+        orders.any(|(comparison, _)| comparison.places().iter().any(is_size))
+    }
+
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
     pub(super) fn quotient(&self, place: Place) -> Option<(Option<Place>, Place, bool)> {
         let reciprocal = |place: Place| match self.operation(place) {
