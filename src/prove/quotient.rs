@@ -6,6 +6,7 @@ use super::formula::{DIGITS, Formula, Maximum};
 use super::measures::Limit;
 use super::{Domain, Dyadic};
 use crate::arith::recorded::{Comparison, Operation, Place};
+use std::ops::Range;
 
 impl Prover<'_> {
     /// The least size of a divisor.
@@ -18,9 +19,7 @@ impl Prover<'_> {
             };
         }
         let found = self.samples.as_ref().and_then(|(samples, measures)| {
-            // A path that compares coordinates of N chose the largest one.
-            let axes = if self.compares_sizes() { 0..3 } else { 0..0 };
-            samples.find(divisor, |sample| measures.divisors(sample, axes.clone()))
+            samples.find(divisor, |sample| measures.divisors(sample, self.axes()))
         });
         found.unwrap_or(Limit::Domain(floor))
     }
@@ -30,11 +29,12 @@ impl Prover<'_> {
         let Some((samples, measures)) = &self.samples else {
             return Some(Limit::Domain(self.domain.quotient));
         };
-        samples.find(quotient, |sample| measures.quotients(sample, 0..3))
+        samples.find(quotient, |sample| measures.quotients(sample, self.axes()))
     }
 
-    /// Whether the path orders sizes of numbers that are no inputs.
-    fn compares_sizes(&self) -> bool {
+    /// Along which axes N may have its largest coordinate: a path that orders sizes of numbers that are no inputs chose
+    /// it.
+    fn axes(&self) -> Range<usize> {
         let is_size = |place: &Place| match self.operation(*place) {
             Operation::Abs(inner) => !matches!(self.operation(inner), Operation::Input(_)),
             _ => false,
@@ -43,7 +43,8 @@ impl Prover<'_> {
         let mut orders = decisions.filter(|(comparison, _)| {
             matches!(comparison, Comparison::Less(..) | Comparison::AtMost(..))
         });
-        orders.any(|(comparison, _)| comparison.places().iter().any(is_size))
+        let chooses = orders.any(|(comparison, _)| comparison.places().iter().any(is_size));
+        if chooses { 0..3 } else { 0..0 }
     }
 
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.
