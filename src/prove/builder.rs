@@ -114,9 +114,10 @@ impl<'p, 'a> Builder<'p, 'a> {
             Source::Part(place) => self.prover.quotient(place),
             _ => None,
         };
-        let lengths = sources.iter().filter_map(part).map(|(_, length, _)| length);
+        // One arithmetic for all coordinates: a product by a reciprocal has an error of the length in common.
+        let lengths = sources.iter().filter_map(part).map(|(_, length, twice)| (length, twice));
         let coordinates = sources.iter().filter_map(part).map(|(coordinate, ..)| coordinate);
-        let is_one = lengths.collect::<HashSet<Place>>().len() == 1
+        let is_one = lengths.collect::<HashSet<(Place, bool)>>().len() == 1
             && coordinates.clone().collect::<HashSet<_>>().len() == coordinates.count();
         self.formula.unit =
             (0..sources.len()).filter(|v| matches!(sources[*v], Source::Part(_))).collect();

@@ -108,8 +108,15 @@ impl Sample {
     }
 }
 
-/// Slightly more than √2: a vector at right angles to N has coordinates of at most √2|N_k|/|N|, N_k being the largest.
-const ROOT: f64 = 1.415;
+/// The name of the largest coordinate of N.
+pub const LARGEST: &str = "|N_k|";
+
+/// No other coordinate of N is more than this times as large as N_k, which is the largest one of those computed.
+const LARGER: f64 = 1.01;
+
+/// √(1 + 1.01²): where N_k is the largest, no vector at right angles to N has a coordinate above √2|N_k|/|N| times its
+/// length.
+const ROOT: f64 = 1.423;
 
 impl Measures {
     /// Divisors. N may have its largest coordinate along these axes.
@@ -119,7 +126,7 @@ impl Measures {
         let (volume, length) = (normal.dot(sample.direction), normal.length());
         let known =
             |name, limit: Dyadic, value| Known { name, limit: limit.round_down(DIGITS), value };
-        let largest = area * below(0.577);
+        let largest = area * below(0.573);
         let mut all = vec![
             known("|N·d|", area * sine, volume),
             known("|N·N|", area * area, normal.dot(normal)),
@@ -127,7 +134,7 @@ impl Measures {
             known("|N·d|/|N|", sine, volume / length),
         ];
         for k in axes {
-            all.push(known("|N_k|", largest, normal[k]));
+            all.push(known(LARGEST, largest, normal[k]));
             all.push(known("|N·d/N_k|", sine, volume / normal[k]));
         }
         all
@@ -150,7 +157,7 @@ impl Measures {
             let over = |name, limit, value: f64| known(name, limit, value / normal[k]);
             for i in (0..3).filter(|i| *i != k) {
                 let name = "|N_i/N_k|";
-                all.push(over(name, above(1.01), normal[i]));
+                all.push(over(name, above(LARGER), normal[i]));
                 let name = "|e_i/N_k|";
                 all.extend(edges.map(|edge| over(name, slope * above(ROOT), edge[i])));
             }

@@ -3,7 +3,7 @@
 use super::bound::{Bound, Prover, SIZE_DIGITS};
 use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
-use super::measures::Limit;
+use super::measures::{LARGEST, Limit};
 use super::{Domain, Dyadic};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use std::ops::Range;
@@ -77,6 +77,12 @@ impl Prover<'_> {
         (floor, most): (Limit, Option<Limit>),
     ) -> Result<(Formula, Maximum, Bound), String> {
         let below = self.bound(divisor)?;
+        let is_unsure = matches!(floor, Limit::Scene(LARGEST, size) if size < below.error * Dyadic::new(200, 0));
+        if is_unsure {
+            return Err(
+                "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned()
+            );
+        }
         let floor = floor.size();
         let least = Big::from(floor) - Big::from(below.error);
         if least <= Big::from(self.format.tiny() * Dyadic::new(2, 0)) {

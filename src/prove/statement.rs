@@ -121,7 +121,10 @@ fn supposed(limits: &[Supposed]) -> String {
         letters.into_iter().filter(|(letter, _)| has(letter)).map(|(_, text)| text).collect();
     let letters =
         if letters.is_empty() { String::new() } else { format!(" ({})", letters.join(", ")) };
-    format!("It supposes of the exact numbers: {}{letters}.", texts.join(", "))
+    format!(
+        "It supposes of the exact numbers, and more of larger triangles: {}{letters}.",
+        texts.join(", ")
+    )
 }
 
 fn parallel<F: Searched + Scalar>(

@@ -283,8 +283,8 @@ fn a_scene_gives_its_own_bounds_and_a_bad_one_a_sentence() {
     let divides = ["prove", "--kernel", "baldwin-weber", "--scalar", "f64", "-n", "0"];
     let out = text(&[&divides[..], &scene[..]].concat());
     assert!(!out.contains("No bound"), "{out}");
-    let supposed =
-        "It supposes of the exact numbers: |N_k| at least 2.00e-6, |N·d/N_k| at least 0.0174,";
+    let supposed = "It supposes of the exact numbers, and more of larger triangles: |N_k| at least 1.99e-6, \
+                    |N·d/N_k| at least 0.0174,";
     assert!(words(&out).contains(supposed), "{out}");
     let bad = |coordinates: &str, edge: &str, message: &str| {
         let scene = ["prove", "--coordinates", coordinates, "--edge", edge];

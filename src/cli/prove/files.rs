@@ -87,6 +87,8 @@ fn checked(file: &str) -> Result<String, Failure> {
     let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
     let recorded =
         kernel::find(name).map(|entry| in_named_scalar!(scalar, F => recorded::<F>(entry)));
+    let count = |word: &str| text.lines().filter(|line| line.starts_with(word)).count();
+    let has_limits = 0 < count("at-least ") + count("at-most ") || 1 < count("domain ");
     let whose = match recorded {
         None => "no kernel of that name is here to compare".to_owned(),
         Some(Err(why)) => format!("not compared with the kernel: {why}"),
@@ -106,6 +108,9 @@ fn checked(file: &str) -> Result<String, Failure> {
                 .map(|(_, gate)| *gate)
                 .collect();
             match missing.is_empty() {
+                true if has_limits => {
+                    "for inputs as its lines domain, at-least and at-most say".to_owned()
+                }
                 true => "all that the kernel compares".to_owned(),
                 false => format!("without all of {}", Vec::from_iter(missing).join(", ")),
             }

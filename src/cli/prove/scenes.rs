@@ -77,6 +77,7 @@ pub fn scene_text(scene: &Scene) -> String {
         [coordinates, low, high, distance, min_angle, grazing].map(digits);
     format!(
         "coordinates up to {coordinates}, edges from {low} to {high}, origins up to {distance} from the \
-         vertices, angles from {min_angle}°, rays at {grazing}° to the plane and more, coordinates of d up to 1"
+         vertices, angles from {min_angle}°, rays at {grazing}° to the plane and more with |d| = 1, t_min and t_max \
+         up to {distance}; where a kernel divides to get t, u or v, exact |t| up to {distance}, |u|, |v| and |1-u-v| up to 1"
     )
 }

@@ -288,7 +288,9 @@ fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
     let error = round_up(&(&before + unit * &rounded + times(2, tiny)), ERROR_DIGITS);
     let computed = program.format.float_up(&rounded);
     program.format.finite(&computed)?;
-    Ok(Lemma { before: error.clone(), bound: Bound { size: one, computed, error }, unit: found })
+    let by_reciprocal = program.operations[place].name == "mul";
+    let unit = found.map(|(n, length)| (n, (length, by_reciprocal)));
+    Ok(Lemma { before: error.clone(), bound: Bound { size: one, computed, error }, unit })
 }
 
 /// The numbers whose squares an operation adds up before it takes the root; more than three if they are too many.

@@ -80,13 +80,16 @@ pub struct Program<'a> {
     pub lemmas: HashMap<usize, Lemma>,
 }
 
+/// A coordinate of a vector, and the vector's length; and whether its rounded reciprocal is multiplied.
+pub type Unit = (usize, (usize, bool));
+
 /// What is proved of a number.
 pub struct Lemma {
     pub bound: Bound,
     /// The error before the operation rounds, if it rounds once; else that of the number.
     pub before: Number,
-    /// If it is a coordinate of a vector divided by the vector's length: the coordinate and the length.
-    pub unit: Option<(usize, usize)>,
+    /// If it is a coordinate of a vector divided by the vector's length: of what.
+    pub unit: Option<Unit>,
 }
 
 impl<'a> Program<'a> {

@@ -2,7 +2,7 @@
 
 use super::edges::{Third, third};
 use super::number::{Bound, Number};
-use super::program::{Leaf, MOST_ROWS, Operation, Program, indices};
+use super::program::{Leaf, MOST_ROWS, Operation, Program, Unit, indices};
 use super::reader::{Outcome, Reader, ensure};
 
 /// A formula of n variables has 2^n corners.
@@ -14,8 +14,8 @@ pub struct Variable {
     pub leaf: Option<Leaf>,
     pub cut: Option<usize>,
     pub bound: Bound,
-    /// The coordinate and the length, if it is a coordinate of the unit vector in which the formula is linear.
-    pub part: Option<(usize, usize)>,
+    /// Of what, if it is a coordinate of the unit vector in which the formula is linear.
+    pub part: Option<Unit>,
     pub third: Option<Third>,
     /// The box that is enough for the effects of errors, if the program divides it by the lemma's divisor too.
     pub narrow: Option<Number>,
