@@ -192,7 +192,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
     let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
-    let parts = job.run_all(&entries, scalars);
+    let results = job.run_all(&entries, scalars);
     let mut record = Record {
         schema: "hairline/proof-1",
         version: env!("CARGO_PKG_VERSION"),
@@ -201,7 +201,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         kernels: Vec::new(),
     };
     let mut found = Vec::new();
-    for part in parts {
+    for part in results {
         if let Some(message) = part.contradiction {
             return Err(Failure::Message(Status::SelfCheck, message));
         }

@@ -114,7 +114,7 @@ pub const LARGEST: &str = "|N_k|";
 /// No other coordinate of N is more than this times as large as N_k, which is the largest one of those computed.
 const LARGER: f64 = 1.01;
 
-/// √(1 + 1.01²): where N_k is the largest, no vector at right angles to N has a coordinate above √2|N_k|/|N| times its
+/// Slightly more than √(1 + 1.01²): a vector at right angles to N has no coordinate above this times |N_k|/|N| times its
 /// length.
 const ROOT: f64 = 1.423;
 
@@ -177,7 +177,7 @@ impl Measures {
     }
 }
 
-/// Binary digits of what a scene says.
+/// Binary digits of what a scene says; the corners are computed with them exactly.
 pub(super) const DIGITS: u32 = 10;
 
 fn above(x: f64) -> Dyadic {

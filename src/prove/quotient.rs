@@ -77,8 +77,9 @@ impl Prover<'_> {
         (floor, most): (Limit, Option<Limit>),
     ) -> Result<(Formula, Maximum, Bound), String> {
         let below = self.bound(divisor)?;
-        let is_unsure = matches!(floor, Limit::Scene(LARGEST, size) if size < below.error * Dyadic::new(200, 0));
-        if is_unsure {
+        // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
+        let least = below.error * Dyadic::new(200, 0);
+        if matches!(floor, Limit::Scene(LARGEST, size) if size < least) {
             return Err(
                 "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned()
             );

@@ -1,5 +1,6 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
+use super::measures::DIGITS;
 use super::{Domain, Dyadic, Measures};
 use crate::case::{self, DirectionLength};
 use std::collections::BTreeMap;
@@ -23,9 +24,6 @@ pub struct Scene {
 
 /// A triangle: the largest coordinate of its edges, and twice its area.
 pub type Shape = (f64, f64);
-
-/// Binary digits of a domain's bounds; the corners are computed with them exactly.
-const DIGITS: u32 = 10;
 
 impl Scene {
     /// A scene as samples are drawn from it. An error in one sentence if its directions have any length.

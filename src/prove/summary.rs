@@ -8,6 +8,7 @@ use super::{Domain, Dyadic, Format};
 use crate::arith::Float;
 use crate::case::Draw;
 use crate::kernel::{Entry, Gate, Path, Role, Scalar};
+use std::collections::HashSet;
 
 /// A kernel in one scalar and one domain.
 #[derive(Debug)]
@@ -82,7 +83,7 @@ pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
 /// How hard to search, and from where.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Evaluations for each quantity and goal.
+    /// Evaluations for each quantity and goal; the parts of a domain share them.
     pub evaluations: u64,
     /// Of the random moves.
     pub seed: u64,
@@ -117,7 +118,9 @@ impl<F: Searched + Scalar> Summary<F> {
                 }
                 is_same
             });
-            let forms = of_gate().map(|quantity| {
+            let mut seen = HashSet::new();
+            let once = of_gate().filter(|quantity| seen.insert((quantity.path, quantity.place)));
+            let forms = once.map(|quantity| {
                 let path = &proof.paths[quantity.path];
                 relative(path, quantity.place, domain, format).ok()
             });

@@ -108,10 +108,10 @@ fn wrapped(text: &str, indent: usize) -> String {
 }
 
 fn domain(record: &Record, scene: Option<&Scene>) -> String {
-    let part = &record.domain;
     match scene {
         Some(scene) => wrapped(&format!("Scene: {}", scene_text(scene)), 0),
         None => {
+            let part = &record.domain;
             format!(
                 "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a \
                  kernel divides,\ndivisors of {} and more (the largest coordinate of d too), quotients up to {}. A \
