@@ -1,5 +1,6 @@
 //! `hairline prove`: bounds that hold for every float of a domain, witnesses, certificates.
 
+pub mod check;
 pub mod demand;
 mod files;
 mod job;
@@ -157,7 +158,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         ));
     }
     if !arguments.check.is_empty() {
-        return files::check(arguments);
+        return check::check(arguments);
     }
     let entries = arguments.entries()?;
     let scalars = chosen_scalars(&arguments.scalar)?;
@@ -312,7 +313,8 @@ impl ProveArguments {
         };
         let distance = self.distance.unwrap_or(2.0 * coordinates);
         let (min_angle, grazing) = (self.min_angle, self.grazing);
-        let scene = Scene { coordinates, edge, distance, min_angle, grazing, shape: None };
+        let (is_of_longest, shape) = (false, None);
+        let scene = Scene { coordinates, edge, is_of_longest, distance, min_angle, grazing, shape };
         let shapes = scene.domain().map_or(Vec::new(), |_| scene.shapes());
         Ok((Some(scene), shapes))
     }

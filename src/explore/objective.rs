@@ -194,6 +194,13 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         error.is_finite().then_some(error)
     }
 
+    /// What the error of a gate's margin is counted in on a case, at least.
+    pub fn unit_of_margin(&self, case: &Case<F>, gate: usize) -> f64 {
+        let wide = case.widen();
+        let dimension = self.row.entry.info.gates[gate].dimension;
+        scale(&wide.ray, &wide.triangle, dimension) * F::EPSILON.to_f64()
+    }
+
     /// The verdict, if it is a hit that is not false, on a transversal case.
     fn true_hit(&self, case: &Case<F>) -> Option<Verdict<F>> {
         let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);

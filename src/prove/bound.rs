@@ -4,7 +4,7 @@
 use super::dyadic::round_up;
 use super::formula::{DIGITS, Formula, Maximum, Source};
 use super::measures::{Limit, Samples};
-use super::order::{follows, unsigned};
+use super::order::{is_at_most, unsigned};
 use super::run::cone;
 use super::{Domain, Dyadic, Format, Measures};
 use crate::arith::recorded::{Operation, Place};
@@ -205,10 +205,7 @@ impl<'a> Prover<'a> {
     /// Whether a number is the coordinate of the direction that is largest in size.
     pub(super) fn is_largest_of_direction(&self, place: Place) -> bool {
         let Operation::Input(i @ 3..=5) = self.operation(place) else { return false };
-        let others = (3..=5).filter(|axis| *axis != i).map(Operation::Input);
-        let mut places = others.map(|axis| self.path.operations.iter().position(|op| *op == axis));
-        places
-            .all(|other| other.is_some_and(|other| self.is_at_most_in_size(other as Place, place)))
+        (3..=5).all(|other| is_at_most(self.path, other, i))
     }
 
     /// The lemmas that a number's bound uses, its own last.
@@ -244,14 +241,10 @@ impl<'a> Prover<'a> {
         needs.into_iter().map(|place| unsigned(self.path, place)).collect()
     }
 
-    /// Whether |a| <= |b| follows from the decisions of the path.
+    /// Whether |a| <= |b| follows from the decisions of the path. They say it of inputs only.
     pub(super) fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
-        let size = |place: Place| {
-            let wanted = Operation::Abs(place);
-            self.path.operations.iter().position(|op| *op == wanted).map(|at| at as Place)
-        };
-        match (size(a), size(b)) {
-            (Some(a), Some(b)) => follows(self.path, a, b),
+        match (self.operation(a), self.operation(b)) {
+            (Operation::Input(a), Operation::Input(b)) => is_at_most(self.path, a, b),
             _ => false,
         }
     }

@@ -4,9 +4,10 @@
 
 use super::forms::Leaf;
 use super::formula::{Formula, Maximum, Source, Step};
-use super::{Domain, Dyadic, Format, Lemma, Limit, Rule};
+use super::watertight::symmetry_of;
+use super::{Domain, Dyadic, Format, Lemma, Limit, Rule, Symmetry};
 use crate::arith::recorded::{Comparison, Operation, Place};
-use crate::kernel::Path;
+use crate::kernel::{Gate, Path, Role};
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Write};
 
@@ -30,12 +31,23 @@ pub struct Heading<'a> {
     pub format: Format,
 }
 
-/// What is claimed of a program: a gate's quantity, and its lemma's place.
+/// What is claimed of a program: a gate's quantity, with its lemma's place and what is known of an edge's value.
 pub struct Claim<'a> {
     /// The gate's name.
     pub gate: &'a str,
     /// The quantity.
-    pub place: u32,
+    pub place: Place,
+    /// What is claimed of the two sides of an edge.
+    pub symmetry: Symmetry,
+}
+
+impl<'a> Claim<'a> {
+    /// Of a quantity of this gate on a path.
+    pub fn new(gate: &'a Gate, path: &Path, place: Place) -> Claim<'a> {
+        let is_edge = gate.role == Role::Edge;
+        let symmetry = if is_edge { symmetry_of(path, place) } else { Symmetry::None };
+        Claim { gate: gate.name, place, symmetry }
+    }
 }
 
 /// The first lines.
@@ -79,8 +91,13 @@ pub fn program(path: &Path, lemmas: &[Lemma], claims: &[Claim]) -> String {
     for lemma in lemmas {
         text.push_str(&lemma_text(lemma));
     }
-    for Claim { gate, place } in claims {
-        writeln!(text, "claim {gate} {place}").expect("a string");
+    for Claim { gate, place, symmetry } in claims {
+        let symmetry = match symmetry {
+            Symmetry::None => "",
+            Symmetry::Negatives => " opposite",
+            Symmetry::ExactSigns => " signs",
+        };
+        writeln!(text, "claim {gate} {place}{symmetry}").expect("a string");
     }
     text.push_str("end\n");
     text

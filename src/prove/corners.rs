@@ -12,10 +12,12 @@ use super::formula::{DIGITS, Formula, Maximum, Step};
 use super::{Dyadic, Format};
 use num_traits::Zero;
 
-/// More variables than this are too many corners.
-const MOST_VARIABLES: usize = 18;
-/// More variables than this are too many corners to try both bounds of each step's error.
-const MOST_TO_CHOOSE: usize = 12;
+/// A formula of more variables has no bound.
+const MOST_VARIABLES: usize = 32;
+/// More signs than this are too many corners.
+const MOST_SIGNS: u32 = 20;
+/// More signs than this are too many corners to try both bounds of each step's error.
+const MOST_TO_CHOOSE: u32 = 12;
 
 impl Formula {
     /// The maximum over all corners, or in one sentence why there is none. Chooses, step by step, the bound
@@ -23,8 +25,12 @@ impl Formula {
     pub fn maximum(&mut self, format: Format) -> Result<Maximum, String> {
         let count = self.variables.len();
         if count > MOST_VARIABLES {
+            return Err(format!("its formula has more than {MOST_VARIABLES} variables"));
+        }
+        let tried = self.signs_to_try().count_ones();
+        if tried > MOST_SIGNS {
             return Err(format!(
-                "its formula has {count} variables, and {MOST_VARIABLES} can be tried"
+                "its formula has variables of {tried} signs, and {MOST_SIGNS} can be tried"
             ));
         }
         if !self.is_multi_affine() {
@@ -37,7 +43,7 @@ impl Formula {
         }
         self.bounds = self.higher_order(format, &vec![false; self.steps.len()], Some(&sizes)).1;
         let (mut first, mut at) = if self.unit.is_empty() {
-            self.first_in_box(format, count <= MOST_TO_CHOOSE)
+            self.first_in_box(format, tried <= MOST_TO_CHOOSE)
         } else {
             self.first_of_unit(format).ok_or_else(too_long)?
         };
@@ -60,7 +66,6 @@ impl Formula {
 
     /// The largest first order, and the first corner that has it.
     fn first_in_box(&mut self, format: Format, may_choose: bool) -> (Dyadic, u64) {
-        let count = self.variables.len();
         let mut values = vec![Dyadic::ZERO; self.steps.len()];
         let mut slopes = values.clone();
         let choices: Vec<usize> = (0..self.steps.len()).filter(|i| self.rounds[*i]).collect();
@@ -69,7 +74,8 @@ impl Formula {
         let mut effects: Vec<Vec<[Dyadic; 2]>> = Vec::new();
         let mut others = Vec::new();
         let (mut first, mut at) = (Dyadic::ZERO, 0);
-        for corner in 0..1u64 << count {
+        let corners: Vec<u64> = self.corners().collect();
+        for corner in corners.iter().copied() {
             self.evaluate(corner, 0, &mut values);
             self.slopes(&values, &mut slopes);
             let effect = |i: usize| {
@@ -91,11 +97,11 @@ impl Formula {
         if choosing {
             let mut chosen = vec![0; choices.len()];
             let largest = |chosen: &[usize]| {
-                let sum = |corner: usize| {
-                    let parts = effects[corner].iter().zip(chosen).map(|(both, i)| both[*i]);
-                    parts.fold(others[corner], Dyadic::plus_up)
+                let sum = |at: usize| {
+                    let parts = effects[at].iter().zip(chosen).map(|(both, i)| both[*i]);
+                    parts.fold(others[at], Dyadic::plus_up)
                 };
-                let sums = (0..effects.len()).map(|corner| (sum(corner), corner as u64));
+                let sums = corners.iter().enumerate().map(|(at, corner)| (sum(at), *corner));
                 // The first corner of the largest sum.
                 sums.reduce(|a, b| if a.0 < b.0 { b } else { a }).expect("one corner")
             };
@@ -247,10 +253,12 @@ impl Formula {
         }
     }
 
-    /// The corners as bits, set where a variable is at its negative end.
+    /// The corners that are enough, as bits, set where a variable is at its negative end; in the order of counting.
     fn corners(&self) -> impl Iterator<Item = u64> + use<> {
-        let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
-        (0..1u64 << self.variables.len()).filter(move |corner| corner & unit == 0)
+        let tried = self.signs_to_try();
+        let next =
+            move |corner: &u64| Some(corner.wrapping_sub(tried) & tried).filter(|next| *next != 0);
+        std::iter::successors(Some(0), next)
     }
 
     /// Whether a step is a coordinate of the unit vector.

@@ -1,7 +1,11 @@
 //! The domain of a proof, and the format of its floats.
 
+use super::bound::SIZE_DIGITS;
 use super::dyadic::{Big, ceil_log2};
 use super::{Dyadic, Measures};
+use crate::arith::Float;
+use crate::case::Case;
+use num_traits::Zero;
 
 /// A binary float format, rounded to nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +36,9 @@ impl Format {
 
     /// The same for an exact number.
     pub fn half_ulp_of(self, size: &Big) -> Dyadic {
+        if size.is_zero() {
+            return Dyadic::ZERO;
+        }
         let exponent = (ceil_log2(size) - 1 - self.digits as i32).max(self.smallest - 1);
         Dyadic::power(exponent)
     }
@@ -84,4 +91,32 @@ impl Domain {
         quotient: Dyadic::ONE,
         measures: None,
     };
+    /// All inputs that are no larger than those of a case: edges and vectors to the origin up to its largest
+    /// difference of coordinates. Nothing is known of divisors but of the direction's largest coordinate.
+    pub fn of_sizes<F: Float>(case: &Case<F>) -> Option<Domain> {
+        let [origin, direction, a, b, c] = case.vectors().map(|v| v.map(F::to_f64));
+        let up = |x: f64| Some(Dyadic::from_f64(x.next_up())?.round_up(SIZE_DIGITS));
+        let largest = |all: &[f64]| all.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let points = [origin, a, b, c];
+        let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+        let apart = pairs.map(|(p, q): (usize, usize)| {
+            largest(&[0, 1, 2].map(|axis| points[p][axis] - points[q][axis]))
+        });
+        let reach = up(largest(&apart))?;
+        let world = up(largest(points.as_flattened()))?;
+        let ends = [case.ray.t_min, case.ray.t_max].map(F::to_f64);
+        let direction = Dyadic::from_f64(largest(&direction))?;
+        let direction_floor = direction.round_down(SIZE_DIGITS);
+        Some(Domain {
+            edge: reach,
+            reach,
+            world,
+            direction: direction.round_up(SIZE_DIGITS),
+            extent: up(largest(&ends)).unwrap_or(Dyadic::OVERFLOW),
+            direction_floor,
+            floor: Dyadic::ZERO,
+            quotient: Dyadic::ZERO,
+            measures: None,
+        })
+    }
 }

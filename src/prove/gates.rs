@@ -186,7 +186,7 @@ pub fn each_quantity(
             for place in &compared.quantities {
                 let place = unsigned(path, *place);
                 let program = canonical(&prover, path, place);
-                if program.len() > 2 && seen.insert((compared.gate, program)) {
+                if program.0.len() > 2 && seen.insert((compared.gate, program)) {
                     prover.limit_to(place);
                     visit(index, compared, place, &mut prover);
                 }
@@ -195,24 +195,27 @@ pub fn each_quantity(
     }
 }
 
-/// A program that is the same for all renamings of axes and of a, b and c: the domain is.
-fn canonical(prover: &Prover, path: &Path, place: Place) -> Vec<u32> {
+/// A program that is the same for all renamings of axes and of a, b and c, because the domain is; and what a scene
+/// says of its divisors and quotients.
+fn canonical(prover: &Prover, path: &Path, place: Place) -> (Vec<u32>, Vec<Limit>) {
     let mut names = Names {
         path,
         prover,
         text: Vec::new(),
+        limits: Vec::new(),
         seen: HashMap::new(),
         axes: vec![],
         points: vec![],
     };
     names.visit(place);
-    names.text
+    (names.text, names.limits)
 }
 
 struct Names<'a> {
     path: &'a Path,
     prover: &'a Prover<'a>,
     text: Vec<u32>,
+    limits: Vec<Limit>,
     seen: HashMap<Place, u32>,
     axes: Vec<usize>,
     points: Vec<usize>,
@@ -259,6 +262,10 @@ impl Names<'_> {
             Operation::Input(_) => unreachable!("handled above"),
         };
         self.text.push(kind);
+        if let Some((_, divisor, _)) = self.prover.quotient(place) {
+            self.limits.push(self.prover.floor(divisor));
+            self.limits.extend(self.prover.most(place));
+        }
         for operand in operation.operands() {
             self.visit(operand);
         }

@@ -2,12 +2,12 @@
 //! order a program computes it.
 
 use super::Dyadic;
+use super::order::largest_axes;
 use super::run::run;
 use crate::arith::recorded::Place;
 use crate::case::Draw;
 use crate::kernel::Path;
 use glam::DVec3;
-use std::ops::Range;
 
 /// Of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate and N_i
 /// another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
@@ -27,7 +27,7 @@ pub struct Measures {
 }
 
 /// A limit of the size of a number, and where it comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limit {
     /// The domain's limit of all divisors, or of all quotients.
     Domain(Dyadic),
@@ -57,9 +57,13 @@ pub(super) struct Known {
 /// nearly nowhere.
 const SAMPLES: u64 = 3;
 
-/// Values of all numbers of a program at some inputs.
+/// Values of all numbers of a path's program at some inputs.
 #[derive(Debug)]
-pub(super) struct Samples(Vec<(Vec<f64>, Sample)>);
+pub(super) struct Samples {
+    values: Vec<(Vec<f64>, Sample)>,
+    /// The axis of N's largest coordinate, if the path chose it. All axes if no N takes the path.
+    axes: Vec<usize>,
+}
 
 impl Samples {
     pub fn new(path: &Path) -> Samples {
@@ -70,19 +74,31 @@ impl Samples {
             run(&path.operations, path.operations.len() as Place - 1, &inputs, &mut values);
             (values, Sample::of(&inputs))
         };
-        Samples((0..SAMPLES).map(sample).collect())
+        let mut samples = Samples { values: (0..SAMPLES).map(sample).collect(), axes: vec![] };
+        samples.axes = largest_axes(path, |place| {
+            (0..3).find(|axis| samples.is_same(place, |i| samples.values[i].1.normal[*axis]))
+        });
+        samples
     }
 
-    /// The limit of the first of the known numbers that a number is, up to its sign.
-    pub fn find(&self, place: Place, known: impl Fn(&Sample) -> Vec<Known>) -> Option<Limit> {
-        let of = |(_, sample): &(Vec<f64>, Sample)| known(sample);
-        let mut lists: Vec<Vec<Known>> = self.0.iter().map(of).collect();
-        let is_same = |i: usize| {
-            self.0.iter().zip(&lists).all(|((values, _), list)| {
-                let (x, y) = (values[place as usize].abs(), list[i].value.abs());
-                (x - y).abs() <= 1e-9 * y
-            })
-        };
+    /// Whether a number is another one up to its sign, given that one's values.
+    fn is_same(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
+        self.values.iter().enumerate().all(|(i, (values, _))| {
+            let (x, y) = (values[place as usize].abs(), other(i).abs());
+            (x - y).abs() <= 1e-9 * y
+        })
+    }
+
+    /// The limit of the first of the known numbers that a number is, up to its sign. Given these numbers, for a
+    /// sample and the axes of N's largest coordinate.
+    pub fn find(
+        &self,
+        place: Place,
+        known: impl Fn(&Sample, &[usize]) -> Vec<Known>,
+    ) -> Option<Limit> {
+        let of = |(_, sample): &(Vec<f64>, Sample)| known(sample, &self.axes);
+        let mut lists: Vec<Vec<Known>> = self.values.iter().map(of).collect();
+        let is_same = |at: usize| self.is_same(place, |i| lists[i][at].value);
         let found = (0..lists[0].len()).find(|i| is_same(*i))?;
         let Known { name, limit, .. } = lists[0].swap_remove(found);
         Some(Limit::Scene(name, limit))
@@ -119,8 +135,8 @@ const LARGER: f64 = 1.01;
 const ROOT: f64 = 1.423;
 
 impl Measures {
-    /// Divisors. N may have its largest coordinate along these axes.
-    pub(super) fn divisors(&self, sample: &Sample, axes: Range<usize>) -> Vec<Known> {
+    /// Divisors. Given the axes of N's largest coordinate.
+    pub(super) fn divisors(&self, sample: &Sample, axes: &[usize]) -> Vec<Known> {
         let Measures { area, sine, .. } = *self;
         let normal = sample.normal;
         let (volume, length) = (normal.dot(sample.direction), normal.length());
@@ -133,7 +149,7 @@ impl Measures {
             known("|N|", area, length),
             known("|N·d|/|N|", sine, volume / length),
         ];
-        for k in axes {
+        for k in axes.iter().copied() {
             all.push(known(LARGEST, largest, normal[k]));
             all.push(known("|N·d/N_k|", sine, volume / normal[k]));
         }
@@ -141,7 +157,7 @@ impl Measures {
     }
 
     /// Quotients.
-    pub(super) fn quotients(&self, sample: &Sample, axes: Range<usize>) -> Vec<Known> {
+    pub(super) fn quotients(&self, sample: &Sample, axes: &[usize]) -> Vec<Known> {
         let Measures { slope, world, distance, .. } = *self;
         let Sample { origin, direction, vertices, edges, normal } = *sample;
         let [a, b, c] = vertices;
@@ -153,7 +169,7 @@ impl Measures {
         let [v, u] = [edges[0].cross(p), p.cross(edges[1])].map(|x| normal.dot(x) / square);
         let mut all = vec![known("|t|", distance, t)];
         all.extend([u, v, 1.0 - u - v].map(|w| known("|u|", Dyadic::ONE, w)));
-        for k in axes {
+        for k in axes.iter().copied() {
             let over = |name, limit, value: f64| known(name, limit, value / normal[k]);
             for i in (0..3).filter(|i| *i != k) {
                 let name = "|N_i/N_k|";

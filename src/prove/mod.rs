@@ -17,6 +17,7 @@ mod fpcore;
 mod gappa;
 mod gates;
 mod measures;
+mod mirrors;
 mod order;
 mod permanent;
 mod quotient;
@@ -47,6 +48,8 @@ pub use run::{Number, run};
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
 pub use statement::{Published, Triangles, about_edges, in_short, statements, units};
-pub use summary::{Effort, GOALS, GateSummary, Summary, Witness, format_of, paths_of};
+pub use summary::{
+    Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
+};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};

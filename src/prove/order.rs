@@ -11,13 +11,11 @@ pub fn unsigned(path: &Path, place: Place) -> Place {
     }
 }
 
-/// The facts x <= y (or x < y, if true) of a path about sizes of inputs. Of computed numbers nothing
-/// follows: one of them may be NaN, and the path compares them, not the exact ones.
-fn facts(path: &Path) -> Vec<(Place, Place, bool)> {
-    let operation = |place: Place| path.operations[place as usize];
-    let is_size = |place: Place| match operation(place) {
-        Operation::Abs(inner) => matches!(operation(inner), Operation::Input(_)),
-        _ => false,
+/// The facts x <= y (or x < y, if true) of a path about the sizes of some numbers, by their names.
+fn facts<T: Copy>(path: &Path, name: impl Fn(Place) -> Option<T>) -> Vec<(T, T, bool)> {
+    let of_size = |place: Place| match path.operations[place as usize] {
+        Operation::Abs(inner) => name(inner),
+        _ => None,
     };
     let fact = |(comparison, answer): &(Comparison, bool)| match (*comparison, *answer) {
         (Comparison::Less(a, b), true) => Some((a, b, true)),
@@ -26,12 +24,33 @@ fn facts(path: &Path) -> Vec<(Place, Place, bool)> {
         (Comparison::AtMost(a, b), false) => Some((b, a, true)),
         _ => None,
     };
-    path.decisions.iter().filter_map(fact).filter(|(a, b, _)| is_size(*a) && is_size(*b)).collect()
+    let named = |(a, b, strict): (Place, Place, bool)| Some((of_size(a)?, of_size(b)?, strict));
+    path.decisions.iter().filter_map(fact).filter_map(named).collect()
 }
 
-/// Whether a <= b follows from the decisions.
-pub fn follows(path: &Path, a: Place, b: Place) -> bool {
-    let facts = facts(path);
+/// Those about inputs. Of computed numbers nothing follows: one of them may be NaN, and the path compares them, not
+/// the exact ones.
+fn facts_of_inputs(path: &Path) -> Vec<(u8, u8, bool)> {
+    facts(path, |place| match path.operations[place as usize] {
+        Operation::Input(i) => Some(i),
+        _ => None,
+    })
+}
+
+/// Whether the size of an input is at most that of another, by the decisions of a path.
+pub fn is_at_most(path: &Path, a: u8, b: u8) -> bool {
+    follows(&facts_of_inputs(path), a, b)
+}
+
+/// The axes along which a computed vector has its largest coordinate, by the decisions of a path: one, none if they do
+/// not say it, and all if no vector takes the path. Given which numbers are coordinates of that vector.
+pub fn largest_axes(path: &Path, axis: impl Fn(Place) -> Option<usize>) -> Vec<usize> {
+    let facts = facts(path, axis);
+    (0..3).filter(|k| (0..3).all(|other| follows(&facts, other, *k))).collect()
+}
+
+/// Whether a <= b follows from facts.
+fn follows<T: Copy + PartialEq>(facts: &[(T, T, bool)], a: T, b: T) -> bool {
     let mut seen = vec![a];
     let mut i = 0;
     while i < seen.len() {
@@ -51,5 +70,6 @@ pub fn follows(path: &Path, a: Place, b: Place) -> bool {
 
 /// Whether the decisions of a path contradict each other, so that no input takes it.
 pub fn is_impossible(path: &Path) -> bool {
-    facts(path).iter().any(|(a, b, strict)| *strict && follows(path, *b, *a))
+    let facts = facts_of_inputs(path);
+    facts.iter().any(|(a, b, strict)| *strict && follows(&facts, *b, *a))
 }

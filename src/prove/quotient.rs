@@ -5,8 +5,7 @@ use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum};
 use super::measures::{LARGEST, Limit};
 use super::{Domain, Dyadic};
-use crate::arith::recorded::{Comparison, Operation, Place};
-use std::ops::Range;
+use crate::arith::recorded::{Operation, Place};
 
 impl Prover<'_> {
     /// The least size of a divisor.
@@ -19,7 +18,7 @@ impl Prover<'_> {
             };
         }
         let found = self.samples.as_ref().and_then(|(samples, measures)| {
-            samples.find(divisor, |sample| measures.divisors(sample, self.axes()))
+            samples.find(divisor, |sample, axes| measures.divisors(sample, axes))
         });
         found.unwrap_or(Limit::Domain(floor))
     }
@@ -29,22 +28,7 @@ impl Prover<'_> {
         let Some((samples, measures)) = &self.samples else {
             return Some(Limit::Domain(self.domain.quotient));
         };
-        samples.find(quotient, |sample| measures.quotients(sample, self.axes()))
-    }
-
-    /// Along which axes N may have its largest coordinate: a path that orders sizes of numbers that are no inputs chose
-    /// it.
-    fn axes(&self) -> Range<usize> {
-        let is_size = |place: &Place| match self.operation(*place) {
-            Operation::Abs(inner) => !matches!(self.operation(inner), Operation::Input(_)),
-            _ => false,
-        };
-        let decisions = self.path.decisions.iter();
-        let mut orders = decisions.filter(|(comparison, _)| {
-            matches!(comparison, Comparison::Less(..) | Comparison::AtMost(..))
-        });
-        let chooses = orders.any(|(comparison, _)| comparison.places().iter().any(is_size));
-        if chooses { 0..3 } else { 0..0 }
+        samples.find(quotient, |sample, axes| measures.quotients(sample, axes))
     }
 
     /// Numerator (none is one), divisor, and whether a reciprocal is multiplied, if the number is a quotient.

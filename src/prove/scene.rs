@@ -1,8 +1,10 @@
 //! A scene in numbers that a person knows, and the domain that it is.
 
+use super::dyadic::{Big, root_up};
 use super::measures::DIGITS;
 use super::{Domain, Dyadic, Measures};
 use crate::case::{self, DirectionLength};
+use num_traits::Zero;
 use std::collections::BTreeMap;
 
 /// What the triangles and rays of a scene are like, in one unit of length.
@@ -12,6 +14,8 @@ pub struct Scene {
     pub coordinates: f64,
     /// The shortest and the longest edge.
     pub edge: [f64; 2],
+    /// Whether that is said of each triangle's longest edge only.
+    pub is_of_longest: bool,
     /// From an origin to a vertex at most.
     pub distance: f64,
     /// No angle of a triangle is smaller, in degrees.
@@ -36,6 +40,7 @@ impl Scene {
             // Rays start that far from a point of the triangle.
             coordinates: scene.largest() + farthest,
             edge: scene.edge,
+            is_of_longest: true,
             distance: farthest + scene.edge[1],
             min_angle: 1.0,
             grazing: 1.0,
@@ -96,8 +101,13 @@ impl Scene {
         let shape = self.least_shape();
         let divisors = [shape * sine(grazing), shape * shape, shape * 0.577, sine(grazing)];
         let floor = divisors.into_iter().fold(f64::INFINITY, f64::min);
-        // Edges over twice the area.
-        let slope = (1.0 / (shortest * sine(min_angle))).min(longest / shape);
+        // Edges over twice the area. An edge of length 1 has a height above it of at least tan(α)/2.
+        let slope = if self.is_of_longest {
+            2.0 / (shortest * tangent(min_angle))
+        } else {
+            1.0 / (shortest * sine(min_angle))
+        };
+        let slope = slope.min(longest / shape);
         let down = |x: f64| Dyadic::from_f64(x * 0.999_999).expect("finite").round_down(DIGITS);
         let measures = Measures {
             area: down(shape),
@@ -137,10 +147,35 @@ impl Scene {
         sizes.values().map(part).collect()
     }
 
+    /// Twice the area of a triangle, to a millionth of it. Zero only if it has none.
+    pub fn twice_area(vertices: &[[f64; 3]; 3]) -> f64 {
+        let [a, b, c] = vertices.map(glam::DVec3::from);
+        let (u, v) = (b - a, c - a);
+        // Each of three coordinates is two products of differences: six roundings.
+        let error = 6.0 * f64::EPSILON * u.abs().max_element() * v.abs().max_element();
+        let area = u.cross(v).length();
+        if 1e6 * error < area && area.is_normal() {
+            return area;
+        }
+        let exact = |x: f64| Dyadic::from_f64(x).map_or_else(Big::zero, Big::from);
+        let [a, b, c] = vertices.map(|vertex| vertex.map(exact));
+        let minor = |i: usize, j: usize| {
+            (&b[i] - &a[i]) * (&c[j] - &a[j]) - (&b[j] - &a[j]) * (&c[i] - &a[i])
+        };
+        let square: Big = [minor(1, 2), minor(2, 0), minor(0, 1)].iter().map(|x| x * x).sum();
+        root_up(&square, 53).to_f64()
+    }
+
     /// Twice the smallest area, or slightly less.
     pub fn least_shape(&self) -> f64 {
-        // The shortest edge twice, and the smallest angle twice; or an equilateral triangle.
-        let of_angles = self.edge[0] * self.edge[0] * sine((2.0 * self.min_angle).min(60.0));
+        // The longest edge, and the smallest angle at both of its ends. Or the shortest edge twice, and the smallest
+        // angle twice; or an equilateral triangle.
+        let of_one = if self.is_of_longest {
+            tangent(self.min_angle) / 2.0
+        } else {
+            sine((2.0 * self.min_angle).min(60.0))
+        };
+        let of_angles = self.edge[0] * self.edge[0] * of_one;
         self.shape.map_or(of_angles, |shape| shape * 0.999_999)
     }
 
@@ -161,6 +196,11 @@ impl Scene {
         }
         shapes
     }
+}
+
+/// The tangent of an angle in degrees, or slightly less.
+fn tangent(degrees: f64) -> f64 {
+    libm::tan(degrees.to_radians()) * 0.999_999_999
 }
 
 /// The sine of an angle in degrees, or slightly less.

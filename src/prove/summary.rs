@@ -80,6 +80,15 @@ pub fn paths_of<F: Scalar>(entry: &Entry) -> Result<Vec<Path>, String> {
     subject.gated().ok_or("it is not written for every arithmetic")?.paths()
 }
 
+/// How wrong what a gate compares with its epsilon can be in a domain; none if that has no bound, or other numbers are
+/// compared.
+pub fn bound_of_gate<F: Scalar>(entry: &Entry, gate: usize, domain: Domain) -> Option<Dyadic> {
+    let proof = Proof::new(paths_of::<F>(entry).ok()?, Some(gate), domain, format_of::<F>());
+    let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
+    let worst = proof.gate(gate).filter(|_| is_margin)?.ok()?;
+    worst.bound.as_ref().map(|bound| bound.error).ok()
+}
+
 /// How hard to search, and from where.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {

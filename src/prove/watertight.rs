@@ -25,11 +25,12 @@ pub enum Symmetry {
 
 /// The symmetry of the edge values on one path.
 pub fn symmetry<'a>(path: &Path, quantities: impl Iterator<Item = &'a Quantity>) -> Symmetry {
-    let found = quantities.map(|quantity| of_value(path, quantity.place));
+    let found = quantities.map(|quantity| symmetry_of(path, quantity.place));
     found.min().unwrap_or(Symmetry::None)
 }
 
-fn of_value(path: &Path, place: Place) -> Symmetry {
+/// The symmetry of one edge value.
+pub fn symmetry_of(path: &Path, place: Place) -> Symmetry {
     let points = vertices(path, place);
     let [p, q] = points[..] else { return Symmetry::None };
     let mut forms = Forms::default();

@@ -94,9 +94,20 @@ fn a_scene_has_the_words_that_it_has_for_samples() {
     let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "100"];
     let with = |scene: &[&str]| text(&[&kernel[..], scene].concat());
     let numbers = ["--coordinates", "15", "--edge", "0.01..3", "--distance", "13"];
-    assert_eq!(with(&["--scene", "room"]), with(&numbers));
+    // A scene for samples says the longest edge of its triangles; of equilateral ones every edge is.
+    let room = words(&with(&["--scene", "room", "--min-angle", "60deg"]));
+    let all = words(&with(&[&numbers[..], &["--min-angle", "60deg"]].concat()));
+    assert_eq!(room.replacen("each triangle's longest edge", "edges", 1), all);
+    // Flatter triangles have shorter edges than that, and smaller areas.
+    let divisor = |scene: &[&str]| {
+        let text = words(&with(scene));
+        let (_, number) = text.split_once("|N·d| at least ").unwrap();
+        number.split(',').next().unwrap().parse::<f64>().unwrap()
+    };
+    let [longest, all] = [divisor(&["--scene", "room"]), divisor(&numbers)];
+    assert!((3.9..4.1).contains(&(all / longest)), "{longest} {all}");
     let far = with(&["--scene", "extent=5,center=-1e3,edge=0.01..3,distance=0..10"]);
-    assert!(far.contains("coordinates up to 1015, edges from 0.01 to 3"), "{far}");
+    assert!(far.contains("1015, each triangle's longest edge from 0.01 to 3"), "{far}");
     let wrong = |scene: &str, message: &str| {
         refused(&[&kernel[..], &["--scene", scene]].concat(), 2, message);
     };
@@ -199,6 +210,33 @@ fn a_certificate_of_a_scene_has_its_limits_of_divisors_and_quotients() {
     let above = (digits.parse::<f64>().unwrap() * 100.0).ceil() / 100.0;
     let bound = format!("never wrong by more than {above:.2}e{exponent} (");
     assert!(shown.contains(&bound), "{out} {shown}");
+    // Each size of triangles has a line, and what divides supposes something there.
+    let domains = proof.lines().filter(|line| line.starts_with("domain "));
+    let sizes = domains.collect::<std::collections::BTreeSet<_>>().len();
+    assert_eq!(out.lines().count(), 1 + sizes, "{out}");
+    assert_eq!(out.matches(", divisors at least ").count(), sizes, "{out}");
+    assert!(!out.contains("missing"), "{out}");
+    let (start, last) = proof.rsplit_once("\ndomain ").unwrap();
+    assert!(last.contains("\nat-least "), "{last}");
+    fs::write(&file, format!("{start}\n")).unwrap();
+    let out = text(&["prove", "--check", file.to_str().unwrap()]);
+    assert_eq!(out.matches("; programs of other sizes are missing here\n").count(), 1, "{out}");
+    assert!(out.ends_with("missing here\n"), "{out}");
+    // The same limits are in the record, of the size whose bound is largest.
+    let record =
+        json(&hairline(&[&["prove", "-n", "0", "--format", "json"], &kernel[..], &scene].concat()));
+    let gates = record["gates"].as_array().unwrap();
+    let limits = |gate: &str| {
+        let gate = gates.iter().find(|part| part["gate"] == gate).unwrap();
+        gate["limits"].as_array().unwrap().clone()
+    };
+    let [divisor] = &limits("parallel")[..] else { panic!("{gates:?}") };
+    assert!(divisor["number"] == "|N|" && divisor.get("at_most").is_none(), "{divisor}");
+    let least = divisor["at_least"].as_f64().unwrap();
+    assert!(shown.contains(&format!("|N| at least {least:.2e}")), "{least} {shown}");
+    assert!(
+        limits("t").iter().any(|limit| limit["number"] == "|t|" && limit["at_most"] == 8.015625)
+    );
     // Less is supposed of one divisor: then the numbers after it are wrong.
     let line = proof.lines().find(|line| line.starts_with("at-least ")).unwrap();
     let (start, exponent) = line.split_once("*2^-").unwrap();

@@ -335,6 +335,24 @@ fn the_command_searches_updates_its_table_and_lists_it() {
     assert!(text(&verified.stdout).contains("stored scores right"), "{}", text(&verified.stderr));
 }
 
+/// The scores come from exact runs of kernels that a search found, the bounds from proofs for the sizes of each case.
+#[test]
+fn no_known_error_of_a_margin_passes_what_is_proved_for_its_sizes() {
+    let listed = hairline_in(&scratch("worst-proved"), &["fuzz", "worst", "--list"]);
+    let listed = text(&listed.stdout);
+    let mut shown = 0;
+    for line in listed.lines().filter(|line| line.contains("as proved")) {
+        assert!(line.contains(" moderate  margin:"), "{line}");
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let score: f64 = words[3].parse().unwrap();
+        let (_, most) = line.split_once("(at most ").unwrap();
+        let most: f64 = most.split(' ').next().unwrap().parse().unwrap();
+        assert!(score <= most && most < 40.0 * score, "{line}");
+        shown += 1;
+    }
+    assert!(20 < shown, "{listed}");
+}
+
 #[test]
 fn wrong_tables_and_flags_are_refused_before_any_search() {
     let folder = scratch("worst-refused");

@@ -1,6 +1,7 @@
 //! `hairline fuzz worst`: searches for the worst cases, and the table of the worst known.
 
 use crate::audit::{Observer, quoted};
+use crate::case::Case;
 use crate::cli::before::{scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::flags::{chosen_scalars, unknown};
@@ -10,6 +11,8 @@ use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
+use crate::kernel::{self, Scalar};
+use crate::prove;
 use clap::Args;
 use std::fs;
 use std::io::{self, BufReader, Write};
@@ -254,6 +257,9 @@ fn write_entries<'a>(
         if let Some(relative) = relative_error(entry).filter(|error| error.is_finite()) {
             write!(out, " ({relative:.1e} of t)")?;
         }
+        if let Some(most) = most_for_its_sizes(entry) {
+            write!(out, " (at most {} for such sizes, as proved)", prove::units(most, true))?;
+        }
         writeln!(out)?;
         let case = match table {
             Some(table) => format!("{} --corpus {}", quoted(&entry.name()), quoted(table)),
@@ -270,6 +276,24 @@ fn relative_error(entry: &Entry) -> Option<f64> {
         return None;
     }
     either_scalar!(&entry.case, case => entry.goal.scorer().relative_error_of_t(case))
+}
+
+/// How large the score of a margin can be for any input that is no larger; none where the gate divides. Of ordinary
+/// sizes only: where numbers overflow or underflow a bound says nothing.
+fn most_for_its_sizes(entry: &Entry) -> Option<f64> {
+    let Goal { row, target, domain } = &entry.goal;
+    let is_ordinary = target.objective == Objective::Margin && *domain == Domain::Moderate;
+    let gate = target.gate.filter(|_| is_ordinary)?;
+    either_scalar!(&entry.case, case => {
+        let bound = bound_for_sizes(row.entry, gate, case)?;
+        Some(bound / entry.goal.scorer().unit_of_margin(case, gate))
+    })
+}
+
+/// A bound of the error of what a gate compares.
+fn bound_for_sizes<F: Scalar>(entry: &kernel::Entry, gate: usize, case: &Case<F>) -> Option<f64> {
+    let domain = prove::Domain::of_sizes(case)?;
+    prove::bound_of_gate::<F>(entry, gate, domain).map(|bound| bound.to_f64())
 }
 
 /// A case as JSON without its bits: its numbers say the same.

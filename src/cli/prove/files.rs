@@ -1,20 +1,11 @@
-//! Certificates, and programs for other people's tools.
+//! Writes certificates, and programs for other people's tools.
 
 use super::{OutputFormat, ProveArguments};
 use crate::cli::exit::{Failure, Status};
-use crate::cli::input::read_text;
 use crate::cli::output::write_result;
-use crate::corpus::InputError;
-use crate::kernel::{self, Entry, Path, Scalar};
+use crate::kernel::{Entry, Path, Scalar};
 use crate::prove::certificate::{self, Claim, Heading, heading, program};
-use crate::prove::{
-    Domain, Effort, Format, Quantity, Searched, Summary, checker, each_quantity, format_of, fpcore,
-    gappa, is_impossible, paths_of,
-};
-use crate::report::number_of;
-use num_traits::ToPrimitive;
-use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use crate::prove::{Domain, Effort, Format, Quantity, Searched, Summary, fpcore, gappa};
 
 /// Writes the certificate of one kernel in one scalar.
 pub fn certify(
@@ -49,102 +40,15 @@ fn certificate_of<F: Searched + Scalar>(
     let mut text = heading(&head);
     let mut stated = None;
     for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
-        let claim = Claim { gate: entry.info.gates[quantity.gate].name, place: quantity.place };
+        let path = &summary.proof.paths[quantity.path];
+        let claim = Claim::new(&entry.info.gates[quantity.gate], path, quantity.place);
         if stated != Some(quantity.domain) {
             text.push_str(&certificate::domain(&quantity.domain));
             stated = Some(quantity.domain);
         }
-        text.push_str(&program(&summary.proof.paths[quantity.path], &quantity.lemmas, &[claim]));
+        text.push_str(&program(path, &quantity.lemmas, &[claim]));
     }
     if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
-}
-
-/// Checks certificates, and says what they prove.
-pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
-    let lines: Vec<String> =
-        arguments.check.par_iter().map(|file| checked(file)).collect::<Result<_, _>>()?;
-    write_result(&arguments.output, |out| {
-        lines.iter().try_for_each(|line| writeln!(out, "{line}"))
-    })?;
-    Ok(Status::Success)
-}
-
-fn checked(file: &str) -> Result<String, Failure> {
-    let text = read_text(file)?;
-    let proved = checker::check(&text)
-        .map_err(|refusal| InputError::at(file, refusal.line, refusal.message))?;
-    let bounds = number_of(proved.len() as u64, "bound", "bounds");
-    // The largest error of each gate.
-    let mut gates: BTreeMap<&str, f64> = BTreeMap::new();
-    for claim in &proved {
-        let error = claim.bound.error.to_f64().unwrap_or(f64::INFINITY);
-        let most = gates.entry(&claim.gate).or_default();
-        *most = most.max(error);
-    }
-    let gates: Vec<String> = gates.iter().map(|(gate, x)| format!("{gate} {x:.3e}")).collect();
-    // The checker has read this line.
-    let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
-    let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
-    let recorded =
-        kernel::find(name).map(|entry| in_named_scalar!(scalar, F => recorded::<F>(entry)));
-    let count = |word: &str| text.lines().filter(|line| line.starts_with(word)).count();
-    let has_limits = 0 < count("at-least ") + count("at-most ") || 1 < count("domain ");
-    let whose = match recorded {
-        None => "no kernel of that name is here to compare".to_owned(),
-        Some(Err(why)) => format!("not compared with the kernel: {why}"),
-        Some(Ok(recorded)) => {
-            let found = programs_of(&text);
-            if let Some((line, _)) =
-                found.iter().find(|(_, program)| !recorded.contains_key(program))
-            {
-                let message = format!(
-                    "{file}:{line}: the proof is right, but {name} has no such program here: write its certificate again"
-                );
-                return Err(Failure::Message(Status::Disagreements, message));
-            }
-            let missing: BTreeSet<&str> = recorded
-                .iter()
-                .filter(|(program, _)| found.iter().all(|(_, known)| known != *program))
-                .map(|(_, gate)| *gate)
-                .collect();
-            match missing.is_empty() {
-                true if has_limits => {
-                    "for inputs as its lines domain, at-least and at-most say".to_owned()
-                }
-                true => "all that the kernel compares".to_owned(),
-                false => format!("without all of {}", Vec::from_iter(missing).join(", ")),
-            }
-        }
-    };
-    Ok(format!("{file}: {bounds} proved of {kernel}: {} ({whose})", gates.join(", ")))
-}
-
-/// The programs of a certificate without their lemmas, each with its line.
-fn programs_of(certificate: &str) -> Vec<(usize, String)> {
-    let mut programs: Vec<(usize, String)> = Vec::new();
-    for (i, line) in certificate.lines().enumerate() {
-        match (line.split(' ').next(), programs.last_mut()) {
-            (Some("program"), _) => programs.push((i + 1, format!("{line}\n"))),
-            (Some("op" | "decision" | "claim" | "end"), Some((_, program))) => {
-                program.push_str(line);
-                program.push('\n');
-            }
-            _ => {}
-        }
-    }
-    programs
-}
-
-/// The programs of all that a kernel's gates compare, as certificates have them, each with its gate.
-fn recorded<F: Scalar>(entry: &Entry) -> Result<HashMap<String, &'static str>, String> {
-    let mut paths = paths_of::<F>(entry)?;
-    paths.retain(|path| !is_impossible(path));
-    let mut programs = HashMap::new();
-    each_quantity(&paths, None, Domain::UNIT, format_of::<F>(), |path, compared, place, _| {
-        let gate = entry.info.gates[compared.gate].name;
-        programs.insert(program(&paths[path], &[], &[Claim { gate, place }]), gate);
-    });
-    Ok(programs)
 }
 
 /// The programs of all quantities, or of those of one gate, or (if true) of its worst one.

@@ -1,6 +1,6 @@
 //! One kernel in one scalar: what is proved of it, as parts of the record.
 
-use super::record::{GatePart, KernelPart, WitnessPart};
+use super::record::{GatePart, KernelPart, LimitPart, WitnessPart};
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
@@ -139,6 +139,7 @@ impl Job<'_> {
                 witness: witness(0),
                 factor: gate.factor(),
                 supposes: supposes(gate),
+                limits: gate.limits.iter().map(LimitPart::new).collect(),
                 parallel_passes: witness(1),
                 computed_below_zero: witness(2),
                 statements: statements(entry, &summary, gate, triangles, &published),

@@ -1,6 +1,6 @@
 //! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
 
-use crate::prove::Domain;
+use crate::prove::{Domain, Supposed};
 use serde::Serialize;
 
 /// The record of a run.
@@ -43,11 +43,23 @@ pub struct GatePart {
     pub factor: Option<f64>,
     /// What the bound supposes beside |d| <= 1.
     pub supposes: Vec<&'static str>,
+    /// The limits of exact divisors and quotients that it supposes.
+    pub limits: Vec<LimitPart>,
     /// The largest computed number of a ray that is exactly parallel, of those known.
     pub parallel_passes: Option<WitnessPart>,
     /// A number that is not below zero: how far below it is computed, of those known.
     pub computed_below_zero: Option<WitnessPart>,
     pub statements: Vec<String>,
+}
+
+/// At least or at most so large is a number that a kernel divides by, or gets by dividing.
+#[derive(Serialize)]
+pub struct LimitPart {
+    pub number: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -65,6 +77,15 @@ pub struct KernelPart {
     pub paths: usize,
     pub edges: &'static str,
     pub watertight: bool,
+}
+
+impl LimitPart {
+    /// In floats.
+    pub fn new(&Supposed { is_most, name, limit }: &Supposed) -> LimitPart {
+        let limit = Some(limit.to_f64());
+        let (at_least, at_most) = if is_most { (None, limit) } else { (limit, None) };
+        LimitPart { number: name, at_least, at_most }
+    }
 }
 
 impl DomainPart {

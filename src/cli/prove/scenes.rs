@@ -41,10 +41,7 @@ pub fn mesh_scene(
             };
             let sides = [side(0), side(1), side(2)];
             let lengths = sides.map(|side| side.iter().map(|x| x * x).sum::<f64>().sqrt());
-            let [u, v] = [sides[0], sides[1]];
-            let cross = |i: usize, j: usize| u[i] * v[j] - u[j] * v[i];
-            let normal = [cross(1, 2), cross(2, 0), cross(0, 1)];
-            let area = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let area = Scene::twice_area(&vertices);
             size = sides.iter().flatten().fold(size, |most, x| most.max(x.abs()));
             coordinates = vertices.iter().flatten().fold(coordinates, |most, x| most.max(x.abs()));
             edge[1] = lengths.into_iter().fold(edge[1], f64::max);
@@ -64,7 +61,9 @@ pub fn mesh_scene(
     }
     // Origins are up to the distance away from the vertices.
     let coordinates = coordinates + distance;
-    Ok((Scene { coordinates, edge, distance, min_angle, grazing, shape: Some(shape) }, shapes))
+    let (is_of_longest, shape) = (false, Some(shape));
+    let scene = Scene { coordinates, edge, is_of_longest, distance, min_angle, grazing, shape };
+    Ok((scene, shapes))
 }
 
 /// A scene's words.
@@ -75,8 +74,9 @@ pub fn scene_text(scene: &Scene) -> String {
     let Scene { coordinates, edge: [low, high], distance, min_angle, grazing, .. } = *scene;
     let [coordinates, low, high, distance, min_angle, grazing] =
         [coordinates, low, high, distance, min_angle, grazing].map(digits);
+    let edges = if scene.is_of_longest { "each triangle's longest edge" } else { "edges" };
     format!(
-        "coordinates up to {coordinates}, edges from {low} to {high}, origins up to {distance} from the \
+        "coordinates up to {coordinates}, {edges} from {low} to {high}, origins up to {distance} from the \
          vertices, angles from {min_angle}°, rays at {grazing}° to the plane and more with |d| = 1, t_min and t_max \
          up to {distance}; where a kernel divides to get t, u or v, exact |t| up to {distance}, |u|, |v| and |1-u-v| up to 1"
     )

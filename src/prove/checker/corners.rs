@@ -3,7 +3,7 @@
 //! signs.
 
 use num_bigint::BigInt;
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
 /// Longer numbers are refused.
 const MOST_BITS: u64 = 1 << 12;
@@ -32,13 +32,50 @@ pub struct Found {
     pub sizes: Vec<BigInt>,
 }
 
-/// Every corner of the box, and every axis of `unit`, the variables that are coordinates of a unit vector in
-/// which the last step is linear. Without weights, only the sizes are searched for. None if numbers are too long.
+/// The variables whose signs are tried, as bits. Of corners that differ by a mirror, a set of variables whose change of
+/// sign keeps each step or changes its sign, the first is enough. What a step adds up must change alike: an equation,
+/// modulo 2, of the set's bits. Each equation decides about its lowest variable, the others are free. A step that is
+/// zero has no error, and demands nothing.
+pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize]) -> usize {
+    let of_unit = unit.iter().fold(0, |bits, v| bits | 1 << v);
+    // The variables on whose signs a step's sign depends; none of what is zero.
+    let mut signs: Vec<Option<usize>> = Vec::new();
+    let mut equations = [0; usize::BITS as usize];
+    for row in rows {
+        let constant = (!row.constant.is_zero()).then_some(0);
+        let variables = row.variables.iter().map(|(_, v)| 1 << v);
+        let terms = row.terms.iter().filter_map(|(_, a, b)| {
+            let by = b.map_or(Some(0), |b| signs[b])?;
+            Some(signs[*a]? ^ by)
+        });
+        let mut all = constant.into_iter().chain(variables).chain(terms);
+        let first = all.next();
+        for mut equation in all.map(|sign| sign ^ first.unwrap_or(0)) {
+            while equation != 0 {
+                // The vector's coordinates have no signs to try.
+                let with_sign = if equation & of_unit == 0 { equation } else { equation & of_unit };
+                let known = &mut equations[with_sign.trailing_zeros() as usize];
+                if *known == 0 {
+                    *known = equation;
+                    break;
+                }
+                equation ^= *known;
+            }
+        }
+        signs.push(first);
+    }
+    (0..equations.len()).filter(|v| equations[*v] != 0).fold(0, |bits, v| bits | 1 << v) & !of_unit
+}
+
+/// Every corner of the box that differs in the signs of the `tried` variables, and every axis of `unit`, the variables
+/// that are coordinates of a unit vector in which the last step is linear. Without weights, only the sizes are
+/// searched for. None if numbers are too long.
 pub fn search(
     rows: &[Row<BigInt>],
     weights: &[Weight<BigInt>],
     bounds: &[BigInt],
     unit: &[usize],
+    tried: usize,
 ) -> Option<Found> {
     // With every sign plus and zeros as ones, the sum is longer than any number that the search meets,
     // for the last step depends on every step.
@@ -53,11 +90,10 @@ pub fn search(
     let weight = |k: usize| (weights.get(k).map_or(BigInt::one(), |(w, _)| not_zero(w)), true);
     let all: Vec<_> = (0..rows.len()).map(weight).collect();
     let boxes: Vec<_> = bounds.iter().map(not_zero).collect();
-    let corners = 1 << bounds.len();
-    match search_in::<BigInt>(&plus, &all, &boxes, &[], 1)?.sum.bits() {
-        0..=62 => search_in::<i64>(rows, weights, bounds, unit, corners),
-        63..=126 => search_in::<i128>(rows, weights, bounds, unit, corners),
-        127..=MOST_BITS => search_in::<BigInt>(rows, weights, bounds, unit, corners),
+    match search_in::<BigInt>(&plus, &all, &boxes, &[], 0)?.sum.bits() {
+        0..=62 => search_in::<i64>(rows, weights, bounds, unit, tried),
+        63..=126 => search_in::<i128>(rows, weights, bounds, unit, tried),
+        127..=MOST_BITS => search_in::<BigInt>(rows, weights, bounds, unit, tried),
         _ => None,
     }
 }
@@ -67,7 +103,7 @@ fn search_in<T>(
     weights: &[Weight<BigInt>],
     bounds: &[BigInt],
     unit: &[usize],
-    corners: usize,
+    tried: usize,
 ) -> Option<Found>
 where
     T: Signed + Clone + PartialOrd + TryFrom<BigInt>,
@@ -89,7 +125,10 @@ where
     let of_unit = unit.iter().fold(0, |bits, v| bits | 1 << v);
     let (mut best, mut squares, mut at, mut last) = (T::zero(), BigInt::ZERO, 0, usize::MAX);
     let (mut sizes, mut longest) = (values.clone(), vec![BigInt::ZERO; rows.len()]);
-    for corner in (0..corners).filter(|corner| corner & of_unit == 0) {
+    let mut next = Some(0usize);
+    while let Some(corner) = next {
+        // The next larger one of the tried bits.
+        next = Some(corner.wrapping_sub(tried) & tried).filter(|next| *next != 0);
         let (mut sum, mut of_axes) = (T::zero(), BigInt::ZERO);
         let mut lengths = vec![BigInt::ZERO; if unit.is_empty() { 0 } else { rows.len() }];
         for axis in 0..unit.len().max(1) {

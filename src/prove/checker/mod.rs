@@ -7,6 +7,7 @@ mod corners;
 mod edges;
 mod formula;
 mod number;
+mod opposite;
 mod program;
 mod reader;
 mod variables;
@@ -36,6 +37,9 @@ pub struct Proved {
     pub place: usize,
     /// What holds for it.
     pub bound: Bound,
+    /// Whether it is an edge's value that is the exact negative of the neighbour's and, if it is not zero, has the
+    /// sign of an exact determinant.
+    pub has_signs: bool,
 }
 
 /// Why a certificate is refused.
@@ -70,7 +74,7 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
         let is_right = match (scalar, format) {
             ("f32", format) => format == F32,
             ("f64", format) => format == F64,
-            ("float", [3..=60, -2048..=2048, -2048..=2048]) => true,
+            ("float", [3..=60, -2048..=0, 0..=2048]) => true,
             _ => false,
         };
         is_right.then(|| Format::of(format))
@@ -87,12 +91,20 @@ fn certificate(reader: &mut Reader) -> Outcome<Vec<Proved>> {
             lemma(&mut program, &mut work, reader)?;
         }
         while reader.is_next("claim") {
-            let (gate, place) = reader.read("claim GATE OPERATION", |words| match words {
-                [gate, place] => Some((gate.to_string(), place.parse().ok()?)),
+            let form = "claim GATE OPERATION, and opposite or signs where it is so";
+            let (gate, place, symmetry) = reader.read(form, |words| match *words {
+                [gate, place] => Some((gate, place.parse().ok()?, "")),
+                [gate, place, symmetry @ ("opposite" | "signs")] => {
+                    Some((gate, place.parse().ok()?, symmetry))
+                }
                 _ => None,
             })?;
             let bound = program.bound(place)?.clone();
-            proved.push(Proved { program: number, gate, place, bound });
+            if !symmetry.is_empty() {
+                opposite::check(&program, place, symmetry)?;
+            }
+            let (gate, has_signs) = (gate.to_owned(), symmetry == "signs");
+            proved.push(Proved { program: number, gate, place, bound, has_signs });
         }
         reader.read("end", |words| words.is_empty().then_some(()))?;
         number += 1;

@@ -167,6 +167,14 @@ impl<'a> Program<'a> {
         Ok(program)
     }
 
+    pub fn name(&self, place: usize) -> &'a str {
+        self.operations[place].name
+    }
+
+    pub fn operands(&self, place: usize) -> &[usize] {
+        &self.operations[place].operands
+    }
+
     pub fn input(&self, place: usize) -> Option<usize> {
         let operation = &self.operations[place];
         (operation.name == "input").then_some(operation.value as usize)

@@ -5,8 +5,8 @@ use super::number::{Bound, Number};
 use super::program::{Leaf, MOST_ROWS, Operation, Program, Unit, indices};
 use super::reader::{Outcome, Reader, ensure};
 
-/// A formula of n variables has 2^n corners.
-const MOST_VARIABLES: usize = 18;
+/// Each variable has a bit.
+const MOST_VARIABLES: usize = 32;
 
 /// A variable: a leaf, a number with a lemma, a quotient of a third edge, or else the quotient that the lemma is
 /// about.

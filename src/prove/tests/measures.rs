@@ -15,6 +15,7 @@ const SCENE: Scene = Scene {
     min_angle: 5.0,
     grazing: 2.0,
     shape: None,
+    is_of_longest: false,
 };
 
 /// A triangle and a ray of the scene; none if what was drawn is not of it. Many are as flat as it allows.
@@ -66,9 +67,9 @@ fn what_a_scene_says_of_divisors_and_quotients_is_true_of_its_triangles() {
         let sample = Sample::of(&inputs);
         let size = sample.normal.abs();
         let k = (0..3).find(|k| size[*k] == size.max_element()).unwrap();
-        let divisors = measures.divisors(&sample, k..k + 1);
+        let divisors = measures.divisors(&sample, &[k]);
         let divisors = divisors.into_iter().map(|known| (known, true));
-        let quotients = measures.quotients(&sample, k..k + 1);
+        let quotients = measures.quotients(&sample, &[k]);
         let quotients = quotients.into_iter().map(|known| (known, false));
         for (Known { name, limit, value }, is_divisor) in divisors.chain(quotients) {
             let (value, limit) = (value.abs(), limit.to_f64());

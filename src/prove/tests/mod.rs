@@ -2,6 +2,7 @@ mod constants;
 mod fpcore;
 mod gappa;
 mod measures;
+mod mirrors;
 mod permanent;
 mod rows;
 mod sign;

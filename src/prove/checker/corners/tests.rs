@@ -74,7 +74,7 @@ fn found(
     bounds: &[BigInt],
     unit: &[usize],
 ) -> Option<All> {
-    let found = search(rows, weights, bounds, unit)?;
+    let found = search(rows, weights, bounds, unit, signs_to_try(rows, unit))?;
     Some((found.sum, found.corner, found.sizes, found.squares))
 }
 
@@ -85,6 +85,20 @@ fn number(draw: &mut Draw, bits: usize) -> BigInt {
 
 fn sign(draw: &mut Draw) -> BigInt {
     BigInt::from(if draw.coin() { 1 } else { -1 })
+}
+
+/// Weights of the steps' errors. What is zero has none.
+fn random_weights(draw: &mut Draw, rows: &Rows, bits: usize) -> Vec<Weight<BigInt>> {
+    let mut zeros: Vec<bool> = Vec::new();
+    for row in rows {
+        let is_zero =
+            |(_, a, b): &(_, usize, Option<usize>)| zeros[*a] || b.is_some_and(|b| zeros[b]);
+        let has_none = row.constant.is_zero() && row.variables.is_empty();
+        zeros.push(has_none && row.terms.iter().all(is_zero));
+    }
+    let weight = |is_zero| if is_zero { BigInt::ZERO } else { number(draw, bits) };
+    let weights: Vec<BigInt> = zeros.into_iter().map(weight).collect();
+    weights.into_iter().map(|weight| (weight, draw.coin())).collect()
 }
 
 /// A factor, as it brings terms to one scale.
@@ -132,7 +146,7 @@ fn the_largest_sum_is_that_of_every_corner_by_itself_in_integers_of_any_width() 
         let (variables, bits) = (1 + draw.below(4), 1 + draw.below(60));
         let rows = random_rows(&mut draw, variables, bits);
         let bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
-        let weights: Vec<_> = rows.iter().map(|_| (number(&mut draw, bits), draw.coin())).collect();
+        let weights = random_weights(&mut draw, &rows, bits);
         let sum = expected(&rows, &weights, &bounds, &[]);
         widths[match sum.0.bits() {
             0..=62 => 0,
@@ -180,7 +194,7 @@ fn a_unit_vector_is_every_axis_in_turn_in_integers_of_any_width() {
         let rows = linear_rows(&mut draw, variables, bits);
         let mut bounds: Vec<BigInt> = (0..variables).map(|_| number(&mut draw, bits)).collect();
         bounds.extend([(); 3].map(|()| BigInt::from(1 + draw.below(2))));
-        let weights: Vec<_> = rows.iter().map(|_| (number(&mut draw, bits), draw.coin())).collect();
+        let weights = random_weights(&mut draw, &rows, bits);
         let unit = [variables, variables + 1, variables + 2];
         let all = expected(&rows, &weights, &bounds, &unit);
         widths[match all.3.bits() {

@@ -1,6 +1,6 @@
 //! What the rounding errors of a formula's steps add up to.
 
-use super::super::corners::{Row, search};
+use super::super::corners::{Row, search, signs_to_try};
 use super::super::number::{
     Bound, ERROR_DIGITS, F32, F64, Format, Number, SIZE_DIGITS, power, root_up, round_up, split,
 };
@@ -26,8 +26,6 @@ pub struct Shown {
 impl Formula<'_> {
     /// What the corners show. Reads the corner and both parts of the error's bound.
     pub fn maximum(&self, format: &Format, work: &mut u64, reader: &mut Reader) -> Outcome<Shown> {
-        *work += (self.steps.len() as u64) << self.variables.len();
-        ensure(*work <= MOST_WORK, "found too many corners of too many steps in this file")?;
         const LONG: &str = "found numbers that are too long";
         // Every value is an integer times a power of two that does not depend on the corner.
         let narrow = |v: &Variable| v.narrow.clone().unwrap_or(v.bound.size.clone());
@@ -65,7 +63,10 @@ impl Formula<'_> {
             });
             scales.push(scale);
         }
-        let found = search(&rows, &[], &boxes, &self.unit).ok_or(LONG)?;
+        let tried = signs_to_try(&rows, &self.unit);
+        *work += (self.steps.len() as u64) << tried.count_ones();
+        ensure(*work <= MOST_WORK, "found too many corners of too many steps in this file")?;
+        let found = search(&rows, &[], &boxes, &self.unit, tried).ok_or(LONG)?;
         let size = |(k, size): (usize, BigInt)| {
             let scale = power(scales[k]);
             if self.is_linear(k) {
@@ -95,7 +96,7 @@ impl Formula<'_> {
             |(w, step): (&Number, &Step)| ((w * power(-finest)).to_integer(), step.relative);
         let weights: Vec<_> = weights.iter().zip(&self.steps).map(whole).collect();
         self.ensure_narrow(&weights)?;
-        let found = search(&rows, &weights, &narrow, &self.unit).ok_or(LONG)?;
+        let found = search(&rows, &weights, &narrow, &self.unit, tried).ok_or(LONG)?;
         let (last, scale) = (bounds.len() - 1, power(scales[scales.len() - 1] + finest));
         let mut first = Number::from(found.sum) * &scale;
         if let Some(v) = self.unit.first() {

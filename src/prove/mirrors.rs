@@ -1,0 +1,67 @@
+//! Which corners of a formula's box are enough.
+//!
+//! A *mirror* is a set of variables whose change of sign keeps each step or changes its sign. Then each slope keeps its
+//! size too, and so do all effects of errors: of corners that a mirror joins, one is enough. In d·(e1×e2), for instance,
+//! the signs of d, of e1, of e2 and of all x and all y are free: 16 corners of 512 are left.
+//!
+//! A step's sign depends on a set of variables: it changes with an odd number of them. A product's set is the symmetric
+//! difference of its factors' sets. Terms that are added up must have one set: for mirrors, the difference of two of them
+//! is an equation modulo 2. A zero has no sign and no error, and demands nothing.
+
+use super::formula::{Formula, Step};
+
+impl Formula {
+    /// The variables whose signs have to be tried, as bits: the lowest one of each independent equation. Every corner
+    /// is joined to one of them by a mirror, which is the first in the order of counting. Signs of unit vectors are
+    /// not tried.
+    pub(super) fn signs_to_try(&self) -> u64 {
+        let unit = self.unit.iter().fold(0u64, |bits, v| bits | 1 << v);
+        let mut signs: Vec<Option<u64>> = Vec::with_capacity(self.steps.len());
+        let mut equations = Equations { unit, by_lowest: [0; 64] };
+        for step in &self.steps {
+            let of = |i: usize| signs[i];
+            let product = |a: usize, b: usize| Some(of(a)? ^ of(b)?);
+            signs.push(match *step {
+                Step::Variables(ref sum) => equations.alike(sum.iter().map(|(v, _)| Some(1 << v))),
+                Step::Number(value) => (value != 0).then_some(0),
+                Step::Neg(a) => of(a),
+                Step::Add(a, b) | Step::Sub(a, b) => equations.alike([of(a), of(b)]),
+                Step::Mul(a, b) => product(a, b),
+                Step::Fma(a, b, c) => equations.alike([product(a, b), of(c)]),
+                Step::Minor(a, b, c, d) => equations.alike([product(a, b), product(c, d)]),
+            });
+        }
+        let lowest = (0..64).filter(|v| equations.by_lowest[*v] != 0);
+        lowest.fold(0, |bits, v| bits | 1 << v) & !unit
+    }
+}
+
+/// Independent equations modulo 2, each at its lowest variable, those of the unit vector coming first.
+struct Equations {
+    unit: u64,
+    by_lowest: [u64; 64],
+}
+
+impl Equations {
+    /// Demands that terms change their signs alike. Returns with which variables they do, if not all are zero.
+    fn alike(&mut self, terms: impl IntoIterator<Item = Option<u64>>) -> Option<u64> {
+        let mut terms = terms.into_iter().flatten();
+        let first = terms.next()?;
+        for term in terms {
+            self.insert(term ^ first);
+        }
+        Some(first)
+    }
+
+    fn insert(&mut self, mut equation: u64) {
+        while equation != 0 {
+            let first = if equation & self.unit == 0 { equation } else { equation & self.unit };
+            let known = &mut self.by_lowest[first.trailing_zeros() as usize];
+            if *known == 0 {
+                *known = equation;
+                return;
+            }
+            equation ^= *known;
+        }
+    }
+}
