@@ -233,7 +233,7 @@ impl Formula {
             error = format.half_ulp_of(&computed);
             if matches!(self.steps[i], Step::Minor(..)) && format == Format::F32 {
                 // The difference is rounded twice, first to f64.
-                error = error + Format::F64.half_ulp_of(&computed);
+                error = error.plus_up(Format::F64.half_ulp_of(&computed));
             }
         }
         Bound { size, computed: round_up(&computed, format.digits), error }

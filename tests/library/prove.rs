@@ -4,7 +4,7 @@ use hairline::internals::arith::Arithmetic;
 use hairline::internals::case::Draw;
 use hairline::internals::kernel::{KERNELS, Scalar, find, in_arithmetic};
 use hairline::internals::prove::{
-    Domain, Effort, Format, Goal, Proof, Search, Searched, Summary, Symmetry, run,
+    Domain, Dyadic, Effort, Format, Goal, Proof, Search, Searched, Summary, Symmetry, paths_of, run,
 };
 
 fn no_error_is_above_its_bound<F: Searched + Scalar>(evaluations: u64) {
@@ -47,6 +47,29 @@ fn the_determinant_of_moller_trumbore_is_bounded_as_by_hand() {
     let units = summary.gates[0].bound.as_ref().unwrap().to_f64() * 2f64.powi(24);
     let below_one = 1.0 - 2f64.powi(-10);
     assert!(units <= 17.0 && units >= 17.0 * below_one * below_one, "{units}");
+}
+
+/// Numbers that overflow, underflow or need too many digits have no bound, or a true one.
+#[test]
+fn no_size_of_the_inputs_makes_a_proof_panic() {
+    for kernel in KERNELS {
+        for (points, direction) in [(-1000, 0), (-140, -140), (-60, 120), (60, 0), (126, 126)] {
+            let [points, direction] = [points, direction].map(Dyadic::power);
+            let domain = Domain {
+                edge: points,
+                reach: points,
+                world: points,
+                direction,
+                extent: points,
+                direction_floor: direction,
+                floor: points,
+                ..Domain::UNIT
+            };
+            let of_f32 = Proof::new(paths_of::<f32>(kernel).unwrap(), None, domain, Format::F32);
+            let of_f64 = Proof::new(paths_of::<f64>(kernel).unwrap(), None, domain, Format::F64);
+            assert!(!of_f32.quantities.is_empty() && !of_f64.quantities.is_empty());
+        }
+    }
 }
 
 #[test]
