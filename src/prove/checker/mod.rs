@@ -17,7 +17,7 @@ pub use number::{Bound, Number};
 use edges::SameSign;
 use formula::Formula;
 use num_traits::{One, Signed, Zero};
-use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, power, root_up, round_up};
+use number::{ERROR_DIGITS, F32, F64, Format, SIZE_DIGITS, root_up, round_up, shifted};
 use program::{Domain, Lemma, Operation, Program, indices};
 use reader::{Outcome, Reader, ensure};
 use std::fmt::{self, Display};
@@ -293,7 +293,7 @@ fn unit(program: &Program, place: usize) -> Outcome<Lemma> {
     let (longest, third) = (&size * (&one + times(2, unit)), &one - times(3, unit));
     program.format.finite(&round_up(&(&longest * &longest), ERROR_DIGITS))?;
     program.format.finite(&round_up(&(least * &third).recip(), ERROR_DIGITS))?;
-    let (turn, stretch) = (&shift / (floor - &shift * power(-1)), times(4, unit) / third);
+    let (turn, stretch) = (&shift / (floor - shifted(&shift, -1)), times(4, unit) / third);
     let before = &stretch * &stretch + (&one + &stretch) * &turn * &turn;
     let before = root_up(&before, ERROR_DIGITS) + size * tiny;
     let rounded = &one + &before;

@@ -18,7 +18,7 @@ pub fn number(word: &str) -> Option<Number> {
     let (mantissa, exponent) = word.split_once("*2^").unwrap_or((word, "0"));
     let (mantissa, exponent) = (mantissa.parse::<i128>().ok()?, exponent.parse::<i64>().ok()?);
     let is_fair = 0 <= mantissa && (-MOST_EXPONENT..=MOST_EXPONENT).contains(&exponent);
-    is_fair.then(|| Number::from(BigInt::from(mantissa)) * power(exponent))
+    is_fair.then(|| shifted(&Number::from(BigInt::from(mantissa)), exponent))
 }
 
 pub fn show(x: &Number) -> String {
@@ -31,6 +31,22 @@ pub fn show(x: &Number) -> String {
 pub fn power(exponent: i64) -> Number {
     let power = BigInt::one() << exponent.unsigned_abs();
     if exponent < 0 { Number::new_raw(BigInt::one(), power) } else { Number::from(power) }
+}
+
+/// x * 2^exponent. Only factors of two are common to numerator and denominator.
+pub fn shifted(x: &Number, exponent: i64) -> Number {
+    let part = |of: &BigInt, most: u64| of.trailing_zeros().unwrap_or(0).min(most);
+    let size = exponent.unsigned_abs();
+    let (numer, denom) = (x.numer(), x.denom());
+    if x.is_zero() {
+        x.clone()
+    } else if exponent < 0 {
+        let common = part(numer, size);
+        Number::new_raw(numer >> common, denom << (size - common))
+    } else {
+        let common = part(denom, size);
+        Number::new_raw(numer << (size - common), denom >> common)
+    }
 }
 
 /// The odd mantissa and the exponent of a binary fraction.
@@ -47,7 +63,7 @@ fn ceil_log2(x: &Number) -> i64 {
 
 /// The smallest multiple of 2^last that is at least x.
 fn up_to(x: &Number, last: i64) -> Number {
-    (x * power(-last)).ceil() * power(last)
+    shifted(&shifted(x, -last).ceil(), last)
 }
 
 /// The smallest number of so many binary digits that is at least x.
@@ -62,10 +78,10 @@ pub fn root_up(x: &Number, digits: i64) -> Number {
     }
     // The root lies in (2^(e-1), 2^e].
     let e = (ceil_log2(x) + 1).div_euclid(2);
-    let scaled = (x * power(2 * (digits - e))).ceil().to_integer();
+    let scaled = shifted(x, 2 * (digits - e)).ceil().to_integer();
     let root = scaled.sqrt();
     let root = if &root * &root < scaled { root + 1 } else { root };
-    round_up(&(Number::from(root) * power(e - digits)), digits)
+    round_up(&shifted(&Number::from(root), e - digits), digits)
 }
 
 /// What holds for a number of a program.

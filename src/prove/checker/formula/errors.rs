@@ -2,7 +2,7 @@
 
 use super::super::corners::{Row, search, signs_to_try};
 use super::super::number::{
-    Bound, ERROR_DIGITS, F32, F64, Format, Number, SIZE_DIGITS, power, root_up, round_up, split,
+    Bound, ERROR_DIGITS, F32, F64, Format, Number, SIZE_DIGITS, root_up, round_up, shifted, split,
 };
 use super::super::reader::{Outcome, Reader, ensure};
 use super::super::variables::Variable;
@@ -32,7 +32,7 @@ impl Formula<'_> {
         let exponents =
             self.variables.iter().map(|v| split(&v.bound.size).1.min(split(&narrow(v)).1));
         let exponents: Vec<i64> = exponents.collect();
-        let whole = |size: &Number, v: usize| (size * power(-exponents[v])).to_integer();
+        let whole = |size: &Number, v: usize| shifted(size, -exponents[v]).to_integer();
         let boxes = self.variables.iter().enumerate().map(|(v, x)| whole(&x.bound.size, v));
         let narrow = self.variables.iter().enumerate().map(|(v, x)| whole(&narrow(x), v));
         let (boxes, narrow): (Vec<BigInt>, Vec<BigInt>) = (boxes.collect(), narrow.collect());
@@ -68,16 +68,15 @@ impl Formula<'_> {
         ensure(*work <= MOST_WORK, "found too many corners of too many steps in this file")?;
         let found = search(&rows, &[], &boxes, &self.unit, tried).ok_or(LONG)?;
         let size = |(k, size): (usize, BigInt)| {
-            let scale = power(scales[k]);
             if self.is_linear(k) {
-                root_up(&(Number::from(size) * &scale * scale), SIZE_DIGITS)
+                root_up(&shifted(&Number::from(size), 2 * scales[k]), SIZE_DIGITS)
             } else {
-                Number::from(size) * scale
+                shifted(&Number::from(size), scales[k])
             }
         };
         let sizes: Vec<Number> = found.sizes.into_iter().enumerate().map(size).collect();
         let none = vec![None; self.steps.len()];
-        let (bounds, _) = self.run(format, &sizes, &none, false);
+        let (mut bounds, mut rest) = self.run(format, &sizes, &none, false);
         for bound in &bounds {
             format.finite(&bound.computed)?;
         }
@@ -87,29 +86,30 @@ impl Formula<'_> {
             } else if self.steps[k].terms.is_empty() && self.is_linear(k) {
                 Number::zero()
             } else {
-                &bounds[k].error * power(-scales[k])
+                shifted(&bounds[k].error, -scales[k])
             }
         };
         let weights: Vec<Number> = (0..self.steps.len()).map(weight).collect();
         let finest = weights.iter().filter(|w| !w.is_zero()).map(|w| split(w).1).min().unwrap_or(0);
-        let whole =
-            |(w, step): (&Number, &Step)| ((w * power(-finest)).to_integer(), step.relative);
+        let whole = |(w, step): (&Number, &Step)| (shifted(w, -finest).to_integer(), step.relative);
         let weights: Vec<_> = weights.iter().zip(&self.steps).map(whole).collect();
         self.ensure_narrow(&weights)?;
         let found = search(&rows, &weights, &narrow, &self.unit, tried).ok_or(LONG)?;
-        let (last, scale) = (bounds.len() - 1, power(scales[scales.len() - 1] + finest));
-        let mut first = Number::from(found.sum) * &scale;
+        let (last, scale) = (bounds.len() - 1, scales[scales.len() - 1] + finest);
+        let mut first = shifted(&Number::from(found.sum), scale);
         if let Some(v) = self.unit.first() {
             // The vector's own error takes its place.
             first += &self.variables[*v].bound.error * &bounds[last].size;
-            first += root_up(&(Number::from(found.squares) * &scale * scale), ERROR_DIGITS);
+            first += root_up(&shifted(&Number::from(found.squares), 2 * scale), ERROR_DIGITS);
         }
         let sign = |v: usize| if found.corner >> v & 1 == 1 { '-' } else { '+' };
         let signs: String = (0..self.variables.len()).map(sign).collect();
         reader.read(&format!("corner {signs}"), |words| (words.concat() == signs).then_some(()))?;
         reader.demand("first", &first)?;
-        let known: Vec<_> = bounds.into_iter().map(Some).collect();
-        let (mut bounds, rest) = self.run(format, &sizes, &known, true);
+        if self.steps.iter().any(|step| step.relative) {
+            let known: Vec<_> = bounds.iter().cloned().map(Some).collect();
+            rest = self.run(format, &sizes, &known, true).1;
+        }
         let rest = round_up(&rest, ERROR_DIGITS);
         reader.demand("rest", &rest)?;
         let Bound { size, computed, error: own } = bounds.pop().expect("a step");
