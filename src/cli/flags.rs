@@ -52,7 +52,7 @@ const MOST_CASES: u64 = 1_000_000_000_000;
 pub fn case_count(text: &str) -> Result<u64, &'static str> {
     let count = text.replace('_', "").parse().ok();
     let count = count.filter(|count| (1..=MOST_CASES).contains(count));
-    count.ok_or("not a number of cases from 1 to 10^12")
+    count.ok_or("not a number of cases from 1 to 10^12, as 1_000_000")
 }
 
 /// An error if a flag names something twice.

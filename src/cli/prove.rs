@@ -258,7 +258,14 @@ impl ProveArguments {
         match (&self.scene, &self.mesh) {
             (Some(scene), _) => format!("--scene {}", shell_word(scene)),
             (None, Some(mesh)) => format!("--mesh {}", shell_word(mesh)),
-            _ => "--scene room".to_owned(),
+            _ => match (self.coordinates, self.edge) {
+                (Some(coordinates), Some([low, high])) => {
+                    let distance = self.distance.unwrap_or(2.0 * coordinates);
+                    let extent = coordinates.max(high);
+                    format!("--scene extent={extent},edge={low}..{high},distance=0..{distance}")
+                }
+                _ => "--scene room".to_owned(),
+            },
         }
     }
 

@@ -91,8 +91,8 @@ impl Domain {
         quotient: Dyadic::ONE,
         measures: None,
     };
-    /// All inputs that are no larger than those of a case: edges and vectors to the origin up to its largest
-    /// difference of coordinates. Nothing is known of divisors but of the direction's largest coordinate.
+    /// All inputs with the extents of a case: its largest coordinate, its largest difference of coordinates, its largest
+    /// coordinate of the direction. Nothing is known of divisors but that last one.
     pub fn of_sizes<F: Float>(case: &Case<F>) -> Option<Domain> {
         let [origin, direction, a, b, c] = case.vectors().map(|v| v.map(F::to_f64));
         let up = |x: f64| Some(Dyadic::from_f64(x.next_up())?.round_up(SIZE_DIGITS));
@@ -115,7 +115,8 @@ impl Domain {
             extent: up(largest(&ends)).unwrap_or(Dyadic::OVERFLOW),
             direction_floor,
             floor: Dyadic::ZERO,
-            quotient: Dyadic::ZERO,
+            // Larger than any: what limits a quotient is its numerator.
+            quotient: Dyadic::power(1 << 12),
             measures: None,
         })
     }

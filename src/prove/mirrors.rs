@@ -6,7 +6,7 @@
 //!
 //! A step's sign depends on a set of variables: it changes with an odd number of them. A product's set is the symmetric
 //! difference of its factors' sets. Terms that are added up must have one set: for mirrors, the difference of two of them
-//! is an equation modulo 2. A zero has no sign and no error, and demands nothing.
+//! is an equation modulo 2. A zero has no sign, is computed as 0 and demands nothing.
 
 use super::formula::{Formula, Step};
 

@@ -243,7 +243,15 @@ fn edge<F>(
         }
         _ => None,
     };
-    if epsilons.is_some() {
+    let flat = scene.map_or(String::new(), |scene| {
+        format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
+    });
+    if share.is_some_and(|share| beta * share >= 0.5) {
+        lines.push(format!(
+            "Nothing useful follows for hits at edges: that is half of the way across the smallest triangles, or \
+             more{flat}."
+        ));
+    } else if epsilons.is_some() {
         let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
         let known = lost.map_or(String::new(), |witness| {
             format!(
@@ -253,15 +261,6 @@ fn edge<F>(
         });
         let least = signed(-beta, false);
         lines.push(format!("An epsilon below {least} loses no hit at an edge.{known}"));
-    }
-    let flat = scene.map_or(String::new(), |scene| {
-        format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
-    });
-    let is_useless = share.is_some_and(|share| beta * share >= 0.5);
-    if is_useless {
-        lines.push(format!(
-            "How deep lost hits may lie is of no use for the smallest triangles{flat}."
-        ));
     }
     // How deep inside or far outside, none where that says nothing.
     let across = |x: f64| match share {
@@ -309,8 +308,8 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              for vertices, nor where a triangle faces away from its neighbour (folds)."
         }
         Symmetry::ExactSigns => {
-            "Watertight, proved (short of underflow): at a shared edge both triangles compute opposite values, \
-             and a value that is not zero has the sign of the exact determinant of the rounded, sheared vertices. So at an epsilon \
+            "Watertight, proved (short of underflow): a value of an edge that is not zero has the sign of the exact \
+             determinant of its two rounded, sheared vertices, the same ones for all triangles. So at an epsilon \
              of 0 the kernel decides as an exact test would on the mesh with its vertices so rounded: no ray \
              passes between the triangles of an edge, nor of a closed fan that stays closed and unfolded when \
              it is rounded. Nothing follows for folds."

@@ -167,13 +167,8 @@ impl<F: Searched + Scalar> Summary<F> {
             })
         });
         let gates: Vec<GateSummary<F>> = gates.collect();
-        let edges = |path: usize| {
-            let is_edge = |q: &&Quantity| entry.info.gates[q.gate].role == Role::Edge;
-            proof.quantities.iter().filter(move |q| q.path == path).filter(is_edge)
-        };
-        let paths = (0..proof.paths.len()).filter(|path| edges(*path).next().is_some());
-        let symmetries = paths.map(|path| symmetry(&proof.paths[path], edges(path)));
-        let symmetry = symmetries.min().unwrap_or(Symmetry::None);
+        let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
+        let symmetry = symmetry(&proof.paths, is_edge);
         Ok(Summary { domain, format, gates, symmetry, contradiction, proof })
     }
 }

@@ -335,9 +335,9 @@ fn the_command_searches_updates_its_table_and_lists_it() {
     assert!(text(&verified.stdout).contains("stored scores right"), "{}", text(&verified.stderr));
 }
 
-/// The scores come from exact runs of kernels that a search found, the bounds from proofs for the sizes of each case.
+/// The scores come from exact runs of kernels that a search found, the bounds from proofs for the extents of each case.
 #[test]
-fn no_known_error_of_a_margin_passes_what_is_proved_for_its_sizes() {
+fn no_known_error_of_a_margin_passes_what_is_proved_at_its_extents() {
     let listed = hairline_in(&scratch("worst-proved"), &["fuzz", "worst", "--list"]);
     let listed = text(&listed.stdout);
     let mut shown = 0;

@@ -600,7 +600,9 @@ fn values_of_an_edge_that_are_no_exact_negatives_or_have_other_signs_are_refused
     let opposite = plucker.lines().find(|line| line.ends_with(" opposite")).unwrap();
     let claim = opposite.strip_suffix(" opposite").unwrap();
     let refused = claimed(&plucker, opposite, &format!("{claim} signs"));
-    assert!(refused.contains(message) && refused.ends_with("a difference of two products"));
+    assert!(
+        refused.contains(message) && refused.ends_with("x(p)*y(q) - x(q)*y(p) of two vertices")
+    );
     // Less may be said than is true.
     assert_eq!(check(&plucker.replacen(opposite, claim, 1)).map(|all| all.len()).ok(), Some(6));
     // Numbers of three vertices, quotients and fused products are no exact negatives.
@@ -614,4 +616,36 @@ fn values_of_an_edge_that_are_no_exact_negatives_or_have_other_signs_are_refused
     }
     let claim = woop.lines().find(|line| line.ends_with(" signs")).unwrap();
     assert!(claimed(&woop, claim, "claim edge 48 sign").contains("and opposite or signs"));
+    // |x| is not x, and what is no picture of single vertices is no determinant: both are 0 where their claims say
+    // otherwise, or have the sign of nothing.
+    for (operations, word, message) in [
+        (
+            ["abs 0", "mul 3 2", "mul 1 2"],
+            "opposite",
+            "its negative where the vertices are exchanged",
+        ),
+        (["abs 0", "mul 0 2", "mul 1 2"], "signs", "x(p)*y(q) - x(q)*y(p) of two vertices"),
+    ] {
+        let refused = refusal(&difference(operations, word));
+        assert!(refused.ends_with(message), "{refused}");
+    }
+    assert!(check(&difference(["abs 0", "mul 0 2", "mul 1 2"], "opposite")).is_ok());
+}
+
+/// A certificate of the difference of two numbers, made from a_x, b_x and d_x: operations 3 to 5 are given.
+fn difference(operations: [&str; 3], word: &str) -> String {
+    let [third, fourth, fifth] = operations;
+    let (cut, first) = match fourth {
+        "mul 3 2" => ("cut 3", "step 3 variables +0"),
+        _ => ("point 1 0", "step 0 variables +0"),
+    };
+    format!(
+        "hairline proof 1\nkernel mine f32\nformat 24 -149 127\ndomain edge 1 reach 1 world 1 direction 1 extent 1 \
+         direction-floor 1*2^-1 floor 1*2^-1 quotient 1\nprogram\nop 0 input 6\nop 1 input 9\nop 2 input 3\n\
+         op 3 {third}\nop 4 {fourth}\nop 5 {fifth}\nop 6 sub 4 5\n\
+         lemma 0 sum\nvariable point 1 0\nstep 0 variables +0\ncorner +\nfirst 0\nrest 0\nsize 1\ncomputed 1\nerror 0\n\
+         lemma 6 sum\nvariable {cut}\nvariable point 2 0\nvariable direction 0\n{first}\nstep 1 variables +1\n\
+         step 2 variables +2\nstep 4 mul 0 2\nstep 5 mul 1 2\nstep 6 sub 3 4\ncorner +++\nfirst 1*2^-23\nrest 0\n\
+         size 1*2^1\ncomputed 1*2^1\nerror 1*2^-23\nclaim edge 6 {word}\nend\n"
+    )
 }

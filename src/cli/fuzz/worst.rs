@@ -209,7 +209,9 @@ fn list(arguments: &WorstArguments, goals: &[Vec<Goal>; 2]) -> Result<Status, Fa
     };
     let entries: Vec<&Entry> = table.entries().filter(wanted).collect();
     if entries.is_empty() {
-        let message = "the table has no entry for these flags".to_owned();
+        let message = "the table has no entry for these flags (the program's own is of built-in kernels; without --list \
+                       this command searches, which takes minutes)"
+            .to_owned();
         return Err(Failure::Message(Status::NothingSelected, message));
     }
     write_result("-", |out| write_entries(out, entries.into_iter(), arguments.table.as_deref()))?;
@@ -257,8 +259,8 @@ fn write_entries<'a>(
         if let Some(relative) = relative_error(entry).filter(|error| error.is_finite()) {
             write!(out, " ({relative:.1e} of t)")?;
         }
-        if let Some(most) = most_for_its_sizes(entry) {
-            write!(out, " (at most {} for such sizes, as proved)", prove::units(most, true))?;
+        if let Some(most) = most_at_its_extents(entry) {
+            write!(out, " (at most {} at these extents, as proved)", prove::units(most, true))?;
         }
         writeln!(out)?;
         let case = match table {
@@ -278,20 +280,21 @@ fn relative_error(entry: &Entry) -> Option<f64> {
     either_scalar!(&entry.case, case => entry.goal.scorer().relative_error_of_t(case))
 }
 
-/// How large the score of a margin can be for any input that is no larger; none where the gate divides. Of ordinary
-/// sizes only: where numbers overflow or underflow a bound says nothing.
-fn most_for_its_sizes(entry: &Entry) -> Option<f64> {
+/// How large the score of a margin can be for any input with the extents of an entry's case; none where the gate divides
+/// by anything but the direction's largest coordinate. Of ordinary sizes only: where numbers overflow or underflow a
+/// bound says nothing.
+fn most_at_its_extents(entry: &Entry) -> Option<f64> {
     let Goal { row, target, domain } = &entry.goal;
     let is_ordinary = target.objective == Objective::Margin && *domain == Domain::Moderate;
     let gate = target.gate.filter(|_| is_ordinary)?;
     either_scalar!(&entry.case, case => {
-        let bound = bound_for_sizes(row.entry, gate, case)?;
+        let bound = bound_at_extents(row.entry, gate, case)?;
         Some(bound / entry.goal.scorer().unit_of_margin(case, gate))
     })
 }
 
 /// A bound of the error of what a gate compares.
-fn bound_for_sizes<F: Scalar>(entry: &kernel::Entry, gate: usize, case: &Case<F>) -> Option<f64> {
+fn bound_at_extents<F: Scalar>(entry: &kernel::Entry, gate: usize, case: &Case<F>) -> Option<f64> {
     let domain = prove::Domain::of_sizes(case)?;
     prove::bound_of_gate::<F>(entry, gate, domain).map(|bound| bound.to_f64())
 }

@@ -33,7 +33,8 @@ fn checked(file: &str) -> Result<String, Failure> {
     // The checker has read this line.
     let kernel = text.lines().nth(1).unwrap_or_default().trim_start_matches("kernel ");
     let (name, scalar) = kernel.split_once(' ').unwrap_or_default();
-    let entry = kernel::find(name);
+    // Another format is no kernel's.
+    let entry = kernel::find(name).filter(|_| scalar != "float");
     let recorded = entry.map(|entry| in_named_scalar!(scalar, F => recorded::<F>(entry)));
     let sections = sections(&text);
     let has_limits = sections.iter().any(|section| section.has_limits() || 1 < sections.len());
@@ -67,23 +68,25 @@ fn checked(file: &str) -> Result<String, Failure> {
             }
         }
     };
-    // Of every number that its edges compare, on every path.
+    // What an edge compares is nothing that divides, so a claim of one size is one of all.
     let is_edge = |claim: &&checker::Proved| {
-        let gates = entry.iter().flat_map(|entry| entry.info.gates);
-        gates.into_iter().any(|gate| gate.name == claim.gate && gate.role == Role::Edge)
+        let mut gates = entry.iter().flat_map(|entry| entry.info.gates);
+        gates.any(|gate| gate.name == claim.gate && gate.role == Role::Edge)
     };
     let mut of_edges = proved.iter().filter(is_edge).peekable();
-    let has_edges = of_edges.peek().is_some();
-    let is_watertight = is_whole && has_edges && of_edges.all(|claim| claim.has_signs);
-    let watertight = if is_watertight { ", watertight at an epsilon of 0" } else { "" };
-    let mut said = format!("{file}: {bounds} proved of {kernel}: {gates}{watertight} ({whose})");
-    // What divides must be there for each size of triangles for which anything is.
-    let limited: BTreeSet<&str> = sections.iter().flat_map(Section::limited).collect();
+    let has_signs = of_edges.peek().is_some() && of_edges.all(|claim| claim.has_signs);
+    let signs = if is_whole && has_signs { ", signs of every edge" } else { "" };
+    let mut said = format!("{file}: {bounds} proved of {kernel}: {gates}{signs} ({whose})");
+    // What divides must be there for each size of triangles for which anything is, and so must what does not.
+    let of_kind = |is_limited: bool| -> BTreeSet<&str> {
+        sections.iter().flat_map(|section| section.of_kind(is_limited)).collect()
+    };
+    let (limited, unlimited) = (of_kind(true), of_kind(false));
     for section in sections.iter().filter(|_| has_limits) {
         let errors = largest_errors(&proved, |program| section.numbers.contains(&program));
-        let here: BTreeSet<&str> = section.limited().collect();
-        let is_part = !section.has_limits() || here == limited;
-        let missing = if is_part { "" } else { "; programs of other sizes are missing here" };
+        let all = if section.has_limits() { &limited } else { &unlimited };
+        let here: BTreeSet<&str> = section.of_kind(section.has_limits()).collect();
+        let missing = if here == *all { "" } else { "; programs of other sizes are missing here" };
         said.push_str(&format!("\n  {}: {errors}{missing}", section.inputs()));
     }
     Ok(said)
@@ -118,10 +121,11 @@ impl Section<'_> {
         self.limits.iter().any(|limits| !limits.is_empty())
     }
 
-    /// The programs with limits.
-    fn limited(&self) -> impl Iterator<Item = &str> {
+    /// The programs with limits of their own, or those without.
+    fn of_kind(&self, is_limited: bool) -> impl Iterator<Item = &str> {
         let both = self.programs.iter().zip(&self.limits);
-        both.filter(|(_, limits)| !limits.is_empty()).map(|((_, program), _)| &program[..])
+        let wanted = both.filter(move |(_, limits)| limits.is_empty() != is_limited);
+        wanted.map(|((_, program), _)| &program[..])
     }
 
     /// The inputs in words.

@@ -35,7 +35,7 @@ pub struct Found {
 /// The variables whose signs are tried, as bits. Of corners that differ by a mirror, a set of variables whose change of
 /// sign keeps each step or changes its sign, the first is enough. What a step adds up must change alike: an equation,
 /// modulo 2, of the set's bits. Each equation decides about its lowest variable, the others are free. A step that is
-/// zero has no error, and demands nothing.
+/// zero is computed as 0: it has no error, whatever its weight, and demands nothing.
 pub fn signs_to_try<T: Zero>(rows: &[Row<T>], unit: &[usize]) -> usize {
     let of_unit = unit.iter().fold(0, |bits, v| bits | 1 << v);
     // The variables on whose signs a step's sign depends; none of what is zero.

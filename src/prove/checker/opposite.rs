@@ -10,7 +10,7 @@ use std::collections::HashMap;
 type Form<'a> = (&'a str, Vec<(bool, Vec<usize>)>);
 
 /// Checks that a number is made of two of the triangle's vertices, and has one form and opposite signs if they are
-/// exchanged; and, for `signs`, that it is a difference of two products that are both rounded, or neither.
+/// exchanged; and, for `signs`, that it is x(p)*y(q) - x(q)*y(p), with both products rounded or neither.
 pub fn check(program: &Program, place: usize, claim: &str) -> Outcome<()> {
     let ensure = |holds: bool, expected: &str| {
         ensure(holds, format!("found `{claim}` of operation {place}, expected {expected}"))
@@ -22,18 +22,38 @@ pub fn check(program: &Program, place: usize, claim: &str) -> Outcome<()> {
     };
     let mut forms = HashMap::new();
     let (sign, form) = form(program, place, &mut forms, &|i| i);
-    let (other_sign, other) = self::form(program, place, &mut forms, &|i| match i / 3 {
+    let exchange = |i: usize| match i / 3 {
         point if point == p => 3 * q + i % 3,
         point if point == q => 3 * p + i % 3,
         _ => i,
-    });
-    ensure(form == other && sign != other_sign, "its negative where the vertices are exchanged")?;
-    let is_difference = match (program.name(place), program.operands(place)) {
-        ("minor", _) => true,
-        ("sub", operands) => operands.iter().all(|operand| program.name(*operand) == "mul"),
-        _ => false,
     };
-    ensure(claim == "opposite" || is_difference, "a difference of two products")
+    let (other_sign, other) = self::form(program, place, &mut forms, &exchange);
+    ensure(form == other && sign != other_sign, "its negative where the vertices are exchanged")?;
+    if claim == "opposite" {
+        return Ok(());
+    }
+    // x(p)*y(q) - x(q)*y(p), both products rounded or neither.
+    let product = |place: usize| (program.name(place) == "mul").then(|| program.operands(place));
+    let factors = match (program.name(place), program.operands(place)) {
+        ("minor", &[x, y, z, w]) => Some(([x, y], [z, w])),
+        ("sub", &[a, b]) => match (product(a), product(b)) {
+            (Some(&[x, y]), Some(&[z, w])) => Some(([x, y], [z, w])),
+            _ => None,
+        },
+        _ => None,
+    };
+    let is_of = |place: usize, is: usize, is_not: usize| {
+        is_made_of(program, place, is) && !is_made_of(program, place, is_not)
+    };
+    let is_picture = factors.is_some_and(|([x, y], second)| {
+        let mut there = [x, y].map(|place| self::form(program, place, &mut forms, &exchange));
+        let mut here = second.map(|place| self::form(program, place, &mut forms, &|i| i));
+        there.sort_unstable();
+        here.sort_unstable();
+        let are_apart = is_of(x, p, q) && is_of(y, q, p) || is_of(x, q, p) && is_of(y, p, q);
+        are_apart && there == here
+    });
+    ensure(is_picture, "x(p)*y(q) - x(q)*y(p) of two vertices")
 }
 
 /// Whether a number depends on a point.
@@ -62,10 +82,7 @@ fn form<'a>(
                 values.push((!values[a].0, values[a].1));
                 continue;
             }
-            ("abs", &[a]) => {
-                values.push((false, values[a].1));
-                continue;
-            }
+            ("abs", &[a]) => (name, vec![(false, vec![values[a].1])]),
             ("input", _) => (name, vec![(false, vec![rename(value as usize)])]),
             ("number", _) => (name, vec![(value < 0, vec![value.unsigned_abs() as usize])]),
             // The order of both counts.

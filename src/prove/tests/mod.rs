@@ -8,6 +8,7 @@ mod rows;
 mod sign;
 mod tiny;
 mod unit;
+mod watertight;
 
 use crate::arith::recorded::{Place, Recorded, record};
 use crate::kernel::Path;

@@ -2,6 +2,7 @@
 
 use super::net::{NET_TITLE, net_lines};
 use super::{Conformance, Deviation, Method, Record, Style, group_digits};
+use crate::report::number_of;
 use std::io::{self, Write};
 
 /// The most deviations of a kind that the text lists without `--details`.
@@ -40,8 +41,12 @@ pub(super) fn write(
     if 0 < conformance.too_rare_to_tell {
         writeln!(
             out,
-            "{} classes of disagreement have no entry and are too rare to tell from none",
-            group_digits(conformance.too_rare_to_tell)
+            "without an entry, and too rare to tell from none: {}",
+            number_of(
+                conformance.too_rare_to_tell,
+                "class of disagreement",
+                "classes of disagreement"
+            )
         )?;
     }
     if 0 < conformance.outside_the_plan {

@@ -277,8 +277,8 @@ fn conflict_lines(
         (_, _, "t") => {
             "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
         }
-        _ if part.scalar == "f64" => "no value is right for such rays beside these other numbers".to_owned(),
-        _ => "no value is right for such rays: it takes wider numbers (f64) or another kernel"
+        _ if part.scalar == "f64" => "what is recommended costs least; no value meets both beside these other numbers".to_owned(),
+        _ => "what is recommended costs least; to meet both takes wider numbers (f64) or another kernel"
             .to_owned(),
     };
     [conflict_line, instead]
@@ -331,6 +331,10 @@ fn flatness(record: &SceneRecord) -> String {
     }
 }
 
+fn has_parallel_gate(part: &SceneKernelPart) -> bool {
+    part.knobs.iter().any(|knob| knob.role == "parallel")
+}
+
 /// What the words of the tables mean, a line each.
 pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
@@ -346,6 +350,13 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         "more rays (-n) bring them closer"
             .to_owned(),
     ];
+    if record.unit_directions && record.kernels.iter().any(has_parallel_gate) {
+        let which = [
+            "exactly parallel: unit vectors that are so lie along axes or in level planes; other rays may",
+            "be parallel to any plane, and pass an epsilon below the proved one (`hairline prove`)",
+        ];
+        lines.extend(which.map(str::to_owned));
+    }
     if record.kernels.iter().any(|part| part.relative.is_some()) {
         let forms = [
             "scale-free: L is the triangle's longest edge, M the largest coordinate; counted by the",

@@ -102,16 +102,20 @@ pub(super) fn meaning(
                     _ => "the smallest triangle is never hit".to_owned(),
                 });
             }
-            // Twice the area of an equilateral triangle, times the sine, is the determinant.
-            let small = value / (0.75f64.sqrt() * record.edge[0] * record.edge[0]);
+            // Twice the area, times the sine, is the determinant. Equilateral triangles have the largest area, and
+            // the flattest of a scene an eighth of their longest edge as height.
+            let square = record.edge[0] * record.edge[0];
             let least = (value / 0.75f64.sqrt()).sqrt();
-            Some(match 1.0 <= small {
-                true => format!("no triangle below an edge of {least:.1e}{unit} is ever hit"),
-                false => format!(
-                    "the smallest triangles (edge {}{unit}) are missed at angles below {}",
-                    record.edge[0],
-                    degrees(small)
+            let flattest = format!("(edge {}{unit}, height 1/8 of it)", record.edge[0]);
+            Some(match 8.0 * value / square {
+                _ if 0.75f64.sqrt() * square <= value => {
+                    format!("no triangle below an edge of {least:.1e}{unit} is ever hit")
+                }
+                sine if sine < 1.0 => format!(
+                    "the smallest triangles {flattest} are missed at angles below {}",
+                    degrees(sine)
                 ),
+                _ => format!("the smallest triangles {flattest} are never hit"),
             })
         }
         ("parallel", [0, 1]) if record.unit_directions && 0.0 < value && value < 1.0 => {

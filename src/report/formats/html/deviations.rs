@@ -56,8 +56,8 @@ fn how(conformance: &Conformance) -> Markup {
         @if let Some(note) = &conformance.note { " " (note) "." }
         @for change in &conformance.rows { " " (change) "." }
         @if 0 < conformance.too_rare_to_tell {
-            " " (group_digits(conformance.too_rare_to_tell))
-            " classes of disagreement have no entry and are too rare to tell from none."
+            " Without an entry, and too rare to tell from none: "
+            (number_of(conformance.too_rare_to_tell, "class of disagreement", "classes of disagreement")) "."
         }
         @if 0 < conformance.outside_the_plan {
             " " (group_digits(conformance.outside_the_plan))
