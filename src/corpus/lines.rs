@@ -34,6 +34,15 @@ pub fn write_case(stored: &StoredCase) -> String {
     either_scalar!(&stored.case, case => case_json::write(stored, case))
 }
 
+/// A case as `hairline explain` takes it: without its bit patterns, because its numbers say the same.
+pub fn bare_case(case: impl Into<AnyCase>) -> String {
+    let line = write_case(&StoredCase::of(case.into()));
+    match line.split_once(",\"bits\"") {
+        Some((numbers, _)) => format!("{numbers}}}"),
+        None => line,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -219,8 +219,11 @@ impl Expectations {
         let advice = "put back what was there, or let `hairline check --bless` (in a test HAIRLINE_BLESS=1) write \
                       both files";
         if lock.cases != self.cases {
-            let message =
-                format!("cases {}, but {file}.lock has cases {}: {advice}", self.cases, lock.cases);
+            let found = match lock.cases.as_str() {
+                "" => "names no cases".to_owned(),
+                cases => format!("has cases {cases}"),
+            };
+            let message = format!("cases {}, but {file}.lock {found}: {advice}", self.cases);
             return Err(InputError::of(file, message));
         }
         let most = lock.most();

@@ -11,6 +11,7 @@ use super::running::{self, Lost, Program, Running};
 use super::stderr::MOST_LINES;
 use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
+use crate::corpus::lines::bare_case;
 use crate::kernel::{Entry, Failure, Hit, KernelInfo, Subject, Verdict, open_epsilons, values_of};
 use crate::report::{group_digits, number_of};
 use std::io;
@@ -215,7 +216,7 @@ impl Process {
                 let (name, number) = (self.hello.name(), state.timeouts);
                 (self.limits.tell)(&format!(
                     "kernel '{name}': no answer within {silence} s, {number} of {patience}: {}",
-                    case.hex()
+                    bare_case(*case)
                 ));
             }
         }
@@ -226,7 +227,9 @@ impl Process {
                 silence
             ));
         }
-        let first = state.first.get_or_insert_with(|| format!("{failure} on {}", case.hex()));
+        let first = state.first.get_or_insert_with(|| {
+            format!("{failure} on '{}', as `hairline explain` takes it", bare_case(*case))
+        });
         let first = first.clone();
         if failure == Failure::Timeout && state.timeouts >= patience {
             return Err(format!(

@@ -156,7 +156,7 @@ fn a_library_that_hangs_is_a_finding_and_the_run_ends() {
     let Some(library) = misbehaving("CLOSE_PIPES") else { return };
     let flags = ["audit", "--kernel-timeout", "0.1", "--kernel-failures", "0", "--kernel-lib"];
     let error = refused(&[&flags[..], &[&library], &FLAGS].concat(), 65);
-    assert!(error.contains("gave no answer in time on o="), "{error}");
+    assert!(error.contains("gave no answer in time on '{\"scalar\":"), "{error}");
 }
 
 #[test]
@@ -187,7 +187,8 @@ fn a_kernel_that_is_silent_again_and_again_is_given_up_and_each_time_is_said() {
     let error = text(&output.stderr);
     assert_eq!(output.status.code(), Some(65), "{error}");
     for number in 1..=3 {
-        let said = format!("kernel 'misbehave': no answer within 0.1 s, {number} of 3: o=");
+        let said =
+            format!("kernel 'misbehave': no answer within 0.1 s, {number} of 3: {{\"scalar\":");
         assert_eq!(error.matches(&said).count(), 1, "{error}");
     }
     let quiet = hairline(&[&flags[..], &["--quiet", "--kernel-lib", &library], &FLAGS].concat());
@@ -230,7 +231,11 @@ fn too_many_failures_end_the_run_with_the_first_of_them() {
     let flags = ["audit", "--kernel-failures", "3", "--kernel-lib", &library];
     let error = refused(&[&flags[..], &FLAGS].concat(), 65);
     assert!(error.contains("kernel 'misbehave': it failed on more than 3 cases"), "{error}");
-    assert!(error.contains("first: died of signal 6 (SIGABRT) on o="), "{error}");
+    assert!(error.contains("first: died of signal 6 (SIGABRT) on '{\"scalar\":"), "{error}");
+    // That case can be looked at.
+    let case = error.split('\'').find(|part| part.starts_with('{')).unwrap();
+    let explained = hairline(&["explain", case, "--kernel", "woop-watertight"]);
+    assert_eq!(explained.status.code(), Some(0), "{case}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::cli::input::open;
 use crate::cli::output::write_result;
 use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
-use crate::corpus::lines::{AnyCase, StoredCase, write_case};
+use crate::corpus::lines::{AnyCase, bare_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
 use crate::kernel::{self, Scalar};
 use crate::prove;
@@ -265,7 +265,7 @@ fn write_entries<'a>(
         writeln!(out)?;
         let case = match table {
             Some(table) => format!("{} --corpus {}", quoted(&entry.name()), quoted(table)),
-            None => quoted(&bare_line(&entry.case)),
+            None => quoted(&bare_case(entry.case)),
         };
         writeln!(out, "        {}", row.explain_command(&case))?;
     }
@@ -297,14 +297,4 @@ fn most_at_its_extents(entry: &Entry) -> Option<f64> {
 fn bound_at_extents<F: Scalar>(entry: &kernel::Entry, gate: usize, case: &Case<F>) -> Option<f64> {
     let domain = prove::Domain::of_sizes(case)?;
     prove::bound_of_gate::<F>(entry, gate, domain).map(|bound| bound.to_f64())
-}
-
-/// A case as JSON without its bits: its numbers say the same.
-fn bare_line(case: &AnyCase) -> String {
-    let stored = StoredCase::of(*case);
-    let line = write_case(&stored);
-    match line.split_once(",\"bits\"") {
-        Some((numbers, _)) => format!("{numbers}}}"),
-        None => line,
-    }
 }

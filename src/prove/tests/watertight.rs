@@ -15,8 +15,11 @@ fn edges([x, y]: [u8; 2]) -> Recorded {
     minor(2, 3) + minor(3, 1) + minor(1, 2) + Recorded::input(3) + Recorded::input(4)
 }
 
+/// What a path compares.
+type Compares = fn(&Path) -> Comparison;
+
 /// A path whose gate 0 compares edge values on a picture of these axes, after one decision, if it is given.
-fn path(axes: [u8; 2], decision: Option<(fn(&Path) -> Comparison, bool)>) -> Path {
+fn path(axes: [u8; 2], decision: Option<(Compares, bool)>) -> Path {
     let (mut path, _) = recorded(|| edges(axes));
     let is_minor = |(i, operation): (usize, &Operation)| match operation {
         Operation::Sub(a, _) => {
@@ -41,8 +44,8 @@ fn input(path: &Path, wanted: u8) -> Place {
 #[test]
 fn all_edges_that_one_ray_may_meet_must_be_of_the_same_picture() {
     let of = |paths: &[Path]| symmetry(paths, |gate| gate == 0);
-    let by_ray: fn(&Path) -> Comparison = |path| Comparison::Less(input(path, 3), input(path, 4));
-    let by_vertex: fn(&Path) -> Comparison = |path| Comparison::Negative(input(path, 6));
+    let by_ray: Compares = |path| Comparison::Less(input(path, 3), input(path, 4));
+    let by_vertex: Compares = |path| Comparison::Negative(input(path, 6));
     let (one, other) = ([0, 1], [0, 2]);
     assert_eq!(of(&[path(one, None)]), Symmetry::ExactSigns);
     // The ray alone chooses the picture.
