@@ -343,13 +343,13 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let mut lines = vec![
         format!("cost: each share, of its own row, times its weight ({costs})"),
         format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
-        "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen"
-            .to_owned(),
-        "another seed may name other numbers at nearly the same cost, and limits up to ten times off;"
-            .to_owned(),
-        "more rays (-n) bring them closer"
-            .to_owned(),
     ];
+    let of_chance = [
+        "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen",
+        "another seed may name other numbers at nearly the same cost, and limits up to ten times off;",
+        "more rays (-n) bring them closer",
+    ];
+    lines.extend(of_chance.map(str::to_owned));
     if record.unit_directions && record.kernels.iter().any(has_parallel_gate) {
         let which = [
             "exactly parallel: unit vectors that are so lie along axes or in level planes; other rays may",
