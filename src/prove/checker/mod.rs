@@ -254,7 +254,7 @@ fn quotient(
         let tiny = &format.tiny / least;
         let share = &format.unit + &tiny;
         let share = &share / (Number::one() - &share) * Number::from_integer(left_out.into());
-        error += share * before + tiny;
+        error += share * &before + tiny;
         before = &size + &error;
     }
     if by_reciprocal {
