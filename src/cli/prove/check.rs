@@ -68,7 +68,7 @@ fn checked(file: &str) -> Result<String, Failure> {
             }
         }
     };
-    // What an edge compares is nothing that divides, so a claim of one size is one of all.
+    // Signs do not depend on the domain.
     let is_edge = |claim: &&checker::Proved| {
         let mut gates = entry.iter().flat_map(|entry| entry.info.gates);
         gates.any(|gate| gate.name == claim.gate && gate.role == Role::Edge)
