@@ -3,14 +3,14 @@
 use super::json::{self, Object};
 use super::stored_case::{AnyCase, StoredCase};
 use super::stored_truth::StoredTruth;
-use super::{FoundBy, number};
+use super::{FoundBy, number, plain_json};
 use crate::arith::Float;
 use crate::case::Case;
 use serde_json::Value;
 use std::fmt;
 
 /// The fields that are vectors, in the order of [`Case::vectors`].
-const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
+pub(super) const VECTORS: [&str; 5] = ["origin", "direction", "a", "b", "c"];
 
 /// The fields of a line.
 const FIELDS: [&str; 15] = [
@@ -42,6 +42,16 @@ const LONGEST_NAME: usize = 1000;
 
 /// The case that stands in a line, and what stands beside it.
 pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
+    // Whatever is not read so is read again, and errors come from there.
+    let plain = match text.contains("\"f32\"") {
+        true => plain_json::read::<f32>(text, AnyCase::F32),
+        false => plain_json::read::<f64>(text, AnyCase::F64),
+    };
+    plain.map_or_else(|| parse_any(text, line), |plain| Ok(StoredCase { line, ..plain }))
+}
+
+/// Any line, and what is wrong with it.
+pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
     let object = Object::parse(text, &FIELDS)?;
     let case = match object.is_f32()? {
         true => AnyCase::F32(parse_case(&object)?),
@@ -66,7 +76,7 @@ pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
 }
 
 /// An error if `hairline explain` does not take a name, or if it breaks a line of a report.
-fn check_name(name: String) -> Result<String, String> {
+pub(super) fn check_name(name: String) -> Result<String, String> {
     let wrong = match name.chars().next() {
         None => "it is empty".to_owned(),
         Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),

@@ -15,6 +15,8 @@ pub mod mesh;
 #[cfg(feature = "studies")]
 pub mod number;
 #[cfg(feature = "studies")]
+mod plain_json;
+#[cfg(feature = "studies")]
 pub mod shapes;
 #[cfg(feature = "studies")]
 mod stored_case;
