@@ -4,7 +4,8 @@ use super::objective::verdict_and_finding;
 use crate::audit::{Attribution, Row, attribute_with};
 use crate::case::Case;
 use crate::judge::{Class, Finding, asked};
-use crate::kernel::{ExactRun, Scalar};
+use crate::kernel::{ExactRun, Scalar, Verdict};
+use crate::truth::Truth;
 use std::fmt;
 
 /// The kind of a finding: a reader needs to see only one of the findings with the same signature.
@@ -33,22 +34,32 @@ impl Signature {
     /// What a row shows on a case; none if its verdict is right.
     pub fn of<F: Scalar>(row: &Row, case: &Case<F>) -> Option<Signature> {
         let epsilons: Vec<F> = row.epsilons();
-        let (truth, verdict, finding) = verdict_and_finding(row, &epsilons, case);
-        let finding = finding?;
+        let seen = verdict_and_finding(row, &epsilons, case);
+        Signature::of_seen(row, &epsilons, case, &seen)
+    }
+
+    /// The same where the case was judged already.
+    pub(super) fn of_seen<F: Scalar>(
+        row: &Row,
+        epsilons: &[F],
+        case: &Case<F>,
+        (truth, verdict, finding): &(Truth, Verdict<F>, Option<Finding>),
+    ) -> Option<Signature> {
+        let finding = (*finding)?;
         let name = |gate: usize| row.entry.info.gates[gate].name;
-        let asked = asked(case, &truth, &row.contract, false);
+        let asked = asked(case, truth, &row.contract, false);
         let subject = F::subject(row.entry);
-        let exact = subject.and_then(|subject| subject.gated()?.run_exact(case, &epsilons));
+        let exact = subject.and_then(|subject| subject.gated()?.run_exact(case, epsilons));
         Some(Signature {
             kernel: row.entry.info.name,
             scalar: F::NAME,
             epsilons: row.epsilon_argument(),
             finding,
-            class: Class::of(&truth),
+            class: Class::of(truth),
             gate: verdict.refused_by.map(usize::from).map(name),
             exactly: exact.as_ref().and_then(ExactRun::refused_by).map(name),
             attribution: subject.and_then(|subject| {
-                attribute_with(subject, case, &epsilons, &truth, asked, || exact)
+                attribute_with(subject, case, epsilons, truth, asked, || exact)
             }),
         })
     }
@@ -56,10 +67,12 @@ impl Signature {
     /// Whether a row shows this signature on a case. Cheap checks without exact arithmetic exclude most
     /// other cases.
     pub fn is_shown<F: Scalar>(&self, row: &Row, case: &Case<F>) -> bool {
-        let (truth, verdict, finding) = verdict_and_finding(row, &row.epsilons::<F>(), case);
+        let epsilons: Vec<F> = row.epsilons();
+        let seen = verdict_and_finding(row, &epsilons, case);
+        let (truth, verdict, finding) = &seen;
         let gate = verdict.refused_by.map(|gate| row.entry.info.gates[usize::from(gate)].name);
-        (finding, gate, Class::of(&truth)) == (Some(self.finding), self.gate, self.class)
-            && Signature::of(row, case).as_ref() == Some(self)
+        (*finding, gate, Class::of(truth)) == (Some(self.finding), self.gate, self.class)
+            && Signature::of_seen(row, &epsilons, case, &seen).as_ref() == Some(self)
     }
 
     /// The kind alone: the same whatever the epsilons are.

@@ -113,6 +113,14 @@ impl Distances {
         Distances::and_step(case, truth).0
     }
 
+    /// As floats see them, right or not: for a search to climb on.
+    pub fn at_a_glance<F: Float>(case: &Case<F>, truth: &Truth) -> Distances {
+        let near = NearOne::of(&case.widen());
+        let ulp = scaled(ulp_of_points(case).to_f64(), -near.size);
+        let found = quick(&near.case, near.size, ulp, &Zeros::of(truth));
+        found.map_or_else(|| Distances::of(case, truth), |quick| quick.distances)
+    }
+
     /// And the step that was certain.
     fn and_step<F: Float>(case: &Case<F>, truth: &Truth) -> (Distances, Step) {
         let zeros = Zeros::of(truth);

@@ -64,7 +64,8 @@ impl<F: Scalar> Individual<F> {
         let glance = Glance { finding, class: Class::of(&truth), gate };
         let score = match finding {
             _ if truth == Truth::Invalid => 0.0,
-            Some(_) => Distances::of(&self.case, &truth).nearest_change(&truth, &self.row.contract),
+            Some(_) => Distances::at_a_glance(&self.case, &truth)
+                .nearest_change(&truth, &self.row.contract),
             None => -self.distance_from_a_change(&epsilons, &truth, verdict.hit),
         };
         (glance, if score.is_nan() { f64::NEG_INFINITY } else { score })
@@ -76,7 +77,7 @@ impl<F: Scalar> Individual<F> {
     fn distance_from_a_change(&self, epsilons: &[F], truth: &Truth, hit: bool) -> f64 {
         let gates = self.row.entry.info.gates;
         let gated = F::subject(self.row.entry).and_then(|subject| subject.gated());
-        let Some(gated) = gated else { return Distances::of(&self.case, truth).in_space };
+        let Some(gated) = gated else { return Distances::at_a_glance(&self.case, truth).in_space };
         let margins = gated.measure(&self.case).margins;
         let wide = self.case.widen();
         let gap = |i: usize| {
@@ -94,7 +95,7 @@ impl<F: Scalar> Individual<F> {
         if distance.is_finite() {
             distance.abs()
         } else {
-            Distances::of(&self.case, truth).in_space
+            Distances::at_a_glance(&self.case, truth).in_space
         }
     }
 }
