@@ -212,7 +212,8 @@ impl Process {
         let (silence, patience) = (self.limits.silence.as_secs_f64(), self.limits.timeouts);
         if failure == Failure::Timeout {
             state.timeouts += 1;
-            if patience < u64::MAX {
+            // Several threads may wait for the last of them.
+            if patience < u64::MAX && state.timeouts <= patience {
                 let (name, number) = (self.hello.name(), state.timeouts);
                 (self.limits.tell)(&format!(
                     "kernel '{name}': no answer within {silence} s, {number} of {patience}: {}",
