@@ -90,10 +90,28 @@ pub struct Tape {
     pub decisions: Vec<(Comparison, bool)>,
     places: HashMap<Operation, Place>,
     answers: HashMap<Comparison, bool>,
+    /// Every comparison, each time that it is asked.
+    asked: Vec<Comparison>,
     script: Vec<bool>,
     fused: bool,
-    /// Comparisons are noted here and answered with yes, as long as this is some.
-    noted: Option<Vec<Comparison>>,
+    /// As long as this is some, comparisons follow its script, and are no decisions of the path.
+    tried: Option<Tried>,
+}
+
+/// One way through the comparisons of a test.
+#[derive(Clone, Debug, Default)]
+struct Tried {
+    script: Vec<bool>,
+    made: Vec<(Comparison, bool)>,
+}
+
+/// One way through the comparisons of a test, and its result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// The comparisons that are made, and the answers that they get.
+    pub answers: Vec<(Comparison, bool)>,
+    /// What the test says then.
+    pub accepts: bool,
 }
 
 thread_local! {
@@ -112,11 +130,30 @@ pub fn record<T>(script: &[bool], fused: bool, run: impl FnOnce() -> T) -> (T, T
     (result, TAPE.take())
 }
 
-/// The comparisons that `run` makes if each of them holds. They do not count as decisions.
-pub fn comparisons(run: impl FnOnce()) -> Vec<Comparison> {
-    on_tape(|tape| tape.noted = Some(Vec::new()));
-    run();
-    on_tape(|tape| tape.noted.take().unwrap_or_default())
+/// The script after the one that led to some answers: the last no becomes a yes, and what came after it is open
+/// again. None at the end.
+pub fn next_script(answers: &[(Comparison, bool)]) -> Option<Vec<bool>> {
+    let last_no = answers.iter().rposition(|(_, answer)| !answer)?;
+    let before = answers[..last_no].iter().map(|(_, answer)| *answer);
+    Some(before.chain([true]).collect())
+}
+
+/// Every way through the comparisons of a test; none if they are more than `most`. They do not count as decisions,
+/// and what the path decided before does not answer them.
+pub fn outcomes(most: usize, test: impl Fn() -> bool) -> Option<Vec<Outcome>> {
+    let mut outcomes = Vec::new();
+    let mut script = Some(Vec::new());
+    while let Some(next) = script {
+        on_tape(|tape| tape.tried = Some(Tried { script: next, made: Vec::new() }));
+        let accepts = test();
+        let answers = on_tape(|tape| tape.tried.take()).unwrap_or_default().made;
+        script = next_script(&answers);
+        outcomes.push(Outcome { answers, accepts });
+        if outcomes.len() > most {
+            return None;
+        }
+    }
+    Some(outcomes)
 }
 
 /// How many decisions there are so far.
@@ -124,9 +161,14 @@ pub fn decisions_so_far() -> usize {
     on_tape(|tape| tape.decisions.len())
 }
 
-/// The decisions from the given one on.
-pub fn decisions_from(first: usize) -> Vec<Comparison> {
-    on_tape(|tape| tape.decisions[first..].iter().map(|(comparison, _)| *comparison).collect())
+/// How many comparisons were asked so far, those with a known answer included.
+pub fn asked_so_far() -> usize {
+    on_tape(|tape| tape.asked.len())
+}
+
+/// The comparisons that were asked from the given one on.
+pub fn asked_from(first: usize) -> Vec<Comparison> {
+    on_tape(|tape| tape.asked[first..].to_vec())
 }
 
 /// A number on the tape of this thread.
@@ -177,10 +219,15 @@ impl Recorded {
 
     fn ask(comparison: Comparison) -> bool {
         on_tape(|tape| {
-            if let Some(noted) = &mut tape.noted {
-                noted.push(comparison);
-                return true;
+            if let Some(Tried { script, made }) = &mut tape.tried {
+                if let Some((_, answer)) = made.iter().find(|(known, _)| *known == comparison) {
+                    return *answer;
+                }
+                let answer = script.get(made.len()).copied().unwrap_or(false);
+                made.push((comparison, answer));
+                return answer;
             }
+            tape.asked.push(comparison);
             if let Some(answer) = tape.answers.get(&comparison) {
                 return *answer;
             }

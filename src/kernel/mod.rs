@@ -52,7 +52,7 @@ pub use generic::Generic;
 pub(crate) use margins::{by_running, of_miss, open_epsilons, values_of};
 pub use own::Test;
 pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
-pub use recording::{Compared, Path};
+pub use recording::{Acceptance, Compared, Path};
 pub(crate) use registry::kept;
 pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register, unnamed};
 pub use runs::{ExactRun, Measured, TrackedRun};

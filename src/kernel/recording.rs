@@ -2,13 +2,17 @@
 
 use super::{Kernel, Refuse, Sink};
 use crate::arith::recorded::{
-    Comparison, Operation, Place, Recorded, comparisons, decisions_from, decisions_so_far, record,
+    Comparison, Operation, Outcome, Place, Recorded, asked_from, asked_so_far, decisions_so_far,
+    next_script, outcomes, record,
 };
-use crate::arith::{Arithmetic, Triple};
+use crate::arith::{Arithmetic, Real, Triple};
 use crate::case::{Ray, Triangle};
 
 /// How many paths a kernel may have. Woop's has 2,304.
 const MOST_PATHS: usize = 1 << 14;
+
+/// How many ways there may be through the comparisons of one gate. Plücker's has 13.
+const MOST_OUTCOMES: usize = 1 << 10;
 
 /// A kernel's run along one path.
 #[derive(Clone, Debug)]
@@ -19,35 +23,57 @@ pub struct Path {
     pub decisions: Vec<(Comparison, bool)>,
     /// What the gates compare, in order.
     pub compared: Vec<Compared>,
+    /// Whether it is a hit if every gate accepts; else something refuses it that is no gate.
+    pub hits: bool,
 }
 
-/// What a gate compares with its epsilon.
+/// What a gate compares.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Compared {
     /// Which gate.
     pub gate: usize,
-    /// How it compares; none of a gate that is a fixed test, or that rounds with its epsilon: its numbers
-    /// are compared with zero, or with each other.
-    pub refuse: Option<Refuse>,
+    /// How it decides.
+    pub accepts: Acceptance,
     /// Its quantities.
     pub quantities: Vec<Place>,
     /// How many decisions of the path come before.
     pub decisions: usize,
 }
 
+impl Compared {
+    /// Whether its quantities are compared with the epsilon itself; else with 0, or with each other.
+    pub fn is_margin(&self) -> bool {
+        matches!(self.accepts, Acceptance::Clauses(..))
+    }
+}
+
+/// How a gate decides.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Acceptance {
+    /// It accepts if all quantities of some clause pass a comparison with its epsilon.
+    Clauses(Refuse, Vec<Vec<Place>>),
+    /// It rounds with its epsilon: every way through its comparisons at an epsilon of 0.
+    Rounded(Vec<Outcome>),
+    /// It takes no epsilon. What it makes of its comparisons is not known.
+    Fixed,
+}
+
 /// The sink that writes down what each gate compares, and never stops.
 #[derive(Debug, Default)]
 struct Recording {
     compared: Vec<Compared>,
-    decisions: usize,
+    /// What was asked before this belongs to no fixed test that comes.
+    asked: usize,
+    /// Whether a gate compares in more ways than can be written down.
+    is_too_wide: bool,
 }
 
 impl Recording {
-    fn note(&mut self, gate: usize, refuse: Option<Refuse>, mut quantities: Vec<Place>) -> bool {
+    fn note(&mut self, gate: usize, accepts: Acceptance, mut quantities: Vec<Place>) -> bool {
         quantities.sort_unstable();
         quantities.dedup();
-        self.decisions = decisions_so_far();
-        self.compared.push(Compared { gate, refuse, quantities, decisions: self.decisions });
+        let decisions = decisions_so_far();
+        self.compared.push(Compared { gate, accepts, quantities, decisions });
         true
     }
 }
@@ -59,28 +85,31 @@ impl Sink<Recorded> for Recording {
         refuse: Refuse,
         clauses: [[&Recorded; N]; M],
     ) -> bool {
-        let quantities = clauses.iter().flatten().map(|x| x.place()).collect();
-        self.note(gate, Some(refuse), quantities)
+        let clauses = clauses.map(|clause| clause.map(Recorded::place).to_vec()).to_vec();
+        let quantities = clauses.concat();
+        self.note(gate, Acceptance::Clauses(refuse, clauses), quantities)
     }
 
-    /// At an epsilon of zero.
     fn rounded(
         &mut self,
         gate: usize,
         accepts: impl Fn(&Recorded) -> bool,
         _: impl FnOnce() -> Recorded,
     ) -> bool {
-        let zero = <Recorded as crate::arith::Real>::zero();
-        let compared = comparisons(|| {
-            accepts(&zero);
-        });
-        self.note(gate, None, compared.iter().flat_map(Comparison::places).collect())
+        let zero = Recorded::zero();
+        let outcomes = outcomes(MOST_OUTCOMES, || accepts(&zero));
+        self.is_too_wide |= outcomes.is_none();
+        let outcomes = outcomes.unwrap_or_default();
+        let compared = outcomes.iter().flat_map(|outcome| &outcome.answers);
+        let quantities = compared.flat_map(|(comparison, _)| comparison.places()).collect();
+        self.note(gate, Acceptance::Rounded(outcomes), quantities)
     }
 
-    /// What was compared since the gate before.
+    /// What was asked since the fixed test before.
     fn fixed(&mut self, gate: usize, _: bool) -> bool {
-        let compared = decisions_from(self.decisions);
-        self.note(gate, None, compared.iter().flat_map(Comparison::places).collect())
+        let compared = asked_from(self.asked);
+        self.asked = asked_so_far();
+        self.note(gate, Acceptance::Fixed, compared.iter().flat_map(Comparison::places).collect())
     }
 }
 
@@ -92,33 +121,36 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     let mut paths = Vec::new();
     let mut script = Vec::new();
     loop {
-        let (compared, tape) = record(&script, arithmetic.fused, run::<K>);
+        let ((sink, hits), tape) = record(&script, arithmetic.fused, run::<K>);
         let decisions = tape.decisions;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
         }
-        paths.push(Path { operations: tape.operations, compared, decisions });
+        if sink.is_too_wide {
+            return Err(format!("a gate compares in more than {MOST_OUTCOMES} ways"));
+        }
+        let next = next_script(&decisions);
+        let compared = sink.compared;
+        paths.push(Path { operations: tape.operations, compared, decisions, hits });
         if paths.len() > MOST_PATHS {
             return Err(format!("its program has more than {MOST_PATHS} paths"));
         }
-        // The next script: the last no becomes a yes, and what came after it is open again.
-        script = paths[paths.len() - 1].decisions.iter().map(|(_, answer)| *answer).collect();
-        while script.pop_if(|answer| *answer).is_some() {}
-        match script.last_mut() {
-            Some(answer) => *answer = true,
+        match next {
+            Some(next) => script = next,
             None => return Ok(paths),
         }
     }
 }
 
-fn run<K: Kernel>() -> Vec<Compared> {
+/// What the gates compare, and whether it is a hit if they all accept.
+fn run<K: Kernel>() -> (Recording, bool) {
     let number = |i: u8| Recorded::input(i);
     let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);
     let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
     let triangle = Triangle { a: triple(6), b: triple(9), c: triple(12) };
     let mut sink = Recording::default();
     let prepared = K::prepare(&triangle);
-    sink.decisions = decisions_so_far();
-    K::test(&prepared, &ray, &mut sink);
-    sink.compared
+    sink.asked = asked_so_far();
+    let hits = K::test(&prepared, &ray, &mut sink).is_some();
+    (sink, hits)
 }

@@ -126,7 +126,7 @@ impl Proof {
             quantities.push(Quantity {
                 gate: compared.gate,
                 path,
-                is_margin: compared.refuse.is_some(),
+                is_margin: compared.is_margin(),
                 decisions: compared.decisions,
                 place,
                 domain,

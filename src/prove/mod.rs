@@ -18,6 +18,7 @@ mod gappa;
 mod gates;
 mod measures;
 mod mirrors;
+mod normal;
 mod order;
 mod permanent;
 mod quotient;

@@ -304,15 +304,17 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
         }
         Symmetry::Negatives => {
             "At an edge that two consistently wound triangles share, both compute the same value with opposite \
-             signs, bit for bit: at an epsilon of 0 no ray is refused by both for that edge. Nothing follows \
-             for vertices, nor where a triangle faces away from its neighbour (folds)."
+             signs, bit for bit, where nothing overflows: at an epsilon of 0 no ray is refused by both for that \
+             edge. Nothing follows for vertices, for other gates, nor where a triangle faces away from its \
+             neighbour (folds)."
         }
         Symmetry::ExactSigns => {
-            "Watertight, proved (short of underflow): a value of an edge that is not zero has the sign of the exact \
-             determinant of its two rounded, sheared vertices, the same ones for all triangles. So at an epsilon \
-             of 0 the kernel decides as an exact test would on the mesh with its vertices so rounded: no ray \
-             passes between the triangles of an edge, nor of a closed fan that stays closed and unfolded when \
-             it is rounded. Nothing follows for folds."
+            "Watertight at its edges, proved (short of overflow and underflow): a value of an edge that is not zero \
+             has the sign of the exact determinant of its two vertices' images, as the kernel rounds them, the same \
+             ones for all triangles that a ray meets. So at an epsilon of 0 the edge gate accepts whatever a closed \
+             exact test of the images accepts: it lets no ray pass between two consistently wound triangles of an \
+             edge, nor of a closed fan whose images stay closed and unfolded. Nothing follows for folds. The other \
+             gates may still refuse such a ray, as t does near an end of the extent."
         }
     }
 }

@@ -1,14 +1,12 @@
 //! Whether a kernel's value of an edge is, bit for bit, the negative of what it computes for the
-//! triangle on the other side.
+//! triangle on the other side, and what follows for rays there.
 //!
-//! Rounding to nearest is odd, and sums and products commute, so each number of a program has a normal
-//! form: a sign, and a formula without order and without a sign. If the normal form of an edge's value
-//! with the edge's ends exchanged has the same formula and the other sign, the two values are exact
-//! negatives for all inputs.
+//! If the normal form of an edge's value with the edge's ends exchanged has the same formula and the other sign, the
+//! two values are exact negatives for all inputs.
 
-use super::order::unsigned;
-use crate::arith::recorded::{Comparison, Operation, Place};
-use crate::kernel::Path;
+use super::normal::{Forms, Signed};
+use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
+use crate::kernel::{Acceptance, Compared, Path, Refuse};
 use std::collections::HashMap;
 
 /// What is known of a kernel's edges.
@@ -25,52 +23,158 @@ pub enum Symmetry {
 
 /// The symmetry of a kernel's edge values on all its paths; `is_edge` tells the gates that compare them.
 ///
-/// For exact signs, all edges of a ray must be decided on one picture of the vertices. What a ray alone decides, before
-/// the first comparison that depends on a vertex, is the same for both triangles of an edge: wherever it is the same,
-/// all edges must have the same images.
+/// What a ray alone decides, before the first comparison that depends on anything else, is the same for both triangles
+/// of an edge. Wherever it is the same, all edges must be the same formula of their two vertices, or have the same
+/// images; and their gates, at an epsilon of 0, must accept whatever is not negative for all three edges, or whatever is
+/// not positive. Every path must be decided by gates, and those of edges by the three edges and nothing else.
 pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     let mut forms = Forms::default();
-    let mut images_of: HashMap<Vec<Decision>, [Signed; 2]> = HashMap::new();
-    let mut least = None;
+    let mut met: HashMap<Vec<Decision>, Met> = HashMap::new();
     for path in paths {
-        let of_edges = path.compared.iter().filter(|compared| is_edge(compared.gate));
-        let places = of_edges.flat_map(|compared| compared.quantities.iter().copied());
-        // A fixed number, or one of the ray, is no edge's value.
-        let places = places.filter(|place| !vertices(path, *place).is_empty());
-        let mut places: Vec<Place> = places.map(|place| unsigned(path, place)).collect();
-        places.sort_unstable();
-        places.dedup();
-        for place in places {
-            let mut found = symmetry_of(path, place);
-            if let Some(images) = images(&mut forms, path, place) {
-                let known = images_of.entry(forms.of_the_ray(path)).or_insert(images);
-                if *known != images {
-                    found = found.min(Symmetry::Negatives);
-                }
-            }
-            least = least.min(Some(found)).or(Some(found));
-            if found == Symmetry::None {
-                return Symmetry::None;
-            }
+        let gates: Vec<&Compared> =
+            path.compared.iter().filter(|compared| is_edge(compared.gate)).collect();
+        let Some(edges) = three_edges(path, &gates).filter(|_| path.hits) else {
+            return Symmetry::None;
+        };
+        let of_ray = of_the_ray(&mut forms, path);
+        let sides = [1, -1].map(|side| accept_all(path, &gates, &edges, side));
+        for place in edges {
+            let form = Some(of_edge(&mut forms, path, place)).filter(|_| is_opposite(path, place));
+            let of_edge = Met { form, images: images(&mut forms, path, place), sides };
+            met.entry(of_ray.clone()).or_insert(of_edge).join(of_edge);
         }
     }
-    least.unwrap_or(Symmetry::None)
+    met.values().map(Met::symmetry).min().unwrap_or(Symmetry::None)
+}
+
+/// What all edges have in common that one ray may meet.
+#[derive(Clone, Copy, Debug)]
+struct Met {
+    /// The formula, as it is of an edge from a to b; none if there are several, or if it is not the negative of itself
+    /// with its ends exchanged.
+    form: Option<Signed>,
+    /// The images, if all are decided on the same.
+    images: Option<[Signed; 2]>,
+    /// Whether the gates accept three values that are not negative, and three that are not positive.
+    sides: [bool; 2],
+}
+
+impl Met {
+    fn join(&mut self, other: Met) {
+        self.form = self.form.filter(|form| other.form == Some(*form));
+        self.images = self.images.filter(|images| other.images == Some(*images));
+        self.sides = std::array::from_fn(|side| self.sides[side] && other.sides[side]);
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        match self {
+            Met { sides: [false, false], .. } => Symmetry::None,
+            Met { images: Some(_), .. } => Symmetry::ExactSigns,
+            Met { form: Some(_), .. } => Symmetry::Negatives,
+            _ => Symmetry::None,
+        }
+    }
+}
+
+/// The values of the edges ab, bc and ca without the signs around them, if some gates compare these with 0 and nothing
+/// else.
+fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
+    let mut edges = [None; 3];
+    for place in gates.iter().flat_map(|compared| &compared.quantities) {
+        let (_, place) = signed(path, *place);
+        if path.operations[place as usize] == Operation::Number(0) {
+            continue;
+        }
+        let (from, _) = ends(path, place)?;
+        let known = edges[from - FIRST_VERTEX].get_or_insert(place);
+        if *known != place {
+            return None;
+        }
+    }
+    let [Some(ab), Some(bc), Some(ca)] = edges else { return None };
+    Some([ab, bc, ca])
+}
+
+/// Whether some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
+fn accept_all(path: &Path, gates: &[&Compared], edges: &[Place; 3], side: i8) -> bool {
+    (0..8).all(|which: u8| {
+        let value = |place: Place| {
+            let (minus, place) = signed(path, place);
+            let edge = edges.iter().position(|edge| *edge == place);
+            let sign = edge.map_or(0, |edge| if which >> edge & 1 == 1 { side } else { 0 });
+            (edge.is_some(), if minus { -sign } else { sign })
+        };
+        gates.iter().all(|compared| accepts_surely(&compared.accepts, value))
+    })
+}
+
+/// Whether a gate accepts at an epsilon of 0, given of each number whether it is an edge's value (else it is 0), and its
+/// sign.
+fn accepts_surely(acceptance: &Acceptance, value: impl Fn(Place) -> (bool, i8)) -> bool {
+    let sign = |place: Place| value(place).1;
+    // None if the answer may be either.
+    let answer = |comparison: &Comparison| match *comparison {
+        Comparison::Less(a, b) | Comparison::AtMost(a, b) if value(a).0 && value(b).0 => None,
+        Comparison::Less(a, b) => Some(sign(a) < sign(b)),
+        Comparison::AtMost(a, b) => Some(sign(a) <= sign(b)),
+        Comparison::Zero(a) => Some(sign(a) == 0),
+        // Of a zero the sign bit may be set.
+        Comparison::Negative(a) => Some(sign(a) < 0).filter(|_| sign(a) != 0),
+    };
+    match acceptance {
+        Acceptance::Fixed => false,
+        Acceptance::Clauses(refuse, clauses) => {
+            let least = match refuse {
+                Refuse::Below | Refuse::UnlessAtLeast => 0,
+                Refuse::AtMost | Refuse::UnlessAbove => 1,
+            };
+            clauses.iter().any(|clause| clause.iter().all(|place| least <= sign(*place)))
+        }
+        Acceptance::Rounded(outcomes) => {
+            let may_happen = |outcome: &&Outcome| {
+                let mut answers = outcome.answers.iter();
+                answers.all(|(comparison, given)| answer(comparison).is_none_or(|it| it == *given))
+            };
+            outcomes.iter().filter(may_happen).all(|outcome| outcome.accepts)
+        }
+    }
+}
+
+/// A number without the signs around it, and whether they make it the negative.
+fn signed(path: &Path, place: Place) -> (bool, Place) {
+    match path.operations[place as usize] {
+        Operation::Neg(inner) => {
+            let (minus, place) = signed(path, inner);
+            (!minus, place)
+        }
+        _ => (false, place),
+    }
+}
+
+/// The two vertices that an edge's value is made of, the second one after the first in the order a, b, c, a.
+fn ends(path: &Path, place: Place) -> Option<(usize, usize)> {
+    let [p, q] = vertices(path, place)[..] else { return None };
+    Some(if q == p + 1 { (p, q) } else { (q, p) })
 }
 
 /// The symmetry of one edge value.
 pub fn symmetry_of(path: &Path, place: Place) -> Symmetry {
-    let points = vertices(path, place);
-    let [p, q] = points[..] else { return Symmetry::None };
-    let mut forms = Forms::default();
-    let (sign, form) = forms.of(path, place, &|i| i);
-    let (other_sign, other) = forms.of(path, place, &|i| exchanged(i, p, q));
-    if form != other || sign == other_sign {
+    if !is_opposite(path, place) {
         Symmetry::None
-    } else if images(&mut forms, path, place).is_some() {
+    } else if images(&mut Forms::default(), path, place).is_some() {
         Symmetry::ExactSigns
     } else {
         Symmetry::Negatives
     }
+}
+
+/// Whether a number of two vertices becomes its negative, bit for bit, when these are exchanged.
+fn is_opposite(path: &Path, place: Place) -> bool {
+    let Some((p, q)) = ends(path, place) else { return false };
+    let mut forms = Forms::default();
+    let (sign, form) = forms.of(path, place, &|i| i);
+    let (other_sign, other) = forms.of(path, place, &|i| exchanged(i, p, q));
+    form == other && sign != other_sign
 }
 
 /// An input where two vertices are exchanged.
@@ -106,8 +210,9 @@ fn images(forms: &mut Forms, path: &Path, place: Place) -> Option<[Signed; 2]> {
     }
     let [x, y] = [(first[0], p), (first[1], q)]
         .map(|(place, vertex)| forms.of(path, place, &|i| exchanged(i, vertex, FIRST_VERTEX)));
-    let is_next = (p + 1 - FIRST_VERTEX) % 3 == q - FIRST_VERTEX;
-    Some(if is_next { [x, y] } else { [y, x] })
+    // Written from the edge's first end to its second.
+    let is_along = ends(path, place).is_some_and(|(from, _)| from == p);
+    Some(if is_along { [x, y] } else { [y, x] })
 }
 
 /// Vertex a among the points.
@@ -115,6 +220,16 @@ const FIRST_VERTEX: usize = 2;
 
 /// The vertices that a number is made of: a, b and c as 2, 3 and 4.
 fn vertices(path: &Path, place: Place) -> Vec<usize> {
+    let inputs = inputs(path, place).into_iter();
+    let mut found: Vec<usize> =
+        inputs.filter(|i| (6..15).contains(i)).map(|i| usize::from(i) / 3).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// The inputs that a number is made of.
+fn inputs(path: &Path, place: Place) -> Vec<u8> {
     let mut open = vec![place];
     let mut seen = vec![false; path.operations.len()];
     let mut found = Vec::new();
@@ -123,122 +238,45 @@ fn vertices(path: &Path, place: Place) -> Vec<usize> {
             continue;
         }
         let operation = path.operations[place as usize];
-        if let Operation::Input(i @ 6..15) = operation {
-            found.push(usize::from(i) / 3);
+        if let Operation::Input(i) = operation {
+            found.push(i);
         }
         open.extend(operation.operands());
     }
-    found.sort_unstable();
-    found.dedup();
     found
 }
 
-/// A formula without order or sign, by number.
-type Form = usize;
-/// A sign (true is minus) and a formula.
-type Signed = (bool, Form);
 /// What a path compared, and the answer.
 type Decision = (u8, Signed, Signed, bool);
 
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-enum Shape {
-    Input(u8),
-    Number(i32),
-    /// Without its sign.
-    Size(Form),
-    /// Two terms; whether the second has the other sign than the first.
-    Sum(Form, Form, bool),
-    Product(Form, Form),
-    Quotient(Form, Form),
-    Root(Form),
-    /// A product rounded with a term; whether they differ in sign.
-    Fused(Form, Form, Form, bool),
-    /// Two products, and whether they differ in sign.
-    Minor([Form; 2], [Form; 2], bool),
+/// An edge's value as it is of the edge from a to b.
+fn of_edge(forms: &mut Forms, path: &Path, place: Place) -> Signed {
+    let Some((from, to)) = ends(path, place) else { return forms.of(path, place, &|i| i) };
+    let at = |vertex: usize, i: u8| (vertex * 3) as u8 + i % 3;
+    forms.of(path, place, &|i| match usize::from(i) / 3 {
+        _ if !(6..15).contains(&i) => i,
+        point if point == from => at(FIRST_VERTEX, i),
+        point if point == to => at(FIRST_VERTEX + 1, i),
+        _ => i,
+    })
 }
 
-#[derive(Default)]
-struct Forms {
-    known: HashMap<Shape, Form>,
-}
-
-impl Forms {
-    /// The sign (true is minus) and the form of a number, its inputs renamed.
-    fn of(&mut self, path: &Path, place: Place, rename: &dyn Fn(u8) -> u8) -> Signed {
-        let mut values: Vec<(bool, Form)> = Vec::new();
-        for operation in &path.operations[..=place as usize] {
-            let of = |place: Place| values[place as usize];
-            let ordered = |a: Form, b: Form| [a.min(b), a.max(b)];
-            let value = match *operation {
-                Operation::Input(i) => (false, self.number(Shape::Input(rename(i)))),
-                Operation::Number(value) => (value < 0, self.number(Shape::Number(value.abs()))),
-                Operation::Neg(a) => (!of(a).0, of(a).1),
-                Operation::Abs(a) => (false, self.number(Shape::Size(of(a).1))),
-                Operation::Sqrt(a) => {
-                    let (sign, a) = of(a);
-                    (false, self.number(Shape::Root(2 * a + usize::from(sign))))
-                }
-                Operation::Add(a, b) => self.sum(of(a), of(b)),
-                Operation::Sub(a, b) => self.sum(of(a), (!of(b).0, of(b).1)),
-                Operation::Mul(a, b) => {
-                    let ((s, a), (t, b)) = (of(a), of(b));
-                    let [a, b] = ordered(a, b);
-                    (s ^ t, self.number(Shape::Product(a, b)))
-                }
-                Operation::Div(a, b) => {
-                    let ((s, a), (t, b)) = (of(a), of(b));
-                    (s ^ t, self.number(Shape::Quotient(a, b)))
-                }
-                Operation::Fma(a, b, c) => {
-                    let ((s, a), (t, b), (r, c)) = (of(a), of(b), of(c));
-                    let [a, b] = ordered(a, b);
-                    (r, self.number(Shape::Fused(a, b, c, s ^ t ^ r)))
-                }
-                Operation::Minor(a, b, c, d) => {
-                    let ((s, a), (t, b)) = (of(a), of(b));
-                    let ((q, c), (r, d)) = (of(c), of(d));
-                    let (first, second) = (ordered(a, b), ordered(c, d));
-                    let (sign, other) = (s ^ t, !(q ^ r));
-                    if first <= second {
-                        (sign, self.number(Shape::Minor(first, second, sign ^ other)))
-                    } else {
-                        (other, self.number(Shape::Minor(second, first, sign ^ other)))
-                    }
-                }
-            };
-            values.push(value);
+/// What a path decides before its first comparison that depends on more than the ray's line.
+fn of_the_ray(forms: &mut Forms, path: &Path) -> Vec<Decision> {
+    // t_max is no part of it: it shrinks from triangle to triangle as hits are found.
+    let depends = |i: u8| 6 <= i;
+    let is_of_ray = |(comparison, _): &&(Comparison, bool)| {
+        comparison.places().iter().all(|place| !inputs(path, *place).into_iter().any(depends))
+    };
+    let of_ray: Vec<_> = path.decisions.iter().take_while(is_of_ray).copied().collect();
+    let decision = |(comparison, answer): (Comparison, bool)| {
+        let mut of = |place: Place| forms.of(path, place, &|i| i);
+        match comparison {
+            Comparison::Less(a, b) => (0, of(a), of(b), answer),
+            Comparison::AtMost(a, b) => (1, of(a), of(b), answer),
+            Comparison::Zero(a) => (2, of(a), of(a), answer),
+            Comparison::Negative(a) => (3, of(a), of(a), answer),
         }
-        values[place as usize]
-    }
-
-    /// What a path decides before its first comparison that depends on a vertex.
-    fn of_the_ray(&mut self, path: &Path) -> Vec<Decision> {
-        let is_of_ray = |(comparison, _): &&(Comparison, bool)| {
-            comparison.places().iter().all(|place| vertices(path, *place).is_empty())
-        };
-        let of_ray: Vec<_> = path.decisions.iter().take_while(is_of_ray).copied().collect();
-        let decision = |(comparison, answer): (Comparison, bool)| {
-            let mut of = |place: Place| self.of(path, place, &|i| i);
-            match comparison {
-                Comparison::Less(a, b) => (0, of(a), of(b), answer),
-                Comparison::AtMost(a, b) => (1, of(a), of(b), answer),
-                Comparison::Zero(a) => (2, of(a), of(a), answer),
-                Comparison::Negative(a) => (3, of(a), of(a), answer),
-            }
-        };
-        of_ray.into_iter().map(decision).collect()
-    }
-
-    fn sum(&mut self, (s, a): (bool, Form), (t, b): (bool, Form)) -> (bool, Form) {
-        if a <= b {
-            (s, self.number(Shape::Sum(a, b, s ^ t)))
-        } else {
-            (t, self.number(Shape::Sum(b, a, s ^ t)))
-        }
-    }
-
-    fn number(&mut self, shape: Shape) -> Form {
-        let next = self.known.len();
-        *self.known.entry(shape).or_insert(next)
-    }
+    };
+    of_ray.into_iter().map(decision).collect()
 }

@@ -549,7 +549,7 @@ fn an_error_whose_effect_is_no_share_of_the_divisor_is_refused() {
     let mut operations: Vec<Operation> = [3, 6, 7, 8, 9, 10, 11].map(Input).to_vec();
     operations.extend([Sub(4, 1), Sub(5, 2), Sub(6, 3), Mul(7, 8), Mul(10, 9), Div(11, 0)]);
     operations.extend([Div(7, 0), Div(8, 0), Div(9, 0)]);
-    let path = Path { operations, decisions: vec![], compared: vec![] };
+    let path = Path { operations, decisions: vec![], compared: vec![], hits: true };
     let text = certificate_of(&path, "f32", Domain::UNIT, &[0, 7, 8, 9, 12]);
     check(&text).unwrap();
     assert!(!text.contains(" over "), "{text}");

@@ -34,7 +34,11 @@ pub fn table(record: &Record, scene: Option<&Scene>, out: &mut dyn Write) -> io:
         .map(|kernel| format!("{} ({})", kernel.kernel, kernel.scalar))
         .collect();
     if !watertight.is_empty() {
-        writeln!(out, "\nWatertight at an epsilon of 0, proved: {}", watertight.join(", "))?;
+        writeln!(
+            out,
+            "\nWatertight at edges, at an epsilon of 0, proved: {}",
+            watertight.join(", ")
+        )?;
     }
     writeln!(out, "\nWhat follows for epsilons: hairline prove --kernel NAME")
 }

@@ -16,9 +16,8 @@ use crate::kernel::Path;
 /// A polynomial's program and the place of its value.
 fn recorded(run: impl FnOnce() -> Recorded) -> (Path, Place) {
     let (place, tape) = record(&[], false, || run().place());
-    let path =
-        Path { operations: tape.operations, compared: Vec::new(), decisions: tape.decisions };
-    (path, place)
+    let (operations, decisions) = (tape.operations, tape.decisions);
+    (Path { operations, compared: Vec::new(), decisions, hits: true }, place)
 }
 
 /// A difference of two coordinates: points are numbered 0 to 3 as the origin, a, b and c.

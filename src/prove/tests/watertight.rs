@@ -1,63 +1,170 @@
-//! What follows from the edge values of all paths together.
+//! What follows from the edge values of all paths together, and what kernels do that it does not follow of.
 
-use super::{difference, recorded};
-use crate::arith::recorded::{Comparison, Operation, Place, Recorded};
-use crate::kernel::{Compared, Path};
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::{Boundary, Contract, Extent, Sides};
+use crate::kernel::{
+    Gate, Gated, Generic, Gives, Hit, Kernel, KernelInfo, Path, Refuse, Role, Sink,
+};
 use crate::prove::Symmetry;
 use crate::prove::watertight::symmetry;
+use std::cell::Cell;
 
-/// x(p)·y(q) - x(q)·y(p) of the coordinates relative to the origin along two axes, of the edges bc, ca and ab.
-fn edges([x, y]: [u8; 2]) -> Recorded {
-    let minor = |p: u8, q: u8| {
-        difference(p, 0, x) * difference(q, 0, y) - difference(q, 0, x) * difference(p, 0, y)
-    };
-    // Only their operations are wanted.
-    minor(2, 3) + minor(3, 1) + minor(1, 2) + Recorded::input(3) + Recorded::input(4)
+/// How the kernel of these tests decides its edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Decides {
+    /// As it should, on both sides.
+    Well,
+    /// On the front alone.
+    OneSide,
+    /// By its own comparisons, the refusing one first.
+    ByItself,
+    /// The axes are the ray's choice, or that of a vertex, or of the interval.
+    OnAxesOfTheRay,
+    OnAxesOfAVertex,
+    OnAxesOfTheInterval,
+    /// It refuses a 0, whatever a NaN does.
+    WithoutZero,
+    WithoutZeroOrNan,
+    /// By sign bits, of which a 0 may have either.
+    BySignBits,
+    /// One of the three values is taken for its negative.
+    OneNegated,
+    /// Another number than 0 is compared.
+    AgainstOne,
+    /// Two of three edges are compared.
+    TwoOfThree,
+    /// Something is refused that is no gate.
+    WithoutAGate,
+    /// One edge's value is twice as large: opposite for the triangle on the other side only if it is the same edge there.
+    OneDoubled,
+    /// A sum of squares, not a difference: the same for both sides.
+    NotOpposite,
+}
+use Decides::*;
+
+thread_local! {
+    static DECIDES: Cell<Decides> = const { Cell::new(Well) };
 }
 
-/// What a path compares.
-type Compares = fn(&Path) -> Comparison;
+/// Edge functions of the vertices along two axes.
+struct Flat;
 
-/// A path whose gate 0 compares edge values on a picture of these axes, after one decision, if it is given.
-fn path(axes: [u8; 2], decision: Option<(Compares, bool)>) -> Path {
-    let (mut path, _) = recorded(|| edges(axes));
-    let is_minor = |(i, operation): (usize, &Operation)| match operation {
-        Operation::Sub(a, _) => {
-            let first = path.operations[*a as usize];
-            matches!(first, Operation::Mul(..)).then_some(i as Place)
+const EDGE: usize = 0;
+
+impl Kernel for Flat {
+    const INFO: KernelInfo = KernelInfo {
+        name: "flat",
+        source: "this test",
+        contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Free),
+        gates: &[Gate::signed(Role::Edge, "one of u, v, w < e", 2, 0)],
+        epsilon_sets: &[],
+        gives: Gives { t: false, uv: false, facing: false },
+        polygons: false,
+        hits_nan: true,
+    };
+    type Prepared<V: Vector> = Triangle<V>;
+
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+        triangle.clone()
+    }
+
+    fn test<V: Vector, S: Sink<V::Real>>(
+        triangle: &Triangle<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        let decides = DECIDES.get();
+        let zero = V::Real::zero();
+        let [a, b, c] = [&triangle.a, &triangle.b, &triangle.c].map(|p| p.minus(&ray.origin));
+        let turned = match decides {
+            OnAxesOfTheRay => ray.direction.at(0).is_less(&zero),
+            OnAxesOfAVertex => triangle.a.at(0).is_less(&zero),
+            OnAxesOfTheInterval => ray.t_max.is_less(&zero),
+            _ => false,
+        };
+        let (x, y) = if turned { (1, 2) } else { (0, 1) };
+        let edge = |p: &V, q: &V| {
+            let (first, second) = (p.at(x) * q.at(y), q.at(x) * p.at(y));
+            if decides == NotOpposite { first + &second } else { first - &second }
+        };
+        let [u, v, mut w] = [edge(&b, &c), edge(&c, &a), edge(&a, &b)];
+        if decides == OneDoubled {
+            w = w.clone() + &w;
         }
-        _ => None,
-    };
-    let quantities: Vec<Place> = path.operations.iter().enumerate().filter_map(is_minor).collect();
-    assert_eq!(quantities.len(), 3);
-    path.compared = vec![Compared { gate: 0, refuse: None, quantities, decisions: 0 }];
-    path.decisions = decision.iter().map(|(of, answer)| (of(&path), *answer)).collect();
-    path
+        if decides == WithoutAGate && (u.clone() + &v + &w).is_zero() {
+            return None;
+        }
+        let [minus_u, minus_v, minus_w] = [-u.clone(), -v.clone(), -w.clone()];
+        let clauses = match decides {
+            OneNegated => [[&u, &v, &minus_w], [&minus_u, &minus_v, &w]],
+            OneSide => [[&u, &v, &w], [&u, &v, &w]],
+            TwoOfThree => [[&u, &v, &v], [&minus_u, &minus_v, &minus_v]],
+            _ => [[&u, &v, &w], [&minus_u, &minus_v, &minus_w]],
+        };
+        let all = |accepts: &dyn Fn(&V::Real) -> bool| [&u, &v, &w].into_iter().all(accepts);
+        let passes = match decides {
+            WithoutZero => sink.gate(EDGE, Refuse::AtMost, clauses),
+            WithoutZeroOrNan => sink.gate(EDGE, Refuse::UnlessAbove, clauses),
+            AgainstOne => {
+                let one = V::Real::one();
+                sink.rounded(EDGE, |_| all(&|x| one.is_at_most(x)), || zero.clone())
+            }
+            ByItself => {
+                let accepts = |e: &V::Real| all(&|x| !x.is_less(e)) || all(&|x| !e.is_less(x));
+                sink.rounded(EDGE, accepts, || zero.clone())
+            }
+            BySignBits => {
+                let set = |x: &V::Real| x.is_sign_negative();
+                sink.rounded(EDGE, |_| all(&set) || all(&|x| !set(x)), || zero.clone())
+            }
+            _ => sink.gate(EDGE, Refuse::Below, clauses),
+        };
+        passes.then_some(Hit { t: None, uv: None, facing: None })
+    }
 }
 
-/// The place of an input.
-fn input(path: &Path, wanted: u8) -> Place {
-    let found = path.operations.iter().position(|op| *op == Operation::Input(wanted));
-    found.expect("it is used") as Place
+fn paths_of_flat(decides: Decides) -> Vec<Path> {
+    DECIDES.set(decides);
+    <Generic<Flat> as Gated<f32>>::paths(&Generic::SUBJECT).expect("a program")
 }
 
 #[test]
-fn all_edges_that_one_ray_may_meet_must_be_of_the_same_picture() {
-    let of = |paths: &[Path]| symmetry(paths, |gate| gate == 0);
-    let by_ray: Compares = |path| Comparison::Less(input(path, 3), input(path, 4));
-    let by_vertex: Compares = |path| Comparison::Negative(input(path, 6));
-    let (one, other) = ([0, 1], [0, 2]);
-    assert_eq!(of(&[path(one, None)]), Symmetry::ExactSigns);
-    // The ray alone chooses the picture.
-    let paths = [path(one, Some((by_ray, true))), path(other, Some((by_ray, false)))];
-    assert_eq!(of(&paths), Symmetry::ExactSigns);
-    // A vertex does: two triangles of an edge may have two pictures.
-    let paths = [path(one, Some((by_vertex, true))), path(other, Some((by_vertex, false)))];
-    assert_eq!(of(&paths), Symmetry::Negatives);
-    let paths = [path(one, Some((by_vertex, true))), path(one, Some((by_vertex, false)))];
-    assert_eq!(of(&paths), Symmetry::ExactSigns);
-    // The mirrored picture is another one: signs are the other way round.
-    let paths = [path(one, Some((by_vertex, true))), path([1, 0], Some((by_vertex, false)))];
-    assert_eq!(of(&paths), Symmetry::Negatives);
-    assert_eq!(symmetry(&[path(one, None)], |_| false), Symmetry::None);
+fn all_edges_that_one_ray_may_meet_are_of_one_picture_and_decided_by_their_closed_signs() {
+    for (decides, expected) in [
+        (Well, Symmetry::ExactSigns),
+        (OneSide, Symmetry::ExactSigns),
+        (ByItself, Symmetry::ExactSigns),
+        (OnAxesOfTheRay, Symmetry::ExactSigns),
+        // Two triangles of an edge may have two pictures.
+        (OnAxesOfAVertex, Symmetry::None),
+        // A hit that is found shortens the interval of the triangles after it.
+        (OnAxesOfTheInterval, Symmetry::None),
+        (WithoutZero, Symmetry::None),
+        (WithoutZeroOrNan, Symmetry::None),
+        (BySignBits, Symmetry::None),
+        (OneNegated, Symmetry::None),
+        (AgainstOne, Symmetry::None),
+        (TwoOfThree, Symmetry::None),
+        (WithoutAGate, Symmetry::None),
+        (OneDoubled, Symmetry::None),
+        (NotOpposite, Symmetry::None),
+    ] {
+        assert_eq!(symmetry(&paths_of_flat(decides), |gate| gate == EDGE), expected, "{decides:?}");
+    }
+    assert_eq!(symmetry(&paths_of_flat(Well), |_| false), Symmetry::None);
+}
+
+#[test]
+fn a_gate_that_compares_by_itself_hides_none_of_its_numbers() {
+    for decides in [Well, ByItself, BySignBits, AgainstOne] {
+        for path in paths_of_flat(decides) {
+            let compared = &path.compared[0].quantities;
+            let computed = compared.iter().filter(|place| {
+                let operation = path.operations[**place as usize];
+                matches!(operation, crate::arith::recorded::Operation::Sub(..))
+            });
+            assert_eq!(computed.count(), 3, "{decides:?}");
+        }
+    }
 }
