@@ -58,7 +58,7 @@ pub enum Acceptance {
     Fixed,
 }
 
-/// The sink that writes down what each gate compares, and never stops.
+/// The sink that writes down what each gate compares, and goes on.
 #[derive(Debug, Default)]
 struct Recording {
     compared: Vec<Compared>,
@@ -66,6 +66,8 @@ struct Recording {
     asked: usize,
     /// Whether a gate compares in more ways than can be written down.
     is_too_wide: bool,
+    /// Which of the comparisons is refused; else it never stops.
+    refused: Option<usize>,
 }
 
 impl Recording {
@@ -74,7 +76,7 @@ impl Recording {
         quantities.dedup();
         let decisions = decisions_so_far();
         self.compared.push(Compared { gate, accepts, quantities, decisions });
-        true
+        self.refused != Some(self.compared.len() - 1)
     }
 }
 
@@ -121,7 +123,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     let mut paths = Vec::new();
     let mut script = Vec::new();
     loop {
-        let ((sink, hits), tape) = record(&script, arithmetic.fused, run::<K>);
+        let ((sink, hits), tape) = record(&script, arithmetic.fused, || run::<K>(None));
         let decisions = tape.decisions;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
@@ -131,6 +133,14 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
         }
         let next = next_script(&decisions);
         let compared = sink.compared;
+        for (number, Compared { gate, .. }) in compared.iter().enumerate() {
+            let refused = || run::<K>(Some(number));
+            let ((sink, hits), _) = record(&script, arithmetic.fused, refused);
+            if hits || sink.compared.len() > number + 1 {
+                let name = K::INFO.gates[*gate].name;
+                return Err(format!("it goes on after gate '{name}' has refused"));
+            }
+        }
         paths.push(Path { operations: tape.operations, compared, decisions, hits });
         if paths.len() > MOST_PATHS {
             return Err(format!("its program has more than {MOST_PATHS} paths"));
@@ -142,13 +152,13 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     }
 }
 
-/// What the gates compare, and whether it is a hit if they all accept.
-fn run<K: Kernel>() -> (Recording, bool) {
+/// What the gates compare, of which one may refuse, and whether it is a hit if they all accept.
+fn run<K: Kernel>(refused: Option<usize>) -> (Recording, bool) {
     let number = |i: u8| Recorded::input(i);
     let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);
     let ray = Ray { origin: triple(0), direction: triple(3), t_min: number(15), t_max: number(16) };
     let triangle = Triangle { a: triple(6), b: triple(9), c: triple(12) };
-    let mut sink = Recording::default();
+    let mut sink = Recording { refused, ..Recording::default() };
     let prepared = K::prepare(&triangle);
     sink.asked = asked_so_far();
     let hits = K::test(&prepared, &ray, &mut sink).is_some();

@@ -2,7 +2,7 @@
 //!
 //! Rounding to nearest is odd, and sums and products commute, so each number of a program has a normal
 //! form: a sign, and a formula without order and without a sign. Two numbers with the same normal form are equal for
-//! all inputs.
+//! all inputs, but for the signs of zeros (a - b and b - a are both +0), and so for what is divided by one.
 
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;
@@ -12,6 +12,7 @@ use std::collections::HashMap;
 pub type Form = usize;
 /// A sign (true is minus) and a formula.
 pub type Signed = (bool, Form);
+
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Shape {
     Input(u8),

@@ -304,17 +304,18 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
         }
         Symmetry::Negatives => {
             "At an edge that two consistently wound triangles share, both compute the same value with opposite \
-             signs, bit for bit, where nothing overflows: at an epsilon of 0 no ray is refused by both for that \
-             edge. Nothing follows for vertices, for other gates, nor where a triangle faces away from its \
-             neighbour (folds)."
+             signs, or 0, where nothing overflows: at an epsilon of 0 no ray is refused by both for that edge. \
+             Nothing follows for vertices, for other gates, nor where a triangle faces away from its neighbour \
+             (folds)."
         }
         Symmetry::ExactSigns => {
-            "Watertight at its edges, proved (short of overflow and underflow): a value of an edge that is not zero \
-             has the sign of the exact determinant of its two vertices' images, as the kernel rounds them, the same \
+            "Watertight at its edges, proved (short of overflow and underflow): a value of an edge that is not 0 has \
+             the sign of the exact determinant of its two vertices' images, as the kernel rounds them, the same \
              ones for all triangles that a ray meets. So at an epsilon of 0 the edge gate accepts whatever a closed \
-             exact test of the images accepts: it lets no ray pass between two consistently wound triangles of an \
-             edge, nor of a closed fan whose images stay closed and unfolded. Nothing follows for folds. The other \
-             gates may still refuse such a ray, as t does near an end of the extent."
+             exact test of the images accepts. No ray is refused by both triangles of an edge for that edge, if \
+             they are wound consistently; nor by all triangles of a mesh, or of a closed fan, whose images are \
+             closed and unfolded where the ray passes. Nothing follows for folds. The other gates may still refuse \
+             such a ray, as t does near an end of the extent."
         }
     }
 }

@@ -2,22 +2,23 @@
 //! triangle on the other side, and what follows for rays there.
 //!
 //! If the normal form of an edge's value with the edge's ends exchanged has the same formula and the other sign, the
-//! two values are exact negatives for all inputs.
+//! two values are exact negatives, or both 0.
 
 use super::normal::{Forms, Signed};
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// What is known of a kernel's edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symmetry {
-    /// Some edge's value is not made of the edge and the ray alone, or not the negative of the neighbour's.
+    /// Nothing: some edge's value is not made of the edge and the ray alone, or not the negative of the neighbour's, or
+    /// the gates make something else of their signs.
     None,
-    /// The values of the two sides are exact negatives on the same path.
+    /// The values of the two sides are exact negatives, or both 0.
     Negatives,
-    /// And each of them, if it is not zero, has the sign of the exact determinant of the same two rounded
-    /// points of a plane.
+    /// Each of them, if it is not 0, has the sign of the exact determinant of the same two rounded points of a plane.
     ExactSigns,
 }
 
@@ -25,22 +26,22 @@ pub enum Symmetry {
 ///
 /// What a ray alone decides, before the first comparison that depends on anything else, is the same for both triangles
 /// of an edge. Wherever it is the same, all edges must be the same formula of their two vertices, or have the same
-/// images; and their gates, at an epsilon of 0, must accept whatever is not negative for all three edges, or whatever is
-/// not positive. Every path must be decided by gates, and those of edges by the three edges and nothing else.
+/// images. On every path the gates, at an epsilon of 0, must accept whatever is not negative for all three edges, and
+/// whatever is not positive for all three; and nothing but gates may refuse.
 pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     let mut forms = Forms::default();
     let mut met: HashMap<Vec<Decision>, Met> = HashMap::new();
     for path in paths {
         let gates: Vec<&Compared> =
             path.compared.iter().filter(|compared| is_edge(compared.gate)).collect();
-        let Some(edges) = three_edges(path, &gates).filter(|_| path.hits) else {
-            return Symmetry::None;
-        };
+        let edges = three_edges(path, &gates).filter(|edges| {
+            path.hits && [1, -1].iter().all(|side| accept_all(path, &gates, edges, *side))
+        });
+        let Some(edges) = edges else { return Symmetry::None };
         let of_ray = of_the_ray(&mut forms, path);
-        let sides = [1, -1].map(|side| accept_all(path, &gates, &edges, side));
         for place in edges {
             let form = Some(of_edge(&mut forms, path, place)).filter(|_| is_opposite(path, place));
-            let of_edge = Met { form, images: images(&mut forms, path, place), sides };
+            let of_edge = Met { form, images: images(&mut forms, path, place) };
             met.entry(of_ray.clone()).or_insert(of_edge).join(of_edge);
         }
     }
@@ -55,20 +56,16 @@ struct Met {
     form: Option<Signed>,
     /// The images, if all are decided on the same.
     images: Option<[Signed; 2]>,
-    /// Whether the gates accept three values that are not negative, and three that are not positive.
-    sides: [bool; 2],
 }
 
 impl Met {
     fn join(&mut self, other: Met) {
         self.form = self.form.filter(|form| other.form == Some(*form));
         self.images = self.images.filter(|images| other.images == Some(*images));
-        self.sides = std::array::from_fn(|side| self.sides[side] && other.sides[side]);
     }
 
     fn symmetry(&self) -> Symmetry {
         match self {
-            Met { sides: [false, false], .. } => Symmetry::None,
             Met { images: Some(_), .. } => Symmetry::ExactSigns,
             Met { form: Some(_), .. } => Symmetry::Negatives,
             _ => Symmetry::None,
@@ -76,8 +73,8 @@ impl Met {
     }
 }
 
-/// The values of the edges ab, bc and ca without the signs around them, if some gates compare these with 0 and nothing
-/// else.
+/// The values of the edges ab, bc and ca without the signs around them, if some gates compare these and 0 and nothing
+/// else, and if short of overflow they are numbers that depend on the edge and the ray's line alone.
 fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
     let mut edges = [None; 3];
     for place in gates.iter().flat_map(|compared| &compared.quantities) {
@@ -85,7 +82,7 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
         if path.operations[place as usize] == Operation::Number(0) {
             continue;
         }
-        let (from, _) = ends(path, place)?;
+        let (from, _) = ends(path, place).filter(|_| is_sound(path, place))?;
         let known = edges[from - FIRST_VERTEX].get_or_insert(place);
         if *known != place {
             return None;
@@ -93,6 +90,19 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
     }
     let [Some(ab), Some(bc), Some(ca)] = edges else { return None };
     Some([ab, bc, ca])
+}
+
+/// Whether a number does not depend on t_min or t_max, which differ from triangle to triangle as hits are found, and
+/// whether no vertex is in a divisor, where 0 divided by 0 would be refused on both sides of an edge, or under a root.
+fn is_sound(path: &Path, place: Place) -> bool {
+    let depends = |place: Place, on: Range<u8>| {
+        inputs(path, place).into_iter().any(|input| on.contains(&input))
+    };
+    let is_critical = |place: Place| match path.operations[place as usize] {
+        Operation::Div(_, part) | Operation::Sqrt(part) => depends(part, VERTICES),
+        _ => false,
+    };
+    !depends(place, ENDS) && !parts(path, place).into_iter().any(is_critical)
 }
 
 /// Whether some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
@@ -180,7 +190,7 @@ fn is_opposite(path: &Path, place: Place) -> bool {
 /// An input where two vertices are exchanged.
 fn exchanged(input: u8, p: usize, q: usize) -> u8 {
     match usize::from(input) / 3 {
-        _ if !(6..15).contains(&input) => input,
+        _ if !VERTICES.contains(&input) => input,
         point if point == p => (q * 3) as u8 + input % 3,
         point if point == q => (p * 3) as u8 + input % 3,
         _ => input,
@@ -217,12 +227,16 @@ fn images(forms: &mut Forms, path: &Path, place: Place) -> Option<[Signed; 2]> {
 
 /// Vertex a among the points.
 const FIRST_VERTEX: usize = 2;
+/// The inputs that are the vertices' coordinates.
+const VERTICES: Range<u8> = 6..15;
+/// Those that are t_min and t_max.
+const ENDS: Range<u8> = 15..17;
 
 /// The vertices that a number is made of: a, b and c as 2, 3 and 4.
 fn vertices(path: &Path, place: Place) -> Vec<usize> {
     let inputs = inputs(path, place).into_iter();
     let mut found: Vec<usize> =
-        inputs.filter(|i| (6..15).contains(i)).map(|i| usize::from(i) / 3).collect();
+        inputs.filter(|i| VERTICES.contains(i)).map(|i| usize::from(i) / 3).collect();
     found.sort_unstable();
     found.dedup();
     found
@@ -230,18 +244,23 @@ fn vertices(path: &Path, place: Place) -> Vec<usize> {
 
 /// The inputs that a number is made of.
 fn inputs(path: &Path, place: Place) -> Vec<u8> {
-    let mut open = vec![place];
+    let of_part = |place: Place| match path.operations[place as usize] {
+        Operation::Input(i) => Some(i),
+        _ => None,
+    };
+    parts(path, place).into_iter().filter_map(of_part).collect()
+}
+
+/// The numbers that a number is made of, and itself.
+fn parts(path: &Path, place: Place) -> Vec<Place> {
     let mut seen = vec![false; path.operations.len()];
+    let mut open = vec![place];
     let mut found = Vec::new();
     while let Some(place) = open.pop() {
-        if std::mem::replace(&mut seen[place as usize], true) {
-            continue;
+        if !std::mem::replace(&mut seen[place as usize], true) {
+            found.push(place);
+            open.extend(path.operations[place as usize].operands());
         }
-        let operation = path.operations[place as usize];
-        if let Operation::Input(i) = operation {
-            found.push(i);
-        }
-        open.extend(operation.operands());
     }
     found
 }
@@ -254,7 +273,7 @@ fn of_edge(forms: &mut Forms, path: &Path, place: Place) -> Signed {
     let Some((from, to)) = ends(path, place) else { return forms.of(path, place, &|i| i) };
     let at = |vertex: usize, i: u8| (vertex * 3) as u8 + i % 3;
     forms.of(path, place, &|i| match usize::from(i) / 3 {
-        _ if !(6..15).contains(&i) => i,
+        _ if !VERTICES.contains(&i) => i,
         point if point == from => at(FIRST_VERTEX, i),
         point if point == to => at(FIRST_VERTEX + 1, i),
         _ => i,

@@ -15,8 +15,9 @@ use std::cell::Cell;
 enum Decides {
     /// As it should, on both sides.
     Well,
-    /// On the front alone.
+    /// On the front alone; on both, but of the back without its edges.
     OneSide,
+    WithAnOpenBack,
     /// By its own comparisons, the refusing one first.
     ByItself,
     /// The axes are the ray's choice, or that of a vertex, or of the interval.
@@ -26,8 +27,12 @@ enum Decides {
     /// It refuses a 0, whatever a NaN does.
     WithoutZero,
     WithoutZeroOrNan,
-    /// By sign bits, of which a 0 may have either.
+    /// Of the front by sign bits, of which a 0 may have either.
     BySignBits,
+    /// By sizes too.
+    AgainstEachOther,
+    /// By two values of one edge.
+    WithASecondValue,
     /// One of the three values is taken for its negative.
     OneNegated,
     /// Another number than 0 is compared.
@@ -38,8 +43,16 @@ enum Decides {
     WithoutAGate,
     /// One edge's value is twice as large: opposite for the triangle on the other side only if it is the same edge there.
     OneDoubled,
-    /// A sum of squares, not a difference: the same for both sides.
+    /// A sum, not a difference: the same for both sides.
     NotOpposite,
+    /// A difference that is no determinant.
+    OnOneAxis,
+    /// Opposite, but 0 divided by 0 where the edge's ends have one x.
+    DividedByTheEdge,
+    /// Opposite, but another picture once a hit has shortened the interval.
+    WithTheInterval,
+    /// It goes on where the gate has refused.
+    AgainstTheGate,
 }
 use Decides::*;
 
@@ -84,16 +97,22 @@ impl Kernel for Flat {
             _ => false,
         };
         let (x, y) = if turned { (1, 2) } else { (0, 1) };
+        let at = |p: &V, axis: usize| match decides {
+            WithTheInterval => p.at(axis) + &ray.t_max,
+            _ => p.at(axis),
+        };
         let edge = |p: &V, q: &V| {
-            let (first, second) = (p.at(x) * q.at(y), q.at(x) * p.at(y));
-            if decides == NotOpposite { first + &second } else { first - &second }
+            let (first, second) = (at(p, x) * at(q, y), at(q, x) * at(p, y));
+            match decides {
+                NotOpposite => first + &second,
+                OnOneAxis => p.at(x) - &q.at(x),
+                DividedByTheEdge => (first - &second) / (p.at(x) - &q.at(x)).abs(),
+                _ => first - &second,
+            }
         };
         let [u, v, mut w] = [edge(&b, &c), edge(&c, &a), edge(&a, &b)];
         if decides == OneDoubled {
             w = w.clone() + &w;
-        }
-        if decides == WithoutAGate && (u.clone() + &v + &w).is_zero() {
-            return None;
         }
         let [minus_u, minus_v, minus_w] = [-u.clone(), -v.clone(), -w.clone()];
         let clauses = match decides {
@@ -103,6 +122,7 @@ impl Kernel for Flat {
             _ => [[&u, &v, &w], [&minus_u, &minus_v, &minus_w]],
         };
         let all = |accepts: &dyn Fn(&V::Real) -> bool| [&u, &v, &w].into_iter().all(accepts);
+        let both = |e: &V::Real| all(&|x| !x.is_less(e)) || all(&|x| !e.is_less(x));
         let passes = match decides {
             WithoutZero => sink.gate(EDGE, Refuse::AtMost, clauses),
             WithoutZeroOrNan => sink.gate(EDGE, Refuse::UnlessAbove, clauses),
@@ -110,32 +130,52 @@ impl Kernel for Flat {
                 let one = V::Real::one();
                 sink.rounded(EDGE, |_| all(&|x| one.is_at_most(x)), || zero.clone())
             }
-            ByItself => {
-                let accepts = |e: &V::Real| all(&|x| !x.is_less(e)) || all(&|x| !e.is_less(x));
+            ByItself => sink.rounded(EDGE, both, || zero.clone()),
+            WithAnOpenBack => {
+                let accepts = |e: &V::Real| all(&|x| !x.is_less(e)) || all(&|x| x.is_less(e));
                 sink.rounded(EDGE, accepts, || zero.clone())
             }
             BySignBits => {
                 let set = |x: &V::Real| x.is_sign_negative();
-                sink.rounded(EDGE, |_| all(&set) || all(&|x| !set(x)), || zero.clone())
+                let accepts = |e: &V::Real| all(&|x| !set(x)) || all(&|x| !e.is_less(x));
+                sink.rounded(EDGE, accepts, || zero.clone())
+            }
+            AgainstEachOther => {
+                let is_wrong = |e: &V::Real| e.is_less(&u) && u.is_less(&v);
+                let accepts = |e: &V::Real| both(e) && !is_wrong(e);
+                sink.rounded(EDGE, accepts, || zero.clone())
+            }
+            WithASecondValue => {
+                let second = w.clone() + &w;
+                let accepts = |e: &V::Real| both(e) && !second.is_less(e);
+                sink.rounded(EDGE, accepts, || zero.clone())
             }
             _ => sink.gate(EDGE, Refuse::Below, clauses),
         };
-        passes.then_some(Hit { t: None, uv: None, facing: None })
+        let hits = match decides {
+            AgainstTheGate => true,
+            WithoutAGate => passes && !(u.clone() + &v + &w).is_zero(),
+            _ => passes,
+        };
+        hits.then_some(Hit { t: None, uv: None, facing: None })
     }
 }
 
-fn paths_of_flat(decides: Decides) -> Vec<Path> {
+fn paths_of_flat(decides: Decides) -> Result<Vec<Path>, String> {
     DECIDES.set(decides);
-    <Generic<Flat> as Gated<f32>>::paths(&Generic::SUBJECT).expect("a program")
+    <Generic<Flat> as Gated<f32>>::paths(&Generic::SUBJECT)
 }
 
 #[test]
 fn all_edges_that_one_ray_may_meet_are_of_one_picture_and_decided_by_their_closed_signs() {
     for (decides, expected) in [
         (Well, Symmetry::ExactSigns),
-        (OneSide, Symmetry::ExactSigns),
         (ByItself, Symmetry::ExactSigns),
         (OnAxesOfTheRay, Symmetry::ExactSigns),
+        (OnOneAxis, Symmetry::Negatives),
+        // Of triangles that face away nothing is accepted, or not the edges.
+        (OneSide, Symmetry::None),
+        (WithAnOpenBack, Symmetry::None),
         // Two triangles of an edge may have two pictures.
         (OnAxesOfAVertex, Symmetry::None),
         // A hit that is found shortens the interval of the triangles after it.
@@ -143,22 +183,27 @@ fn all_edges_that_one_ray_may_meet_are_of_one_picture_and_decided_by_their_close
         (WithoutZero, Symmetry::None),
         (WithoutZeroOrNan, Symmetry::None),
         (BySignBits, Symmetry::None),
+        (AgainstEachOther, Symmetry::None),
+        (WithASecondValue, Symmetry::None),
         (OneNegated, Symmetry::None),
         (AgainstOne, Symmetry::None),
         (TwoOfThree, Symmetry::None),
         (WithoutAGate, Symmetry::None),
         (OneDoubled, Symmetry::None),
         (NotOpposite, Symmetry::None),
+        (DividedByTheEdge, Symmetry::None),
+        (WithTheInterval, Symmetry::None),
     ] {
-        assert_eq!(symmetry(&paths_of_flat(decides), |gate| gate == EDGE), expected, "{decides:?}");
+        let paths = paths_of_flat(decides).unwrap();
+        assert_eq!(symmetry(&paths, |gate| gate == EDGE), expected, "{decides:?}");
     }
-    assert_eq!(symmetry(&paths_of_flat(Well), |_| false), Symmetry::None);
+    assert_eq!(symmetry(&paths_of_flat(Well).unwrap(), |_| false), Symmetry::None);
 }
 
 #[test]
 fn a_gate_that_compares_by_itself_hides_none_of_its_numbers() {
     for decides in [Well, ByItself, BySignBits, AgainstOne] {
-        for path in paths_of_flat(decides) {
+        for path in paths_of_flat(decides).unwrap() {
             let compared = &path.compared[0].quantities;
             let computed = compared.iter().filter(|place| {
                 let operation = path.operations[**place as usize];
@@ -167,4 +212,10 @@ fn a_gate_that_compares_by_itself_hides_none_of_its_numbers() {
             assert_eq!(computed.count(), 3, "{decides:?}");
         }
     }
+}
+
+#[test]
+fn a_kernel_that_goes_on_where_a_gate_has_refused_has_no_program() {
+    let error = paths_of_flat(AgainstTheGate).unwrap_err();
+    assert_eq!(error, "it goes on after gate 'edge' has refused");
 }
