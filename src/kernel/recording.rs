@@ -133,7 +133,12 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
         }
         let next = next_script(&decisions);
         let compared = sink.compared;
-        for (number, Compared { gate, .. }) in compared.iter().enumerate() {
+        for (number, Compared { gate, decisions: before, .. }) in compared.iter().enumerate() {
+            // Paths that begin alike come one after the other, and the gate refuses all of them alike.
+            let decided = |path: &Path| path.decisions.get(..*before) == decisions.get(..*before);
+            if paths.last().is_some_and(decided) {
+                continue;
+            }
             let refused = || run::<K>(Some(number));
             let ((sink, hits), _) = record(&script, arithmetic.fused, refused);
             if hits || sink.compared.len() > number + 1 {
