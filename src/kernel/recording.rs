@@ -140,8 +140,9 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
                 continue;
             }
             let refused = || run::<K>(Some(number));
-            let ((sink, hits), _) = record(&script, arithmetic.fused, refused);
-            if hits || sink.compared.len() > number + 1 {
+            let ((sink, hits), tape) = record(&script, arithmetic.fused, refused);
+            let goes_on = sink.compared.len() > number + 1 || tape.decisions.len() > *before;
+            if hits || goes_on {
                 let name = K::INFO.gates[*gate].name;
                 return Err(format!("it goes on after gate '{name}' has refused"));
             }
