@@ -303,19 +303,18 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              both refuse the ray."
         }
         Symmetry::Negatives => {
-            "At an edge that two consistently wound triangles share, both compute the same value with opposite \
-             signs, or 0, where nothing overflows: at an epsilon of 0 no ray is refused by both for that edge. \
-             Nothing follows for vertices, for other gates, nor where a triangle faces away from its neighbour \
-             (folds)."
+            "At an epsilon of 0 or less two consistently wound triangles never both refuse a ray for the edge that \
+             they share, unless something overflows: their values are opposite, or 0. Another edge or gate may still \
+             refuse it, so rays may slip through at vertices. Folds (silhouettes) are not covered."
         }
         Symmetry::ExactSigns => {
-            "Watertight at its edges, proved (short of overflow and underflow): a value of an edge that is not 0 has \
-             the sign of the exact determinant of its two vertices' images, as the kernel rounds them, the same \
-             ones for all triangles that a ray meets. So at an epsilon of 0 the edge gate accepts whatever a closed \
-             exact test of the images accepts. No ray is refused by both triangles of an edge for that edge, if \
-             they are wound consistently; nor by all triangles of a mesh, or of a closed fan, whose images are \
-             closed and unfolded where the ray passes. Nothing follows for folds. The other gates may still refuse \
-             such a ray, as t does near an end of the extent."
+            "Watertight at its edges at an epsilon of 0 or less, proved short of overflow and underflow. For each ray \
+             the kernel moves every vertex to a rounded point of a plane, the same point for all triangles. No edge \
+             value has the wrong sign there, though it may be 0. So the edge gate accepts every triangle of rounded \
+             points that the ray meets, its edges included: two consistently wound triangles never both refuse a ray \
+             for the edge that they share, and of a mesh or a closed fan some triangle is accepted, if the rounded \
+             points leave no gap and no fold where the ray passes. Folds (silhouettes) are not covered. Other gates \
+             may still refuse: t does near t_min or t_max."
         }
     }
 }

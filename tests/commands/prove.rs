@@ -91,7 +91,7 @@ fn watertight_is_proved_of_woop_and_not_when_its_products_are_fused() {
     for name in ["plucker", "plucker+fma"] {
         assert!(!kernel(name));
         let out = text(&["prove", "--kernel", name, "--scalar", "f64"]);
-        assert!(words(&out).contains("the same value with opposite signs, or 0"), "{out}");
+        assert!(words(&out).contains("their values are opposite, or 0"), "{out}");
     }
 }
 
