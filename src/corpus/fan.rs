@@ -88,7 +88,7 @@ fn side_in_floats(
     let sizes = (e.yzx() * f.zxy() + e.zxy() * f.yzx()).dot(d);
     let is_moderate = (1e-150..1e150).contains(&sizes) && d.max_element() < 1e100;
     let is_certain = is_moderate && side.abs() > 8.0 * f64::EPSILON * sizes;
-    is_certain.then(|| if side < 0.0 { Ordering::Less } else { Ordering::Greater })
+    is_certain.then_some(if side < 0.0 { Ordering::Less } else { Ordering::Greater })
 }
 
 fn normal_is_zero<R: Real>(number: fn(f64) -> R, [a, b, c]: &[[f64; 3]; 3]) -> bool {

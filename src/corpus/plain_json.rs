@@ -122,7 +122,7 @@ mod tests {
                 let numbers: [String; 3] = std::array::from_fn(|_| number());
                 format!("\"{name}\":[{}]", numbers.join(","))
             };
-            let vectors = VECTORS.map(|name| vector(name)).join(", ");
+            let vectors = VECTORS.map(&mut vector).join(", ");
             let name = ["", ",\"name\":\"one \\u0041\"", ",\"name\":\"\""][vectors.len() % 3];
             let line = format!("{{\"scalar\":\"{}\",{vectors}{name}}}", F::NAME);
             let plain = serde_json::from_str::<Line<F>>(&line).is_ok();
