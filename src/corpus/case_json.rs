@@ -1,7 +1,7 @@
 //! A case as one JSON object.
 
 use super::json::{self, Object};
-use super::stored_case::{AnyCase, StoredCase};
+use super::stored_case::{AnyCase, StoredCase, check_name};
 use super::stored_truth::StoredTruth;
 use super::{FoundBy, number, plain_json};
 use crate::arith::Float;
@@ -37,9 +37,6 @@ const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"]
 /// What the field `starts` says of a ray that starts at a computed hit point on its triangle.
 const ON_TRIANGLE: &str = "on-triangle";
 
-/// The most bytes of a name: commands repeat it.
-const LONGEST_NAME: usize = 1000;
-
 /// The case that stands in a line, and what stands beside it.
 pub(crate) fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
     // Whatever is not read so is read again, and errors come from there.
@@ -73,19 +70,6 @@ pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
         url: object.read("url", json::string)?,
         found: object.read("found", FoundBy::parse)?,
     })
-}
-
-/// An error if `hairline explain` does not take a name, or if it breaks a line of a report.
-pub(super) fn check_name(name: String) -> Result<String, String> {
-    let wrong = match name.chars().next() {
-        None => "it is empty".to_owned(),
-        Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),
-        Some('-') => "it begins with '-', as a flag does".to_owned(),
-        _ if name.contains(char::is_control) => "it has a control character".to_owned(),
-        _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
-        _ => return Ok(name),
-    };
-    Err(format!("{} cannot name a case: {wrong}", json::quoted(&name)))
 }
 
 fn parse_case<F: Float>(object: &Object) -> Result<Case<F>, String> {

@@ -1,7 +1,6 @@
 //! Lines as most are, numbers and perhaps a name, read in one pass: in half of the time that any other line takes.
 
-use super::case_json::check_name;
-use super::stored_case::{AnyCase, StoredCase};
+use super::stored_case::{AnyCase, StoredCase, check_name};
 use crate::arith::Float;
 use crate::case::Case;
 use serde::de::{Error, Visitor};

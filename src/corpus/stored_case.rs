@@ -1,8 +1,8 @@
 //! A case from a corpus file, and what stands beside it.
 
-use super::FoundBy;
 use super::stored_truth::StoredTruth;
 use super::truth_json::TruthLine;
+use super::{FoundBy, json};
 use crate::arith::Float;
 use crate::case::{AnyScalar, Case};
 use crate::oracle;
@@ -71,4 +71,20 @@ impl StoredCase {
     pub fn with_truth(self) -> StoredCase {
         StoredCase { truth: Some(StoredTruth::from(&self.truth_line(true))), ..self }
     }
+}
+
+/// The most bytes of a name: commands repeat it.
+const LONGEST_NAME: usize = 1000;
+
+/// An error if `hairline explain` does not take a name, or if it breaks a line of a report.
+pub(super) fn check_name(name: String) -> Result<String, String> {
+    let wrong = match name.chars().next() {
+        None => "it is empty".to_owned(),
+        Some('{') => "it begins with '{', as a case that is written as JSON does".to_owned(),
+        Some('-') => "it begins with '-', as a flag does".to_owned(),
+        _ if name.contains(char::is_control) => "it has a control character".to_owned(),
+        _ if name.len() > LONGEST_NAME => format!("it has more than {LONGEST_NAME} bytes"),
+        _ => return Ok(name),
+    };
+    Err(format!("{} cannot name a case: {wrong}", json::quoted(&name)))
 }
