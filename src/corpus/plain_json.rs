@@ -1,4 +1,4 @@
-//! Lines as most are, numbers and perhaps a name, read in one pass: in half of the time that any other line takes.
+//! Lines as most are, numbers and perhaps a name, read in one pass, which is faster than the way of any other line.
 
 use super::stored_case::{AnyCase, StoredCase, check_name};
 use crate::arith::Float;

@@ -189,11 +189,18 @@ fn is_opposite(path: &Path, place: Place) -> bool {
 
 /// An input where two vertices are exchanged.
 fn exchanged(input: u8, p: usize, q: usize) -> u8 {
-    match usize::from(input) / 3 {
-        _ if !VERTICES.contains(&input) => input,
-        point if point == p => (q * 3) as u8 + input % 3,
-        point if point == q => (p * 3) as u8 + input % 3,
-        _ => input,
+    renamed(input, |vertex| match vertex {
+        _ if vertex == p => q,
+        _ if vertex == q => p,
+        _ => vertex,
+    })
+}
+
+/// An input where vertices have other names.
+fn renamed(input: u8, name: impl Fn(usize) -> usize) -> u8 {
+    match VERTICES.contains(&input) {
+        true => (3 * name(usize::from(input / 3))) as u8 + input % 3,
+        false => input,
     }
 }
 
@@ -270,14 +277,13 @@ type Decision = (u8, Signed, Signed, bool);
 
 /// An edge's value as it is of the edge from a to b.
 fn of_edge(forms: &mut Forms, path: &Path, place: Place) -> Signed {
-    let Some((from, to)) = ends(path, place) else { return forms.of(path, place, &|i| i) };
-    let at = |vertex: usize, i: u8| (vertex * 3) as u8 + i % 3;
-    forms.of(path, place, &|i| match usize::from(i) / 3 {
-        _ if !VERTICES.contains(&i) => i,
-        point if point == from => at(FIRST_VERTEX, i),
-        point if point == to => at(FIRST_VERTEX + 1, i),
-        _ => i,
-    })
+    let ends = ends(path, place);
+    let name = |vertex: usize| match ends {
+        Some((from, _)) if vertex == from => FIRST_VERTEX,
+        Some((_, to)) if vertex == to => FIRST_VERTEX + 1,
+        _ => vertex,
+    };
+    forms.of(path, place, &|i| renamed(i, name))
 }
 
 /// What a path decides before its first comparison that depends on more than the ray's line.

@@ -2,10 +2,8 @@
 
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
-use crate::contract::{Boundary, Contract, Extent, Sides};
-use crate::kernel::{
-    Gate, Gated, Generic, Gives, Hit, Kernel, KernelInfo, Path, Refuse, Role, Sink,
-};
+use crate::contract::Contract;
+use crate::kernel::{Gate, Gated, Generic, Hit, Kernel, KernelInfo, Path, Refuse, Role, Sink};
 use crate::prove::Symmetry;
 use crate::prove::watertight::symmetry;
 use std::cell::Cell;
@@ -15,8 +13,9 @@ use std::cell::Cell;
 enum Decides {
     /// As it should, on both sides.
     Well,
-    /// On the front alone; on both, but of the back without its edges.
+    /// On the front alone.
     OneSide,
+    /// On both sides, but the back without its edges.
     WithAnOpenBack,
     /// By its own comparisons, the refusing one first.
     ByItself,
@@ -67,15 +66,10 @@ const EDGE: usize = 0;
 
 impl Kernel for Flat {
     const INFO: KernelInfo = KernelInfo {
-        name: "flat",
-        source: "this test",
-        contract: Contract::of_kernel(Extent::Line, Sides::Both, Boundary::Free),
         gates: &[Gate::signed(Role::Edge, "one of u, v, w < e", 2, 0)],
-        epsilon_sets: &[],
-        gives: Gives { t: false, uv: false, facing: false },
-        polygons: false,
-        hits_nan: true,
+        ..KernelInfo::own("flat", Contract::CLOSED_RAY)
     };
+
     type Prepared<V: Vector> = Triangle<V>;
 
     fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
