@@ -274,9 +274,9 @@ mod tests {
             ("wide grid", 15690),
             ("scaled filter", 4297),
             ("double-double", 3293),
-            ("robust", 286),
-            ("monomials", 10042),
-            ("big integers", 16347),
+            ("robust", 311),
+            ("monomials", 23964),
+            ("big integers", 2400),
         ];
         assert_eq!(by_integers.layers.named(), counts);
     }

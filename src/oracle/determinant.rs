@@ -1,9 +1,7 @@
 //! The sign of one determinant where the filter is in doubt: double-double arithmetic with a bound,
-//! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out,
-//! then integers of any size.
+//! then `robust`'s adaptive predicate where its conditions hold, then the determinant multiplied out.
 
 use super::determinants::{Determinant, Point, rows};
-use super::scaled::Scaled;
 use super::{Layer, monomials};
 use crate::case::Case;
 use robust::{Coord3D, orient3d};
@@ -11,12 +9,11 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 
 /// The sign of a determinant of a case, and the layer that found it. `near_one` is the same case with
-/// its axes scaled, for the double-doubles; `scaled` is made where it is needed first.
+/// its axes scaled, for the double-doubles.
 pub(super) fn sign(
     determinant: Determinant,
     case: &Case<f64>,
     near_one: &Case<f64>,
-    scaled: &mut Option<Scaled>,
 ) -> (Ordering, Layer) {
     if let Some(sign) = double_double(determinant, near_one) {
         return (sign, Layer::DoubleDouble);
@@ -24,11 +21,7 @@ pub(super) fn sign(
     if let Some(sign) = by_robust(determinant, case) {
         return (sign, Layer::Robust);
     }
-    if let Some(sign) = monomials::sign(determinant, case) {
-        return (sign, Layer::Monomials);
-    }
-    let scaled = scaled.get_or_insert_with(|| Scaled::new(case));
-    (scaled.sign(determinant), Layer::BigInteger)
+    (monomials::sign(determinant, case), Layer::Monomials)
 }
 
 /// An unevaluated sum of two floats, the second at most half an ulp of the first.
@@ -171,6 +164,7 @@ mod tests {
     use crate::arith::{Float, decompose, scale_by_power_of_two};
     use crate::case::Draw;
     use crate::oracle::determinants::ALL;
+    use crate::oracle::scaled::Scaled;
     use num_bigint::BigInt;
 
     /// Cases with exact zeros and near ones among their determinants.
@@ -242,10 +236,7 @@ mod tests {
         let [a, b, c, d] = points.map(|[x, y, z]| Coord3D { x, y, z });
         assert_eq!(orient3d(a, b, c, d), 0.0, "which is wrong: the determinant is positive");
         let case = Case::<f64>::new([0.0; 3], [1.0, 0.0, 0.0], [points[0], points[1], points[2]]);
-        assert_eq!(
-            sign(Determinant::T, &case, &case, &mut None),
-            (Ordering::Greater, Layer::Monomials)
-        );
+        assert_eq!(sign(Determinant::T, &case, &case), (Ordering::Greater, Layer::Monomials));
     }
 
     #[test]

@@ -4,8 +4,8 @@
 //! same answer faster, in layers that each decide or hand on: a floating-point filter for all signs
 //! together; machine integers where the coordinates lie on a grid, a small one or a wide one; then, sign by sign,
 //! double-doubles with a bound, the adaptive predicate of the crate `robust` where its conditions
-//! hold, the determinant multiplied out, and integers of any size. An `f32` case is decided in `f64`,
-//! which holds it exactly. It works over the whole range of exponents.
+//! hold, and the determinant multiplied out. Contacts in the plane that are on no grid need integers of any size. An
+//! `f32` case is decided in `f64`, which holds it exactly. It works over the whole range of exponents.
 //!
 //! Architecture invariant: nothing here knows a kernel, and no arithmetic is shared with them.
 
@@ -24,6 +24,7 @@ mod rational;
 mod resolve;
 mod scaled;
 mod signs;
+mod sum;
 mod wide;
 mod width;
 
@@ -54,9 +55,9 @@ pub enum Layer {
     DoubleDouble,
     /// `robust`'s adaptive predicate.
     Robust,
-    /// The determinant multiplied out, in floats with exponents of any size.
+    /// The determinant multiplied out, in floats with exponents of any size, then exactly.
     Monomials,
-    /// Integers of any size.
+    /// Integers of any size, for the contacts of a line with a triangle in whose plane it lies.
     BigInteger,
 }
 

@@ -4,6 +4,7 @@ use super::Layer;
 use super::determinant;
 use super::determinants::Determinant;
 use super::filter;
+use super::monomials;
 use super::scaled::Scaled;
 use super::signs::Signs;
 use crate::arith::scale_by_power_of_two;
@@ -16,10 +17,9 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     let near_one = scaled_axes(case);
     let computed = filter::compute(near_one.vectors());
     let mut deepest = Layer::ScaledFilter;
-    let mut scaled = None;
     let mut sign = |wanted: Determinant| {
         computed.sign(wanted).unwrap_or_else(|| {
-            let (sign, layer) = determinant::sign(wanted, case, &near_one, &mut scaled);
+            let (sign, layer) = determinant::sign(wanted, case, &near_one);
             deepest = deepest.max(layer);
             sign
         })
@@ -34,33 +34,31 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
         (false, false) => Ordering::Equal,
         (true, true) => sign(Determinant::D),
     };
-    if d == Ordering::Equal {
-        let scaled = scaled.unwrap_or_else(|| Scaled::new(case));
-        return (scaled.flat(case), Layer::BigInteger);
-    }
     let t = sign(Determinant::T);
-    let (from_min, from_max) = match place(case, d, t) {
-        Some(place) => place,
-        None => {
-            deepest = Layer::BigInteger;
-            scaled.unwrap_or_else(|| Scaled::new(case)).place(case)
-        }
-    };
-    (Signs { d, weights, t, from_min, from_max }.truth(), deepest)
-}
-
-/// The signs of t - t_min and t - t_max, where the sign of t or the filter tells.
-fn place(case: &Case<f64>, d: Ordering, t: Ordering) -> Option<(Ordering, Ordering)> {
-    let t_sign = if d == Ordering::Less { t.reverse() } else { t };
-    let computed = filter::compute(case.vectors());
-    let compare = |end: f64| {
+    if d == Ordering::Equal {
+        return match t {
+            Ordering::Equal => (Scaled::new(case).contact(case), Layer::BigInteger),
+            // The triangle has area, and the line is beside its plane.
+            _ => (Truth::Parallel, deepest),
+        };
+    }
+    let relative = |sign: Ordering| if d == Ordering::Less { sign.reverse() } else { sign };
+    let unscaled = filter::compute(case.vectors());
+    let mut from = |end: f64| {
         if end == 0.0 {
-            return Some(t_sign);
+            return relative(t);
         }
-        let past = computed.is_past(end)?;
-        Some(if past { Ordering::Greater } else { Ordering::Less })
+        match unscaled.is_past(end) {
+            Some(true) => Ordering::Greater,
+            Some(false) => Ordering::Less,
+            None => {
+                deepest = deepest.max(Layer::Monomials);
+                relative(monomials::beyond(end, case))
+            }
+        }
     };
-    Some((compare(case.ray.t_min)?, compare(case.ray.t_max)?))
+    let (from_min, from_max) = (from(case.ray.t_min), from(case.ray.t_max));
+    (Signs { d, weights, t, from_min, from_max }.truth(), deepest)
 }
 
 /// The case with each axis scaled by a power of two so that its largest position is about 1, and the

@@ -1,4 +1,4 @@
-//! The last layer: the predicates in integers of any size.
+//! The last layer: contacts in integers of any size; and exact values, which take longer.
 //!
 //! Positions are multiples of 2^p and the direction of 2^q for the smallest exponents p, q of their
 //! lowest bits, so that all coordinates become integers. U, V, W and D are then multiples of
@@ -11,7 +11,6 @@ use crate::case::Case;
 use crate::truth::Truth;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use std::cmp::Ordering;
 
 /// A case's numbers as integers of any size.
 pub(super) struct Scaled {
@@ -31,8 +30,9 @@ impl Scaled {
         Scaled { origin, direction, vertices: [a, b, c], t_exponent: p - q }
     }
 
-    /// The sign of one determinant.
-    pub fn sign(&self, determinant: Determinant) -> Ordering {
+    /// The sign of one determinant: what the layers before are compared with.
+    #[cfg(test)]
+    pub fn sign(&self, determinant: Determinant) -> std::cmp::Ordering {
         Number::sign(&self.value(determinant))
     }
 
@@ -74,20 +74,10 @@ impl Scaled {
         dot(&self.normal(), &minus(&self.vertices[0], &self.origin))
     }
 
-    /// The signs of t - t_min and t - t_max, where D is not zero.
-    pub fn place(&self, case: &Case<f64>) -> (Ordering, Ordering) {
-        let (t, d) = (self.capital_t(), self.capital_d());
-        let interval = Interval::new(case, self.t_exponent);
-        (interval.compare_start(&t, &d), interval.compare_end(&t, &d))
-    }
-
-    /// The truth where D is zero.
-    pub fn flat(&self, case: &Case<f64>) -> Truth {
+    /// The truth where D and T are zero.
+    pub fn contact(&self, case: &Case<f64>) -> Truth {
         let n = self.normal();
         let degenerate = n.iter().all(Number::is_zero);
-        if !degenerate && !self.capital_t().is_zero() {
-            return Truth::Parallel;
-        }
         let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));
         let interval = Interval::new(case, self.t_exponent);
         let contact = contact::decide(&interval, &self.direction, [&a, &b, &c], &n);

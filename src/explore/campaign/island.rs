@@ -2,7 +2,7 @@
 
 use super::epsilons::Epsilons;
 use super::find::Find;
-use super::population::{Glance, Individual, Niche, Population};
+use super::population::{Glance, Individual, Niche, Parents, Population};
 use super::state::SavedIndividual;
 use crate::arith::Float;
 use crate::audit::{Row, RowSpec};
@@ -54,9 +54,10 @@ impl<F: Scalar> Island<F> {
     pub fn propose(&self, seed: u64, round: u64, lane: u64, evaluations: u64) -> Proposals<F> {
         let mut draw = Draw::new(&self.name, seed, round << 16 | lane);
         let mut best = self.population.best_at_a_glance();
+        let parents = self.population.parents();
         let mut proposals: Proposals<F> = BTreeMap::new();
         for _ in 0..evaluations {
-            let individual = self.make(&mut draw);
+            let individual = self.make(&parents, &mut draw);
             let (glance, score) = individual.look();
             let Some(niche) = self.niche(&individual, glance, score, &mut best, &mut draw) else {
                 continue;
@@ -93,8 +94,8 @@ impl<F: Scalar> Island<F> {
     }
 
     /// A new individual: of a family at some scale, or some moves from one or two that are kept.
-    fn make(&self, draw: &mut Draw) -> Individual<F> {
-        let parent = if draw.below(4) == 0 { None } else { self.population.pick(draw) };
+    fn make(&self, parents: &Parents<F>, draw: &mut Draw) -> Individual<F> {
+        let parent = if draw.below(4) == 0 { None } else { parents.pick(draw) };
         let Some(parent) = parent else {
             let case = family_case(&parameters(draw), draw);
             return Individual { case, row: self.epsilons.draw(draw) };
@@ -103,7 +104,7 @@ impl<F: Scalar> Island<F> {
         if draw.below(8) == 0 {
             child.row = self.epsilons.draw(draw);
         }
-        if let Some(other) = self.population.pick(draw).filter(|_| draw.below(16) == 0) {
+        if let Some(other) = parents.pick(draw).filter(|_| draw.below(16) == 0) {
             child.case.triangle = other.case.triangle;
         }
         child.case = mutate(&child.case, draw);

@@ -122,10 +122,9 @@ impl<F: Scalar> Population<F> {
         }
     }
 
-    /// A random individual, each niche equally likely; none if the population is empty.
-    pub fn pick(&self, draw: &mut Draw) -> Option<&Individual<F>> {
-        let niche = self.niches.values().nth(draw.below(self.niches.len().max(1)))?;
-        niche.get(draw.below(niche.len())).map(|(_, individual)| individual)
+    /// The individuals by niche, to pick from.
+    pub fn parents(&self) -> Parents<'_, F> {
+        Parents(self.niches.values().map(Vec::as_slice).collect())
     }
 
     /// All individuals, niche by niche.
@@ -141,5 +140,16 @@ impl<F: Scalar> Population<F> {
             *most = kept.iter().fold(*most, |most, (score, _)| most.max(*score));
         }
         best
+    }
+}
+
+/// A population while nothing is added to it.
+pub struct Parents<'p, F: Float>(Vec<&'p [(f64, Individual<F>)]>);
+
+impl<'p, F: Scalar> Parents<'p, F> {
+    /// A random individual, each niche equally likely; none if the population is empty.
+    pub fn pick(&self, draw: &mut Draw) -> Option<&'p Individual<F>> {
+        let niche = self.0.get(draw.below(self.0.len().max(1)))?;
+        niche.get(draw.below(niche.len())).map(|(_, individual)| individual)
     }
 }

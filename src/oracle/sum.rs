@@ -1,0 +1,212 @@
+//! The exact sign of a sum of products of four floats, whatever their exponents, in integers of 256 bits.
+
+use std::cmp::Ordering;
+use std::ops::{Add, Neg};
+
+/// Four integers of up to 53 bits times 2^exponent.
+#[derive(Clone, Copy)]
+pub(super) struct Product {
+    /// What is multiplied.
+    pub factors: [i64; 4],
+    /// From -2^19 to 2^19.
+    pub exponent: i32,
+}
+
+impl Product {
+    /// Nothing.
+    pub const ZERO: Product = Product { factors: [0; 4], exponent: 0 };
+
+    fn digits(&self) -> I256 {
+        let [x, y, z, w] = self.factors.map(i128::from);
+        let (one, other) = (x * y, z * w);
+        let digits = I256::product(one.unsigned_abs(), other.unsigned_abs());
+        if (one < 0) == (other < 0) { digits } else { -digits }
+    }
+}
+
+/// Bits that no sum of as many products as there may be has more of.
+const BITS: u32 = 6 + 4 * 53;
+
+/// The sign of a sum of up to 64 products.
+///
+/// They are added from the largest exponent down, in units of the one that comes next. What is still to come is less
+/// than 2^[`BITS`] of its unit. So a sum of as much or more decides, and one of less is that also after its
+/// unit was changed, and below twice as much after the addition: 256 bits hold it.
+pub(super) fn sign_of_sum(products: &[Product]) -> Ordering {
+    // Exponents, each with its place below it.
+    let mut keys = [0; 64];
+    let keys = &mut keys[..products.len()];
+    for (place, product) in products.iter().enumerate() {
+        keys[place] = (product.exponent + (1 << 19)) << 6 | place as i32;
+    }
+    keys.sort_unstable();
+    let mut sum = I256::ZERO;
+    let mut unit = 0;
+    for key in keys.iter().rev() {
+        let product = &products[(key & 63) as usize];
+        if sum != I256::ZERO {
+            let finer = (unit - product.exponent) as u32;
+            if sum.bits() + finer > BITS {
+                break;
+            }
+            sum = sum.shifted(finer);
+        }
+        sum = sum + product.digits();
+        unit = product.exponent;
+    }
+    sum.cmp(&I256::ZERO)
+}
+
+/// `high * 2^128 + low`. Ordered by value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct I256 {
+    high: i128,
+    low: u128,
+}
+
+impl I256 {
+    const ZERO: I256 = I256 { high: 0, low: 0 };
+
+    /// Of two numbers below 2^107.
+    #[inline(always)]
+    fn product(a: u128, b: u128) -> I256 {
+        let halves = |x: u128| (x >> 64, x & u128::from(u64::MAX));
+        let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
+        let middle = a_high * b_low + a_low * b_high;
+        let (low, carry) = (a_low * b_low).overflowing_add(middle << 64);
+        let high = a_high * b_high + (middle >> 64) + u128::from(carry);
+        I256 { high: high as i128, low }
+    }
+
+    /// How many bits its absolute value has.
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        let I256 { high, low } = if self.high < 0 { -self } else { self };
+        if high == 0 { 128 - low.leading_zeros() } else { 256 - high.leading_zeros() }
+    }
+
+    /// Times 2^places, of which no more than 255 bits come.
+    #[inline(always)]
+    fn shifted(self, places: u32) -> I256 {
+        match places {
+            0 => self,
+            1..128 => I256 {
+                high: self.high << places | (self.low >> (128 - places)) as i128,
+                low: self.low << places,
+            },
+            _ => I256 { high: (self.low << (places - 128)) as i128, low: 0 },
+        }
+    }
+}
+
+impl Add for I256 {
+    type Output = I256;
+    #[inline(always)]
+    fn add(self, other: I256) -> I256 {
+        let (low, carry) = self.low.overflowing_add(other.low);
+        I256 { high: self.high + other.high + i128::from(carry), low }
+    }
+}
+
+impl Neg for I256 {
+    type Output = I256;
+    #[inline(always)]
+    fn neg(self) -> I256 {
+        I256 { high: !self.high, low: !self.low } + I256 { high: 0, low: 1 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+    use num_bigint::BigInt;
+
+    impl I256 {
+        fn big(self) -> BigInt {
+            (BigInt::from(self.high) << 128) + self.low
+        }
+
+        fn of(value: &BigInt) -> I256 {
+            let low: BigInt = value & BigInt::from(u128::MAX);
+            let high: BigInt = value >> 128;
+            I256 {
+                high: high.try_into().expect("256 bits"),
+                low: low.try_into().expect("128 bits"),
+            }
+        }
+    }
+
+    /// A number of so many bits: the largest, a power of two, or any; of either sign.
+    fn number(draw: &mut Draw, bits: i64) -> BigInt {
+        let most: BigInt = (BigInt::from(1) << bits) - 1;
+        let any: BigInt = (0..4).fold(BigInt::ZERO, |sum, _| (sum << 64) + draw.bits());
+        let x = match draw.below(3) {
+            0 => most.clone(),
+            1 => (&most + 1) >> 1,
+            _ => any & &most,
+        };
+        x * draw.pick(&[1, -1])
+    }
+
+    #[test]
+    fn integers_are_those_of_any_size() {
+        for index in 0..20_000 {
+            let mut draw = Draw::new("256 bits", 1, index);
+            let [x, y] = [0; 2].map(|_| {
+                let bits = draw.integer(1, 254);
+                number(&mut draw, bits)
+            });
+            let places = 255 - x.bits().max(1);
+            let places = draw.integer(0, places as i64) as u32;
+            let [a, b] = [&x, &y].map(I256::of);
+            assert_eq!([a.big(), b.big(), (a + b).big()], [x.clone(), y.clone(), &x + &y]);
+            assert_eq!(((-a).big(), a.cmp(&b)), (-&x, x.cmp(&y)), "{x} {y}");
+            assert_eq!((u64::from(a.bits()), a.shifted(places).big()), (x.bits(), &x << places));
+            let factors = [0; 4].map(|_| {
+                let bits = draw.integer(0, 53);
+                i64::try_from(number(&mut draw, bits)).expect("53 bits")
+            });
+            let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
+            assert_eq!(Product { factors, exponent: 0 }.digits().big(), product, "{factors:?}");
+        }
+    }
+
+    #[test]
+    fn sums_that_cancel_down_to_any_place_have_the_sign_of_integers_of_any_size() {
+        let mut signs = [0; 3];
+        for index in 0..40_000 {
+            let mut draw = Draw::new("sums", 1, index);
+            let (mut sum, mut products) = (BigInt::ZERO, Vec::new());
+            let mut exponent = 5000;
+            let count = draw.pick(&[2, 4, 16]);
+            for _ in 0..count {
+                exponent -=
+                    draw.pick(&[0, 0, 0, 1, 53, 100, 205, 211, 212, 213, 217, 218, 219, 400]);
+                let mut add = |factors: [i64; 4], more: i64| {
+                    let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
+                    sum += product << (exponent + more);
+                    products.push(Product { factors, exponent: (exponent + more) as i32 });
+                };
+                let factors = [0; 4].map(|_| {
+                    let bits = draw.pick(&[1, 40, 53, 53]);
+                    i64::try_from(number(&mut draw, bits)).expect("53 bits")
+                });
+                add(factors, 0);
+                // What cancels it, in full or but for a little: another product that is as large.
+                let [x, y, z, w] = factors;
+                match draw.below(4) {
+                    0 => add([-y, z, x, w], 0),
+                    1 => add([y, -x + draw.integer(-1, 1), w, z], 0),
+                    2 if x % 2 == 0 => add([-x / 2, y, z, w], 1),
+                    _ => {}
+                }
+            }
+            let first = draw.below(products.len());
+            products.rotate_left(first);
+            assert_eq!(sign_of_sum(&products), sum.cmp(&BigInt::ZERO), "{index}");
+            signs[(sum.cmp(&BigInt::ZERO) as i8 + 1) as usize] += 1;
+        }
+        assert!(signs[0].min(signs[2]) > 10_000 && signs[1] > 1000, "{signs:?}");
+    }
+}
