@@ -7,12 +7,15 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::engine::Observer;
 use crate::family::Grouping;
-use crate::judge::{self, Class, Expectations, GroupTruth, Kinds, Obligation, group_obligation};
+use crate::judge::{
+    self, Class, Expectations, GroupTruth, Kinds, Obligation, group_obligation, owes_groups_alike,
+};
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
 use crate::truth::Truth;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What a source gave in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
@@ -88,13 +91,13 @@ impl<F: Scalar> Chunk<F> {
         starts.reserve(count + 1);
         starts.push(0);
         for index in indices {
-            let made = source.make::<F>(index);
-            if cases.is_empty() {
-                cases.reserve(count * made.cases().len());
-                places.reserve(count * made.cases().len());
+            let start = cases.len();
+            source.add::<F>(index, &mut cases);
+            if start == 0 {
+                places.reserve(count * cases.len());
+                cases.reserve(count * cases.len());
             }
-            cases.extend_from_slice(made.cases());
-            let triangles = 0..made.cases().len() as u32;
+            let triangles = 0..(cases.len() - start) as u32;
             places.extend(triangles.map(|triangle| Place { index, triangle }));
             starts.push(cases.len());
         }
@@ -148,5 +151,19 @@ impl<F: Scalar> Chunk<F> {
             group_obligation(cases, truths, contract, self.grouping)
         };
         self.groups().map(ask).collect()
+    }
+
+    /// The same of each of some contracts, many of which ask alike.
+    pub fn group_truths_of_all(&self, contracts: &[Contract]) -> Vec<Arc<[GroupTruth]>> {
+        let mut all: Vec<Arc<[GroupTruth]>> = Vec::with_capacity(contracts.len());
+        for contract in contracts {
+            let alike = |(other, _): &(&Contract, _)| owes_groups_alike(contract, other);
+            let truths = match contracts.iter().zip(&all).find(alike) {
+                Some((_, truths)) => truths.clone(),
+                None => self.group_truths(contract).into(),
+            };
+            all.push(truths);
+        }
+        all
     }
 }

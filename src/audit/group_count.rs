@@ -3,12 +3,10 @@
 use super::digest::{Digest, Place};
 use crate::judge::GroupTruth;
 use serde::{Deserialize, Serialize};
-use std::ops::Range;
 
 /// A group that a kernel gave all verdicts on.
 pub(crate) struct Judged {
     pub index: u64,
-    pub cases: Range<usize>,
     /// What the contract asks of it.
     pub truth: GroupTruth,
     /// How many of its triangles are hit.

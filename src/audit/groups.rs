@@ -29,13 +29,13 @@ impl<F: Scalar> RowIn<F> {
             false => Vec::new(),
         };
         chunk.groups().zip(truths).map(move |((index, cases), truth)| {
-            let verdicts = &verdicts[cases.clone()];
+            let verdicts = &verdicts[cases];
             if verdicts.iter().any(|verdict| verdict.failure.is_some()) {
                 return Err(index);
             }
             let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
             let elsewhere = elsewhere.binary_search(&index).is_ok();
-            Ok(Judged { index, cases, truth: *truth, hits, elsewhere })
+            Ok(Judged { index, truth: *truth, hits, elsewhere })
         })
     }
 
@@ -56,11 +56,10 @@ impl<F: Scalar> RowIn<F> {
         for ((index, group), _) in missed {
             let Some(crossing) = chunk.truths[group.start].crossing() else { continue };
             // Where the neighbours are too many to be tried, nobody is accused.
-            let Some(more) = source.neighbours::<F>(index) else {
+            if !source.add_neighbours(index, &chunk.cases[group.start].ray, &mut cases) {
                 elsewhere.push(index);
                 continue;
-            };
-            cases.extend(more);
+            }
             waiting.push((index, crossing.facing, cases.len()));
             if cases.len() >= NEIGHBOURS {
                 elsewhere.extend(self.with_hit_nearby(contract, &cases, &waiting));

@@ -189,10 +189,13 @@ impl<F: Scalar> Run<'_, F> {
     }
 
     fn add_chunk(&self, indices: Range<u64>, marks: &Marks, sums: &mut Sums) {
-        let limit = self.plan.examples;
+        let (limit, first) = (self.plan.examples, indices.start);
         let chunk = Chunk::<F>::make(&self.source, indices, self.observer, &mut sums.summary);
         let contracts = &self.rows.contracts;
-        let truths: Vec<_> = contracts.iter().map(|c| chunk.group_truths(c)).collect();
+        let truths = chunk.group_truths_of_all(contracts);
+        let part = self.part;
+        let near: Vec<bool> =
+            chunk.groups().map(|(_, cases)| !is_on_target(part, &chunk.truths[cases])).collect();
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         for (number, (row, (tally, time))) in self.rows.each.iter().zip(&mut sums.rows).enumerate()
         {
@@ -211,7 +214,7 @@ impl<F: Scalar> Run<'_, F> {
                 };
                 let target = group.index % marks.targets.len() as u64;
                 let aim = Aim::of(group.index / marks.targets.len() as u64);
-                let near = !is_on_target(self.part, &chunk.truths[group.cases.clone()]);
+                let near = near[(group.index - first) as usize];
                 let class = &mut tally.classes[2 * usize::from(near) + usize::from(aim.grazing)];
                 let outcome = class.add(&group, limit);
                 if let Some(wrong) = wrong_by(outcome, asked.0.across) {

@@ -9,10 +9,9 @@ use super::rows::Rows;
 use super::shard::Shard;
 use super::source::Source;
 use super::tally::{ClassCount, Tally};
-use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
-use crate::judge::{self, Class, Expectations, Finding, GroupTruth, owes_groups_alike};
+use crate::judge::{self, Class, Expectations, Finding, GroupTruth};
 use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -212,16 +211,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
 
     /// What each contract asks on a chunk.
     fn ask(&self, chunk: &Chunk<F>) -> Vec<Asked> {
-        // Many contracts ask the same of every group.
-        let mut of_groups: Vec<(&Contract, Arc<[GroupTruth]>)> = Vec::new();
-        let ask = |contract| {
-            let alike = |(other, _): &&(&Contract, _)| owes_groups_alike(contract, other);
-            let groups = of_groups.iter().find(alike).map(|(_, groups)| groups.clone());
-            let groups = groups.unwrap_or_else(|| {
-                let groups: Arc<[GroupTruth]> = chunk.group_truths(contract).into();
-                of_groups.push((contract, groups.clone()));
-                groups
-            });
+        let ask = |(contract, groups)| {
             let expectations = chunk.expectations(contract);
             let mut classes = vec![ClassCount::default(); Class::COUNT];
             for (class, obligation, cases) in &expectations.counts {
@@ -229,7 +219,8 @@ impl<'a, F: Scalar> Runner<'a, F> {
             }
             Asked { expectations, classes, groups }
         };
-        self.rows.contracts.iter().map(ask).collect()
+        let contracts = &self.rows.contracts;
+        contracts.iter().zip(chunk.group_truths_of_all(contracts)).map(ask).collect()
     }
 
     /// The cases of a chunk on which the values of hits are measured.

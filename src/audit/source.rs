@@ -2,7 +2,7 @@
 
 use super::row::quoted;
 use crate::arith::Float;
-use crate::case::{Case, Parameters};
+use crate::case::{Case, Parameters, Ray};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
 use crate::mesh::{Part, SceneMesh, Surface, Targets};
@@ -209,10 +209,17 @@ impl Source {
         matches!(self, Source::MeshPart { .. })
     }
 
-    /// The triangles around those of an index; none if they are too many, or if there are none.
-    pub(crate) fn neighbours<F: Float>(&self, index: u64) -> Option<Vec<Case<F>>> {
-        let Source::MeshPart { part, .. } = self else { return None };
-        self.targets::<F>()?.neighbours(*part, index)
+    /// Adds the triangles around those of an index, with its ray; false if they are too many, or if there are
+    /// none.
+    pub(crate) fn add_neighbours<F: Float>(
+        &self,
+        index: u64,
+        ray: &Ray<F::Vector>,
+        cases: &mut Vec<Case<F>>,
+    ) -> bool {
+        let Source::MeshPart { part, .. } = self else { return false };
+        let targets = self.targets::<F>();
+        targets.is_some_and(|targets| targets.add_neighbours((*part, index), ray, cases))
     }
 
     /// Whether a case's id alone makes the case again.
@@ -254,15 +261,25 @@ impl Source {
             Source::Mesh { family, parameters, seed, .. } => {
                 Made::One(family.make(parameters, *seed, index))
             }
-            Source::MeshPart { part, .. } => {
+            Source::MeshPart { .. } => {
                 let mut cases = Vec::new();
-                self.targets::<F>().expect("a scalar of the run").make(*part, index, &mut cases);
+                self.add(index, &mut cases);
                 Made::Group(cases)
             }
             Source::SceneMesh { mesh, stratum, parameters, seed, .. } => {
                 mesh.make(*stratum, parameters, *seed, index)
             }
             Source::Corpus(set) => Made::One(set.get(index).1),
+        }
+    }
+
+    /// Adds the cases of an index.
+    pub(crate) fn add<F: Scalar>(&self, index: u64, cases: &mut Vec<Case<F>>) {
+        match self {
+            Source::MeshPart { part, .. } => {
+                self.targets::<F>().expect("a scalar of the run").make(*part, index, cases);
+            }
+            _ => cases.extend_from_slice(self.make(index).cases()),
         }
     }
 

@@ -350,7 +350,7 @@ mod tests {
             let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
             products.add_ray(index % 4, 4);
             let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
-            tally.group(&Judged { index, cases: 0..2, truth, hits, elsewhere: index % 8 == 4 });
+            tally.group(&Judged { index, truth, hits, elsewhere: index % 8 == 4 });
         };
         let mut whole = Tally::new(5, 0);
         (0..100).for_each(|index| event(&mut whole, index));

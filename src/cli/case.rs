@@ -198,7 +198,9 @@ fn around_target<F: Scalar>(id: &CaseId, mesh: &Mesh, part: Part) -> Result<Grou
     }
     let mut cases = Vec::new();
     targets.make(part, id.index, &mut cases);
-    let neighbours = targets.neighbours(part, id.index);
+    let mut around = Vec::new();
+    let few = targets.add_neighbours((part, id.index), &cases[0].ray, &mut around);
+    let neighbours = few.then_some(around);
     Ok(Group { cases: chosen_triangle(id, cases)?, grouping: part.grouping(), neighbours })
 }
 

@@ -14,16 +14,19 @@ pub(super) fn around(
     triangles: &[[u32; 3]],
     group: &[u32],
 ) -> Option<Vec<u32>> {
-    let corner = |vertex: &u32| topology.points[*vertex as usize] as usize;
-    let mut points: Vec<usize> =
-        group.iter().flat_map(|face| &triangles[*face as usize]).map(corner).collect();
+    let mut points = Vec::with_capacity(3 * group.len());
+    for face in group {
+        points.extend(triangles[*face as usize].map(|vertex| topology.points[vertex as usize]));
+    }
     points.sort_unstable();
     points.dedup();
-    let at = |point: &usize| topology.incidence.at(*point);
-    if points.iter().map(|point| at(point).len()).sum::<usize>() > MOST_AROUND {
+    let at = |point: &u32| topology.incidence.at(*point as usize);
+    let count = points.iter().map(|point| at(point).len()).sum();
+    if count > MOST_AROUND {
         return None;
     }
-    let mut faces: Vec<u32> = points.iter().flat_map(at).copied().collect();
+    let mut faces = Vec::with_capacity(count);
+    points.iter().for_each(|point| faces.extend_from_slice(at(point)));
     faces.sort_unstable();
     faces.dedup();
     faces.retain(|face| !group.contains(face));

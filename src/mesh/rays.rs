@@ -5,7 +5,7 @@
 use super::neighbours;
 use super::topology::Topology;
 use crate::arith::Float;
-use crate::case::{Case, CaseId, Draw, Parameters};
+use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
 use crate::corpus::mesh::Mesh;
 use crate::family::{self, Grouping};
 
@@ -134,28 +134,36 @@ impl<'m> Targets<'m> {
 
     /// Adds the cases of an index: one ray, and each triangle around its target.
     pub fn make<F: Float>(&self, part: Part, index: u64, cases: &mut Vec<Case<F>>) {
-        let (target, _) = self.place(part, index);
-        self.add_faces(part, index, self.faces(part, target), cases);
-    }
-
-    /// The ray of an index with the triangles that share a point with one around its target; none if they
-    /// are too many ([`super::MOST_AROUND`]).
-    pub fn neighbours<F: Float>(&self, part: Part, index: u64) -> Option<Vec<Case<F>>> {
-        let group = self.faces(part, self.place(part, index).0);
-        let faces = neighbours::around(self.topology, &self.mesh.triangles, group)?;
-        let mut cases = Vec::with_capacity(faces.len());
-        self.add_faces(part, index, &faces, &mut cases);
-        Some(cases)
-    }
-
-    /// Adds the ray of an index with each of some faces.
-    fn add_faces<F: Float>(&self, part: Part, index: u64, faces: &[u32], cases: &mut Vec<Case<F>>) {
+        let faces = self.faces(part, self.place(part, index).0);
         let (origin, direction) = self.ray(part, index);
-        cases.extend(faces.iter().map(|face| {
-            let mut case = Case::new(origin, direction, self.mesh.vertices(*face as usize));
-            family::apply(self.parameters, &mut case);
-            case
-        }));
+        let mut first = Case::new(origin, direction, self.mesh.vertices(faces[0] as usize));
+        family::apply(self.parameters, &mut first);
+        cases.push(first);
+        cases.extend(faces[1..].iter().map(|face| self.case(&first.ray, *face)));
+    }
+
+    /// Adds the ray of an index with the triangles that share a point with one around its target; false if
+    /// they are too many ([`super::MOST_AROUND`]).
+    pub fn add_neighbours<F: Float>(
+        &self,
+        (part, index): (Part, u64),
+        ray: &Ray<F::Vector>,
+        cases: &mut Vec<Case<F>>,
+    ) -> bool {
+        let group = self.faces(part, self.place(part, index).0);
+        let faces = neighbours::around(self.topology, &self.mesh.triangles, group);
+        faces.is_some_and(|faces| {
+            cases.extend(faces.iter().map(|face| self.case(ray, *face)));
+            true
+        })
+    }
+
+    /// A face, put through the parameters, with a ray that was.
+    fn case<F: Float>(&self, ray: &Ray<F::Vector>, face: u32) -> Case<F> {
+        let [a, b, c] = self.mesh.vertices(face as usize).map(F::Vector::from);
+        let mut case = Case { ray: *ray, triangle: Triangle::new(a, b, c) };
+        family::apply(self.parameters, &mut case);
+        Case { ray: *ray, ..case }
     }
 
     /// The ray of an index, before the parameters.
@@ -163,8 +171,11 @@ impl<'m> Targets<'m> {
         let (target, number) = self.place(part, index);
         let mut draw = Draw::new(part.name(), self.seed, index);
         let faces = self.faces(part, target);
-        let points = self.points(part, target);
-        let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));
+        let ends = match part {
+            Part::Edges => self.topology.shared[target].ends,
+            Part::Vertices => [self.topology.fans.get(target).0; 2],
+        };
+        let ends = ends.map(|point| self.mesh.position(point));
         let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);
         self.ray_at(&mut draw, Aim::of(number), ends, about)
     }

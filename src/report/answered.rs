@@ -183,8 +183,8 @@ impl<'a> Set<'a> {
                         let asked = (Obligation::MustMiss, 1 < answered.hits);
                         add(&mut tally, Place { index, triangle }, answered, asked);
                     }
-                    let (cases, hits) = (0..answered.test.cases.len(), answered.hits);
-                    tally.group(&Judged { index, cases, truth, hits, elsewhere: false });
+                    let hits = answered.hits;
+                    tally.group(&Judged { index, truth, hits, elsewhere: false });
                 }
             }
         }
