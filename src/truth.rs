@@ -148,21 +148,19 @@ impl Truth {
 
 impl Feature {
     /// From the signs of the weights of a, b and c, divided by the sign of their sum.
+    #[inline]
     pub fn from_weight_signs(signs: [Ordering; 3]) -> Feature {
-        use Ordering::{Equal, Less};
-        if signs.contains(&Less) {
-            return Feature::Outside;
-        }
-        match signs.map(|sign| sign == Equal) {
-            [false, false, false] => Feature::Interior,
-            [true, false, false] => Feature::EdgeBc,
-            [false, true, false] => Feature::EdgeCa,
-            [false, false, true] => Feature::EdgeAb,
-            [false, true, true] => Feature::VertexA,
-            [true, false, true] => Feature::VertexB,
-            // All three weights cannot be zero: their sum is not.
-            [true, true, _] => Feature::VertexC,
-        }
+        use Feature::{EdgeAb, EdgeBc, EdgeCa, Interior, Outside, VertexA, VertexB, VertexC};
+        const NONE: [Feature; 3] = [Outside; 3];
+        // A table, since these signs are as random as the cases. By the signs of a, of b, of c: below, at and
+        // above zero. All three weights cannot be zero: their sum is not.
+        const FEATURES: [[[Feature; 3]; 3]; 3] = [
+            [NONE, NONE, NONE],
+            [NONE, [Outside, Outside, VertexC], [Outside, VertexB, EdgeBc]],
+            [NONE, [Outside, VertexA, EdgeCa], [Outside, EdgeAb, Interior]],
+        ];
+        let [a, b, c] = signs.map(|sign| (sign as i8 + 1) as usize);
+        FEATURES[a][b][c]
     }
 
     /// Whether this is one of the open edges.

@@ -19,14 +19,16 @@ pub(super) struct Signs {
 
 impl Signs {
     /// U+V+W = -D, so the weights divided by their sum have the sign of U·(-D).
+    #[inline(always)]
     pub fn truth(&self) -> Truth {
-        let front = self.d == Ordering::Less;
-        let relative = |sign: Ordering| if front { sign } else { sign.reverse() };
+        let d = self.d as i8;
+        // Of a quotient by D, without a branch.
+        let over_d = |sign: Ordering| (sign as i8 * d).cmp(&0);
         Truth::Transversal(Crossing {
-            facing: if front { Facing::Front } else { Facing::Back },
+            facing: [Facing::Front, Facing::Back][usize::from(d > 0)],
             place: place(self.from_min, self.from_max),
-            t_sign: if front { self.t.reverse() } else { self.t },
-            feature: Feature::from_weight_signs(self.weights.map(relative)),
+            t_sign: over_d(self.t),
+            feature: Feature::from_weight_signs(self.weights.map(|sign| over_d(sign.reverse()))),
         })
     }
 
@@ -55,12 +57,11 @@ impl Signs {
 }
 
 /// Where t lies; t_min comes before t_max where both are met.
+#[inline]
 pub(super) fn place(from_min: Ordering, from_max: Ordering) -> Place {
-    match (from_min, from_max) {
-        (Ordering::Less, _) => Place::Before,
-        (Ordering::Equal, _) => Place::AtMin,
-        (_, Ordering::Less) => Place::Within,
-        (_, Ordering::Equal) => Place::AtMax,
-        (_, Ordering::Greater) => Place::Beyond,
-    }
+    // By the two signs: below, at and above zero.
+    const PLACES: [[Place; 3]; 3] =
+        [[Place::Before; 3], [Place::AtMin; 3], [Place::Within, Place::AtMax, Place::Beyond]];
+    let [from_min, from_max] = [from_min, from_max].map(|sign| (sign as i8 + 1) as usize);
+    PLACES[from_min][from_max]
 }
