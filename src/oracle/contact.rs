@@ -40,7 +40,7 @@ impl<I: Integer> Touch<I> {
 }
 
 /// The contact of the line with the triangle whose vertices, relative to the origin, are `r`. Either
-/// `n` is zero (no area) or the line lies in the plane of `n`.
+/// `n` is zero (no area) or the line lies in the triangle's plane, whose normal is `n`.
 pub(super) fn decide<I: Integer>(
     interval: &Interval,
     d: &Triple<I>,

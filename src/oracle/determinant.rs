@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 
 /// The sign of a determinant of a case, and the layer that found it. `near_one` is the same case with
-/// its axes scaled, for the double-doubles.
+/// its axes scaled where that can help, for the double-doubles.
 pub(super) fn sign(
     determinant: Determinant,
     case: &Case<f64>,
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn differences_that_cancel_far_down_are_left_to_integers_or_right() {
+    fn differences_that_cancel_far_down_are_handed_on_or_right() {
         // Points some ulps apart near the guard's lower end: differences are 2^-50 of coordinates.
         for scale in [-300, -251, -249, -240] {
             for index in 0..500 {

@@ -4,8 +4,9 @@
 //! same answer faster, in layers that each decide or hand on: a floating-point filter for all signs
 //! together; machine integers where the coordinates lie on a grid, a small one or a wide one; then, sign by sign,
 //! double-doubles with a bound, the adaptive predicate of the crate `robust` where its conditions
-//! hold, and the determinant multiplied out. Contacts in the plane that are on no grid need integers of any size. An
-//! `f32` case is decided in `f64`, which holds it exactly. It works over the whole range of exponents.
+//! hold, and the determinant multiplied out. Where a line meets a triangle without area, or one in whose plane it
+//! lies, integers of any size find out. An `f32` case is decided in `f64`, which holds it exactly. It works over the
+//! whole range of exponents.
 //!
 //! Architecture invariant: nothing here knows a kernel, and no arithmetic is shared with them.
 
@@ -49,7 +50,7 @@ pub enum Layer {
     Grid,
     /// Wider ones on a grid of 61 bits.
     WideGrid,
-    /// The filter again, after each axis was scaled.
+    /// The filter again, sign by sign, after each axis was scaled where that can help.
     ScaledFilter,
     /// Double-doubles with a bound.
     DoubleDouble,
@@ -57,7 +58,7 @@ pub enum Layer {
     Robust,
     /// The determinant multiplied out, in floats with exponents of any size, then exactly.
     Monomials,
-    /// Integers of any size, for the contacts of a line with a triangle in whose plane it lies.
+    /// Integers of any size: where a line meets a triangle without area, or one in whose plane it lies.
     BigInteger,
 }
 

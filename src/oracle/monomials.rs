@@ -1,5 +1,6 @@
-//! The sign of one determinant multiplied out: a sum of products of three given coordinates, whose exponents
-//! cannot overflow or underflow. First in floats, then exactly. And where t lies beside an end of the interval.
+//! The sign of one determinant multiplied out: a sum of products of three coordinates, whose exponents
+//! cannot overflow or underflow. First in floats, then exactly. And in the same way, on which side of an end of the
+//! interval t lies.
 //!
 //! With coordinates from all over the range, differences cancel: b-o and c-o are both -o rounded
 //! where o is much the largest, and what tells the sign is hundreds of binary places below. Multiplied
@@ -16,23 +17,24 @@ pub(super) fn sign(determinant: Determinant, case: &Case<f64>) -> Ordering {
     sign_of::<24>(&[(determinant, 1.0)], case)
 }
 
-/// The sign of T - end·D: that of t - end where D is positive.
-pub(super) fn beyond(end: f64, case: &Case<f64>) -> Ordering {
+/// The sign of T - end·D, which is that of t - end times that of D. The end is finite and not zero.
+pub(super) fn compare_with_end(end: f64, case: &Case<f64>) -> Ordering {
     sign_of::<42>(&[(Determinant::T, 1.0), (Determinant::D, -end)], case)
 }
 
-/// The sign of a sum of determinants, each times a number, which has up to N products.
+/// The sign of a sum of determinants, each times a number. Multiplied out it has at most N products.
 fn sign_of<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Ordering {
     let zero = Extended::of(0.0);
     let (floats, count) = multiplied_out::<_, N>(sum, case, zero, Extended::product);
     in_floats(&floats[..count]).unwrap_or_else(|| exactly::<N>(sum, case))
 }
 
-/// The same, of integers alone.
+/// The same sign, exactly, whatever cancels.
 #[inline(never)]
 fn exactly<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Ordering {
     let (products, count) = multiplied_out::<_, N>(sum, case, Product::ZERO, |factors| Product {
-        // 53 bits.
+        // Digits times 2^52 are whole numbers of 53 bits. So each product is 2^208 times too large, all alike:
+        // the sign stays.
         factors: factors.map(|factor| (factor.digits * (1u64 << 52) as f64) as i64),
         exponent: factors.iter().map(|factor| factor.exponent).sum(),
     });
@@ -67,14 +69,15 @@ fn multiplied_out<P: Copy, const N: usize>(
     (products, count)
 }
 
-/// A float: digits in ±[1, 2) times 2^exponent, or zero with [`NO_EXPONENT`].
+/// A float: digits in ±[1, 2) times 2^exponent, or zero with [`NO_EXPONENT`]. A product's digits are in ±[1, 16].
 #[derive(Clone, Copy)]
 struct Extended {
     digits: f64,
     exponent: i32,
 }
 
-/// Below the exponent of every product of three numbers, however large the other two.
+/// Of zero. A product of four factors with a zero among them lies far below any without: at most at -96931,
+/// against at least -4296.
 const NO_EXPONENT: i32 = -100_000;
 
 impl Extended {
@@ -102,7 +105,7 @@ impl Extended {
     }
 }
 
-/// Products that lie this many binary places below the largest are left out.
+/// Products that lie more than this many binary places below the largest are left out.
 const REACH: i32 = 200;
 /// What leaving out and rounding add, relative to the sum of absolute values: 2^-47.
 const ERROR: f64 = f64::from_bits((1023 - 47) << 52);
@@ -128,6 +131,7 @@ fn in_floats(products: &[Extended]) -> Option<Ordering> {
     }
     (sum.abs() > permanent * ERROR).then(|| sum.total_cmp(&0.0))
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -216,7 +220,7 @@ mod tests {
             let exact = t.cmp(&BigRational::from_float(end).expect("finite"));
             let expected = if capital_d == Ordering::Less { exact.reverse() } else { exact };
             let sum = [(Determinant::T, 1.0), (Determinant::D, -end)];
-            assert_eq!(beyond(end, &case), expected, "{end:e} {case:?}");
+            assert_eq!(compare_with_end(end, &case), expected, "{end:e} {case:?}");
             assert_eq!(exactly::<42>(&sum, &case), expected, "{end:e} {case:?}");
             match floats::<42>(&sum, &case) {
                 Some(_) => decided += 1,
@@ -226,6 +230,18 @@ mod tests {
         }
         assert!(signs.iter().all(|count| *count > 500), "{signs:?}");
         assert!(decided.min(handed_on) > 1000, "{decided} {handed_on}");
+    }
+
+    #[test]
+    fn products_of_full_size_that_cancel_keep_their_sign() {
+        let triangle = [[-1.5, -1.5, 1.5], [-1.5, 1.5, -1.5], [1.5, -1.5, -1.5]];
+        let origin = [0.0, 0.0, scale_by_power_of_two(1.0, 100)];
+        let case = Case::<f64>::new(origin, [1.75, 1.5, 1.75], triangle);
+        // t rounded, and the float below: numbers with one more bit than a product may have would decide wrongly.
+        let t = -scale_by_power_of_two(1.6, 97);
+        for end in [t, t.next_down()] {
+            assert_eq!(compare_with_end(end, &case), Ordering::Less, "{end:e}");
+        }
     }
 
     #[test]

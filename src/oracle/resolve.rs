@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 
 /// The truth of a valid case, and the last layer that it needed.
 pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
-    // Else the filter has seen it as it is.
+    // Where nothing over- or underflows, scaling changes no relative error.
     let near_one = if is_moderate(case) { *case } else { scaled_axes(case) };
     let computed = filter::compute(near_one.vectors());
     let mut deepest = Layer::ScaledFilter;
@@ -38,8 +38,8 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     let t = sign(Determinant::T);
     if d == Ordering::Equal {
         return match t {
-            Ordering::Equal => (Scaled::new(case).contact(case), Layer::BigInteger),
-            // The triangle has area, and the line is beside its plane.
+            Ordering::Equal => (Scaled::new(case).touching(case), Layer::BigInteger),
+            // T is not zero, so the triangle has area. The line is parallel to its plane and not in it.
             _ => (Truth::Parallel, deepest),
         };
     }
@@ -54,7 +54,7 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
             Some(false) => Ordering::Less,
             None => {
                 deepest = deepest.max(Layer::Monomials);
-                relative(monomials::beyond(end, case))
+                relative(monomials::compare_with_end(end, case))
             }
         }
     };
@@ -62,8 +62,9 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     (Signs { d, weights, t, from_min, from_max }.truth(), deepest)
 }
 
-/// Whether scaling would help nobody: differences are multiples of 2^-202, so no product of three of them, and no
-/// error bound, overflows or underflows.
+/// Whether scaling can be left out. Coordinates are zero or within 2^±150, so all differences are multiples of 2^-202,
+/// and products of three are multiples of 2^-606: nothing underflows or overflows. The layers are right without this;
+/// they would only hand on more.
 fn is_moderate(case: &Case<f64>) -> bool {
     const LOW: f64 = f64::from_bits((1023 - 150) << 52);
     const HIGH: f64 = f64::from_bits((1023 + 150) << 52);

@@ -1,4 +1,4 @@
-//! The last layer: contacts in integers of any size; and exact values, which take longer.
+//! The last layer: contacts in integers of any size. And the exact t, u and v of a crossing.
 //!
 //! Positions are multiples of 2^p and the direction of 2^q for the smallest exponents p, q of their
 //! lowest bits, so that all coordinates become integers. U, V, W and D are then multiples of
@@ -74,8 +74,8 @@ impl Scaled {
         dot(&self.normal(), &minus(&self.vertices[0], &self.origin))
     }
 
-    /// The truth where D and T are zero.
-    pub fn contact(&self, case: &Case<f64>) -> Truth {
+    /// The truth where D and T are zero: the triangle has no area, or the line lies in its plane.
+    pub fn touching(&self, case: &Case<f64>) -> Truth {
         let n = self.normal();
         let degenerate = n.iter().all(Number::is_zero);
         let [a, b, c] = self.vertices.each_ref().map(|v| minus(v, &self.origin));

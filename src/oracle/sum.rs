@@ -8,12 +8,12 @@ use std::ops::{Add, Neg};
 pub(super) struct Product {
     /// What is multiplied.
     pub factors: [i64; 4],
-    /// From -2^19 to 2^19.
+    /// At least -2^19 and below 2^19. Of a product that is zero it need only be below that of any other.
     pub exponent: i32,
 }
 
 impl Product {
-    /// Nothing.
+    /// For places that are not used.
     pub const ZERO: Product = Product { factors: [0; 4], exponent: 0 };
 
     fn digits(&self) -> I256 {
@@ -24,16 +24,16 @@ impl Product {
     }
 }
 
-/// Bits that no sum of as many products as there may be has more of.
+/// 64 = 2^6 products of four factors below 2^53: their sum is below 2^[`BITS`].
 const BITS: u32 = 6 + 4 * 53;
 
 /// The sign of a sum of up to 64 products.
 ///
-/// They are added from the largest exponent down, in units of the one that comes next. What is still to come is less
-/// than 2^[`BITS`] of its unit. So a sum of as much or more decides, and one of less is that also after its
-/// unit was changed, and below twice as much after the addition: 256 bits hold it.
+/// Products are added from the largest exponent down. Before each one the sum is put into its unit, 2^exponent. All
+/// that is still to come is below 2^[`BITS`] units. If the sum is as large as that, its sign is decided. If not, it
+/// is below that, and below twice that after the addition: 256 bits hold it.
 pub(super) fn sign_of_sum(products: &[Product]) -> Ordering {
-    // Exponents, each with its place below it.
+    // To be sorted: the exponent, and in the lowest six bits the place of the product.
     let mut keys = [0; 64];
     let keys = &mut keys[..products.len()];
     for (place, product) in products.iter().enumerate() {
@@ -85,7 +85,7 @@ impl I256 {
         if high == 0 { 128 - low.leading_zeros() } else { 256 - high.leading_zeros() }
     }
 
-    /// Times 2^places, of which no more than 255 bits come.
+    /// Times 2^places. The result has at most 255 bits.
     #[inline(always)]
     fn shifted(self, places: u32) -> I256 {
         match places {
@@ -170,6 +170,15 @@ mod tests {
             let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
             assert_eq!(Product { factors, exponent: 0 }.digits().big(), product, "{factors:?}");
         }
+    }
+
+    #[test]
+    fn a_sum_decides_only_if_it_outweighs_all_that_may_come() {
+        let most = (1 << 53) - 1;
+        let large = Product { factors: [-most, most, most, most], exponent: 0 };
+        let mut products = vec![large; 42];
+        products[0] = Product { factors: [1; 4], exponent: 217 };
+        assert_eq!(sign_of_sum(&products), Ordering::Less);
     }
 
     #[test]
