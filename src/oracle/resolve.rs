@@ -63,8 +63,8 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
 }
 
 /// Whether scaling can be left out. Coordinates are zero or within 2^±150, so all differences are multiples of 2^-202,
-/// and products of three are multiples of 2^-606: nothing underflows or overflows. The layers are right without this;
-/// they would only hand on more.
+/// and products of three are multiples of 2^-606: nothing underflows or overflows. All layers are right
+/// for other cases too, scaled or not; unscaled they would only hand on more.
 fn is_moderate(case: &Case<f64>) -> bool {
     const LOW: f64 = f64::from_bits((1023 - 150) << 52);
     const HIGH: f64 = f64::from_bits((1023 + 150) << 52);
