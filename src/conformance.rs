@@ -137,7 +137,8 @@ impl Request {
         self
     }
 
-    /// Lets a kind of finding, `false-miss`, `false-hit`, `bad-value`, `crack`, `double` or `odd-fold`, occur in
+    /// Lets a kind of finding, `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `crack`, `double` or
+    /// `odd-fold`, occur in
     /// at most this share of the cases of each family and scalar. The cases are the same in every run, so
     /// the answer is too.
     ///

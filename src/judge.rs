@@ -10,6 +10,7 @@ mod expected;
 mod group;
 #[cfg(test)]
 mod tests;
+mod values;
 
 pub use change::exact_to_change;
 pub use class::Class;
@@ -19,6 +20,10 @@ pub use elsewhere::may_be_elsewhere;
 pub(crate) use expected::{Expectations, Kinds, ask_all, suspects};
 pub(crate) use group::owes_groups_alike;
 pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
+pub(crate) use values::Limits;
+#[cfg(feature = "studies")]
+pub(crate) use values::exact_values_are_near;
+pub use values::{ALLOWANCE, ValueErrors};
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -51,6 +56,9 @@ named! {
         FalseHit = "false-hit",
         /// A hit that is not false, with a value that is not finite or with a wrong facing.
         BadValue = "bad-value",
+        /// A hit that is not false, whose t, u or v is farther from its exact value than rounding could carry it
+        /// ([`ALLOWANCE`]).
+        WrongValue = "wrong-value",
         /// The kernel panicked.
         Panic = "panic",
         /// The kernel's process died, or it wrote outside its output.
@@ -206,31 +214,46 @@ pub struct Answer {
     pub hit: bool,
     /// Whether every value that the kernel gives is finite.
     pub finite: bool,
+    /// Whether every one is near its exact value, where it has one ([`ALLOWANCE`]).
+    pub near: bool,
     /// The side hit.
     pub facing: Option<Facing>,
 }
 
 impl Answer {
-    /// Of a verdict.
-    pub fn of<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Answer {
+    /// Of a verdict on a case.
+    pub fn of<F: Float>(
+        case: &Case<F>,
+        truth: &Truth,
+        gives: Gives,
+        verdict: &Verdict<F>,
+    ) -> Answer {
         let finite = (!gives.t || verdict.t.is_finite())
             && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
-        Answer { hit: verdict.hit, finite, facing: verdict.facing }
+        let compares = verdict.hit && finite && values::has_values(truth);
+        let near = !compares || values::are_near(case, gives, verdict);
+        Answer { hit: verdict.hit, finite, near, facing: verdict.facing }
     }
 }
 
-/// Compares a verdict with the obligation. Values of hits on invalid input are not judged.
+/// Compares a verdict on a case with the obligation. Values of hits on invalid input are not judged.
 #[inline]
 pub fn judge<F: Float>(
     obligation: Obligation,
-    truth: &Truth,
+    (case, truth): (&Case<F>, &Truth),
     gives: Gives,
     verdict: &Verdict<F>,
 ) -> Option<Finding> {
     if let Some(failure) = verdict.failure {
         return Some(failed(failure));
     }
-    judge_answer(obligation, truth, gives, Answer::of(gives, verdict))
+    match (obligation, verdict.hit) {
+        // No values are compared.
+        (Obligation::MustHit, false) => Some(Finding::FalseMiss),
+        (Obligation::MustMiss, true) => Some(Finding::FalseHit),
+        (_, false) => None,
+        _ => judge_answer(obligation, truth, gives, Answer::of(case, truth, gives, verdict)),
+    }
 }
 
 /// Compares an answer with the obligation.
@@ -244,9 +267,9 @@ pub fn judge_answer(
     match (obligation, answer.hit) {
         (Obligation::MustHit, false) => Some(Finding::FalseMiss),
         (Obligation::MustMiss, true) => Some(Finding::FalseHit),
-        (_, true) if *truth != Truth::Invalid && has_bad_value(truth, gives, answer) => {
-            Some(Finding::BadValue)
-        }
+        (_, true) if *truth == Truth::Invalid => None,
+        (_, true) if has_bad_value(truth, gives, answer) => Some(Finding::BadValue),
+        (_, true) if !answer.near => Some(Finding::WrongValue),
         _ => None,
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::arith::Float;
 use crate::case::Case;
-use crate::judge::{Answer, Finding, Obligation, judge, judge_answer};
+use crate::judge::{Answer, Finding, Obligation, exact_values_are_near, judge, judge_answer};
 use crate::kernel::{
     ExactRun, Gives, KernelInfo, Subject, TrackedRun, Tunable, Verdict, verdicts_of,
 };
@@ -80,10 +80,16 @@ pub(crate) fn attribute_with<F: Float>(
     let gives = subject.info().gives;
     let right = |answer| judge_answer(obligation, truth, gives, answer).is_none();
     let given = subject.run_tracked(case, epsilons)?;
-    let finding = judge(obligation, truth, gives, &given.verdict)?;
-    if right(without_rounding(gives, &given, exact)?) {
+    let finding = judge(obligation, (case, truth), gives, &given.verdict)?;
+    // Which values a formula gives does not depend on its epsilons. They are asked for where they were wrong.
+    let near = finding != Finding::WrongValue || {
+        let values = subject.measure_exact(case).values;
+        values.is_some_and(|hit| exact_values_are_near(case, gives, hit))
+    };
+    let right = |answer: Answer| right(Answer { near, ..answer });
+    if right(without_rounding((case, truth, gives), &given, exact)?) {
         let raised = match finding {
-            Finding::BadValue => given.decision | given.values,
+            Finding::BadValue | Finding::WrongValue => given.decision | given.values,
             _ => given.decision,
         };
         let range = raised.overflow || raised.underflow;
@@ -94,7 +100,7 @@ pub(crate) fn attribute_with<F: Float>(
     }
     let zeros = vec![F::zero(); epsilons.len()];
     let zero = subject.run_tracked(case, &zeros)?;
-    let answer = without_rounding(gives, &zero, || subject.run_exact(case, &zeros))?;
+    let answer = without_rounding((case, truth, gives), &zero, || subject.run_exact(case, &zeros))?;
     Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
 }
 
@@ -114,7 +120,7 @@ pub fn attribute_by_running<F: Float>(
     let is_wrong = |epsilons: &[F]| {
         let mut verdict = [Verdict::miss(None)];
         verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
-        judge(obligation, truth, info.gives, &verdict[0]).is_some()
+        judge(obligation, (case, truth), info.gives, &verdict[0]).is_some()
     };
     let zeros = vec![F::zero(); epsilons.len()];
     Some(match epsilons != zeros && !is_wrong(&zeros) {
@@ -123,13 +129,13 @@ pub fn attribute_by_running<F: Float>(
     })
 }
 
-/// What the kernel answers where nothing rounds.
+/// What the kernel answers where nothing rounds; what it says of the values is for the caller to add.
 fn without_rounding<F: Float>(
-    gives: Gives,
+    (case, truth, gives): (&Case<F>, &Truth, Gives),
     float: &TrackedRun<F>,
     exact: impl FnOnce() -> Option<ExactRun>,
 ) -> Option<Answer> {
-    let answer = Answer::of(gives, &float.verdict);
+    let answer = Answer::of(case, truth, gives, &float.verdict);
     let decided = !float.decision.inexact;
     if decided && !(answer.hit && float.values.inexact) {
         return Some(answer);
@@ -138,5 +144,5 @@ fn without_rounding<F: Float>(
     if decided {
         return Some(Answer { finite: exact.finite, ..answer });
     }
-    Some(Answer { hit: exact.hit(), finite: exact.finite, facing: exact.facing })
+    Some(Answer { hit: exact.hit(), finite: exact.finite, facing: exact.facing, ..answer })
 }

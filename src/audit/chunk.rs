@@ -8,7 +8,8 @@ use crate::contract::Contract;
 use crate::engine::Observer;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Expectations, GroupTruth, Kinds, Obligation, group_obligation, owes_groups_alike,
+    self, Class, Expectations, GroupTruth, Kinds, Limits, Obligation, group_obligation,
+    owes_groups_alike,
 };
 use crate::kernel::Scalar;
 use crate::oracle::{self, Layers};
@@ -129,6 +130,11 @@ impl<F: Scalar> Chunk<F> {
     pub fn expectations(&self, contract: &Contract) -> Expectations {
         let secondary = self.grouping == Grouping::SecondaryRay;
         judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, secondary)
+    }
+
+    /// What the values of a hit on each case may be.
+    pub fn limits(&self) -> Vec<Limits<F>> {
+        self.cases.iter().zip(&self.truths).map(|(case, truth)| Limits::of(case, truth)).collect()
     }
 
     /// The same, without what else is known of the cases.

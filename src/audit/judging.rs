@@ -12,7 +12,7 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Finding, Obligation, polygon_obligation, polygon_truth,
+    self, Class, Distances, Finding, Obligation, ValueErrors, polygon_obligation, polygon_truth,
 };
 use crate::kernel::{Failure, Scalar, Subject, Verdict};
 use crate::truth::Feature;
@@ -58,19 +58,23 @@ impl<F: Scalar> RowIn<F> {
         let shares_a_ray = chunk.grouping.shares_a_ray();
         let mut found = Vec::new();
         for &i in suspects {
-            let (verdict, truth, obligation) =
-                (&verdicts[i], &chunk.truths[i], asked.expectations.of[i].obligation());
+            let (case, truth) = (&chunk.cases[i], &chunk.truths[i]);
+            let (verdict, obligation) = (&verdicts[i], asked.expectations.of[i].obligation());
             let number = class(i).number();
             match obligation {
                 Obligation::MustHit => hits[number] -= u64::from(!verdict.hit),
                 Obligation::MustMiss => hits[number] += u64::from(verdict.hit),
                 Obligation::Free => {}
             }
-            if let Some(finding) = judge::judge(obligation, truth, gives, verdict) {
+            if let Some(finding) = judge::judge(obligation, (case, truth), gives, verdict) {
                 // Kernels tend to be wrong on the same cases.
                 let Known { distances, hash } = known[i].get_or_insert_with(|| Known::of(chunk, i));
                 let severity = distances.as_ref().map(|distances| {
-                    (distances.nearest_change(truth, contract), distances.edge_in_ulps)
+                    let edges = match finding {
+                        Finding::WrongValue => ValueErrors::of(case, truth, gives, verdict).edges,
+                        _ => distances.nearest_change(truth, contract),
+                    };
+                    (edges, distances.edge_in_ulps)
                 });
                 tally.find(class(i), finding, (chunk.places[i], *hash), severity);
                 if finding.is_failure() {
@@ -106,9 +110,8 @@ impl<F: Scalar> RowIn<F> {
         for &i in sample {
             let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
             let Some(crossing) = truth.crossing() else { continue };
-            let finding =
-                judge::judge(asked.expectations.of[i].obligation(), truth, gives, verdict);
-            let is_right = verdict.hit && finding != Some(Finding::FalseHit);
+            let may_hit = asked.expectations.of[i].obligation() != Obligation::MustMiss;
+            let is_right = verdict.hit && may_hit;
             if is_right && crossing.feature != Feature::Outside {
                 tally.accuracy.add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
             }
@@ -121,7 +124,8 @@ impl<F: Scalar> RowIn<F> {
             let (cases, truths) = (&chunk.cases[range.clone()], &chunk.truths[range]);
             let owed = polygon_obligation(cases, truths, contract);
             let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
-            let finding = judge::judge(owed, &polygon_truth(truths), self.info.gives, &verdict);
+            let finding =
+                judge::judge(owed, (&cases[0], &polygon_truth(truths)), self.info.gives, &verdict);
             tally.polygon(index, (owed, verdict.hit, finding));
         }
     }

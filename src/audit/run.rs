@@ -239,12 +239,14 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let asked = self.ask(&chunk);
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
         let mut known = vec![None; chunk.cases.len()];
+        let limits = chunk.limits();
         let mut suspects = Vec::new();
         for (row, (tally, time)) in self.rows.each.iter().zip(&mut sums.rows) {
             *time += row.run(&chunk.cases, &mut verdicts, self.observer);
             let contract = &self.rows.contracts[row.contract];
             let asked = &asked[row.contract];
-            judge::suspects(&asked.expectations.of, row.info.gives, &verdicts, &mut suspects);
+            let of = (&asked.expectations.of[..], &limits[..]);
+            judge::suspects(of, row.info.gives, &verdicts, &mut suspects);
             let found = (&verdicts[..], &suspects[..]);
             row.judge((source, &chunk), (contract, asked), found, &mut known, tally);
             row.measure(&chunk, &sample, asked, &verdicts, tally);

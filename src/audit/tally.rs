@@ -44,7 +44,7 @@ impl ClassCount {
         match finding {
             Finding::FalseMiss => self.must_hit - self.without_verdict[0],
             Finding::FalseHit => self.must_miss - self.without_verdict[1],
-            Finding::BadValue => self.valued_hits - self.false_valued_hits,
+            Finding::BadValue | Finding::WrongValue => self.valued_hits - self.false_valued_hits,
             Finding::Panic | Finding::Crash | Finding::Timeout => self.cases,
         }
     }
@@ -204,7 +204,8 @@ pub struct Tally {
     pub products: BTreeMap<(Option<Class>, Finding), RayProducts>,
     /// Examples by class and finding.
     pub examples: ByFinding<Examples>,
-    /// How far false misses and false hits are from where the verdict would be right.
+    /// How far false misses and false hits are from where the verdict would be right, and how far off the
+    /// points of wrong values are.
     #[serde(with = "super::forms::pairs")]
     pub severities: BTreeMap<Finding, Severities>,
     /// How accurate the values of right hits are, of a sample.
@@ -275,8 +276,9 @@ impl Tally {
         self.classes[class.number()].find(finding, !class.is_invalid());
         let edges = severity.map_or(0.0, |(edges, _)| edges);
         self.examples.slot(class, finding).add(place, edges, self.limit);
-        let by_verdict = matches!(finding, Finding::FalseMiss | Finding::FalseHit);
-        if let (true, Some((edges, edge_in_ulps))) = (by_verdict, severity) {
+        let has_severity =
+            matches!(finding, Finding::FalseMiss | Finding::FalseHit | Finding::WrongValue);
+        if let (true, Some((edges, edge_in_ulps))) = (has_severity, severity) {
             let severities = self.severities.entry(finding).or_default();
             severities.edges.add(edges);
             severities.ulps.add(edges * edge_in_ulps);

@@ -15,8 +15,8 @@ use crate::contract::Extent;
 use crate::corpus::lines::{self, StoredCase};
 use crate::family::Grouping;
 use crate::judge::{
-    Finding, GroupTruth, Obligation, asked, group_obligation, judge, may_be_elsewhere,
-    polygon_obligation, polygon_truth,
+    ALLOWANCE, Finding, GroupTruth, Obligation, ValueErrors, asked, group_obligation, judge,
+    may_be_elsewhere, polygon_obligation, polygon_truth,
 };
 use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict, verdicts_of};
 use crate::oracle;
@@ -111,7 +111,7 @@ fn write_polygon<F: Scalar>(out: &mut dyn Write, cases: &[Case<F>], row: &Row) -
     let Some(subject) = F::subject(row.entry) else { return Ok(()) };
     let owed = polygon_obligation(cases, &truths, &row.contract);
     let verdict = polygon_verdict(subject, cases, &row.epsilons());
-    let finding = judge(owed, &polygon_truth(&truths), row.entry.info.gives, &verdict);
+    let finding = judge(owed, (&cases[0], &polygon_truth(&truths)), row.entry.info.gives, &verdict);
     let corners = cases.len() + 2;
     let judged = judged(owed, &verdict, finding);
     writeln!(out, "{}: the polygon of {corners} corners as a whole: {judged}", row.label())
@@ -189,7 +189,7 @@ fn write_row<F: Scalar>(
     let [verdict] = verdict;
 
     let asked = asked(case, truth, &row.contract, secondary);
-    let finding = judge(asked, truth, row.entry.info.gives, &verdict);
+    let finding = judge(asked, (case, truth), row.entry.info.gives, &verdict);
     writeln!(out, "{}: {}", row.label(), judged(asked, &verdict, finding))?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
     if verdict.failure.is_some() {
@@ -354,6 +354,9 @@ fn write_errors<F: Scalar>(
     if crossing.feature == Feature::Outside || finding == Some(Finding::FalseHit) {
         return Ok(());
     }
+    if finding == Some(Finding::WrongValue) {
+        write_wrong_values(out, &ValueErrors::of(case, truth, gives, verdict), verdict)?;
+    }
     let Errors { t, uv, point } = Errors::of(case, crossing, gives, verdict);
     let named = [("t", t), ("u, v", uv), ("o + t d", point)];
     let parts: Vec<String> = named
@@ -361,4 +364,24 @@ fn write_errors<F: Scalar>(
         .filter_map(|(name, error)| error.map(|error| format!("{name} by {error:.3e}")))
         .collect();
     if parts.is_empty() { Ok(()) } else { writeln!(out, "    off by ulps: {}", parts.join(", ")) }
+}
+
+/// Each value beside its exact one, and how many times the error of rounding it is off.
+fn write_wrong_values<F: Scalar>(
+    out: &mut dyn Write,
+    errors: &ValueErrors,
+    verdict: &Verdict<F>,
+) -> io::Result<()> {
+    let reported = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
+    for ((name, times), (reported, exact)) in
+        ["t", "u", "v"].into_iter().zip(errors.times).zip(reported.into_iter().zip(errors.exact))
+    {
+        let Some(times) = times.filter(|times| ALLOWANCE < *times) else { continue };
+        writeln!(
+            out,
+            "    wrong {name}: reported {reported:e}, exactly {exact:.9e}; off by {times:.3e} times what one rounding \
+             of the coordinates does (up to {ALLOWANCE} is allowed)"
+        )?;
+    }
+    writeln!(out, "    the point is off by {:.3e} longest edges", errors.edges)
 }

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 /// The kinds of finding that may be allowed.
-pub(super) const ALLOWED: [&str; 6] =
-    ["false-miss", "false-hit", "bad-value", "crack", "double", "odd-fold"];
+pub(super) const ALLOWED: [&str; 7] =
+    ["false-miss", "false-hit", "bad-value", "wrong-value", "crack", "double", "odd-fold"];
 
 /// What an audit found.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! The obligations of many cases, ready to be compared with the verdicts of many kernels.
 
-use super::{Class, Kind, Obligation, asked, obligation};
+use super::{Class, Kind, Limits, Obligation, asked, obligation};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::{Contract, Direction};
@@ -108,12 +108,14 @@ impl Expected {
     #[inline(always)]
     fn is_met<F: Float, const T: bool, const UV: bool, const FACING: bool>(
         &self,
+        limits: &Limits<F>,
         verdict: &Verdict<F>,
     ) -> bool {
-        let finite =
-            (!T | verdict.t.is_finite()) & (!UV | (verdict.u.is_finite() & verdict.v.is_finite()));
+        let near =
+            |which: usize, value: F| (limits.low[which] <= value) & (value <= limits.high[which]);
+        let near = (!T | near(0, verdict.t)) & (!UV | (near(1, verdict.u) & near(2, verdict.v)));
         let facing = !FACING | (verdict.facing == self.facing);
-        let right_hit = verdict.hit & self.may_hit & finite & facing;
+        let right_hit = verdict.hit & self.may_hit & near & facing;
         let right_miss = !verdict.hit & self.may_miss;
         (right_hit | right_miss) & verdict.failure.is_none()
     }
@@ -122,34 +124,36 @@ impl Expected {
 /// The places, in order, of the verdicts on which [`super::judge()`] may find something; on all others it
 /// finds nothing. Most verdicts of a run are among these.
 pub(crate) fn suspects<F: Float>(
-    expected: &[Expected],
+    (expected, limits): (&[Expected], &[Limits<F>]),
     gives: Gives,
     verdicts: &[Verdict<F>],
     found: &mut Vec<usize>,
 ) {
+    let asked = (expected, limits);
     match (gives.t, gives.uv, gives.facing) {
-        (false, false, false) => collect::<F, false, false, false>(expected, verdicts, found),
-        (false, false, true) => collect::<F, false, false, true>(expected, verdicts, found),
-        (false, true, false) => collect::<F, false, true, false>(expected, verdicts, found),
-        (false, true, true) => collect::<F, false, true, true>(expected, verdicts, found),
-        (true, false, false) => collect::<F, true, false, false>(expected, verdicts, found),
-        (true, false, true) => collect::<F, true, false, true>(expected, verdicts, found),
-        (true, true, false) => collect::<F, true, true, false>(expected, verdicts, found),
-        (true, true, true) => collect::<F, true, true, true>(expected, verdicts, found),
+        (false, false, false) => collect::<F, false, false, false>(asked, verdicts, found),
+        (false, false, true) => collect::<F, false, false, true>(asked, verdicts, found),
+        (false, true, false) => collect::<F, false, true, false>(asked, verdicts, found),
+        (false, true, true) => collect::<F, false, true, true>(asked, verdicts, found),
+        (true, false, false) => collect::<F, true, false, false>(asked, verdicts, found),
+        (true, false, true) => collect::<F, true, false, true>(asked, verdicts, found),
+        (true, true, false) => collect::<F, true, true, false>(asked, verdicts, found),
+        (true, true, true) => collect::<F, true, true, true>(asked, verdicts, found),
     }
 }
 
 fn collect<F: Float, const T: bool, const UV: bool, const FACING: bool>(
-    expected: &[Expected],
+    (expected, limits): (&[Expected], &[Limits<F>]),
     verdicts: &[Verdict<F>],
     found: &mut Vec<usize>,
 ) {
     found.resize(expected.len().min(verdicts.len()), 0);
     let mut count = 0;
-    for (i, (expected, verdict)) in expected.iter().zip(verdicts).enumerate() {
+    for (i, ((expected, limits), verdict)) in expected.iter().zip(limits).zip(verdicts).enumerate()
+    {
         // Written always, kept where it is one: no branch to mispredict.
         found[count] = i;
-        count += usize::from(!expected.is_met::<F, T, UV, FACING>(verdict));
+        count += usize::from(!expected.is_met::<F, T, UV, FACING>(limits, verdict));
     }
     found.truncate(count);
 }

@@ -3,9 +3,13 @@
 use super::*;
 use crate::oracle::truth;
 
-fn down_at(x: f64, y: f64, z: f64) -> Truth {
+fn case_down_at(x: f64, y: f64, z: f64) -> Case<f64> {
     let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
-    truth(&Case::<f64>::new([x, y, z], [0.0, 0.0, -1.0], triangle))
+    Case::new([x, y, z], [0.0, 0.0, -1.0], triangle)
+}
+
+fn down_at(x: f64, y: f64, z: f64) -> Truth {
+    truth(&case_down_at(x, y, z))
 }
 
 #[test]
@@ -202,7 +206,7 @@ fn class_names_are_unique_and_numbered() {
 #[test]
 fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
     let gives = Gives { t: true, uv: true, facing: true };
-    let truth = down_at(1.0, 1.0, 1.0);
+    let (case, truth) = (case_down_at(1.0, 1.0, 1.0), down_at(1.0, 1.0, 1.0));
     let good = Verdict {
         hit: true,
         refused_by: None,
@@ -212,7 +216,8 @@ fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
         v: 0.25,
         failure: None,
     };
-    let judged = |obligation, verdict: Verdict<f64>| judge(obligation, &truth, gives, &verdict);
+    let judged =
+        |obligation, verdict: Verdict<f64>| judge(obligation, (&case, &truth), gives, &verdict);
     assert_eq!(judged(Obligation::MustHit, good), None);
     for finding in Finding::ALL {
         let is_failure = matches!(finding.name(), "panic" | "crash" | "timeout");
@@ -228,6 +233,17 @@ fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
         Some(Finding::FalseHit)
     );
     assert_eq!(judged(Obligation::Free, Verdict { u: f64::NAN, ..good }), Some(Finding::BadValue));
+    for obligation in [Obligation::MustHit, Obligation::Free] {
+        let wrong = [
+            Verdict { t: 3.0, ..good },
+            Verdict { u: 0.26, ..good },
+            Verdict { v: 0.25 + 1e-12, ..good },
+        ];
+        for wrong in wrong {
+            assert_eq!(judged(obligation, wrong), Some(Finding::WrongValue));
+        }
+    }
+    assert_eq!(judged(Obligation::MustMiss, Verdict { t: 3.0, ..good }), Some(Finding::FalseHit));
     assert_eq!(
         judged(Obligation::MustHit, Verdict { facing: Some(Facing::Back), ..good }),
         Some(Finding::BadValue)
@@ -251,7 +267,9 @@ fn cases_that_are_all_free_are_all_listed() {
 
 /// Cases that are not suspects met their obligation, whatever the verdict; without values, every suspect
 /// shows a finding, and so does every suspect on a crossing.
-fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
+fn no_suspect_is_overlooked(cases: &[Case<f64>], truths: &[Truth], all: &Expectations) {
+    let of = |(case, truth)| Limits::of(case, truth);
+    let limits: Vec<Limits<f64>> = cases.iter().zip(truths).map(of).collect();
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
     let mut found = Vec::new();
     for number in 0..144 {
@@ -263,11 +281,11 @@ fn no_suspect_is_overlooked(truths: &[Truth], all: &Expectations) {
         let verdict =
             Verdict { hit, facing, t: value(4), u: value(5), failure, ..Verdict::miss(None) };
         let verdict = Verdict { v: value(6), ..verdict };
-        suspects(&all.of, gives, &vec![verdict; truths.len()], &mut found);
-        let findings = truths.iter().zip(&all.of).enumerate().filter(|(_, (truth, expected))| {
-            judge(expected.obligation(), truth, gives, &verdict).is_some()
+        suspects((&all.of, &limits), gives, &vec![verdict; truths.len()], &mut found);
+        let findings = (0..truths.len()).filter(|&i| {
+            judge(all.of[i].obligation(), (&cases[i], &truths[i]), gives, &verdict).is_some()
         });
-        let findings: Vec<usize> = findings.map(|(i, _)| i).collect();
+        let findings: Vec<usize> = findings.collect();
         assert!(findings.iter().all(|i| found.binary_search(i).is_ok()), "{gives:?} {verdict:?}");
         let crosses = |i: &&usize| truths[**i].crossing().is_some();
         assert!(found.iter().filter(crosses).all(|i| findings.binary_search(i).is_ok()));
@@ -313,7 +331,7 @@ fn many_cases_are_asked_what_each_is_asked() {
                     counts[Class::of(truth).number()][*asked as usize] -= 1;
                 }
                 assert!(counts.iter().flatten().all(|count| *count == 0), "{contract:?}");
-                no_suspect_is_overlooked(&truths, &all);
+                no_suspect_is_overlooked(&cases, &truths, &all);
             }
         }
     }

@@ -159,7 +159,7 @@ pub enum Ink {
     FalseYes,
     /// A false miss, or a false 0.
     FalseNo,
-    /// A hit with a bad value, or a 0 that was missed.
+    /// A hit with a bad or a wrong value, or a 0 that was missed.
     Bad,
     /// No verdict, or no sign.
     Failed,
@@ -236,7 +236,7 @@ impl Map {
             (Pixels::Rays(_), Ink::Yes) => "hit",
             (Pixels::Rays(_), Ink::FalseYes) => "false hit",
             (Pixels::Rays(_), Ink::FalseNo) => "false miss",
-            (Pixels::Rays(_), Ink::Bad) => "hit with a bad value",
+            (Pixels::Rays(_), Ink::Bad) => "hit with a wrong value",
             (Pixels::Rays(_), Ink::Failed) => "failed: no verdict",
             (Pixels::Rays(_), _) => "miss",
             (Pixels::Signs(_), Ink::Yes) => "positive",
@@ -283,7 +283,7 @@ impl RayPixel {
         match (self.finding, self.hit) {
             (Some(Finding::FalseHit), _) => Ink::FalseYes,
             (Some(Finding::FalseMiss), _) => Ink::FalseNo,
-            (Some(Finding::BadValue), _) => Ink::Bad,
+            (Some(Finding::BadValue | Finding::WrongValue), _) => Ink::Bad,
             (Some(_), _) | (None, None) => Ink::Failed,
             (None, Some(true)) => Ink::Yes,
             (None, Some(false)) => Ink::No,

@@ -156,6 +156,7 @@ pub(super) fn counts(tally: &Tally, class: Option<Class>, sample: bool) -> Count
         false_misses: of(Finding::FalseMiss),
         false_hits: of(Finding::FalseHit),
         bad_values: of(Finding::BadValue),
+        wrong_values: of(Finding::WrongValue),
         panics: count.of(Finding::Panic),
         crashes: count.of(Finding::Crash),
         timeouts: count.of(Finding::Timeout),

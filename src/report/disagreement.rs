@@ -30,6 +30,10 @@ pub const FINDING_KINDS: &[(&str, &str)] = &[
     ("false-miss", "The contract asks for a hit and the kernel reports a miss"),
     ("false-hit", "The contract asks for a miss and the kernel reports a hit"),
     ("bad-value", "A hit that is not false, with a value that is not finite or a wrong facing"),
+    (
+        "wrong-value",
+        "A hit that is not false, with a t, u or v farther from its exact value than rounding could carry it",
+    ),
     ("panic", "The kernel panicked"),
     ("crash", "The kernel's process died, or it wrote outside its output"),
     ("timeout", "The kernel's process gave no answer in time"),

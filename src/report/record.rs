@@ -81,7 +81,8 @@ pub struct RowTotal {
     pub kernel: String,
     /// What its epsilons are called.
     pub set: String,
-    /// By `false-miss` and `false-hit`: how far from where the verdict would be right.
+    /// By `false-miss` and `false-hit`: how far from where the verdict would be right; by `wrong-value`: how far
+    /// the point is off.
     pub severity: BTreeMap<String, SeverityDistribution>,
     /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
     pub accuracy: BTreeMap<String, Distribution>,
@@ -129,7 +130,8 @@ pub struct KernelResult {
     pub classes: BTreeMap<String, Counts>,
     /// Each class of finding that occurred, with examples.
     pub findings: Vec<FindingPart>,
-    /// By `false-miss` and `false-hit`: how far from where the verdict would be right.
+    /// By `false-miss` and `false-hit`: how far from where the verdict would be right; by `wrong-value`: how far
+    /// the point is off.
     pub severity: BTreeMap<String, SeverityDistribution>,
     /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
     pub accuracy: BTreeMap<String, Distribution>,
@@ -156,8 +158,10 @@ pub struct Counts {
     pub false_misses: Rate,
     /// Of the cases that must be missed, and have a verdict.
     pub false_hits: Rate,
-    /// Of the hits that are not false.
+    /// Of the hits that are not false: values that are not finite, and wrong facings.
     pub bad_values: Rate,
+    /// Of the hits that are not false: t, u or v farther from its exact value than rounding could carry it.
+    pub wrong_values: Rate,
     /// Cases at which the kernel panicked.
     pub panics: u64,
     /// Cases at which the kernel's process died, or wrote outside its output.
@@ -174,6 +178,7 @@ impl Counts {
             "false-miss" => Some(self.false_misses.clone()),
             "false-hit" => Some(self.false_hits.clone()),
             "bad-value" => Some(self.bad_values.clone()),
+            "wrong-value" => Some(self.wrong_values.clone()),
             "panic" => failures(self.panics),
             "crash" => failures(self.crashes),
             "timeout" => failures(self.timeouts),

@@ -126,7 +126,7 @@ fn attributions<F: Scalar>(
             }
             let asked = obligation(&truth, &contract, false);
             let verdict = run(subject, case, &epsilons);
-            let finding = judge(asked, &truth, entry.info.gives, &verdict);
+            let finding = judge(asked, (&case, &truth), entry.info.gives, &verdict);
             let why = attribute(subject, case, &epsilons, &truth, asked);
             assert_eq!(finding.is_some(), why.is_some());
             if let (Some(finding), Some(why)) = (finding, why) {
@@ -272,7 +272,7 @@ fn a_hit_whose_values_alone_overflow_is_out_of_range() {
     let subject = f32::subject(entry).unwrap();
     let truth = truth(&case);
     let asked = obligation(&truth, &entry.info.contract, false);
-    let found = judge(asked, &truth, entry.info.gives, &run(subject, &case, &[0.0; 2]));
+    let found = judge(asked, (&case, &truth), entry.info.gives, &run(subject, &case, &[0.0; 2]));
     assert_eq!(found, Some(Finding::BadValue));
     let why = attribute(subject, &case, &[0.0; 2], &truth, asked);
     assert_eq!(why, Some(Attribution::Range));

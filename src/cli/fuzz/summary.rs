@@ -75,7 +75,7 @@ fn write_kernels(out: &mut dyn Write, finds: &[Find]) -> io::Result<()> {
     for find in finds {
         kernels.entry(find.signature.kernel).or_default()[find.signature.finding as usize] += 1;
     }
-    let shown = [Finding::FalseMiss, Finding::FalseHit, Finding::BadValue];
+    let shown = [Finding::FalseMiss, Finding::FalseHit, Finding::BadValue, Finding::WrongValue];
     let head = shown.map(|finding| format!("{:>12}", finding.name())).concat();
     writeln!(out, "Signatures by kernel {:>15}{head}", "all")?;
     for (kernel, counts) in kernels {

@@ -14,7 +14,7 @@ use std::fmt;
 /// What a kernel got wrong, with all that is needed to see it again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Disagreement {
-    /// `false-miss`, `false-hit`, `bad-value`, `crack` or `double`.
+    /// `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `crack` or `double`.
     pub finding: &'static str,
     text: String,
 }
@@ -28,8 +28,8 @@ impl fmt::Display for Disagreement {
 
 impl std::error::Error for Disagreement {}
 
-/// Whether a kernel, which gives t of a hit, does on a case what a contract demands. Values other than t
-/// are not judged, t only for being finite.
+/// Whether a kernel, which gives t of a hit, does on a case what a contract demands. Of the
+/// values only t is judged.
 pub fn conforms<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
     contract: &Contract,
@@ -38,7 +38,7 @@ pub fn conforms<F: Float>(
     let (truth, t) = (oracle::truth(case), kernel(case));
     let asked = asked(case, &truth, contract, false);
     let gives = Gives { t: true, uv: false, facing: false };
-    let found = judge(asked, &truth, gives, &verdict(t));
+    let found = judge(asked, (case, &truth), gives, &verdict(t));
     let Some(finding) = found.map(Finding::name) else { return Ok(()) };
     let contract = contract.describe();
     let text = format!("contract {contract}\n{}", describe(case, &truth, t));

@@ -134,7 +134,7 @@ fn write_untold(line: &Line, out: &mut dyn Write) -> io::Result<()> {
     )
 }
 
-/// Cracks and doubles, whole polygons and bad values, where there are any to count.
+/// Cracks and doubles, whole polygons, bad and wrong values, where there are any to count.
 fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
     if let Some(across) = &line.across {
         let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
@@ -158,6 +158,17 @@ fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
     if 0 < bad[0] {
         let bad = count_of(bad);
         writeln!(out, "  bad values: {bad} other hits, not finite or of the wrong side")?;
+    }
+    let values = &line.values.wrong;
+    if 0 < values.count {
+        let text = format!(
+            "  wrong values in ordinary sizes: the t, u or v of {} other hits is off by more than rounding explains, \
+             of {} by over 1/1000 of the longest edge; most: {}",
+            count_of([values.count, values.of]),
+            group_digits(line.values.far),
+            cause(&line.row.results, "wrong-value").trim_end(),
+        );
+        write_wrapped(text.trim_end_matches("; most: "), out)?;
     }
     Ok(())
 }

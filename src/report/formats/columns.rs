@@ -103,6 +103,18 @@ impl Cell {
         self.wrong.of < 1000 * self.far
     }
 
+    /// The values of a row's hits, in the columns of ordinary sizes.
+    pub(super) fn of_values(columns: &[Column], row: &RowView) -> Cell {
+        let mut cell = Cell::default();
+        for column in columns.iter().filter(|column| column.is_ordinary()) {
+            for result in column.results(row) {
+                cell.wrong.merge(&result.total.wrong_values.trials());
+                cell.far += far(result, "wrong-value");
+            }
+        }
+        cell
+    }
+
     /// The sum of results.
     pub(super) fn sum(results: &[&KernelResult]) -> Cell {
         let mut cell = Cell::default();

@@ -14,6 +14,8 @@ pub(super) struct Line<'a> {
     pub(super) row: RowView<'a>,
     /// One a column.
     pub(super) cells: Vec<Cell>,
+    /// The values of hits, in the columns of ordinary sizes.
+    pub(super) values: Cell,
     pub(super) across: Option<Across>,
 }
 
@@ -30,6 +32,7 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>>
         let rows = RowView::all(record, scalar).into_iter();
         rows.map(move |row| Line {
             cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
+            values: Cell::of_values(columns, &row),
             across: Across::of(&row),
             row,
         })
@@ -43,6 +46,10 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     let mut parts: Vec<String> =
         told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
     if lines.iter().any(|line| line.across.is_some()) {
+        parts.push(
+            "values: % of the other hits with a wrong t, u or v, in all columns but range"
+                .to_owned(),
+        );
         parts.push(
             "cracks, doubles: % of rays at shared edges with no hit, with two; promised: how many"
                 .to_owned(),
@@ -67,6 +74,17 @@ pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()
             let text = format!(
                 "{} ({}), {}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, \
                  or with the wrong side (bad-value). Does it write all that it says that it gives?",
+                row.part.kernel, row.part.set, row.scalar
+            );
+            write_wrapped(&text, out)?;
+        }
+        let [wrong, of] = row.total(|result| Some(&result.total.wrong_values)).counts();
+        if of < wrong.saturating_mul(2) {
+            let [wrong, of] = [wrong, of].map(group_digits);
+            let text = format!(
+                "{} ({}), {}: of {of} hits that are not false {wrong} come with a t, u or v that is not the exact one, \
+                 by more than rounding explains (wrong-value). t is in units of the direction as given, u is the \
+                 weight of b, v that of c.",
                 row.part.kernel, row.part.set, row.scalar
             );
             write_wrapped(&text, out)?;

@@ -112,7 +112,7 @@ fn scalar_part(columns: &[Column], lines: &[Line], scalar: &str, text: &mut Stri
     let heads: String = columns.iter().map(|column| format!("{} | ", column.label())).collect();
     let rule = "---:|".repeat(columns.len());
     text.push_str(&format!(
-        "\n### {scalar}\n\n| kernel (epsilons) | {heads}cracks | doubles | promised |\n|---|{rule}---:|---:|---|\n"
+        "\n### {scalar}\n\n| kernel (epsilons) | {heads}values | cracks | doubles | promised |\n|---|{rule}---:|---:|---:|---|\n"
     ));
     for line in lines.iter().filter(|line| line.row.scalar == scalar) {
         let cells = columns.iter().zip(&line.cells).map(|(column, cell)| {
@@ -120,11 +120,12 @@ fn scalar_part(columns: &[Column], lines: &[Line], scalar: &str, text: &mut Stri
             format!("{} | ", share(&rate))
         });
         let cells: String = cells.collect();
+        let values = share(&Rate::new(line.values.wrong, true));
         let groups = line.across.as_ref().map_or("- | - | -".to_owned(), |across| {
             let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
             format!("{cracks}% | {doubles}% | {}", across.words())
         });
-        text.push_str(&format!("| {} | {cells}{groups} |\n", cell(&line.label())));
+        text.push_str(&format!("| {} | {cells}{values} | {groups} |\n", cell(&line.label())));
     }
 }
 

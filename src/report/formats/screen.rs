@@ -123,6 +123,7 @@ fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standin
     let of_row = |part: &RowPart| {
         let lines = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
         let cells: Vec<(&Column, &Cell)> = lines
+            .clone()
             .flat_map(|line| columns.iter().zip(&line.cells))
             .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)
             .collect();
@@ -132,7 +133,8 @@ fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standin
             label: format!("{} ({})", part.kernel, part.set),
             share: shares.iter().sum::<f64>() / shares.len() as f64,
             wrong: cells.iter().map(|(_, cell)| cell.wrong.count).sum(),
-            far: cells.iter().map(|(_, cell)| cell.far).sum(),
+            far: cells.iter().map(|(_, cell)| cell.far).sum::<u64>()
+                + lines.clone().map(|line| line.values.far).sum::<u64>(),
             others: other_findings(record, part),
         })
     };
@@ -311,7 +313,7 @@ fn write_table(
                 write!(out, " {:>width$}", format!("{} ", column.label()))?;
             }
             let groups = if has_groups { " cracks doubles  promised" } else { "" };
-            writeln!(out, "{groups}{plain}")?;
+            writeln!(out, " values {groups}{plain}")?;
         }
         let mut text = format!("{:<first$}", line.label());
         for ((cell, share), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
@@ -320,6 +322,11 @@ fn write_table(
             text.push(' ');
             text.push_str(&painted(&share, color));
         }
+        let values = &line.values;
+        let color = if values.wrong.of == 0 { "" } else { colour(style, values.wrong.count) };
+        let far = if values.is_far() { '*' } else { ' ' };
+        let share = short_percent([values.wrong.count, values.wrong.of]);
+        text.push_str(&painted(&format!(" {share:>6}{far}"), color));
         if has_groups {
             text.push_str(&across_text(line.across.as_ref(), style));
         }

@@ -89,13 +89,14 @@ fn write_scalar(
     }
     writeln!(
         out,
-        "{bold}{:<37} {:>20} {:<16} {:>20} {:<16} {:>6} {:>6} {:>6} {:>6}{plain}",
+        "{bold}{:<37} {:>20} {:<16} {:>20} {:<16} {:>6} {:>6} {:>6} {:>6} {:>6}{plain}",
         "kernel (epsilons)",
         "false misses, %",
         "most in",
         "false hits, %",
         "most in",
         "bad",
+        "values",
         "on NaN",
         "cracks",
         "ns/ray"
@@ -105,17 +106,19 @@ fn write_scalar(
         let misses = row.total(|result| Some(&result.total.false_misses));
         let hits = row.total(|result| Some(&result.total.false_hits));
         let bad = row.total(|result| Some(&result.total.bad_values));
+        let wrong = row.total(|result| Some(&result.total.wrong_values));
         let cracks = row.total(|result| result.across.as_ref().map(|across| &across.cracks));
         let label = format!("{} ({})", row.part.kernel, row.part.set);
         let time = times.and_then(|times| times.get(&label)).copied().unwrap_or(f64::NAN);
         writeln!(
             out,
-            "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {:>6} {time:>6.1}",
+            "{label:<37} {} {:<16} {} {:<16} {:>6} {:>6} {:>6} {:>6} {time:>6.1}",
             share_column(misses.rate(), style),
             fitted(row.worst_family(|result| &result.total.false_misses), 16),
             share_column(hits.rate(), style),
             fitted(row.worst_family(|result| &result.total.false_hits), 16),
             short_count(bad.counts()[0]),
+            short_count(wrong.counts()[0]),
             short_count(row.hits_on_invalid()),
             match cracks.counts() {
                 [_, 0] => "-".to_owned(),

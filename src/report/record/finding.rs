@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
-    /// `false-miss`, `false-hit`, `bad-value`, `panic`, `crash`, `timeout`.
+    /// `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `panic`, `crash`, `timeout`.
     pub finding: String,
     /// The class of the truth.
     pub class: String,
@@ -167,7 +167,7 @@ pub struct PolygonPart {
     /// Ids of the first false hits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub first_false_hits: Vec<String>,
-    /// Polygons with a bad value, and those without a verdict.
+    /// Polygons with a bad or wrong value, and those without a verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub others: Vec<PolygonFinding>,
 }
@@ -177,7 +177,7 @@ pub struct PolygonPart {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonFinding {
-    /// `bad-value`, `panic`, `crash`, `timeout`.
+    /// `bad-value`, `wrong-value`, `panic`, `crash`, `timeout`.
     pub finding: String,
     /// How often.
     pub rate: Rate,

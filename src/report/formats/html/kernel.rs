@@ -173,10 +173,11 @@ fn proved(proof: &ProofPart, gate: &str) -> String {
 fn rates(view: &View, row: &Row) -> Markup {
     type Get = fn(&KernelResult) -> Option<&Rate>;
     type Count = fn(&Counts) -> u64;
-    let columns: [(&str, Get); 10] = [
+    let columns: [(&str, Get); 11] = [
         ("false misses", |r| Some(&r.total.false_misses)),
         ("false hits", |r| Some(&r.total.false_hits)),
         ("bad values", |r| Some(&r.total.bad_values)),
+        ("wrong values", |r| Some(&r.total.wrong_values)),
         ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
         ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
         ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),

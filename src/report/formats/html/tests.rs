@@ -24,6 +24,7 @@ fn counts(misses: u64) -> Counts {
         false_misses: rate(misses, 50),
         false_hits: rate(0, 50),
         bad_values: rate(0, 40),
+        wrong_values: rate(0, 40),
         panics: 0,
         crashes: 0,
         timeouts: 0,

@@ -103,7 +103,7 @@ impl Row<'_> {
     /// How many findings of all kinds, of single triangles and of what is promised across several.
     pub fn findings(&self) -> u64 {
         let of = |counts: &Counts| {
-            [&counts.false_misses, &counts.false_hits, &counts.bad_values]
+            [&counts.false_misses, &counts.false_hits, &counts.bad_values, &counts.wrong_values]
                 .map(|rate| rate.count)
                 .iter()
                 .sum::<u64>()
