@@ -2,7 +2,11 @@
 //! strange about its stored rays.
 
 use super::exit::{Failure, Status};
-use crate::audit::{CorpusSet, Row, Source};
+use crate::audit::{self, CorpusSet, Plan, Row, Source};
+use crate::case::Parameters;
+use crate::engine::Unobserved;
+use crate::family;
+use crate::judge::Finding;
 use crate::report::number_of;
 
 /// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no
@@ -15,6 +19,37 @@ pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Fail
     }
     rows.iter().try_for_each(|row| row.check_in(chosen))?;
     Ok(used)
+}
+
+/// Refuses kernels whose t, u or v is wrong on plain hits: no epsilon and no offset can be right for them. They are run on
+/// the control family, at the insides of well-shaped triangles; one hit in a hundred may be off there.
+pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failure> {
+    let family = family::find("interior").expect("the control family");
+    let source = Source::Family {
+        family,
+        parameters: Parameters::default(),
+        seed: 1,
+        count: 1024,
+        exhaustive: false,
+    };
+    let plan =
+        Plan { rows: rows.to_vec(), sources: vec![source], scalars, examples: 1, attribute: 0 };
+    for cell in audit::run(&plan, &Unobserved).cells {
+        let total = cell.tally.total();
+        let of = total.trials(Finding::WrongValue);
+        let wrong = total.of(Finding::WrongValue) + total.of(Finding::BadValue);
+        if of < wrong.saturating_mul(100) {
+            let name = rows[cell.row].entry.info.name;
+            let message = format!(
+                "{name}: {wrong} of {of} plain hits in {} come with a wrong t, u, v or side, so no epsilon and no offset \
+                 can be advised; 'hairline audit {} --family interior' shows them",
+                cell.scalar,
+                rows[cell.row].entry.selector(),
+            );
+            return Err(Failure::Message(Status::Disagreements, message));
+        }
+    }
+    Ok(())
 }
 
 /// Notes what is strange about the stored rays that start on their triangle, or should: that there are none though

@@ -3,7 +3,8 @@
 mod scene;
 
 use super::before::{
-    note_secondary_rays, scalars_in_use, scalars_with_cases, set_threads, total_indices,
+    note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
+    total_indices,
 };
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
@@ -103,6 +104,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
+    refuse_wrong_values(&rows, scalars)?;
     arguments.warn_of_subnormals(&rows, scalars);
     let usual = |family: &Family| !SPANNING.contains(&family.name);
     let sources = arguments.sources.sources(arguments.quiet, usual)?;

@@ -373,10 +373,9 @@ fn write_wrong_values<F: Scalar>(
     verdict: &Verdict<F>,
 ) -> io::Result<()> {
     let reported = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-    for ((name, times), (reported, exact)) in
-        ["t", "u", "v"].into_iter().zip(errors.times).zip(reported.into_iter().zip(errors.exact))
-    {
-        let Some(times) = times.filter(|times| ALLOWANCE < *times) else { continue };
+    for which in (0..3).filter(|which| errors.is_wrong(*which)) {
+        let (name, times) = (["t", "u", "v"][which], errors.times[which].unwrap_or_default());
+        let (reported, exact) = (reported[which], errors.exact[which]);
         writeln!(
             out,
             "    wrong {name}: reported {reported:e}, exactly {exact:.9e}; off by {times:.3e} times what one rounding \

@@ -4,7 +4,7 @@ mod choice;
 mod record;
 mod text;
 
-use super::before::{scalars_in_use, set_threads};
+use super::before::{refuse_wrong_values, scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
 use super::output::{paired_outputs, write_results};
@@ -118,6 +118,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
+    refuse_wrong_values(&rows, scalars)?;
     let (scene, unit) = arguments.scene(scalars)?;
     if !arguments.quiet {
         note_left_out(&scene, &arguments.scene);

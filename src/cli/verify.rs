@@ -1,6 +1,7 @@
 //! `hairline verify`: what a product answered to the test vectors, judged.
 
 mod report;
+mod values;
 
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, unknown};
@@ -14,12 +15,14 @@ use clap::Args;
 use report::{Judged, Sheet};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
+use values::Answer;
 
 /// Which results, and by what they are judged.
 #[derive(Args)]
 pub struct VerifyArguments {
     /// The results file: {"vectors": SHA-256, "product": TEXT, "results": {ID: "hit", "miss" or, of a
-    /// group, the number of hits}}; - is standard input
+    /// group, the number of hits}}; a hit may be {"hit": true, "t": 1.5, "u": 0.25, "v": 0.5}, whose values are
+    /// compared with the exact ones; - is standard input
     #[arg(value_name = "RESULTS")]
     file: String,
 
@@ -59,10 +62,10 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         line,
         ..InputError::of(&arguments.file, message)
     })?;
-    let mut answers: HashMap<&str, (Answered, &str)> = HashMap::new();
+    let mut answers: HashMap<&str, (Answer, &str)> = HashMap::new();
     for (id, value) in &results.answers {
         let error = |message| InputError::at(&arguments.file, line_of(&text, value), message);
-        let answer = answered_by(value).map_err(|message| error(format!("{id}: {message}")))?;
+        let answer = Answer::parse(value).map_err(|message| error(format!("{id}: {message}")))?;
         if answers.insert(id, (answer, value)).is_some() {
             return Err(error(format!("a second result of '{id}'")).into());
         }
@@ -76,18 +79,24 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
                 continue;
             };
             let demanded = sheet.demanded(test);
-            let fits = match answer {
+            let fits = match answer.answered {
                 Answered::Single(_) => test.group.is_none(),
                 Answered::Hits(hits) => {
                     test.group.is_some() && hits as usize <= test.triangles.len()
                 }
             };
-            let Some(right) = is_right(demanded, answer).filter(|_| fits) else {
+            let Some(right) = is_right(demanded, answer.answered).filter(|_| fits) else {
                 let line = line_of(&text, value);
                 let message = format!("{}: {}", test.id, expected(test));
                 return Err(InputError::at(&arguments.file, line, message).into());
             };
-            sheet.add(Judged { test, demanded, answer, right });
+            let wrong_values = answer.wrong_values(test).map_err(|message| {
+                let message = format!("{}: {message}", test.id);
+                InputError::at(&arguments.file, line_of(&text, value), message)
+            })?;
+            let wrong_values = wrong_values.filter(|_| right);
+            let (answer, right) = (answer.answered, right && wrong_values.is_none());
+            sheet.add(Judged { test, demanded, answer, right, wrong_values });
         }
     }
     if let Some((id, (_, value))) = answers.iter().min_by_key(|(_, (_, value))| value.as_ptr()) {
@@ -115,19 +124,6 @@ fn expected(test: &Test) -> &'static str {
     match test.group {
         None => "expected \"hit\" or \"miss\", because the test has one triangle",
         Some(_) => "expected the number of its triangles that are hit, because the test is a group",
-    }
-}
-
-fn answered_by(value: &str) -> Result<Answered, String> {
-    match value {
-        "\"hit\"" => Ok(Answered::Single(true)),
-        "\"miss\"" => Ok(Answered::Single(false)),
-        other => other.parse().map(Answered::Hits).map_err(|_| {
-            format!(
-                "expected \"hit\", \"miss\" or a number of hits, found {}",
-                json::excerpt(other)
-            )
-        }),
     }
 }
 

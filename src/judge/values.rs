@@ -146,9 +146,9 @@ impl ValueErrors {
         ValueErrors { exact, times, edges: worst }
     }
 
-    /// By how many times u·κ the worst of them is off.
-    pub fn worst(&self) -> f64 {
-        self.times.into_iter().flatten().fold(0.0, f64::max)
+    /// Whether t, u or v (0, 1 or 2) is farther off than is allowed.
+    pub fn is_wrong(&self, which: usize) -> bool {
+        self.times[which].is_some_and(|times| ALLOWANCE < times)
     }
 }
 

@@ -28,6 +28,8 @@ pub struct AnsweredTest<'a> {
     pub asked: Asked,
     /// How many of its triangles are hit, by the answer.
     pub hits: usize,
+    /// Of a hit whose values are wrong: how, and how far the point is off in longest edges.
+    pub values: Option<(Finding, f64)>,
 }
 
 impl AnsweredTest<'_> {
@@ -263,13 +265,18 @@ fn add(
     let finding = match (obligation, hit) {
         (Obligation::MustHit, false) => Finding::FalseMiss,
         (Obligation::MustMiss, true) => Finding::FalseHit,
-        _ => return,
+        _ => match answered.values {
+            Some((finding, _)) => finding,
+            None => return,
+        },
     };
     let distances = (!class.is_invalid()).then(
         || either_scalar!(&answered.test.cases[triangle], case => Distances::of(case, truth)),
     );
-    let severity =
-        distances.map(|found| (found.nearest_change(truth, &CLOSED), found.edge_in_ulps));
+    let severity = distances.map(|found| {
+        let off = answered.values.map(|(_, edges)| edges);
+        (off.unwrap_or_else(|| found.nearest_change(truth, &CLOSED)), found.edge_in_ulps)
+    });
     tally.find(class, finding, (place, Digest::hash(place)), severity);
 }
 

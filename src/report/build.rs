@@ -203,14 +203,18 @@ pub(super) fn finding_part(
     causes: Option<CausesPart>,
     example: impl Fn(Place, bool) -> Example,
 ) -> FindingPart {
-    let (_, worst) = examples.worst.expect("a finding has a worst example");
+    let (edges, worst) = examples.worst.expect("a finding has a worst example");
+    let mut worst = example(worst, true);
+    if let (Finding::WrongValue, Some(severity)) = (finding, &mut worst.severity) {
+        severity.value_off = Some(edges);
+    }
     FindingPart {
         finding: finding.name().to_owned(),
         class: class.name(),
         rate,
         causes,
         digest: examples.digest.to_string(),
-        worst: example(worst, true),
+        worst,
         first: examples.first.iter().map(|place| example(*place, false)).collect(),
     }
 }
@@ -234,6 +238,7 @@ pub(super) fn severity_part<F: Float>(case: &Case<F>, extent: Extent) -> Option<
         in_space: severity.in_space,
         edge_in_ulps: severity.edge_in_ulps,
         along: severity.along,
+        value_off: None,
         off_end: severity.off_end.map(|place| place.name().to_owned()),
     })
 }

@@ -161,6 +161,7 @@ pub struct Counts {
     /// Of the hits that are not false: values that are not finite, and wrong facings.
     pub bad_values: Rate,
     /// Of the hits that are not false: t, u or v farther from its exact value than rounding could carry it.
+    #[serde(default)]
     pub wrong_values: Rate,
     /// Cases at which the kernel panicked.
     pub panics: u64,

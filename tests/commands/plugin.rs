@@ -849,3 +849,48 @@ while head := read.read(16):
     assert!(shown.contains("binary (t=0.25): hit;"), "{shown}");
     assert!(shown.contains("reports t = 2.5e-1, facing front"), "{shown}");
 }
+
+/// A kernel's own right answers, and what it is wrong in: t, u, v, the side, or which call it answers.
+#[test]
+fn ten_ways_to_be_wrong_are_noticed_by_check() {
+    let wrong = |fault: u32| {
+        let source = PathBuf::from(HERE).join("tests/kernels/wrong.c");
+        library(&source, &format!("wrong-{fault}"), &[&format!("-DFAULT={fault}")])
+    };
+    let Some(right) = wrong(0) else { return };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ten-wrong");
+    fs::create_dir_all(&folder).unwrap();
+    let known = folder.join("known.toml").to_str().unwrap().to_owned();
+    let check = |library: &str, more: &[&str]| {
+        let flags = ["check", "-n", "200", "--expectations", &known, "--kernel-lib", library];
+        let output = hairline(&[&flags[..], more].concat());
+        (output.status.code(), text(&output.stdout))
+    };
+    let _ = fs::remove_file(&known);
+    check(&right, &["--bless"]);
+    assert_eq!(check(&right, &[]).0, Some(0));
+    for (fault, finding) in [
+        (1, "wrong-value"),
+        (2, "wrong-value"),
+        (3, "wrong-value"),
+        (4, "wrong-value"),
+        (5, "bad-value"),
+        (6, "wrong-value"),
+        (7, "bad-value"),
+        (8, "false-hit"),
+        (9, "false-hit"),
+        (10, "wrong-value"),
+    ] {
+        let library = wrong(fault).unwrap();
+        let (code, report) = check(&library, &[]);
+        assert_eq!(code, Some(1), "{fault}: {report}");
+        assert!(report.contains(finding), "{fault}: {report}");
+    }
+    // No epsilon and no offset is advised where plain hits have wrong values.
+    let library = wrong(1).unwrap();
+    for command in [&["epsilon", "--scene", "room"][..], &["spawn"]] {
+        let flags = [command, &["-n", "100", "--scalar", "f64", "--kernel-lib", &library]].concat();
+        let error = refused(&flags, 1);
+        assert!(error.contains("1024 of 1024 plain hits in f64"), "{error}");
+    }
+}

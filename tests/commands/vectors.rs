@@ -415,6 +415,32 @@ fn the_text_counts_by_topic_and_shows_wrong_and_missing_answers() {
 }
 
 #[test]
+fn values_are_judged_where_they_are_given() {
+    let tests = tests();
+    let hit = tests.iter().find(|test| test["result"] == "hit" && test["t"] == 3).unwrap();
+    let id = hit["id"].as_str().unwrap().to_owned();
+    let (t, u, v) = (&hit["t"], &hit["u"], &hit["v"]);
+    for right in [
+        json!({"hit": true}),
+        json!({"hit": true, "t": t}),
+        json!({"hit": true, "t": t, "u": u, "v": v}),
+        json!({"hit": true, "t": null, "u": u, "v": v}),
+    ] {
+        let (report, _) = verify(&results(&[(id.clone(), right)]), &[], 0);
+        assert!(report.starts_with("mine: 0 wrong answers, 1 right; "), "{report}");
+    }
+    let wrong = json!({"hit": true, "t": 7.0, "u": u, "v": v});
+    let (report, _) = verify(&results(&[(id.clone(), wrong.clone())]), &[], 1);
+    assert!(report.contains(&format!("{id}: hit with t = 7.0, exactly 3.0")), "{report}");
+    let (record, _) = verify(&results(&[(id.clone(), wrong)]), &["--format", "record"], 1);
+    assert!(record.contains("\"wrong-value\"") && record.contains("\"value_off\""), "{record}");
+    let (_, error) = verify(&results(&[(id.clone(), json!({"hit": true, "u": 1}))]), &[], 65);
+    assert!(error.contains("u and v: expected both or neither"), "{error}");
+    let (_, error) = verify(&results(&[(id, json!({"hit": false, "t": 1}))]), &[], 65);
+    assert!(error.contains("t, u and v: expected none with a miss"), "{error}");
+}
+
+#[test]
 fn bad_results_are_refused_in_one_line_with_file_and_line() {
     let tests = tests();
     let id = |group: bool| {

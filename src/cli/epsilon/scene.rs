@@ -2,7 +2,7 @@
 
 use super::{EpsilonArguments, fault, found_margins, tells_margins};
 use crate::audit::Row;
-use crate::cli::before::{scalars_in_use, set_threads};
+use crate::cli::before::{refuse_wrong_values, scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
@@ -42,6 +42,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     let max_error = max_error.as_ref();
     let (rows, least_t) = arguments.kernels.rows_and_least_t()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
+    refuse_wrong_values(&rows, scalars)?;
     let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
     for row in &rows {
         let name = row.entry.info.name;

@@ -1,6 +1,7 @@
 //! The answers of a product, judged: as counts and a list, and as the record that every other format is made
 //! from.
 
+use super::values::Wrong as WrongValues;
 use crate::judge::{GroupTruth, Obligation};
 use crate::report::{AnsweredTest, Asked, Product, Promised, Record, answered, number_of};
 use crate::vectors::Test;
@@ -17,6 +18,8 @@ pub struct Judged<'a> {
     pub demanded: &'static str,
     pub answer: Answered,
     pub right: bool,
+    /// Of an answer that is right but for its values.
+    pub wrong_values: Option<WrongValues>,
 }
 
 /// All answers of a product, by topic.
@@ -128,12 +131,19 @@ impl<'a> Sheet<'a> {
             sayings: Vec::new(),
         };
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
-        for Judged { test, demanded, answer, .. } in self.judged().filter(|judged| !judged.right) {
-            let sayings = self.sayings_of(test, *answer);
+        let wrong = self.judged().filter(|judged| !judged.right);
+        for Judged { test, demanded, answer, wrong_values, .. } in wrong {
+            let sayings = match wrong_values {
+                None => self.sayings_of(test, *answer),
+                Some(_) => Vec::new(),
+            };
             report.wrong.push(Wrong {
                 id: &test.id,
                 demanded,
-                answered: answer.to_string(),
+                answered: match wrong_values {
+                    None => answer.to_string(),
+                    Some(wrong) => format!("{answer} with {}", wrong.text),
+                },
                 comment: &test.comment,
                 demanded_by: sayings.iter().map(|saying| saying.word).collect(),
             });
@@ -186,7 +196,8 @@ impl Judged<'_> {
             Answered::Single(hit) => usize::from(hit),
             Answered::Hits(hits) => hits as usize,
         };
-        AnsweredTest { topic, test: self.test, asked, hits }
+        let values = self.wrong_values.as_ref().map(|wrong| (wrong.finding, wrong.edges));
+        AnsweredTest { topic, test: self.test, asked, hits, values }
     }
 }
 

@@ -69,7 +69,7 @@ fn broken_promise(line: &Line) -> Option<(String, String)> {
     Some((text, line.row.part.explain_group(result, &id)))
 }
 
-/// The worst of each class of false misses and false hits in ordinary sizes. A triangle without area may
+/// The worst of each class of false misses, false hits and wrong values in ordinary sizes. A triangle without area may
 /// be a point, which has no edge to measure by.
 fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
     let mut all = Vec::new();
@@ -77,7 +77,8 @@ fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
         for column in columns.iter().filter(|column| column.is_ordinary()) {
             let results = column.results(&line.row).into_iter();
             let parts = results.flat_map(|result| &result.findings).filter(|part| {
-                matches!(&*part.finding, "false-miss" | "false-hit") && part.class != "degenerate"
+                matches!(&*part.finding, "false-miss" | "false-hit" | "wrong-value")
+                    && part.class != "degenerate"
             });
             all.extend(parts.filter(|part| part.worst.severity.is_some()).map(|part| Extreme {
                 line,
@@ -144,6 +145,9 @@ impl Extreme<'_> {
             ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
         let hit = if is_hit { "a hit" } else { "a miss" };
         let what = match (is_hit, along) {
+            _ if self.part.finding == "wrong-value" => {
+                format!("a right hit with a wrong value: its point is {distance} edges off")
+            }
             _ if at_rim && along => format!("{hit} exactly at an end of the ray"),
             _ if at_rim => format!("{hit} exactly on the boundary"),
             (true, true) if off_end == Some("beyond") => {

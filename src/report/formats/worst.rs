@@ -98,6 +98,9 @@ impl RowView<'_> {
 /// before or beyond the extent it is.
 pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
     let Some(severity) = &finding.worst.severity else { return (0.0, false) };
+    if let Some(off) = severity.value_off {
+        return (off, false);
+    }
     match severity.along {
         Some(along) if finding.finding == "false-hit" && severity.off_end.is_some() => {
             let outside = finding.class.starts_with("outside");
@@ -129,7 +132,7 @@ pub(super) fn describe_severity(finding: &FindingPart) -> String {
     }
     let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };
     let (distance, along) = severity_of(finding);
-    if distance == 0.0 {
+    if distance == 0.0 && severity.value_off.is_none() {
         return if along {
             "exactly at an end".to_owned()
         } else {
@@ -137,6 +140,11 @@ pub(super) fn describe_severity(finding: &FindingPart) -> String {
         };
     }
     let ulps = distance * severity.edge_in_ulps;
+    if severity.value_off.is_some() {
+        return format!(
+            "by {distance:.2e} of the longest edge from the exact point ({ulps:.2e} ulps of the largest coordinate)"
+        );
+    }
     let what = if along {
         "of the longest edge from an end of the extent"
     } else {

@@ -101,6 +101,9 @@ pub struct SeverityPart {
     pub edge_in_ulps: f64,
     /// |t - end|·|d| to the nearest finite end of the extent.
     pub along: Option<f64>,
+    /// How far the point of a hit with a wrong value is off: along the ray by t, or in the plane by u or v.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value_off: Option<f64>,
     /// `before` or `beyond`, if t is not in the extent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub off_end: Option<String>,
