@@ -13,6 +13,8 @@ mod by_finding;
 mod causes;
 mod choice;
 mod chunk;
+#[cfg(feature = "studies")]
+mod coverage;
 mod digest;
 mod epsilon_text;
 mod forms;
@@ -46,6 +48,8 @@ pub use causes::Causes;
 pub use choice::EpsilonChoice;
 pub(crate) use chunk::Chunk;
 pub use chunk::SourceSummary;
+#[cfg(feature = "studies")]
+pub use coverage::{CELLS, Cell, coverage};
 pub use digest::{Digest, Place};
 pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;

@@ -4,9 +4,9 @@ use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::EpsilonText;
+use crate::audit::{CELLS, Cell, EpsilonText, coverage};
 use crate::contract::NAMED;
-use crate::family::{FAMILIES, STRATA};
+use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, PresetValue, Tunable};
 use crate::spawn::{PUBLISHED, describe};
 use clap::{Args, ValueEnum};
@@ -17,6 +17,11 @@ use std::io::{self, Write};
 pub struct ListArguments {
     #[arg(value_enum)]
     what: What,
+
+    /// Of families: the share of the cases, in percent, that meet each corner, edge and side, each orientation of plane and
+    /// ray, each size, distance and place of t; of the strata in the scene room. '.' is none
+    #[arg(long)]
+    coverage: bool,
 
     #[command(flatten)]
     plugins: PluginArguments,
@@ -41,6 +46,15 @@ enum What {
 /// Runs the command.
 pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     arguments.plugins.entries()?;
+    if arguments.coverage {
+        return match arguments.what {
+            What::Families => {
+                write_result("-", write_coverage)?;
+                Ok(Status::Success)
+            }
+            _ => Err(Failure::usage("--coverage: only families have it")),
+        };
+    }
     write_result("-", |out| match arguments.what {
         What::Kernels => kernel::all().iter().try_for_each(|entry| write_kernel(out, entry.info)),
         What::Families => FAMILIES
@@ -67,6 +81,61 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             .try_for_each(|a| writeln!(out, "{:<18} {}", a.name(), a.describe())),
     })?;
     Ok(Status::Success)
+}
+
+/// What the cases of each family are like, in tables that fit 100 columns.
+fn write_coverage(out: &mut dyn Write) -> io::Result<()> {
+    const INDICES: u64 = 500;
+    const WIDTH: usize = 100;
+    let of_family = |family: &'static Family| (family.name, coverage(family, INDICES));
+    let rows: Vec<(&str, Vec<f64>)> =
+        FAMILIES.iter().chain(STRATA).map(of_family).collect();
+    let kinds: Vec<&[Cell]> = CELLS.chunk_by(|a, b| a.kind == b.kind).collect();
+    let mut first = 0;
+    while first < kinds.len() {
+        let width = |kind: &&[Cell]| kind.iter().map(|cell| cell.name.len().max(4) + 1).sum::<usize>() + 2;
+        let mut taken = 1;
+        while first + taken < kinds.len()
+            && 18 + kinds[first..=first + taken].iter().map(width).sum::<usize>() <= WIDTH
+        {
+            taken += 1;
+        }
+        let block = &kinds[first..first + taken];
+        let start: usize = kinds[..first].iter().map(|kind| kind.len()).sum();
+        write!(out, "{:<18}", "")?;
+        for kind in block {
+            write!(out, "  {:<1$}", kind[0].kind, width(kind) - 2)?;
+        }
+        write!(out, "\n{:<18}", "family")?;
+        for cells in block {
+            write!(out, "  ")?;
+            cells.iter().try_for_each(|cell| write!(out, " {:>4}", cell.name))?;
+        }
+        writeln!(out)?;
+        for (name, shares) in &rows {
+            write!(out, "{name:<18}")?;
+            let mut shares = shares[start..].iter();
+            for cells in block {
+                write!(out, "  ")?;
+                for (cell, share) in cells.iter().zip(&mut shares) {
+                    write!(out, " {:>1$}", percent_in_three(*share), cell.name.len().max(4))?;
+                }
+            }
+            writeln!(out)?;
+        }
+        writeln!(out)?;
+        first += taken;
+    }
+    Ok(())
+}
+
+/// `.`, `<1`, `37`, `100`.
+fn percent_in_three(share: f64) -> String {
+    match share * 100.0 {
+        0.0 => ".".to_owned(),
+        percent if percent < 1.0 => "<1".to_owned(),
+        percent => format!("{percent:.0}"),
+    }
 }
 
 fn write_kernel(out: &mut dyn Write, info: &KernelInfo) -> io::Result<()> {

@@ -1,0 +1,206 @@
+//! What the cases of each family are like: which corner, which side, which plane they try. What no case is like, no
+//! kernel is tried on.
+
+use crate::arith::Float;
+use crate::case::{Case, Parameters, Scene};
+use crate::family::{Family, STRATA};
+use crate::kernel::Scalar;
+use crate::oracle;
+use crate::truth::{Crossing, Facing, Place, Truth};
+
+/// One thing that a case may be like, among others of its kind.
+pub struct Cell {
+    /// The kind: `corner`, `plane`, ….
+    pub kind: &'static str,
+    /// What the case is like: `a`, `along an axis`.
+    pub name: &'static str,
+    is_met: fn(&Shape) -> bool,
+}
+
+/// What is asked of a case: the triangle, the ray and the exact truth, in numbers near enough to tell kinds apart.
+struct Shape {
+    truth: Truth,
+    /// Weights of a, b and c where the line meets the plane; NaN where it does not.
+    weights: [f64; 3],
+    origin: [f64; 3],
+    direction: [f64; 3],
+    points: [[f64; 3]; 3],
+    normal: [f64; 3],
+    /// The longest edge, and the distance from the origin to the hit in longest edges.
+    edge: f64,
+    distance: f64,
+    sine: f64,
+}
+
+/// A weight that counts as 0: as near to an edge as that many longest edges.
+const NEAR: f64 = 1.0 / 1024.0;
+
+macro_rules! cells {
+    ($($kind:literal: $($name:literal => $is_met:expr),+;)+) => {
+        /// Every cell, the cells of a kind together.
+        pub const CELLS: &[Cell] = &[$($(Cell { kind: $kind, name: $name, is_met: $is_met },)+)+];
+    };
+}
+
+cells! {
+    "corner":
+        "a" => |s| s.is_corner(0), "b" => |s| s.is_corner(1), "c" => |s| s.is_corner(2);
+    "edge":
+        "ab" => |s| s.is_edge(2), "bc" => |s| s.is_edge(0), "ca" => |s| s.is_edge(1);
+    "side":
+        "front" => |s| s.faces(Facing::Front), "back" => |s| s.faces(Facing::Back),
+        "neither" => |s| s.truth.crossing().is_none();
+    "plane":
+        "generic" => |s| zeros(s.normal) == 0 && s.has_area(),
+        "holds an axis" => |s| zeros(s.normal) == 1,
+        "axis plane" => |s| zeros(s.normal) == 2,
+        "at 0" => |s| (0..3).any(|i| s.points.iter().all(|p| p[i] == 0.0));
+    "ray":
+        "generic" => |s| zeros(s.direction) == 0,
+        "in an axis plane" => |s| zeros(s.direction) == 1,
+        "along an axis" => |s| zeros(s.direction) == 2;
+    "sine":
+        "< 2^-10" => |s| s.sine < NEAR, "to 0.1" => |s| (NEAR..0.1).contains(&s.sine), "> 0.1" => |s| 0.1 < s.sine;
+    "edge length":
+        "< 2^-20" => |s| s.edge < POWER.recip(), "ordinary" => |s| (POWER.recip()..POWER).contains(&s.edge),
+        "> 2^20" => |s| POWER <= s.edge;
+    "way":
+        "0" => |s| s.distance == 0.0, "< 1 edge" => |s| 0.0 < s.distance && s.distance < 1.0,
+        "1 to 1000" => |s| (1.0..1000.0).contains(&s.distance), "> 1000" => |s| 1000.0 <= s.distance;
+    "t":
+        "before" => |s| s.is_at(Place::Before), "at the start" => |s| s.is_at(Place::AtMin),
+        "within" => |s| s.is_at(Place::Within), "at the end" => |s| s.is_at(Place::AtMax),
+        "beyond" => |s| s.is_at(Place::Beyond);
+    "from 0":
+        "near" => |s| s.offset() < 16.0, "far" => |s| 1000.0 < s.offset();
+    "signs":
+        "negative" => |s| s.numbers().any(|x| x < 0.0),
+        "-0" => |s| s.numbers().any(|x| x == 0.0 && x.is_sign_negative());
+}
+
+/// 2^20.
+const POWER: f64 = 1_048_576.0;
+
+fn zeros(v: [f64; 3]) -> usize {
+    if v == [0.0; 3] { 0 } else { v.iter().filter(|x| **x == 0.0).count() }
+}
+
+fn cross(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+}
+
+fn dot(p: [f64; 3], q: [f64; 3]) -> f64 {
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+}
+
+fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    let largest = v.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if largest == 0.0 { 0.0 } else { largest * v.map(|x| x / largest).map(|x| x * x).iter().sum::<f64>().sqrt() }
+}
+
+impl Shape {
+    fn of<F: Float>(case: &Case<F>) -> Shape {
+        let [origin, direction, a, b, c] = case.widen().vectors();
+        let (ab, ac, start) = (minus(b, a), minus(c, a), minus(a, origin));
+        let edge = length(ab).max(length(ac)).max(length(minus(c, b)));
+        // Near 1, so that products of extreme numbers stay numbers.
+        let [ab, ac, start] = [ab, ac, start].map(|v| v.map(|x| x / edge));
+        let unit = direction.map(|x| x / length(direction));
+        let normal = cross(ab, ac);
+        let determinant = dot(unit, normal);
+        let of = |row: [f64; 3]| dot(row, start) / determinant;
+        let (u, v) = (of(cross(unit, ac)), of(cross(ab, unit)));
+        Shape {
+            truth: oracle::truth(case),
+            weights: [1.0 - u - v, u, v],
+            origin,
+            direction,
+            points: [a, b, c],
+            normal,
+            edge,
+            distance: of(normal).abs(),
+            sine: determinant.abs() / length(normal),
+        }
+    }
+
+    fn crossing(&self) -> Option<&Crossing> {
+        self.truth.crossing()
+    }
+
+    fn is_corner(&self, which: usize) -> bool {
+        self.crossing().is_some() && (self.weights[which] - 1.0).abs() < NEAR && {
+            (0..3).all(|i| i == which || self.weights[i].abs() < NEAR)
+        }
+    }
+
+    /// Near the edge across from a corner, and not near another corner.
+    fn is_edge(&self, across: usize) -> bool {
+        let inside = |i: usize| (NEAR..1.0 - NEAR).contains(&self.weights[i]);
+        let others = (0..3).filter(|i| *i != across);
+        self.crossing().is_some() && self.weights[across].abs() < NEAR && others.clone().all(inside)
+    }
+
+    fn faces(&self, facing: Facing) -> bool {
+        self.crossing().is_some_and(|crossing| crossing.facing == facing)
+    }
+
+    fn is_at(&self, place: Place) -> bool {
+        self.crossing().is_some_and(|crossing| crossing.place == place)
+    }
+
+    fn has_area(&self) -> bool {
+        !matches!(self.truth, Truth::Degenerate(_) | Truth::Invalid)
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        let vectors = [self.origin, self.direction].into_iter().chain(self.points);
+        vectors.flatten()
+    }
+
+    /// How far the triangle lies from 0, in longest edges.
+    fn offset(&self) -> f64 {
+        self.points.map(length).into_iter().fold(f64::INFINITY, f64::min) / self.edge
+    }
+}
+
+/// The share of a family's cases that are like each of [`CELLS`], in both scalars together; of a stratum in the scene
+/// `room`, on every kind of plane.
+pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
+    let is_stratum = STRATA.iter().any(|stratum| stratum.name == family.name);
+    let scenes = match is_stratum {
+        false => vec![Parameters::default()],
+        true => {
+            let (room, _) = Scene::parse("room").expect("a preset");
+            let in_scene = |scene| Parameters { scene: Some(scene), ..Parameters::default() };
+            room.of_all_planes().into_iter().map(in_scene).collect()
+        }
+    };
+    let (mut counts, mut cases) = (vec![0u64; CELLS.len()], 0);
+    for parameters in &scenes {
+        cases += add::<f32>(family, parameters, indices, &mut counts)
+            + add::<f64>(family, parameters, indices, &mut counts);
+    }
+    counts.into_iter().map(|count| count as f64 / cases as f64).collect()
+}
+
+fn add<F: Scalar>(
+    family: &Family,
+    parameters: &Parameters,
+    indices: u64,
+    counts: &mut [u64],
+) -> u64 {
+    let made = (0..indices).map(|index| family.make::<F>(parameters, 1, index));
+    let mut cases = 0;
+    for case in made.flat_map(|made| made.cases().to_vec()) {
+        let shape = Shape::of(&case);
+        cases += 1;
+        for (count, cell) in counts.iter_mut().zip(CELLS) {
+            *count += u64::from((cell.is_met)(&shape));
+        }
+    }
+    cases
+}
