@@ -249,8 +249,6 @@ fn conflict_lines(
     let (lower, upper) = (&part.limits[conflict.lower], &part.limits[conflict.upper]);
     let knob = &part.knobs[lower.knob];
     let name = &knob.name;
-    let bound =
-        |limit: &LimitPart| bound(limit.value.as_deref(), limit.is_lower, &unit_of(record, knob));
     let what = |limit: &LimitPart| {
         let count = &part.counts[limit.count];
         let most = group_digits(limit.one_in);
@@ -264,12 +262,19 @@ fn conflict_lines(
         (_, None) => what(upper),
         _ => {
             // At the far ends of their intervals both may be kept after all.
-            let [low, high] = [lower, upper].map(|limit| number(limit.far.as_ref()));
-            let is = match low.zip(high).is_some_and(|(low, high)| high < low) {
-                true => "is",
-                false => "is shown to be",
+            let far = [lower, upper].map(|limit| limit.far.as_ref());
+            let [low, high] = far.map(number);
+            let (is, ends) = match low.zip(high).is_some_and(|(low, high)| high < low) {
+                true => ("is", far),
+                false => ("is shown to be", [lower, upper].map(|limit| limit.value.as_ref())),
             };
-            format!("no value of {name} {is} both {} and {}:", bound(lower), bound(upper))
+            let [low, high] = ends.map(|end| end.map(String::as_str));
+            let unit = unit_of(record, knob);
+            format!(
+                "no value of {name} {is} both {} and {}:",
+                bound(low, true, &unit),
+                bound(high, false, &unit)
+            )
         }
     };
     let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {

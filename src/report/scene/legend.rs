@@ -28,6 +28,10 @@ fn of_limits(record: &SceneRecord) -> Vec<String> {
     lines.into_iter().map(str::to_owned).collect()
 }
 
+fn has_proved_parallel(part: &SceneKernelPart) -> bool {
+    part.proved.iter().any(|proved| part.knobs[proved.knob].role == "parallel")
+}
+
 fn has_parallel_gate(part: &SceneKernelPart) -> bool {
     part.knobs.iter().any(|knob| knob.role == "parallel")
 }
@@ -50,7 +54,12 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     if record.unit_directions && record.kernels.iter().any(has_parallel_gate) {
         let which = [
             "exactly parallel: unit vectors that are so lie along axes or in level planes; other rays may",
-            "be parallel to any plane, and pass an epsilon below the proved one (`hairline prove`)",
+            match record.kernels.iter().any(has_proved_parallel) {
+                true => {
+                    "be parallel to any plane, and pass an epsilon below the proved one (`hairline prove`)"
+                }
+                false => "be parallel to any plane, and pass an epsilon that refuses all of these",
+            },
         ];
         lines.extend(which.map(str::to_owned));
     }

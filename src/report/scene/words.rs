@@ -203,7 +203,11 @@ pub(super) fn interval(limit: &LimitPart, unit: &str) -> String {
     match (&limit.far, limit.is_unsure) {
         (Some(far), false) if far == value => format!("{safe}{unit}"),
         (Some(far), false) => format!("{safe} ({}){unit}", human(far)),
-        (Some(far), true) => format!("unsure: {} to {}{unit}", human(value), human(far)),
+        (Some(far), true) => {
+            let mut ends = [value, far];
+            ends.sort_by(|a, b| number(Some(a)).partial_cmp(&number(Some(b))).expect("numbers"));
+            format!("unsure: {} to {}{unit}", human(ends[0]), human(ends[1]))
+        }
         (None, _) => format!("unsure: from {}{unit} on", human(value)),
     }
 }
