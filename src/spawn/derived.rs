@@ -21,15 +21,16 @@ use crate::kernel::Role;
 pub const ROOM: f64 = 1.0 / 1024.0;
 
 /// The least weight of a vertex that a row's gates let through, up to rounding: 0 for edge epsilons from 0 up, and the
-/// epsilon itself where a gate compares u, v and 1-u-v with it. None where a tolerance of another dimension says nothing
-/// about the weights.
+/// epsilon itself where a gate compares u, v and 1-u-v with it. A gate that takes either sign, as Plücker's does, lets
+/// weights up to the epsilon's size through as well if that is above 1/3; then the least is 1 less two such. None where a
+/// tolerance of another dimension says nothing about the weights.
 pub fn least_weight(row: &Row) -> Option<f64> {
     let gates = row.entry.info.gates.iter().zip(row.epsilons::<f64>());
     let edges = gates.filter(|(gate, _)| gate.role == Role::Edge);
     edges
         .map(|(gate, epsilon)| match gate.dimension.has_unit() {
             _ if 0.0 <= epsilon => Some(0.0),
-            false => Some(epsilon),
+            false => Some(epsilon.min(1.0 + 2.0 * epsilon)),
             true => None,
         })
         .try_fold(0.0, |least: f64, weight| Some(least.min(weight?)))

@@ -42,14 +42,15 @@ fn a_derived_bound_follows_the_weights_that_an_edge_gate_lets_through() {
     let (unit, _) = Scene::parse("extent=1,edge=0.1..1").unwrap();
     for edge in [-50.0, -1.0] {
         let row = row("moller-trumbore", &format!("edge={edge}"));
-        assert_eq!(least_weight(&row), Some(edge));
+        let least = least_weight(&row).unwrap();
+        assert_eq!(least, edge.min(1.0 + 2.0 * edge));
         let rays: Vec<_> = (0..20_000).map(|i| (i, far_beside(i, -edge))).collect();
         let trials = Trials::of(row.entry, &row.epsilons::<f32>(), PointKind::Weights, 1, &rays);
         assert!(1000 < trials.trials.len(), "{}", trials.trials.len());
-        let [inside, all] = [0.0, edge]
+        let [inside, all] = [0.0, least]
             .map(|least| three_digits(derived_normal::<f32>(&unit, least).unwrap(), true));
         // The bound for weights from 0 to 1 is wrong here.
-        assert!(trials.trials.len() / 50 < wrong(&trials, inside));
+        assert!(edge != -50.0 || trials.trials.len() / 10 < wrong(&trials, inside));
         assert_eq!(wrong(&trials, all), 0);
     }
 }
@@ -60,14 +61,16 @@ fn weights_are_known_from_gates_that_compare_them_alone() {
         ("moller-trumbore", "edge=0", Some(0.0)),
         ("moller-trumbore", "edge=0.01", Some(0.0)),
         ("cramer", "edge=-0.5", Some(-0.5)),
-        ("baldwin-weber", "edge=-2", Some(-2.0)),
+        ("baldwin-weber", "edge=-2", Some(-3.0)),
+        // Relative to U + V + W; above 1/3 also with all of the other sign.
+        ("plucker", "edge=-1e-30", Some(-1e-30)),
+        ("plucker", "edge=-50", Some(-99.0)),
         ("baldwin-weber", "t=-2", Some(0.0)),
         ("havel-herout", "parallel=0", Some(0.0)),
         ("woop-watertight", "edge=0", Some(0.0)),
         // Twice an area times a length: no bound of a weight.
         ("woop-watertight", "edge=-1e-30", None),
         ("moller-trumbore-culling", "edge=-1e-30", None),
-        ("plucker", "edge=-1e-30", None),
         ("scalar-triple", "edge=-1e-30", None),
     ] {
         if let Ok(rows) =
@@ -89,5 +92,5 @@ fn the_bound_is_that_of_the_guide() {
     assert_eq!((units(0.0) * 10.0).round(), 106.0);
     assert_eq!(((units(-1.0) - units(0.0)) * 10.0).round(), 353.0);
     let guide = include_str!("../../docs/guide/spawn.md");
-    assert!(guide.contains("10.6 u M") && !guide.contains("10.7"));
+    assert!(guide.contains("10.6 u M") && !guide.contains("10.7 u"));
 }

@@ -175,8 +175,7 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
     if let Some(derived) = &part.derived {
         writeln!(
             out,
-            "derived bound: {}{unit} or more has no wrong side on any ray of such a scene with\n  \
-             {}; by hand, without a certificate (docs/guide/spawn.md)",
+            "derived bound: {}{unit} or more, for {} (by hand: docs/guide/spawn.md)",
             derived_name(derived.normal),
             weights(derived)
         )?;
