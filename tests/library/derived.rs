@@ -40,7 +40,7 @@ fn wrong(trials: &Trials<f32>, distance: f64) -> usize {
 #[test]
 fn a_derived_bound_follows_the_weights_that_an_edge_gate_lets_through() {
     let (unit, _) = Scene::parse("extent=1,edge=0.1..1").unwrap();
-    for edge in [-50.0, -1.0] {
+    for edge in [-50.0f64, -1.0] {
         let row = row("moller-trumbore", &format!("edge={edge}"));
         let least = least_weight(&row).unwrap();
         assert_eq!(least, edge.min(1.0 + 2.0 * edge));
