@@ -68,7 +68,7 @@ fn the_audit_lists_every_kernel_scalar_and_family() {
             .collect::<std::collections::BTreeSet<_>>()
             .len()
     };
-    assert_eq!((distinct("kernel"), distinct("scalar"), distinct("family")), (16, 2, 28));
+    assert_eq!((distinct("kernel"), distinct("scalar"), distinct("family")), (17, 2, 28));
     for source in record["result"]["sources"].as_array().unwrap() {
         assert_eq!(source["promise_broken"], 0, "{source}");
     }

@@ -18,7 +18,7 @@ fn of_limits(record: &SceneRecord) -> Vec<String> {
     let limits = || record.kernels.iter().flat_map(|part| &part.limits);
     let mut lines = Vec::new();
     if limits().any(|limit| limit.far.is_some() && !limit.is_unsure) {
-        lines.push("limits: at the first number at most that share is wrong, beyond the one in brackets more (95 % each)");
+        lines.push("limits: at the first number at most that share is wrong, past the one in brackets more");
     }
     if limits().any(|limit| limit.is_unsure) {
         lines.push(
