@@ -58,7 +58,10 @@ fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
             says(&["--scalar", "f64"], INSIDE),
             // Scenes in which normals overflow or underflow.
             withholds(&["--scene", "extent=1e11,edge=5e10,distance=0..1e11"], BOUND),
-            withholds(&["--scene", "extent=1e-7,edge=1e-7", "--epsilon", "parallel=0"], BOUND),
+            withholds(
+                &["--scene", "extent=3e-9,edge=1e-9..3e-9", "--epsilon", "parallel=0"],
+                BOUND,
+            ),
             // A scheme of one's own is none of `normal=`, and another distance is not at the bound.
             withholds(&["--scheme", "normal=1e-3"], INSIDE),
         ],
@@ -73,11 +76,11 @@ fn a_kernel_of_ones_own_has_a_bound_only_if_its_weights_are_in_the_range() {
     for (weights, is_there) in [("u=0.25 v=0.25", true), ("u=2 v=2", false)] {
         let script = format!(
             "printf 'hairline-kernel 1\\nname mine\\nscalars f32\\ncontract closed-line\\ngives t uv\\nready\\n'
-while read -r first rest; do
+while read -r first id rest; do
     case \"$first\" in
-        end) echo \"$first $rest\" ;;
+        end) echo \"end $id\" ;;
         epsilons) ;;
-        *) echo \"$first hit {weights}\" ;;
+        *) echo \"$id hit {weights}\" ;;
     esac
 done
 "
