@@ -55,7 +55,7 @@ fn ranks_at(n: u64, one_in: u64) -> Option<Ranks> {
 /// How many margins of each count may decide among at most n trials.
 pub fn kept(n: u64) -> usize {
     // Of fewer trials than show the share, and a larger share, the ranks are at most 16.
-    ranks(n).map_or(0, |ranks| ranks.far as usize).max(64).min(KEPT)
+    ranks(n).map_or(0, |ranks| ranks.far as usize).clamp(64, KEPT)
 }
 
 /// Whether so many among n trials show that at most one in so many is.
