@@ -3,7 +3,7 @@
 use super::epsilon_text::EpsilonText;
 use super::row::{PlanError, Row, RowSpec};
 use crate::contract::Contract;
-use crate::kernel::{Entry, Gate, PRESETS, Preset, Tunable, find};
+use crate::kernel::{Entry, Gate, KERNELS, PRESETS, Preset, PresetEntry, Tunable, find};
 use crate::suggest::did_you_mean;
 
 /// How a plan's epsilons are chosen.
@@ -41,7 +41,7 @@ impl EpsilonChoice {
         contract: Option<&str>,
     ) -> Result<Vec<Row>, PlanError> {
         let words = contract.unwrap_or("own");
-        let mut rows = Vec::new();
+        let (mut rows, mut left_over) = (Vec::new(), None);
         // Each given epsilon must reach a gate of some kernel.
         let missing = |(name, _): &(String, String)| Err(unknown_gate(name, entries));
         let mut applied: Vec<Result<(), PlanError>> = self.given().iter().map(missing).collect();
@@ -66,23 +66,26 @@ impl EpsilonChoice {
                     if preset.entries.is_empty() {
                         epsilons.fill(EpsilonText::Decimal("0".to_owned()));
                     }
-                    let mut fits = preset.entries.is_empty();
+                    let of_gates = match preset.over(entry.info.gates) {
+                        Ok(of_gates) => of_gates,
+                        Err(entry) => {
+                            left_over.get_or_insert(entry);
+                            continue;
+                        }
+                    };
                     let mut taken = Vec::new();
-                    for (gate, epsilon) in entry.info.gates.iter().zip(&mut epsilons) {
-                        if let Some(found) = preset.entries.iter().find(|entry| entry.fits(gate)) {
+                    let pairs = of_gates.zip(entry.info.gates).zip(&mut epsilons);
+                    for ((found, gate), epsilon) in pairs {
+                        if let Some(found) = found {
                             *epsilon = found.value.into();
                             taken.push(gate.name);
-                            fits = true;
                         }
                     }
-                    if fits {
-                        let set = if taken.is_empty() {
-                            name.clone()
-                        } else {
-                            format!("{name}: {}", taken.join("+"))
-                        };
-                        rows.push(Row { entry, set, epsilons, contract });
-                    }
+                    let set = match taken.is_empty() {
+                        true => name.clone(),
+                        false => format!("{name}: {}", taken.join("+")),
+                    };
+                    rows.push(Row { entry, set, epsilons, contract });
                 }
                 EpsilonChoice::Given(pairs) => {
                     let mut epsilons = decimals(sets[0].values);
@@ -110,11 +113,10 @@ impl EpsilonChoice {
             }
         }
         applied.into_iter().collect::<Result<(), PlanError>>()?;
-        if rows.is_empty() {
-            let EpsilonChoice::Preset(name) = self else { return Ok(rows) };
-            return Err(PlanError(format!(
-                "preset '{name}' fits no selected kernel: no gate has its name and dimension"
-            )));
+        if let (true, EpsilonChoice::Preset(name), Some(left_over)) =
+            (rows.is_empty(), self, left_over)
+        {
+            return Err(unfit(name, left_over, entries));
         }
         Ok(rows)
     }
@@ -135,6 +137,26 @@ fn find_preset(name: &str) -> Result<&'static Preset, PlanError> {
         let advice = did_you_mean(name, names, "hairline list presets");
         PlanError(format!("unknown epsilon preset '{name}'{advice}"))
     })
+}
+
+/// Why a preset is for none of some kernels: one of its epsilons has no gate there.
+fn unfit(name: &str, left_over: &PresetEntry, entries: &[&'static Entry]) -> PlanError {
+    let of = match entries {
+        [entry] => entry.info.name.to_owned(),
+        _ => "a selected kernel".to_owned(),
+    };
+    let takes_all = |entry: &&Entry| {
+        find_preset(name).is_ok_and(|preset| preset.over(entry.info.gates).is_ok())
+    };
+    let others: Vec<&str> = KERNELS.iter().filter(takes_all).map(|entry| entry.info.name).collect();
+    let advice = match others.is_empty() {
+        true => String::new(),
+        false => format!("; it fits {}", others.join(", ")),
+    };
+    let (form, gate) = (left_over.form, left_over.gate);
+    PlanError(format!(
+        "preset '{name}' refuses where {form}, and no gate of {of} is a '{gate}' of that dimension{advice}"
+    ))
 }
 
 /// An epsilon that a gate can take.
@@ -207,7 +229,6 @@ impl RowSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{KERNELS, find};
 
     fn rows(names: &[&str], choice: EpsilonChoice) -> Result<Vec<Row>, PlanError> {
         let entries: Vec<_> = names.iter().map(|name| find(name).unwrap()).collect();
@@ -271,14 +292,32 @@ mod tests {
 
     #[test]
     fn presets_go_only_where_the_dimension_is_the_same() {
-        let bvh = EpsilonChoice::Preset("bvh".to_owned());
-        let taken = rows(&["moller-trumbore", "cramer", "woop-watertight"], bvh).unwrap();
+        let truck = || EpsilonChoice::Preset("truck".to_owned());
+        let taken = rows(&["moller-trumbore", "cramer", "woop-watertight"], truck()).unwrap();
         assert_eq!(taken.len(), 2, "woop's determinant has another dimension");
-        assert_eq!(taken[1].epsilons::<f32>(), [f32::EPSILON, f32::EPSILON, 0.0]);
+        let bvh = || EpsilonChoice::Preset("bvh".to_owned());
+        let taken = rows(&["cramer"], bvh()).unwrap();
+        assert_eq!(taken[0].epsilons::<f32>(), [f32::EPSILON, f32::EPSILON, 0.0]);
         let bullet = EpsilonChoice::Preset("bullet".to_owned());
-        assert!(
-            rows(&["moller-trumbore"], bullet).err().unwrap().0.contains("fits no selected kernel")
+        let error = rows(&["moller-trumbore"], bullet).err().unwrap().0;
+        assert!(error.contains("no gate of moller-trumbore is a 'edge-over-n2'"), "{error}");
+    }
+
+    #[test]
+    fn a_preset_is_taken_whole_or_not_at_all() {
+        let godot = || EpsilonChoice::Preset("godot".to_owned());
+        let error = rows(&["moller-trumbore"], godot()).err().unwrap().0;
+        assert_eq!(
+            error,
+            "preset 'godot' refuses where !(t > e), and no gate of moller-trumbore is a 't' of that dimension; it \
+             fits cramer, plane-inside-out, plane-inside-out-precomputed, plane-inside-out-strict, convex-polygon, \
+             moller-trumbore-t"
         );
+        // Among several kernels one that does not take it is left out.
+        let taken = rows(&["moller-trumbore", "moller-trumbore-t"], godot()).unwrap();
+        let [row] = &taken[..] else { panic!("{} rows", taken.len()) };
+        assert_eq!((row.entry.info.name, &*row.set), ("moller-trumbore-t", "godot: parallel+t"));
+        assert_eq!(row.epsilons::<f64>(), [1e-5, 0.0, 1e-5]);
     }
 
     #[test]

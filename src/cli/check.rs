@@ -148,13 +148,16 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         arguments.expectations = beside.display().to_string();
     }
     let outputs = arguments.run.report.outputs()?;
-    let unproved = demand::unproved(&arguments.proved)?;
-    let mut record = match &arguments.record {
-        Some(file) => read_record(file)?,
-        None => {
-            let plan = arguments.plan().map_err(|failure| blame(failure, &given))?;
-            arguments.run.execute(&plan, outputs.illustrate())?
-        }
+    let plan = match arguments.record {
+        Some(_) => None,
+        None => Some(arguments.plan().map_err(|failure| blame(failure, &given))?),
+    };
+    let rows = plan.as_ref().map_or(&[][..], |plan| &plan.rows);
+    let unproved = demand::unproved(&arguments.proved, rows)?;
+    let mut record = match (&arguments.record, &plan) {
+        (Some(file), _) => read_record(file)?,
+        (None, Some(plan)) => arguments.run.execute(plan, outputs.illustrate())?,
+        (None, None) => unreachable!("without a record there is a plan"),
     };
     self_check(&record)?;
     if let Some(partial) = &record.result.partial {

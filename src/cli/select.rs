@@ -75,7 +75,12 @@ impl KernelArguments {
             .transpose()
             .map_err(|error| Failure::usage(format!("--band: {error}")))?;
         let entries = self.in_arithmetics(self.entries()?)?;
-        let mut rows = self.choice()?.rows(&entries, self.contract.as_deref())?;
+        let (choice, contract) = (self.choice()?, self.contract.as_deref());
+        if self.epsilon_preset.is_some() && self.names_kernels() {
+            // Each kernel that is named takes the whole preset.
+            entries.iter().try_for_each(|entry| choice.rows(&[*entry], contract).map(drop))?;
+        }
+        let mut rows = choice.rows(&entries, contract)?;
         if band.is_some() {
             rows.iter_mut().for_each(|row| row.contract.band = band);
         }

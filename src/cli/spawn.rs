@@ -21,7 +21,7 @@ use crate::spawn::{
 };
 use choice::{least_without_failure, made_for};
 use clap::Args;
-use record::{PointsPart, SCHEMA, SpawnRecord, proved_distance};
+use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
 use std::io::{self, Write};
 
 /// What to run, and how to report it.
@@ -210,9 +210,9 @@ impl Settings<'_> {
         let plan = Plan { row, scene, kind, schemes, wall, fold, with_least, seed, count };
         let pilot = run_plan::<F>(&plan, progress);
         let mut schemes = schemes.clone();
-        let (given, proved) = (schemes.len(), proved_distance::<F>(&plan));
+        let (given, derived) = (schemes.len(), DerivedPart::of::<F>(&plan, &pilot));
         if arguments.makes_schemes() {
-            let made = made_for(&pilot, proved);
+            let made = made_for(&pilot, derived.as_ref().map(|derived| derived.normal));
             let plan = Plan { schemes: &made.concat(), with_least: false, ..plan };
             let tried = run_plan::<F>(&plan, progress);
             schemes.extend(least_without_failure(made, &tried));
@@ -220,7 +220,7 @@ impl Settings<'_> {
         let plan = Plan { schemes: &schemes, seed: arguments.seed, ..plan };
         let sums = run_plan::<F>(&plan, progress);
         let made: Vec<usize> = (given..schemes.len()).collect();
-        PointsPart::new::<F>(&plan, [&pilot, &sums], &made, proved, &arguments.scene)
+        PointsPart::new::<F>(&plan, [&pilot, &sums], &made, derived, &arguments.scene)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::{Dimension, Gate, Tunable};
 
-/// The epsilons of a library. A kernel takes one only at a gate of the same name and dimension.
+/// The epsilons of a library. A kernel takes each at a gate of the same name and dimension; one that lacks such a gate
+/// is not the library's test, and does not take the others either.
 pub struct Preset {
     /// The name on the command line.
     pub name: &'static str,
@@ -37,6 +38,19 @@ impl PresetEntry {
     /// Whether a kernel's gate can take this epsilon.
     pub fn fits(&self, gate: &Gate) -> bool {
         gate.name == self.gate && gate.dimension == self.dimension && gate.epsilon != Tunable::Fixed
+    }
+}
+
+impl Preset {
+    /// By gate of a kernel its epsilon, where the preset has one; an error if an epsilon fits none of the gates.
+    pub fn over<'a>(
+        &'a self,
+        gates: &'a [Gate],
+    ) -> Result<impl Iterator<Item = Option<&'a PresetEntry>>, &'a PresetEntry> {
+        match self.entries.iter().find(|entry| !gates.iter().any(|gate| entry.fits(gate))) {
+            Some(left_over) => Err(left_over),
+            None => Ok(gates.iter().map(|gate| self.entries.iter().find(|entry| entry.fits(gate)))),
+        }
     }
 }
 
@@ -91,7 +105,7 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "godot",
-        source: "Godot: abs(det) < 1e-5, t > 1e-5",
+        source: "Godot, Geometry3D::ray_intersects_triangle: abs(det) < 1e-5, t > 1e-5",
         entries: &[parallel("abs(det) < e", Decimal("1e-5")), t("!(t > e)", Decimal("1e-5"))],
     },
     Preset {

@@ -129,6 +129,7 @@ pub static KERNELS: &[Entry] = &[
     Entry::of::<super::plane_inside_out::PlaneInsideOutStrict>(),
     Entry::of::<super::plane_inside_out::ConvexPolygon>(),
     Entry::of::<super::moller_trumbore::MollerTrumbore>(),
+    Entry::of::<super::moller_trumbore::MollerTrumboreT>(),
     Entry::of::<super::moller_trumbore::MollerTrumboreCulling>(),
     Entry::of::<super::woop_watertight::WoopWatertight>(),
     Entry::of::<super::plucker::Plucker>(),

@@ -14,10 +14,10 @@
 
 #![forbid(unsafe_code)]
 
+mod derived;
 mod hit;
 mod neighbour;
 mod plane;
-mod proved;
 mod published;
 mod run;
 mod safe;
@@ -25,9 +25,9 @@ mod scheme;
 mod sums;
 mod trial;
 
+pub use derived::{ROOM, derived_normal, least_weight};
 pub use hit::{HitPoint, Offset, Start};
 pub use plane::Plane;
-pub use proved::proved_normal;
 pub use published::{PUBLISHED, Parameter, Published};
 pub use run::{Plan, new_ray, run};
 pub use safe::{Least, least};

@@ -139,6 +139,8 @@ fn add_chunk<F: Scalar>(plan: &Plan<'_>, trials: Trials<F>, sums: &mut Sums) {
     let measured: Vec<Measured<F>> =
         trials.iter().map(|trial| Measured::of(trial, plan.fold, plan.with_least)).collect();
     for (trial, measured) in trials.iter().zip(&measured) {
+        let weights = trial.hit.weights.into_iter().flatten().map(F::to_f64);
+        sums.least_weight = weights.fold(sums.least_weight, f64::min);
         match &measured.least {
             None => sums.without_least += u64::from(plan.with_least),
             Some(least) if least.distance.is_zero() => {}

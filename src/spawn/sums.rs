@@ -93,6 +93,8 @@ pub struct Sums {
     pub without_side: u64,
     /// Hits whose point is not finite.
     pub not_finite: u64,
+    /// The least weight of a vertex at any hit point; 0 if none is below.
+    pub least_weight: f64,
     /// Hit points for which no distance along the normal is right.
     pub without_least: u64,
     /// The smallest safe distances along the normal, where one is needed.
@@ -109,6 +111,7 @@ impl Merge for Sums {
         self.missed += other.missed;
         self.without_side += other.without_side;
         self.not_finite += other.not_finite;
+        self.least_weight = self.least_weight.min(other.least_weight);
         self.without_least += other.without_least;
         self.least.merge(&other.least);
         self.least_in_ulps.merge(&other.least_in_ulps);

@@ -5,6 +5,7 @@
 mod action;
 mod attribution;
 mod check;
+mod claims;
 mod cli;
 mod diff;
 mod epsilon;

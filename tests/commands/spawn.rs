@@ -46,7 +46,7 @@ fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
         "{screen}"
     );
     assert!(screen.contains("leave out --scheme"), "{screen}");
-    // Of few rays the lowest never fails, but what is proved comes first.
+    // Of few rays the lowest never fails, but the derived bound comes first.
     let (few, _) =
         ends(&folder, &["spawn", "--scene", "room", "-n", "20", "--point", "uv", "-q"], 0);
     assert!(few.contains("use  normal=3.16e-6"), "{few}");
@@ -70,8 +70,8 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
         assert_eq!(schemes.len(), if part["scalar"] == "f32" { 12 } else { 10 }, "{part}");
         assert!(schemes.iter().all(|scheme| scheme["source"].is_string()));
         assert!(schemes.iter().all(|scheme| scheme["wrong"]["of"] == part["hits"]));
-        // What is recommended never fails, and nothing of which that is true is much lower. Where a distance is
-        // proved, it is that.
+        // What is recommended never fails, and nothing of which that is true is much lower. Where there is
+        // a derived bound, it is that.
         let median = |scheme: &Value| scheme["height_in_edges"]["median"].as_f64().unwrap();
         let never =
             |scheme: &&Value| scheme["wrong"]["count"] == 0 && scheme["self_hits"]["count"] == 0;
@@ -79,7 +79,7 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
         let best = schemes.iter().find(|scheme| scheme["name"] == part["best"]["scheme"]).unwrap();
         assert!(never(&best), "{best}");
         assert!(median(best) <= 4.0 * lowest, "{best}: {lowest}");
-        assert_eq!(part["best"]["is_proved"], part["proved_normal"].is_number(), "{part}");
+        assert_eq!(part["best"]["is_derived"], part["derived"].is_object(), "{part}");
     }
     let of = |part: &Value, name: &str| {
         let schemes = part["schemes"].as_array().unwrap();
@@ -187,8 +187,8 @@ fn neighbours_are_passed_where_they_are_folded_up_steeply_enough() {
 }
 
 #[test]
-fn a_proved_distance_is_larger_than_any_that_was_needed() {
-    let folder = scratch("spawn-proved");
+fn a_derived_bound_is_larger_than_any_that_was_needed() {
+    let folder = scratch("spawn-derived");
     let scenes = [
         ("unit", "f32", "20000"),
         ("city", "f64", "1000"),
@@ -198,25 +198,25 @@ fn a_proved_distance_is_larger_than_any_that_was_needed() {
         let flags = ["--scene", scene, "--scalar", scalar, "-n", count, "--scheme", "none"];
         let record = json(&folder, &flags);
         let [of_weights, of_ray] = [&record["points"][0], &record["points"][1]];
-        assert!(of_ray["proved_normal"].is_null());
-        let proved = of_weights["proved_normal"].as_f64().unwrap();
+        assert!(of_ray["derived"].is_null());
+        let derived = of_weights["derived"]["normal"].as_f64().unwrap();
         let needed = of_weights["least"]["lengths"]["largest"].as_f64().unwrap();
-        assert!((0.02..1.0).contains(&(needed / proved)), "{scene}: {needed} {proved}");
-        let scheme = format!("normal={proved:e}");
+        assert!((0.02..1.0).contains(&(needed / derived)), "{scene}: {needed} {derived}");
+        let scheme = format!("normal={derived:e}");
         let flags = ["--scene", scene, "--scalar", scalar, "-n", count, "--scheme", &scheme];
         assert_eq!(json(&folder, &flags)["points"][0]["schemes"][0]["wrong"]["count"], 0);
     }
 }
 
 #[test]
-fn nothing_is_proved_where_the_squared_lengths_of_normals_leave_the_range() {
-    let folder = scratch("spawn-unproved");
+fn no_bound_is_derived_where_the_squared_lengths_of_normals_leave_the_range() {
+    let folder = scratch("spawn-underived");
     // In f32 they overflow, and `normal=` at the bound is wrong for half of the starts.
     let scene = "extent=1e11,edge=5e10,distance=0..1e11";
-    for (scalar, is_proved) in [("f32", false), ("f64", true)] {
+    for (scalar, is_derived) in [("f32", false), ("f64", true)] {
         let flags = ["--scene", scene, "--scalar", scalar, "-n", "200", "--scheme", "none"];
         let record = json(&folder, &flags);
-        assert_eq!(record["points"][0]["proved_normal"].is_number(), is_proved, "{scalar}");
+        assert_eq!(record["points"][0]["derived"].is_object(), is_derived, "{scalar}");
     }
 }
 

@@ -4,6 +4,7 @@
 mod accuracy;
 mod arithmetic;
 mod contradictions;
+mod derived;
 mod drawing;
 mod expectations;
 mod facts;

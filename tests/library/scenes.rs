@@ -382,7 +382,8 @@ fn proved_values_are_beyond_the_limits_that_rays_show_and_no_ray_contradicts_the
             for Proved { knob, count, is_lower, value } in proved {
                 let name =
                     format!("{} {} {:?} {value:e}", preset.name, entry.info.name, counts[count]);
-                let limit = Limit { knob, count, is_lower, value: Some(value), one_in: 1 };
+                let at = Some(value);
+                let limit = Limit { knob, count, is_lower, value: at, far: None, one_in: 1 };
                 let attempt = [Attempt::at_limit(&limit, &zero).unwrap()];
                 let wrong = count_at(&setting, &attempt, 11, 4000, &Unobserved).remove(0)[count];
                 assert_eq!(wrong.count, 0, "{name}");

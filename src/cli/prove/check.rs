@@ -37,7 +37,6 @@ fn checked(file: &str) -> Result<String, Failure> {
     let entry = kernel::find(name).filter(|_| scalar != "float");
     let recorded = entry.map(|entry| in_named_scalar!(scalar, F => recorded::<F>(entry)));
     let sections = sections(&text);
-    let has_limits = sections.iter().any(|section| section.has_limits() || 1 < sections.len());
     let mut is_whole = false;
     let whose = match recorded {
         None => "no kernel of that name is here to compare".to_owned(),
@@ -60,9 +59,6 @@ fn checked(file: &str) -> Result<String, Failure> {
                 .collect();
             is_whole = missing.is_empty();
             match is_whole {
-                true if has_limits => {
-                    "all that the kernel compares, for inputs as follows".to_owned()
-                }
                 true => "all that the kernel compares".to_owned(),
                 false => format!("without all of {}", Vec::from_iter(missing).join(", ")),
             }
@@ -76,18 +72,22 @@ fn checked(file: &str) -> Result<String, Failure> {
     let mut of_edges = proved.iter().filter(is_edge).peekable();
     let has_signs = of_edges.peek().is_some() && of_edges.all(|claim| claim.has_signs);
     let signs = if is_whole && has_signs { ", signs of every edge" } else { "" };
-    let mut said = format!("{file}: {bounds} proved of {kernel}: {gates}{signs} ({whose})");
+    let mut said = format!(
+        "{file}: {bounds} proved of {kernel}: what it compares is wrong by at most {gates}{signs} ({whose})"
+    );
     // What divides must be there for each size of triangles for which anything is, and so must what does not.
     let of_kind = |is_limited: bool| -> BTreeSet<&str> {
         sections.iter().flat_map(|section| section.of_kind(is_limited)).collect()
     };
     let (limited, unlimited) = (of_kind(true), of_kind(false));
-    for section in sections.iter().filter(|_| has_limits) {
+    // A claim without its domain is none.
+    for section in &sections {
         let errors = largest_errors(&proved, |program| section.numbers.contains(&program));
         let all = if section.has_limits() { &limited } else { &unlimited };
         let here: BTreeSet<&str> = section.of_kind(section.has_limits()).collect();
         let missing = if here == *all { "" } else { "; programs of other sizes are missing here" };
-        said.push_str(&format!("\n  {}: {errors}{missing}", section.inputs()));
+        let errors = if sections.len() == 1 { String::new() } else { format!(": {errors}") };
+        said.push_str(&format!("\n  for every float with {}{errors}{missing}", section.inputs()));
     }
     Ok(said)
 }
@@ -136,9 +136,13 @@ impl Section<'_> {
             at.and_then(|at| words.get(at + 1)).map_or(f64::NAN, |word| number(word))
         };
         let mut text = format!(
-            "edges up to {:.3e}, vertices up to {:.3e} from the origin of the ray",
+            "coordinates of edges up to {:.3e}, of vertices from the origin of the ray up to {:.3e}, of points up to \
+             {:.3e}, of directions up to {}, t_min and t_max up to {:.3e}",
             after("edge"),
-            after("reach")
+            after("reach"),
+            after("world"),
+            after("direction"),
+            after("extent")
         );
         for (word, name) in [("at-least", "divisors at least"), ("at-most", "quotients at most")] {
             let of_word = self.limits.iter().flatten().filter(|(found, _)| *found == word);
@@ -151,6 +155,13 @@ impl Section<'_> {
                 text.push_str(&format!(", {name} {}", sizes.join("..")));
             }
         }
+        let other = if self.has_limits() { "other " } else { "" };
+        text.push_str(&format!(
+            ", {other}divisors at least {:.3e} (the direction's largest coordinate {}), {other}quotients at most {:.3e}",
+            after("floor"),
+            after("direction-floor"),
+            after("quotient")
+        ));
         text
     }
 }

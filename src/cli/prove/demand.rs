@@ -2,7 +2,8 @@
 
 use super::super::exit::Failure;
 use super::super::flags::{find_kernel, unknown};
-use crate::kernel::{Entry, Scalar};
+use crate::audit::Row;
+use crate::kernel::{Entry, Role, Scalar};
 use crate::prove::{Domain, Effort, Searched, Summary, Symmetry};
 use crate::report::{Unproved, WATERTIGHT};
 
@@ -17,14 +18,16 @@ struct Demand<'a> {
     most: f64,
 }
 
-/// The demands that are not met, each with what is proved instead.
-pub fn unproved(demands: &[String]) -> Result<Vec<Unproved>, Failure> {
+/// The demands that are not met, each with what is proved instead; or with how a plan's rows run the kernel, if that is
+/// not what the proof is about.
+pub fn unproved(demands: &[String], rows: &[Row]) -> Result<Vec<Unproved>, Failure> {
     let mut unproved = Vec::new();
     for text in demands {
         let demand = Demand::read(text)?;
         let why = if demand.is_f64 { demand.why_not::<f64>() } else { demand.why_not::<f32>() };
+        let why = why?.or_else(|| demand.run_otherwise(rows));
         let kernel = demand.entry.info.name;
-        unproved.extend(why?.map(|why| Unproved {
+        unproved.extend(why.map(|why| Unproved {
             kernel: kernel.to_owned(),
             scalar: if demand.is_f64 { "f64" } else { "f32" }.to_owned(),
             gate: demand.gate.to_owned(),
@@ -62,6 +65,25 @@ impl Demand<'_> {
             return Err(unknown("gate", gate, gates(), &format!("hairline prove --kernel {name}")));
         }
         Ok(Demand { text, entry, is_f64, gate, value, most })
+    }
+
+    /// Why the proof says nothing about a plan that runs the kernel, if it does not.
+    fn run_otherwise(&self, rows: &[Row]) -> Option<String> {
+        let name = self.entry.info.name;
+        let mut own = rows.iter().filter(|row| row.entry.info.name == name).peekable();
+        if own.peek().is_none() {
+            let is_variant = |row: &&Row| {
+                row.entry.info.name.strip_prefix(name).is_some_and(|rest| rest.starts_with('+'))
+            };
+            let variant = rows.iter().find(is_variant)?.entry.info.name;
+            return Some(format!("the plan runs {variant} in its place"));
+        }
+        let is_refusing = |row: &&Row| {
+            let gates = self.entry.info.gates.iter().zip(row.epsilons::<f64>());
+            gates.into_iter().any(|(gate, e)| gate.role == Role::Edge && 0.0 < e)
+        };
+        let row = own.find(|row| self.gate == WATERTIGHT && is_refusing(row))?;
+        Some(format!("the plan runs it at {}, above 0", row.set))
     }
 
     /// Why a demand is not met, if it is not.

@@ -6,24 +6,24 @@ use crate::spawn::{OfScheme, Scheme, Sums, parse};
 /// Offsets that are made for a scene are 2, 4, … times the largest that was needed in the pilot.
 const DOUBLINGS: u32 = 10;
 
-/// Distances along the normal, and others that follow the coordinates. Of the first the proved one, if there is one;
+/// Distances along the normal, and others that follow the coordinates. Of the first the derived one, if there is one;
 /// of others each is the double of the one before, from twice the largest smallest safe offset that a pilot saw.
-pub fn made_for(pilot: &Sums, proved: Option<f64>) -> [Vec<Scheme>; 2] {
+pub fn made_for(pilot: &Sums, derived: Option<f64>) -> [Vec<Scheme>; 2] {
     let made = |name: &str, needed: f64| -> Vec<Scheme> {
         let times = (1..=DOUBLINGS).filter(|_| 0.0 < needed).map(|k| f64::from(1u32 << k));
         let scheme = |times| parse(&format!("{name}={}", rounded_up(times * needed)));
         times.filter_map(|times| scheme(times).ok()).collect()
     };
-    let along_normal = match proved {
-        Some(proved) => parse(&proved_name(proved)).into_iter().collect(),
+    let along_normal = match derived {
+        Some(derived) => parse(&derived_name(derived)).into_iter().collect(),
         None => made("normal", pilot.least.largest()),
     };
     [along_normal, made("ulps", pilot.least_in_ulps.largest())]
 }
 
-/// The scheme of a proved distance along the normal.
-pub fn proved_name(proved: f64) -> String {
-    format!("normal={}", Number(proved))
+/// The scheme of a derived distance along the normal.
+pub fn derived_name(derived: f64) -> String {
+    format!("normal={}", Number(derived))
 }
 
 /// Of such schemes the first of each list without a failure; the last if there is none.
@@ -54,12 +54,12 @@ fn rounded_up(x: f64) -> String {
 const AS_LOW: f64 = 4.0;
 
 /// The scheme to use of those that never failed: in the pilot, which those that are made for a scene were made on, and
-/// in the run: one that is `proved`; else the first of some preferred ones that is about as low as any; else the lowest.
+/// in the run: one that is `derived`; else the first of some preferred ones that is about as low as any; else the lowest.
 pub fn best(
     pilot: &Sums,
     sums: &Sums,
     preferred: &[usize],
-    proved: Option<usize>,
+    derived: Option<usize>,
 ) -> Option<usize> {
     let median =
         |place: &usize| sums.schemes[*place].in_edges.quantile(0.5).unwrap_or(f64::INFINITY);
@@ -70,10 +70,10 @@ pub fn best(
     let all = (0..sums.schemes.len()).filter(never);
     let lowest = all.min_by(|a, b| median(a).total_cmp(&median(b)))?;
     let is_as_good = |place: &&usize| {
-        let is_low = proved == Some(**place) || median(place) <= AS_LOW * median(&lowest);
+        let is_low = derived == Some(**place) || median(place) <= AS_LOW * median(&lowest);
         never(place) && is_low && !is_too_high(&sums.schemes[**place])
     };
-    Some(proved.iter().chain(preferred).find(is_as_good).copied().unwrap_or(lowest))
+    Some(derived.iter().chain(preferred).find(is_as_good).copied().unwrap_or(lowest))
 }
 
 /// Whether half of a scheme's starts are more than a tenth of their triangle's longest edge above it, or one in a

@@ -1,6 +1,6 @@
 //! The versioned record of `spawn`; the same bytes whatever the number of threads.
 
-use super::choice::{best, is_too_high, proved_name};
+use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, shell_word};
 use crate::case::Case;
@@ -8,7 +8,8 @@ use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
 use crate::spawn::{
-    Heights, Lengths, OfScheme, Plan, PointKind, Scheme, Sums, first_ray_id, new_ray, proved_normal,
+    Heights, Lengths, OfScheme, Plan, PointKind, ROOM, Scheme, Sums, derived_normal, first_ray_id,
+    least_weight, new_ray,
 };
 use serde::Serialize;
 use std::io::{self, Write};
@@ -66,12 +67,25 @@ pub struct PointsPart {
     pub not_finite: u64,
     /// The smallest safe offsets along the normal.
     pub least: LeastPart,
-    /// The distance along the normal, and every larger one, that is proved to have no wrong start.
-    pub proved_normal: Option<f64>,
+    /// The derived bound: the distance along the normal that, like every larger one, has no wrong start.
+    pub derived: Option<DerivedPart>,
     /// A scheme with neither a wrong start nor a self-hit that is about as low as any of them.
     pub best: Option<BestPart>,
     /// What each scheme does.
     pub schemes: Vec<SchemePart>,
+}
+
+/// A distance along the normal from a derivation by hand (docs/guide/spawn.md), which no certificate stands for.
+#[derive(Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
+pub struct DerivedPart {
+    /// This distance and every larger one have no wrong start, on any ray of the scene.
+    pub normal: f64,
+    /// It holds where u, v and 1-u-v are at least this.
+    pub least_weight: f64,
+    /// And where they are at most this, which follows.
+    pub largest_weight: f64,
 }
 
 /// The smallest safe offsets along the normal, of the hit points that need one.
@@ -111,8 +125,8 @@ pub struct BestPart {
     pub scheme: String,
     /// At most one new ray in this many fails, with a confidence of 95 %.
     pub one_in: u64,
-    /// Whether it is proved to have no wrong start.
-    pub is_proved: bool,
+    /// Whether it is the derived bound.
+    pub is_derived: bool,
     /// Whether half of its starts are more than a tenth of their triangle's longest edge above it, or one in a hundred
     /// more than the whole: then it is no good, and all others that never fail are as bad.
     pub is_too_high: bool,
@@ -182,7 +196,7 @@ impl PointsPart {
         plan: &Plan<'_>,
         [pilot, sums]: [&Sums; 2],
         preferred: &[usize],
-        proved_normal: Option<f64>,
+        derived: Option<DerivedPart>,
         words: &str,
     ) -> PointsPart
     where
@@ -190,11 +204,12 @@ impl PointsPart {
     {
         let needed = sums.least.count() + sums.without_least;
         let schemes = plan.schemes.iter().zip(&sums.schemes);
-        let is_proved = |scheme: &Scheme| {
-            proved_normal.is_some_and(|proved| scheme.name == proved_name(proved))
+        let derived = derived.filter(|derived| derived.covers(sums));
+        let is_derived = |scheme: &Scheme| {
+            derived.as_ref().is_some_and(|derived| scheme.name == derived_name(derived.normal))
         };
-        let proved = plan.schemes.iter().position(is_proved);
-        let best = best(pilot, sums, preferred, proved);
+        let at_derived = plan.schemes.iter().position(is_derived);
+        let best = best(pilot, sums, preferred, at_derived);
         let flags = match plan.row.set.as_str() {
             "source" => plan.row.entry.selector(),
             _ => plan.row.flags(),
@@ -214,7 +229,7 @@ impl PointsPart {
                 lengths: LengthsPart::new(&sums.least),
                 ulps: LengthsPart::new(&sums.least_in_ulps),
             },
-            proved_normal,
+            derived,
             best: best.map(|place| {
                 let scheme = plan.schemes[place].name.clone();
                 let (scene, point) = (shell_word(words), plan.kind.name());
@@ -226,7 +241,7 @@ impl PointsPart {
                 let sums = &sums.schemes[place];
                 BestPart {
                     one_in: one_in(sums),
-                    is_proved: proved == Some(place),
+                    is_derived: at_derived == Some(place),
                     is_too_high: is_too_high(sums),
                     scheme,
                     command,
@@ -238,10 +253,22 @@ impl PointsPart {
     }
 }
 
-/// The least distance along the normal that is proved for points of a kind, rounded up.
-pub fn proved_distance<F: Scalar>(plan: &Plan<'_>) -> Option<f64> {
-    let of_weights = (plan.kind == PointKind::Weights).then(|| proved_normal::<F>(plan.scene))?;
-    of_weights.map(|least| three_digits(least, true))
+impl DerivedPart {
+    /// The derived bound of a plan, rounded up; none if what the row's gates let through may have any weights, or a
+    /// pilot saw others than that.
+    pub fn of<F: Scalar>(plan: &Plan<'_>, pilot: &Sums) -> Option<DerivedPart> {
+        let of_weights = (plan.kind == PointKind::Weights).then(|| least_weight(plan.row))?;
+        let least_weight = of_weights?;
+        let normal = three_digits(derived_normal::<F>(plan.scene, least_weight)?, true);
+        let derived =
+            DerivedPart { normal, least_weight, largest_weight: 1.0 - 2.0 * least_weight };
+        Some(derived).filter(|derived| derived.covers(pilot))
+    }
+
+    /// Whether every hit point of a run has such weights, but for rounding.
+    fn covers(&self, sums: &Sums) -> bool {
+        self.least_weight - ROOM <= sums.least_weight
+    }
 }
 
 /// At most one new ray in this many fails, with a confidence of 95 %: two digits, rounded down.

@@ -1,8 +1,9 @@
 //! The record of `spawn` for people at a terminal: what to use, then what each scheme does. The layout is not
 //! stable.
 
-use super::choice::proved_name;
-use super::record::{HeightsPart, PointsPart, SchemePart, SpawnRecord};
+use super::choice::derived_name;
+use super::record::{DerivedPart, HeightsPart, PointsPart, SchemePart, SpawnRecord};
+use crate::case::Number;
 use crate::report::{group_digits, interval_of, percent};
 use crate::spawn::describe;
 use std::io::{self, Write};
@@ -65,10 +66,11 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
                 );
             }
             writeln!(out, "  use  {}{}", best.scheme, describe(&best.scheme))?;
-            if best.is_proved {
+            if let Some(derived) = part.derived.as_ref().filter(|_| best.is_derived) {
                 writeln!(
                     out,
-                    "       proved: it never has a wrong side, on any ray of such a scene"
+                    "       derived bound: no wrong side on any ray of such a scene with {}",
+                    weights(derived)
                 )?;
             }
             writeln!(
@@ -84,6 +86,12 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// The hypothesis of a derived bound.
+fn weights(derived: &DerivedPart) -> String {
+    let DerivedPart { least_weight, largest_weight, .. } = derived;
+    format!("u, v and 1-u-v from {} to {}", Number(*least_weight), Number(*largest_weight))
 }
 
 /// Three digits at most: `0.0123`, `2.05`, `1.2e-7`.
@@ -164,11 +172,12 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
             size(ulps.largest),
         )?;
     }
-    if let Some(proved) = part.proved_normal {
+    if let Some(derived) = &part.derived {
         writeln!(
             out,
-            "proved: {}{unit} or more never has a wrong side, on any ray of such a scene (weights from 0 to 1)",
-            proved_name(proved)
+            "derived bound: {}{unit} or more, for {} (by hand: docs/guide/spawn.md)",
+            derived_name(derived.normal),
+            weights(derived)
         )?;
     }
     let left_out = [

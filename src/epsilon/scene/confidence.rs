@@ -5,18 +5,57 @@ use libm::{exp, lgamma, log, log1p};
 /// How sure a limit is.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// The most margins that are kept of each count: the k-th is the limit, and k is far smaller.
-pub const KEPT: usize = 64;
+/// The share of wrong answers at a limit, as one in how many, where the trials can show it.
+pub const ONE_IN: u64 = 10_000;
 
-/// For n trials, the smallest round share that they can show with confidence, as one in how many, and the
-/// rank of the margin that shows it. None of fewer than 29 trials, which cannot even show one in ten.
-pub fn rank(n: u64) -> Option<(u64, u64)> {
-    let round = (1..=12).flat_map(|k| [1u64, 2, 5].map(|d| d * 10u64.pow(k)));
-    let shown = |one_in: u64| {
-        let most = (1..=KEPT as u64).take_while(|k| CONFIDENCE <= at_least(*k, n, one_in)).last();
-        Some((most?, one_in))
-    };
-    round.map_while(shown).last()
+/// The most margins that are kept of each count. They are enough for [`ONE_IN`] of nine million trials; of more the
+/// share is smaller.
+pub const KEPT: usize = 1024;
+
+/// The ranks of two margins among n trials, between which the quantile of a share lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ranks {
+    /// The share, as one in how many.
+    pub one_in: u64,
+    /// The last rank whose margin has at most the share before it, with confidence.
+    pub safe: u64,
+    /// The first rank whose margin has at least the share before it, with confidence.
+    pub far: u64,
+}
+
+/// The ranks for n trials. The share is one in [`ONE_IN`], whatever n is, so that the ranks rise with n; of fewer trials
+/// than show it the smallest round share that they can show; of so many that ranks pass [`KEPT`] the largest round share
+/// below. None of fewer than 29 trials, which cannot even show one in ten.
+pub fn ranks(n: u64) -> Option<Ranks> {
+    let rounds = || (1..=18).flat_map(|k| [1u64, 2, 5].map(|d| d * 10u64.pow(k)));
+    let rarer = || rounds().skip_while(|round| *round <= ONE_IN).find_map(|it| ranks_at(n, it));
+    let shown = || rounds().take_while(|round| *round < ONE_IN);
+    ranks_at(n, ONE_IN)
+        .or_else(|| if n < KEPT as u64 * ONE_IN / 4 { None } else { rarer() })
+        .or_else(|| shown().filter_map(|round| ranks_at(n, round)).last())
+}
+
+/// The ranks for one share, if n trials show it and [`KEPT`] margins are enough.
+fn ranks_at(n: u64, one_in: u64) -> Option<Ranks> {
+    let mut fewer = 0.0;
+    let mut safe = None;
+    for k in 1..=KEPT as u64 {
+        fewer += exactly(k - 1, n, one_in);
+        let at_least = 1.0 - fewer;
+        if CONFIDENCE <= at_least {
+            safe = Some(k);
+        }
+        if at_least <= 1.0 - CONFIDENCE {
+            return safe.map(|safe| Ranks { one_in, safe, far: k });
+        }
+    }
+    None
+}
+
+/// How many margins of each count may decide among at most n trials.
+pub fn kept(n: u64) -> usize {
+    // Of fewer trials than show the share, and a larger share, the ranks are at most 16.
+    ranks(n).map_or(0, |ranks| ranks.far as usize).clamp(64, KEPT)
 }
 
 /// Whether so many among n trials show that at most one in so many is.
@@ -27,14 +66,15 @@ pub fn is_shown(found: u64, n: u64, one_in: u64) -> bool {
 
 /// The probability that at least k of n trials succeed if one in so many does.
 fn at_least(k: u64, n: u64, one_in: u64) -> f64 {
-    let (n, p) = (n as f64, 1.0 / one_in as f64);
-    let fewer = |i: u64| {
-        let i = i as f64;
-        let ways = lgamma(n + 1.0) - lgamma(i + 1.0) - lgamma(n - i + 1.0);
-        // No way where i is above n: lgamma is infinite at 0 and below.
-        exp(ways + i * log(p) + (n - i) * log1p(-p))
-    };
-    1.0 - (0..k).map(fewer).sum::<f64>()
+    1.0 - (0..k).map(|i| exactly(i, n, one_in)).sum::<f64>()
+}
+
+/// The probability that i of n trials succeed if one in so many does.
+fn exactly(i: u64, n: u64, one_in: u64) -> f64 {
+    let (i, n, p) = (i as f64, n as f64, 1.0 / one_in as f64);
+    let ways = lgamma(n + 1.0) - lgamma(i + 1.0) - lgamma(n - i + 1.0);
+    // No way where i is above n: lgamma is infinite at 0 and below.
+    exp(ways + i * log(p) + (n - i) * log1p(-p))
 }
 
 #[cfg(test)]
@@ -81,32 +121,52 @@ mod tests {
     }
 
     #[test]
-    fn a_rank_is_the_last_that_shows_the_smallest_round_share() {
+    fn ranks_are_the_last_and_the_first_that_show_the_smallest_round_share() {
         for n in [29, 58, 59, 100, 149, 299, 473, 1000, 2995] {
-            let (k, one_in) = rank(n).unwrap();
-            assert!(CONFIDENCE <= at_least(k, n, one_in), "{n}");
-            assert!(at_least(k + 1, n, one_in) < CONFIDENCE, "{n}");
+            let Ranks { one_in, safe, far } = ranks(n).unwrap();
+            assert!(CONFIDENCE <= at_least(safe, n, one_in), "{n}");
+            assert!(at_least(safe + 1, n, one_in) < CONFIDENCE, "{n}");
+            assert!(at_least(far, n, one_in) <= 1.0 - CONFIDENCE, "{n}");
+            assert!(1.0 - CONFIDENCE < at_least(far - 1, n, one_in), "{n}");
+            assert!(far < 16, "{n}: {far}");
             let rounds = [10, 20, 50, 100, 200, 500, 1000, 2000];
             let next = rounds.into_iter().find(|round| one_in < *round).unwrap();
             assert!(rounds.contains(&one_in) && at_least(1, n, next) < CONFIDENCE, "{n}");
         }
-        // As many as are kept, and no more.
-        assert_eq!(rank(u64::MAX >> 11), Some((KEPT as u64, 5_000_000_000_000)));
+    }
+
+    #[test]
+    fn more_trials_keep_the_share_and_raise_the_ranks() {
+        let of = |n: u64| ranks(n).map(|Ranks { one_in, safe, far }| [one_in, safe, far]);
+        assert_eq!(of(40_000), Some([10_000, 1, 9]));
+        assert_eq!(of(200_000), Some([10_000, 13, 29]));
+        assert_eq!(of(1_500_000), Some([10_000, 130, 171]));
+        let mut before = 0;
+        for n in (30_000..9_000_000).step_by(123_456) {
+            let Ranks { one_in, safe, far } = ranks(n).unwrap();
+            assert!(one_in == ONE_IN && before <= safe && far as usize <= kept(n), "{n}");
+            before = safe;
+        }
+        // Where more are not kept, the share falls, and the limit is still no extreme.
+        for n in [20_000_000, 10_u64.pow(9), 10_u64.pow(12)] {
+            let Ranks { one_in, safe, far } = ranks(n).unwrap();
+            assert!(ONE_IN < one_in && 100 < safe && far as usize <= KEPT, "{n}: {one_in} {safe}");
+        }
     }
 
     #[test]
     fn ranks_are_those_of_the_tables() {
         // 1 - 0.99^299 = 0.9505 and 1 - 0.99^298 = 0.9500 (Wilks: 299 for one in a hundred).
-        assert_eq!(rank(28), None);
-        assert_eq!(rank(29), Some((1, 10)));
-        assert_eq!(rank(298).unwrap().1, 50);
-        assert_eq!(rank(299).unwrap(), (1, 100));
-        assert_eq!(rank(29_956).unwrap(), (1, 10_000));
-        assert_eq!(rank(29_955).unwrap().1, 5_000);
+        let safe = |n: u64| ranks(n).map(|ranks| (ranks.safe, ranks.one_in));
+        assert_eq!(safe(28), None);
+        assert_eq!(safe(29), Some((1, 10)));
+        assert_eq!(safe(298).unwrap().1, 50);
+        assert_eq!(safe(299).unwrap(), (1, 100));
+        assert_eq!(safe(29_956).unwrap(), (1, 10_000));
+        assert_eq!(safe(29_955).unwrap().1, 5_000);
         // Nonparametric tolerance limits: the second smallest needs 473 for one in a hundred.
         assert!(CONFIDENCE <= at_least(2, 473, 100) && at_least(2, 472, 100) < CONFIDENCE);
         assert!(is_shown(0, 299, 100) && !is_shown(0, 298, 100) && !is_shown(0, 0, 100));
         assert!(is_shown(1, 473, 100) && !is_shown(1, 472, 100) && !is_shown(5, 400, 100));
-        assert!(rank(10_u64.pow(12)).unwrap().1 >= 10_u64.pow(11));
     }
 }

@@ -3,10 +3,11 @@
 //!
 //! Of n trials let m be the k-th smallest margin. The share of all trials with a margin below m is at most p
 //! with confidence P(at least k of n trials are among the lowest share p), which is a binomial
-//! probability, whatever the distribution of margins is (Wilks 1941).
+//! probability, whatever the distribution of margins is (Wilks 1941). With a larger rank the share is at least p in
+//! the same way. So between two ranks lies the value at which just the share p is wrong.
 
 use super::candidates::middle;
-use super::confidence::{KEPT, rank};
+use super::confidence::{Ranks, kept, ranks};
 use super::trials::{Count, Kind, Setting, Trial, accepts};
 use crate::arith::{Float, smallest_normal, two_digits};
 use crate::engine::{Merge, Observer};
@@ -24,13 +25,32 @@ pub struct Limit<F> {
     pub is_lower: bool,
     /// The value; none if no value of the knob keeps the share.
     pub value: Option<F>,
+    /// A value beyond which more than the share is wrong, with the same confidence; none if these rays show none.
+    pub far: Option<F>,
     /// At most one in this many answers is wrong at the limit.
     pub one_in: u64,
+}
+
+/// A limit that is known no better than within this factor moves a hundredfold with the seed.
+const UNSURE: f64 = 30.0;
+
+impl<F: Float> Limit<F> {
+    /// Whether these rays show so little of where the limit is that its value is no number to act on.
+    pub fn is_unsure(&self) -> bool {
+        let Some(value) = self.value else { return false };
+        let Some(far) = self.far else { return true };
+        let [value, far] = [value, far].map(F::to_f64);
+        let ratio = value / far;
+        // Zero over zero is no distance; a change of the sign is any.
+        value != far && !(1.0 / UNSURE..=UNSURE).contains(&ratio)
+    }
 }
 
 /// Of one knob and count: how many trials, and the margins at the end that decides.
 struct Tail<F> {
     of: u64,
+    /// How many margins may decide.
+    kept: usize,
     /// Sorted, the most decisive first.
     margins: Vec<F>,
 }
@@ -38,12 +58,12 @@ struct Tail<F> {
 impl<F: Float> Tail<F> {
     fn add(&mut self, margin: F, lowest_first: bool) {
         let before = |a: &F, b: &F| if lowest_first { a < b } else { b < a };
-        if self.margins.len() == KEPT && !before(&margin, &self.margins[KEPT - 1]) {
+        if self.margins.len() == self.kept && !before(&margin, &self.margins[self.kept - 1]) {
             return;
         }
         let place = self.margins.partition_point(|kept| before(kept, &margin));
         self.margins.insert(place, margin);
-        self.margins.truncate(KEPT);
+        self.margins.truncate(self.kept);
     }
 }
 
@@ -109,9 +129,10 @@ pub fn all_limits<F: Scalar>(
             pairs.extend(side(knob.role(gates), *counted).map(|is_lower| (k, c, is_lower)));
         }
     }
+    let kept = kept(count);
     let empty = || {
         let tail = |(k, c, lower): &(usize, usize, bool)| {
-            (*k, *c, *lower, Tail { of: 0, margins: Vec::new() })
+            (*k, *c, *lower, Tail { of: 0, kept, margins: Vec::new() })
         };
         Tails(pairs.iter().map(tail).collect())
     };
@@ -128,9 +149,11 @@ pub fn all_limits<F: Scalar>(
     };
     let Tails(tails) = setting.sum(seed, count, observer, empty, add);
     let limit = |(knob, count, is_lower, tail): (usize, usize, bool, Tail<F>)| {
-        let (k, one_in) = rank(tail.of)?;
-        let value = value(*tail.margins.get(k as usize - 1)?, is_lower)?;
-        Some(Limit { knob, count, is_lower, value, one_in })
+        let Ranks { one_in, safe, far } = ranks(tail.of)?;
+        let margin = |rank: u64| tail.margins.get(rank as usize - 1).copied();
+        let value = value(margin(safe)?, is_lower)?;
+        let far = margin(far).and_then(|margin| beyond(margin, is_lower));
+        Some(Limit { knob, count, is_lower, value, far, one_in })
     };
     tails.into_iter().filter_map(limit).collect()
 }
@@ -143,6 +166,12 @@ fn value<F: Float>(margin: F, is_lower: bool) -> Option<Option<F>> {
     }
     let bound = if is_lower { above(margin) } else { margin };
     margin.is_finite().then(|| Some(two_digits(bound, is_lower)))
+}
+
+/// The value beyond which a margin says that more is wrong, in two digits; none if no number is.
+fn beyond<F: Float>(margin: F, is_lower: bool) -> Option<F> {
+    let bound = if is_lower { above(margin) } else { margin };
+    margin.is_finite().then(|| two_digits(bound, !is_lower))
 }
 
 /// By knob: a round number in the middle between its limits, if they meet on one side of zero.
@@ -205,7 +234,7 @@ mod tests {
         for lowest_first in [true, false] {
             let margins: Vec<f32> = (0..300).map(|_| draw.below(90) as f32 - 40.0).collect();
             let tail = |margins: &[f32]| {
-                let mut tail = Tail { of: margins.len() as u64, margins: Vec::new() };
+                let mut tail = Tail { of: margins.len() as u64, kept: 64, margins: Vec::new() };
                 margins.iter().for_each(|margin| tail.add(*margin, lowest_first));
                 tail
             };
@@ -219,7 +248,7 @@ mod tests {
                 sorted.reverse();
             }
             for (.., found) in [sum.0.remove(0), (1, 2, is_lower, tail(&margins))] {
-                assert_eq!((found.of, &found.margins[..]), (300, &sorted[..KEPT]));
+                assert_eq!((found.of, &found.margins[..]), (300, &sorted[..64]));
             }
         }
     }
@@ -266,7 +295,8 @@ mod tests {
 
     #[test]
     fn between_limits_that_meet_is_a_round_number() {
-        let limit = |is_lower, value| Limit { knob: 1, count: 0, is_lower, value, one_in: 9 };
+        let limit =
+            |is_lower, value| Limit { knob: 1, count: 0, is_lower, value, far: None, one_in: 9 };
         let (low, high) = (limit(true, Some(7.9e-12)), limit(false, Some(3.6e-4)));
         for (limits, middle) in [
             (vec![low.clone(), high.clone()], Some(5e-8)),
@@ -313,17 +343,44 @@ mod tests {
     #[test]
     fn limits_are_violated_no_more_often_than_stated() {
         let (runs, n) = (4000, 700);
-        let (k, one_in) = rank(n).unwrap();
-        let violated = (0..runs).filter(|run| {
-            let mut draw = Draw::new("limits", 1, *run);
-            let mut tail = Tail { of: n, margins: Vec::new() };
+        let Ranks { one_in, safe, far } = ranks(n).unwrap();
+        let mut beyond = [0u32; 2];
+        for run in 0..runs {
+            let mut draw = Draw::new("limits", 1, run);
+            let mut tail = Tail { of: n, kept: kept(n), margins: Vec::new() };
             (0..n).for_each(|_| tail.add(draw.unit(), true));
             // The share below a number is that number.
-            1.0 / (one_in as f64) < tail.margins[k as usize - 1]
-        });
-        let violated = violated.count() as f64 / runs as f64;
-        assert!(violated <= 0.05 + 3.0 * (0.05f64 * 0.95 / runs as f64).sqrt(), "{violated}");
-        // And the limit is not far from the share: no more confidence is given away than there is to be.
-        assert!(0.01 < violated, "{violated}");
+            let share = 1.0 / (one_in as f64);
+            beyond[0] += u32::from(share < tail.margins[safe as usize - 1]);
+            beyond[1] += u32::from(tail.margins[far as usize - 1] < share);
+        }
+        for violated in beyond.map(|count| f64::from(count) / runs as f64) {
+            let chance = 3.0 * (0.05f64 * 0.95 / runs as f64).sqrt();
+            assert!(violated <= 0.05 + chance, "{beyond:?}");
+            // And the limit is not far from the share: no more confidence is given away than there is to be.
+            assert!(0.01 < violated, "{beyond:?}");
+        }
+    }
+
+    #[test]
+    fn a_limit_that_could_as_well_be_elsewhere_is_unsure() {
+        let limit = |value: Option<f64>, far| {
+            Limit { knob: 0, count: 0, is_lower: false, value, far, one_in: 9 }.is_unsure()
+        };
+        for (value, far, is_unsure) in [
+            (1e-6, Some(2.9e-5), false),
+            (1e-6, Some(3.1e-5), true),
+            (3e-5, Some(1.1e-6), false),
+            (-3e-5, Some(-1.1e-6), false),
+            (-3e-5, Some(-9e-7), true),
+            (-3e-5, Some(3e-5), true),
+            (0.0, Some(0.0), false),
+            (0.0, Some(1e-30), true),
+            (1e-30, Some(0.0), true),
+            (1e-30, None, true),
+        ] {
+            assert_eq!(limit(Some(value), far), is_unsure, "{value} {far:?}");
+        }
+        assert!(!limit(None, None));
     }
 }

@@ -20,7 +20,7 @@ mod study;
 mod tests;
 mod trials;
 
-pub use confidence::{CONFIDENCE, rank};
+pub use confidence::{CONFIDENCE, ranks};
 pub use curves::Curve;
 pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
 pub use joint::Costs;

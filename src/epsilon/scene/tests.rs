@@ -4,7 +4,7 @@
 mod study;
 
 use super::candidates::grid;
-use super::confidence::rank;
+use super::confidence::{Ranks, ranks};
 use super::curves::curves;
 use super::errors::{HitErrors, errors_of};
 use super::joint::Grid;
@@ -200,8 +200,8 @@ fn limits_are_margins_of_their_rank() {
                 if is_lower {
                     margins.reverse();
                 }
-                let (rank, one_in) = rank(margins.len() as u64).unwrap();
-                let margin = margins[rank as usize - 1];
+                let Ranks { one_in, safe, far } = ranks(margins.len() as u64).unwrap();
+                let [margin, far] = [safe, far].map(|rank| margins[rank as usize - 1]);
                 if margin == f32::NEG_INFINITY || !is_lower && margin == f32::INFINITY {
                     continue;
                 }
@@ -213,7 +213,18 @@ fn limits_are_margins_of_their_rank() {
                     true => (margin < f32::INFINITY).then(|| above(margin)),
                     false => Some(two_digits(margin, false)),
                 };
-                let expected = Limit { knob: k, count: c, is_lower, value, one_in };
+                let beyond = |m: f32| match is_lower {
+                    true => {
+                        let next = if m == -0.0 { f32::MIN_POSITIVE } else { m.next_up() };
+                        two_digits(
+                            if 0.0 < next { next.max(f32::MIN_POSITIVE) } else { next },
+                            false,
+                        )
+                    }
+                    false => two_digits(m, true),
+                };
+                let far = far.is_finite().then(|| beyond(far));
+                let expected = Limit { knob: k, count: c, is_lower, value, far, one_in };
                 assert_eq!(found.next(), Some(expected), "{kernel} {knob:?} {count:?}");
                 found_some[usize::from(is_lower)] += 1;
             }

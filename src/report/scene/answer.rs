@@ -1,13 +1,13 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
 use super::commands::commands;
-use super::notes::{accuracy, is_coarse, no_good, notes, tolerates};
+use super::notes::{accuracy, is_coarse, no_good, notes};
 use super::record::*;
 use super::words::{
-    bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
+    bound, flag, human, interval, label, least_t, number, of_unit, share, short_error, unit_of,
+    unit_of_t, where_of,
 };
-use crate::case::Number;
-use crate::report::epsilon::{FLUSHED, is_subnormal, least_normal};
+use crate::report::epsilon::least_normal;
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
@@ -216,7 +216,7 @@ fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
             knob: knob.name.clone(),
             bound: match &limit.value {
                 Some(value) if limit.is_lower && is_least(value, &part.scalar) => "> 0".to_owned(),
-                value => bound(value.as_deref(), limit.is_lower, &unit_of(record, knob)),
+                _ => interval(limit, &unit_of(record, knob)),
             },
             what: what(limit.count),
             most: format!("1 in {}", group_digits(limit.one_in)),
@@ -249,8 +249,6 @@ fn conflict_lines(
     let (lower, upper) = (&part.limits[conflict.lower], &part.limits[conflict.upper]);
     let knob = &part.knobs[lower.knob];
     let name = &knob.name;
-    let bound =
-        |limit: &LimitPart| bound(limit.value.as_deref(), limit.is_lower, &unit_of(record, knob));
     let what = |limit: &LimitPart| {
         let count = &part.counts[limit.count];
         let most = group_digits(limit.one_in);
@@ -262,7 +260,22 @@ fn conflict_lines(
     let conflict_line = match (&lower.value, &upper.value) {
         (None, _) => what(lower),
         (_, None) => what(upper),
-        _ => format!("no value of {name} is both {} and {}:", bound(lower), bound(upper)),
+        _ => {
+            // At the far ends of their intervals both may be kept after all.
+            let far = [lower, upper].map(|limit| limit.far.as_ref());
+            let [low, high] = far.map(number);
+            let (is, ends) = match low.zip(high).is_some_and(|(low, high)| high < low) {
+                true => ("is", far),
+                false => ("is shown to be", [lower, upper].map(|limit| limit.value.as_ref())),
+            };
+            let [low, high] = ends.map(|end| end.map(String::as_str));
+            let unit = unit_of(record, knob);
+            format!(
+                "no value of {name} {is} both {} and {}:",
+                bound(low, true, &unit),
+                bound(high, false, &unit)
+            )
+        }
     };
     let instead = match (&conflict.scale_free, &knob.form, knob.role.as_str()) {
         // With directions of unit length a share of |d| is the number itself.
@@ -290,7 +303,8 @@ const DEAR: f64 = 0.01;
 /// What limits cost that nobody would pay unwarned; those that a conflict names are said there.
 fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let is_told = |place: &usize| part.conflicts.iter().any(|conflict| conflict.lower == *place);
-    let seen = part.limits.iter().enumerate().filter(|(place, _)| !is_told(place));
+    let seen = part.limits.iter().enumerate();
+    let seen = seen.filter(|(place, limit)| !limit.is_unsure && !is_told(place));
     let seen =
         seen.map(|(_, limit)| (limit.knob, limit.value.as_ref(), limit.is_lower, &limit.price));
     let proved = part.proved.iter();
@@ -321,82 +335,4 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         }
     }
     all
-}
-
-/// Which angles almost parallel rays have.
-fn flatness(record: &SceneRecord) -> String {
-    match record.sine {
-        None => "from 7 degrees down to below rounding".to_owned(),
-        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
-    }
-}
-
-fn has_parallel_gate(part: &SceneKernelPart) -> bool {
-    part.knobs.iter().any(|knob| knob.role == "parallel")
-}
-
-/// What the words of the tables mean, a line each.
-pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
-    let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
-    let costs = costs.collect::<Vec<_>>().join(", ");
-    let aim = if record.aims_inside { "; all aimed inside" } else { "" };
-    let mut lines = vec![
-        format!("cost: each share, of its own row, times its weight ({costs})"),
-        format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
-    ];
-    let of_chance = [
-        "errors: half of the hits that remain are off by less, 99 % by less, and the worst seen",
-        "another seed may name other numbers at nearly the same cost, and limits up to ten times off;",
-        "more rays (-n) bring them closer",
-    ];
-    lines.extend(of_chance.map(str::to_owned));
-    if record.unit_directions && record.kernels.iter().any(has_parallel_gate) {
-        let which = [
-            "exactly parallel: unit vectors that are so lie along axes or in level planes; other rays may",
-            "be parallel to any plane, and pass an epsilon below the proved one (`hairline prove`)",
-        ];
-        lines.extend(which.map(str::to_owned));
-    }
-    if record.kernels.iter().any(|part| part.relative.is_some()) {
-        let forms = [
-            "scale-free: L is the triangle's longest edge, M the largest coordinate; counted by the",
-            "kernel's own values before the comparison, not run",
-        ];
-        lines.extend(forms.map(str::to_owned));
-    }
-    if record.kernels.iter().any(tolerates) {
-        let both = "both or several hit: costs nothing, the nearest hit is the same; wrong for counting crossings";
-        lines.push(both.to_owned());
-    }
-    for part in &record.kernels {
-        for knob in &part.knobs {
-            let line =
-                |refuses| format!("{} of {} refuses where {refuses}", knob.name, part.kernel);
-            // The same in both scalars.
-            let line = knob.refuses.as_ref().map(line).filter(|line| !lines.contains(line));
-            lines.extend(line);
-        }
-    }
-    if record.kernels.iter().any(|part| !part.limits.is_empty()) {
-        let most = "at most: what this number alone makes wrong; what is recommended may be beyond it if cheaper";
-        lines.push(most.to_owned());
-    }
-    let subnormal = record.kernels.iter().flat_map(|part| {
-        let values = part.limits.iter().filter_map(|limit| limit.value.as_ref());
-        values.filter(|value| is_subnormal(&part.scalar, value))
-    });
-    lines.extend(subnormal.map(|value| format!("{value} is {FLUSHED}")));
-    let is_set = |limit: &LimitPart| limit.set_by.is_some();
-    if record.kernels.iter().any(|part| part.limits.iter().any(is_set)) {
-        let star = "* set by the scene's own sizes, distances and angles as much as by rounding";
-        lines.push(star.to_owned());
-    }
-    let of_edge =
-        |part: &SceneKernelPart| part.limits.iter().any(|it| part.knobs[it.knob].role == "edge");
-    let beside = match record.kernels.iter().any(of_edge) {
-        true => "beside: within about one triangle's size; a more negative edge hits more of them",
-        false => "beside: within about one triangle's size",
-    };
-    lines.push(beside.to_owned());
-    lines
 }

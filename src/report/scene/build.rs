@@ -91,6 +91,8 @@ pub fn kernel_part<F: Scalar>(
             count: limit.count,
             is_lower: limit.is_lower,
             value: limit.value.map(shortest),
+            far: limit.far.map(shortest),
+            is_unsure: limit.is_unsure(),
             one_in: limit.one_in,
             fresh: limit.value.map(|_| Rate::new(*wrong, true)),
             set_by: set_by(knob.role(info.gates), setting.counts[limit.count]).map(str::to_owned),

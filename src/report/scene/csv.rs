@@ -8,13 +8,13 @@ use std::io::{self, Write};
 
 /// Writes the epsilons that were tried, their shares of wrong answers, and the limits.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "kernel,scalar,line,name,knob,value,stratum,kind,one_in,wrong,of,low,high")?;
+    writeln!(out, "kernel,scalar,line,name,knob,value,stratum,kind,one_in,wrong,of,low,high,far")?;
     for part in &record.kernels {
-        let mut line = |what: &str, name: &str, knob: &str, value: &str, rest: [String; 2]| {
-            let [count, rate] = rest;
+        let mut line = |what: &str, name: &str, knob: &str, value: &str, rest: [String; 3]| {
+            let [count, rate, far] = rest;
             writeln!(
                 out,
-                "{},{},{what},{},{knob},{value},{count},{rate}",
+                "{},{},{what},{},{knob},{value},{count},{rate},{far}",
                 part.kernel,
                 part.scalar,
                 quoted(name)
@@ -27,24 +27,38 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
         };
         for tried in &part.tried {
             for (knob, value) in part.knobs.iter().zip(&tried.epsilons) {
-                line("epsilon", &tried.name, &knob.name, value, [",,".into(), ",,,".into()])?;
+                line(
+                    "epsilon",
+                    &tried.name,
+                    &knob.name,
+                    value,
+                    [",,".into(), ",,,".into(), String::new()],
+                )?;
             }
         }
         for tried in &part.tried {
             for (place, rate) in tried.wrong.iter().enumerate() {
-                line("share", &tried.name, "", "", [count(place, None), fields(Some(rate))])?;
+                line(
+                    "share",
+                    &tried.name,
+                    "",
+                    "",
+                    [count(place, None), fields(Some(rate)), String::new()],
+                )?;
             }
         }
         let side = |is_lower: bool| if is_lower { "at-least" } else { "at-most" };
         for limit in &part.limits {
             let knob = &part.knobs[limit.knob].name;
             let value = limit.value.as_deref().unwrap_or("");
-            let rest = [count(limit.count, Some(limit.one_in)), fields(limit.fresh.as_ref())];
-            line("limit", side(limit.is_lower), knob, value, rest)?;
+            let (count, fresh) = (count(limit.count, Some(limit.one_in)), &limit.fresh);
+            let rest = [count, fields(fresh.as_ref()), limit.far.clone().unwrap_or_default()];
+            let what = if limit.is_unsure { "unsure" } else { "limit" };
+            line(what, side(limit.is_lower), knob, value, rest)?;
         }
         for proved in &part.proved {
             let knob = &part.knobs[proved.knob].name;
-            let rest = [count(proved.count, None), fields(Some(&proved.fresh))];
+            let rest = [count(proved.count, None), fields(Some(&proved.fresh)), String::new()];
             line("proved", side(proved.is_lower), knob, &proved.value, rest)?;
         }
     }

@@ -191,7 +191,9 @@ fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
     pairs.filter_map(|(place, (knob, epsilon))| {
         let chosen: f64 = epsilon.parse().ok()?;
         let is_beyond = |limit: &LimitPart| {
-            let bound: Option<f64> = limit.value.as_ref().and_then(|value| value.parse().ok());
+            // Past the far end of an unsure limit it is outside all the same.
+            let end = if limit.is_unsure { &limit.far } else { &limit.value };
+            let bound: Option<f64> = end.as_ref().and_then(|value| value.parse().ok());
             let is_wrong = |bound| if limit.is_lower { chosen < bound } else { bound < chosen };
             limit.knob == place && bound.is_some_and(is_wrong)
         };

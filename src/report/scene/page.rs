@@ -1,7 +1,8 @@
 //! A study of a scene as one HTML file that needs nothing else: light and dark, wide and narrow, without
 //! scripts and without a network.
 
-use super::answer::{Answer, answer, legend};
+use super::answer::{Answer, answer};
+use super::legend::legend;
 use super::marks::{self, WIDTH};
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};

@@ -201,6 +201,11 @@ pub struct LimitPart {
     pub is_lower: bool,
     /// The limit; none if no value keeps the share.
     pub value: Option<String>,
+    /// The other end of an interval: beyond it more than that share is wrong, with the same confidence; none if the rays
+    /// show no such number.
+    pub far: Option<String>,
+    /// Whether the rays show so little of where the limit is that its value is no number to act on.
+    pub is_unsure: bool,
     /// At most one in this many answers is wrong at the limit, with a confidence of 95 %.
     pub one_in: u64,
     /// The wrong answers on fresh rays at the limit.

@@ -1,7 +1,8 @@
 //! A study of a scene for people at a terminal: what to use, what it does, and the limits of each
 //! number.
 
-use super::answer::{Answer, answer, legend};
+use super::answer::{Answer, answer};
+use super::legend::legend;
 use super::record::SceneRecord;
 use crate::report::Style;
 use std::io::{self, Write};
@@ -60,12 +61,12 @@ fn limits(answer: &Answer, out: &mut dyn Write) -> io::Result<()> {
         return Ok(());
     }
     let title = "limits, the other numbers fixed (95 %: 1 in 20 fails):";
-    writeln!(out, "{title:<55}{:>11}{:>WIDTH$}", "at most", "fresh rays")?;
+    writeln!(out, "{title:<69}{:>12}{:>12}", "at most", "fresh rays")?;
     for row in &answer.limits {
         let star = if row.is_of_scene { " *" } else { "" };
         writeln!(
             out,
-            "  {:<8} {:<13} {:<29}{:>12}{:>WIDTH$}{star}",
+            "  {:<8} {:<29} {:<28}{:>12}{:>12}{star}",
             row.knob, row.bound, row.what, row.most, row.fresh
         )?;
     }

@@ -196,6 +196,27 @@ pub(super) fn bound(value: Option<&str>, is_lower: bool, unit: &str) -> String {
     }
 }
 
+/// A limit from its safe end to its far one, or that it is unsure.
+pub(super) fn interval(limit: &LimitPart, unit: &str) -> String {
+    let safe = bound(limit.value.as_deref(), limit.is_lower, "");
+    let Some(value) = &limit.value else { return safe };
+    match (&limit.far, limit.is_unsure) {
+        (Some(far), false) if far == value => format!("{safe}{unit}"),
+        (Some(far), false) => format!("{safe} ({}){unit}", human(far)),
+        (Some(far), true) => {
+            let mut ends = [value, far];
+            ends.sort_by(|a, b| number(Some(a)).partial_cmp(&number(Some(b))).expect("numbers"));
+            format!("unsure: {} to {}{unit}", human(ends[0]), human(ends[1]))
+        }
+        (None, _) => format!("unsure: from {}{unit} on", human(value)),
+    }
+}
+
+/// The number of a text.
+pub(super) fn number(text: Option<&String>) -> Option<f64> {
+    text?.parse().ok()
+}
+
 /// The unit of a knob.
 pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
     match (knob.role.as_str(), record.unit_directions) {

@@ -1,0 +1,182 @@
+//! What the program calls proved, never wrong or bounded must survive the command's own flags. A table of commands and
+//! what each may say.
+
+use crate::program::{ends, hairline, scratch};
+use std::fs;
+
+/// What a screen claims: a part of it, and whether it may be there.
+struct Claim {
+    flags: &'static [&'static str],
+    part: &'static str,
+    is_there: bool,
+}
+
+const fn says(flags: &'static [&'static str], part: &'static str) -> Claim {
+    Claim { flags, part, is_there: true }
+}
+
+const fn withholds(flags: &'static [&'static str], part: &'static str) -> Claim {
+    Claim { flags, part, is_there: false }
+}
+
+fn hold(folder: &str, command: &[&str], claims: &[Claim]) {
+    let folder = scratch(folder);
+    for Claim { flags, part, is_there } in claims {
+        let (screen, _) = ends(&folder, &[command, flags].concat(), 0);
+        assert_eq!(screen.contains(part), *is_there, "{flags:?}: {part}\n{screen}");
+        assert!(command[0] != "spawn" || !screen.contains("prove"), "{flags:?}\n{screen}");
+    }
+}
+
+const INSIDE: &str = "no wrong side on any ray of such a scene with u, v and 1-u-v from 0 to 1\n";
+const BOUND: &str = "derived bound";
+
+#[test]
+fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
+    hold(
+        "claims-spawn",
+        &["spawn", "-n", "300", "-q"],
+        &[
+            says(&[], INSIDE),
+            withholds(&["--point", "ray"], BOUND),
+            // Epsilons: of the edges and of others, with and without a dimension.
+            says(&["--epsilon", "edge=0.01"], INSIDE),
+            says(&["--epsilon", "edge=-50"], "u, v and 1-u-v from -99 to 199"),
+            withholds(&["--epsilon", "edge=-50"], INSIDE),
+            says(&["--epsilon", "parallel=0"], INSIDE),
+            says(&["--kernel", "cramer", "--epsilon", "t=-1,edge=-0.5"], "from -0.5 to 2"),
+            says(&["--kernel", "woop-watertight"], INSIDE),
+            withholds(&["--kernel", "woop-watertight", "--epsilon", "edge=-1e-9"], BOUND),
+            says(&["--kernel", "plucker", "--epsilon", "edge=-0.25"], "from -0.25 to 1.5"),
+            withholds(&["--kernel", "scalar-triple", "--epsilon", "edge=-1e-9"], BOUND),
+            withholds(&["--kernel", "moller-trumbore-culling", "--epsilon", "edge=-1"], BOUND),
+            says(&["--kernel", "cramer", "--epsilon-preset", "godot"], INSIDE),
+            // Arithmetics and contracts change neither the weights' range nor how points are formed.
+            says(&["--kernel", "moller-trumbore+fma"], INSIDE),
+            says(&["--kernel", "moller-trumbore+fma-ftz"], INSIDE),
+            says(&["--contract", "open-ray"], INSIDE),
+            says(&["--scalar", "f64"], INSIDE),
+            // Scenes in which normals overflow or underflow.
+            withholds(&["--scene", "extent=1e11,edge=5e10,distance=0..1e11"], BOUND),
+            withholds(
+                &["--scene", "extent=3e-9,edge=1e-9..3e-9", "--epsilon", "parallel=0"],
+                BOUND,
+            ),
+            // A scheme of one's own is none of `normal=`, and another distance is not at the bound.
+            withholds(&["--scheme", "normal=1e-3"], INSIDE),
+        ],
+    );
+}
+
+/// A kernel that hits everything at u = v = 2, whatever the ray.
+#[cfg(unix)]
+#[test]
+fn a_kernel_of_ones_own_has_a_bound_only_if_its_weights_are_in_the_range() {
+    let folder = scratch("claims-own");
+    for (weights, is_there) in [("u=0.25 v=0.25", true), ("u=2 v=2", false)] {
+        let script = format!(
+            "printf 'hairline-kernel 1\\nname mine\\nscalars f32\\ncontract closed-line\\ngives t uv\\nready\\n'
+while read -r first id rest; do
+    case \"$first\" in
+        end) echo \"end $id\" ;;
+        epsilons) ;;
+        *) echo \"$id hit {weights}\" ;;
+    esac
+done
+"
+        );
+        fs::write(folder.join("mine.sh"), script).unwrap();
+        let flags = ["spawn", "-n", "200", "-q", "--point", "uv", "--kernel-cmd", "sh mine.sh"];
+        let (screen, _) = ends(&folder, &flags, 0);
+        assert_eq!(screen.contains(BOUND), is_there, "{weights}\n{screen}");
+    }
+}
+
+const PROVED: &str = "0: proved";
+const BELOW: &str = "below the proved one";
+
+#[test]
+fn a_scene_has_proved_numbers_only_where_the_flags_keep_what_the_proof_supposes() {
+    hold(
+        "claims-scene",
+        &["epsilon", "--scalar", "f32", "-n", "3000", "-q"],
+        &[
+            says(&["--kernel", "moller-trumbore"], PROVED),
+            says(&["--kernel", "moller-trumbore-t"], PROVED),
+            says(&["--kernel", "moller-trumbore", "--epsilon", "edge=-50"], PROVED),
+            says(&["--kernel", "moller-trumbore", "--epsilon", "parallel=0,t_min=3"], PROVED),
+            says(&["--kernel", "moller-trumbore+fma"], PROVED),
+            says(&["--kernel", "moller-trumbore", "--contract", "open-ray"], PROVED),
+            says(&["--kernel", "moller-trumbore", "--scene", "room,sine=1e-6..1e-5"], PROVED),
+            // Flushed numbers have errors of their own; with another length of d the bound is another.
+            withholds(&["--kernel", "moller-trumbore+ftz"], PROVED),
+            withholds(&["--kernel", "moller-trumbore+ftz"], BELOW),
+            withholds(&["--kernel", "moller-trumbore", "--scene", "room,direction=target"], PROVED),
+            // The proof supposes more than a scene's sizes: a smallest divisor.
+            withholds(&["--kernel", "woop-watertight"], PROVED),
+            withholds(&["--kernel", "woop-watertight"], BELOW),
+            withholds(&["--kernel", "plane-unit-normal"], PROVED),
+        ],
+    );
+    let folder = scratch("claims-mesh");
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes/icosphere.obj");
+    let flags = ["epsilon", "--kernel", "moller-trumbore", "--scalar", "f32", "-n", "2000", "-q"];
+    for (scene, code) in [("mesh", 0), ("mesh,edge=0.01..0.02", 2), ("mesh,extent=0.1", 2)] {
+        let all = [&flags[..], &["--mesh", mesh, "--scene", scene]].concat();
+        let (screen, _) = ends(&folder, &all, code);
+        assert_eq!(screen.contains(PROVED), code == 0, "{scene}\n{screen}");
+    }
+}
+
+#[test]
+fn what_prove_and_the_studies_of_gates_say_names_its_domain() {
+    hold(
+        "claims-prove",
+        &["prove", "-n", "0", "--scalar", "f32"],
+        &[
+            says(
+                &["--kernel", "woop-watertight"],
+                "Watertight at its edges at an epsilon of 0 or less",
+            ),
+            withholds(&["--kernel", "woop-watertight+fma"], "Watertight at its edges at"),
+            withholds(&["--kernel", "moller-trumbore"], "Watertight at its edges at"),
+        ],
+    );
+    hold(
+        "claims-gate",
+        &["epsilon", "--scalar", "f32", "-n", "500", "-q", "--gate", "parallel"],
+        &[
+            says(
+                &["--kernel", "moller-trumbore"],
+                "proved for every float with coordinates of edges up to 0.999 and |d| <= 1",
+            ),
+            withholds(&["--kernel", "moller-trumbore+ftz"], "proved"),
+            withholds(&["--kernel", "plane-unit-normal"], "proved"),
+        ],
+    );
+    let folder = scratch("claims-ftz");
+    assert_eq!(hairline(&folder, &["prove", "--kernel", "plucker+ftz"]).status.code(), Some(4));
+}
+
+/// `check` must not call a kernel proved that the plan runs in another way.
+#[test]
+fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
+    let folder = scratch("claims-check");
+    let plan =
+        "family = \"interior\"\nscalar = \"f32\"\ncount = 10\nkernel = \"woop-watertight\"\n";
+    let demand = "[proved]\nwoop-watertight.f32.watertight = true\n";
+    for (settings, why) in [
+        ("", None),
+        ("epsilon = \"edge=-1e-9\"\n", None),
+        ("epsilon = \"edge=1e-9\"\n", Some("the plan runs it at edge=1e-9, above 0")),
+        ("arithmetic = \"fma\"\n", Some("the plan runs woop-watertight+fma in its place")),
+        ("arithmetic = \"ieee,fma\"\n", None),
+    ] {
+        fs::write(folder.join("hairline.toml"), format!("{plan}{settings}{demand}")).unwrap();
+        let output = hairline(&folder, &["check", "-q"]);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let is_missing = text.contains("must be proved watertight");
+        assert_eq!(is_missing, why.is_some(), "{settings}: {text}");
+        assert!(why.is_none_or(|why| text.contains(why)), "{settings}: {text}");
+    }
+}
