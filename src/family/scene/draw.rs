@@ -1,5 +1,6 @@
 //! What the strata share: sizes, places, orientations, and the ray toward a target.
 
+use super::super::integer::turned;
 use super::super::unit;
 use crate::arith::Float;
 use crate::case::{DirectionLength, Draw, Scene};
@@ -103,12 +104,14 @@ pub fn inside(draw: &mut Draw) -> [f64; 2] {
     if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] }
 }
 
-/// Weights of b and c, uniform in a rhomboid three times as large on each side, but outside.
+/// Weights of b and c, uniform in a rhomboid three times as large on each side, but outside; the rhomboid's
+/// corner belongs to any of the three vertices.
 pub fn beside(draw: &mut Draw) -> [f64; 2] {
     loop {
         let (u, v) = (3.0 * draw.unit() - 1.0, 3.0 * draw.unit() - 1.0);
         if u < 0.0 || v < 0.0 || 1.0 < u + v {
-            return [u, v];
+            let [_, v, w] = turned(draw, [1.0 - u - v, u, v]);
+            return [v, w];
         }
     }
 }

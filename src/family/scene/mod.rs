@@ -13,7 +13,7 @@ mod triangles;
 pub(crate) use draw::{Frame, any_direction, circle, in_plane, rounded, wide};
 pub(super) use flat::grazing_sine;
 pub(super) use shadow::hit_point;
-pub(crate) use triangles::{Corners, Parallel, Triangles, along_axis, flat_along};
+pub(crate) use triangles::{Corners, Pair, Parallel, Ring, Triangles, along_axis, flat_along};
 
 use super::{Family, Grouping, Made, Question};
 use crate::arith::Float;
@@ -146,7 +146,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-edges",
-        1,
+        2,
         Edges,
         SharedEdge,
         Edges,
@@ -155,7 +155,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-vertices",
-        1,
+        2,
         Vertices,
         Fan,
         Vertices,
@@ -164,7 +164,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-grazing",
-        1,
+        2,
         Flat,
         Single,
         Grazing,
@@ -173,7 +173,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-parallel",
-        2,
+        3,
         Flat,
         Single,
         Parallel,
@@ -191,7 +191,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-outside",
-        1,
+        2,
         Inside,
         Single,
         Outside,

@@ -1,6 +1,7 @@
 //! Where the strata's triangles come from: the numbers of a scene, or (in `mesh`) the faces of a mesh.
 
-use super::super::{integer, unit};
+use super::super::integer::{shuffle, turned};
+use super::super::unit;
 use super::draw::{Frame, between_powers, circle, in_plane, rounded, symmetric};
 use crate::arith::Float;
 use crate::case::{DirectionLength, Draw, Scene};
@@ -19,17 +20,33 @@ pub struct Parallel<F> {
     pub size: f64,
 }
 
-/// Triangles to aim rays at.
+/// Two triangles on one edge.
+pub struct Pair<F> {
+    /// The ends of the edge.
+    pub ends: [[F; 3]; 2],
+    /// The triangles. They run through the edge in opposite directions; it may be any edge of each.
+    pub triangles: [Corners<F>; 2],
+}
+
+/// A closed fan around a vertex.
+pub struct Ring<F> {
+    /// The vertex.
+    pub center: [F; 3],
+    /// The triangles, in order; the vertex may be any corner of each.
+    pub triangles: Vec<Corners<F>>,
+}
+
+/// Triangles to aim rays at. Those of a mesh keep the order of their vertices; of others each corner is as
+/// likely to be the one that a ray is aimed at, because kernels do not treat a, b and c alike.
 pub trait Triangles<F: Float> {
     /// A triangle, and the frame of its plane.
     fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame);
 
-    /// Two triangles on one edge: its two ends and the third vertex of each. The first triangle runs from
-    /// end to end in this order, the second in the other.
-    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4];
+    /// Two triangles on one edge.
+    fn pair(&self, draw: &mut Draw) -> Pair<F>;
 
-    /// The triangles of a closed fan, in order; the first vertex of each is the one that they share.
-    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>>;
+    /// The triangles of a closed fan.
+    fn fan(&self, draw: &mut Draw) -> Ring<F>;
 
     /// A triangle and a direction exactly parallel to its plane, where one can be made.
     fn parallel(&self, draw: &mut Draw) -> Parallel<F>;
@@ -41,11 +58,11 @@ impl<F: Float> Triangles<F> for Scene {
         let (a, frame) = (place(draw, self, size), Frame::draw(draw));
         let (x, y) = apex(draw, size);
         let (b, c) = (a + frame.flat(size, 0.0), a + frame.flat(x, y));
-        let corners = integer::shuffle(draw, [a, b, c]);
+        let corners = shuffle(draw, [a, b, c]);
         (corners.map(rounded), frame)
     }
 
-    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4] {
+    fn pair(&self, draw: &mut Draw) -> Pair<F> {
         let size = between_powers(draw, self.edge);
         let (p, frame) = (place(draw, self, size), Frame::draw(draw));
         let q = p + frame.flat(size, 0.0);
@@ -56,10 +73,12 @@ impl<F: Float> Triangles<F> for Scene {
         let bend = 0.5 * symmetric(draw);
         let down = (frame.normal * bend - frame.across) / (1.0 + bend * bend).sqrt();
         let second = p + frame.along * x + down * y;
-        [p, q, first, second].map(rounded)
+        let [p, q, first, second] = [p, q, first, second].map(rounded);
+        let triangles = [[p, q, first], [q, p, second]].map(|corners| turned(draw, corners));
+        Pair { ends: [p, q], triangles }
     }
 
-    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>> {
+    fn fan(&self, draw: &mut Draw) -> Ring<F> {
         let size = between_powers(draw, self.edge);
         let (center, frame) = (place(draw, self, size), Frame::draw(draw));
         let ring = HEXAGON.map(|[x, y]| {
@@ -68,7 +87,8 @@ impl<F: Float> Triangles<F> for Scene {
             rounded::<F>(center + corner * (size / 1.1))
         });
         let center = rounded(center);
-        (0..ring.len()).map(|i| [center, ring[i], ring[(i + 1) % ring.len()]]).collect()
+        let triangle = |i: usize| turned(draw, [center, ring[i], ring[(i + 1) % ring.len()]]);
+        Ring { center, triangles: (0..ring.len()).map(triangle).collect() }
     }
 
     /// Unit vectors exactly in a generic plane do not exist among floats. What does: rays along an axis in
@@ -136,7 +156,7 @@ fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3],
         if 0.001 * size.powi(4) < normal.dot(normal) {
             let sums = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 2.0)];
             let (i, j) = draw.pick(&sums);
-            return ([a, b, c].map(rounded), rounded(e * i + f * j));
+            return (shuffle(draw, [a, b, c]).map(rounded), rounded(e * i + f * j));
         }
     }
 }
@@ -174,7 +194,8 @@ fn holding_axis<F: Float>(
                 }
                 p.map(F::from_f64)
             };
-            return (corners.map(at_base), along_axis(draw, scene, axes[0]));
+            let corners = shuffle(draw, corners.map(at_base));
+            return (corners, along_axis(draw, scene, axes[0]));
         }
     }
 }
@@ -197,7 +218,7 @@ fn level<F: Float>(
     let corners = [base, base + frame.flat(size, 0.0), base + frame.flat(x, y)];
     let flat = in_plane(draw, &frame);
     let flat = flat_along(draw, scene, flat);
-    (integer::shuffle(draw, corners).map(rounded), flat)
+    (shuffle(draw, corners).map(rounded), flat)
 }
 
 /// A direction along an axis, of the length that the scene's directions have.
