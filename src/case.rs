@@ -10,7 +10,7 @@ mod scene;
 pub use any::AnyScalar;
 pub(crate) use literal::{rust_case, rust_list};
 pub(crate) use scene::Number;
-pub use scene::{DirectionLength, SCENES, Scene, ScenePreset};
+pub use scene::{DirectionLength, PlaneKind, RayKind, SCENES, Scene, ScenePreset};
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
 use std::fmt;

@@ -64,9 +64,7 @@ impl SceneMesh {
             center: 0.0,
             edge: [three_digits(edge[0], false), three_digits(edge[1], true)],
             distance: [0.0, three_digits((high - low).length(), true)],
-            direction: DirectionLength::Unit,
-            sine: None,
-            aims_inside: false,
+            ..Scene::default()
         }
     }
 

@@ -5,6 +5,7 @@ mod accuracy;
 mod arithmetic;
 mod contradictions;
 mod drawing;
+mod drawn;
 mod expectations;
 mod facts;
 mod families;

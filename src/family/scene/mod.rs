@@ -1,12 +1,14 @@
 //! The strata of a scene: rays at the inside, edges and vertices of its triangles and beside them, nearly
 //! and exactly parallel to them, and from a kernel's own hit points on them.
 //!
-//! Triangles lie on generic planes: their positions and orientations are uniform. Points are computed in
-//! `f64` and rounded, so the oracle, not the construction, says what is a hit.
+//! Triangles lie on generic planes, of uniform positions and orientations, or on planes of a kind that the scene
+//! names ([`PlaneKind`](crate::case::PlaneKind)). Points are computed in `f64` and rounded, so the oracle, not the
+//! construction, says what is a hit.
 
 mod aimed;
 mod draw;
 mod flat;
+mod planes;
 mod shadow;
 mod triangles;
 
