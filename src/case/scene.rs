@@ -295,6 +295,18 @@ impl Scene {
         }
     }
 
+    /// The same scene with each kind of plane that it can have; the generic one first.
+    pub fn of_all_planes(&self) -> Vec<Scene> {
+        let all = PlaneKind::ALL.into_iter();
+        let can_have = |plane: &PlaneKind| !plane.is_near_zero() || self.center == 0.0;
+        all.filter(can_have).map(|plane| Scene { plane, ..self.clone() }).collect()
+    }
+
+    /// Whether the words of a scene name a kind of plane.
+    pub fn names_planes(text: &str) -> bool {
+        text.split(',').any(|word| word.split('=').next().is_some_and(|key| key.trim() == "plane"))
+    }
+
     /// The largest coordinate of a triangle.
     pub fn largest(&self) -> f64 {
         self.center.abs() + self.extent

@@ -1,10 +1,12 @@
 //! What the words of a scene ask for is what is drawn: angles, sizes, the origin of a direction, and planes.
 
 use hairline::internals::arith::Float;
+use hairline::internals::audit::{EpsilonChoice, Unobserved};
 use hairline::internals::case::{Case, Parameters, PlaneKind, Scene};
 use hairline::internals::family::Stratum;
-use hairline::internals::kernel::Scalar;
+use hairline::internals::kernel::{Scalar, find};
 use hairline::internals::oracle;
+use hairline::internals::spawn::{Plan, PointKind, Trials, parse, proved_normal, run};
 use hairline::internals::truth::Truth;
 use num_rational::BigRational as Rational;
 use num_traits::{One, ToPrimitive};
@@ -168,4 +170,50 @@ fn planes_are_of_the_kind_that_the_scene_names() {
     }
     let far = Scene::parse("extent=10,center=1000,edge=1,distance=0..20,plane=axis-0");
     assert!(far.unwrap_err().contains("center=1000"));
+}
+
+#[test]
+fn waechter_binder_fails_at_points_o_plus_t_d_on_a_floor_at_height_0() {
+    let [a, b, c] = [[-1000.0, 0.0, -1000.0], [0.0, 0.0, 1000.0], [1000.0, 0.0, -1000.0]];
+    let direction = [-0.32852643728256226, -0.7071420550346375, -0.6261153177816719];
+    let first = Case::new([265.0f32, 480.0, 370.0], direction.map(|x: f64| x as f32), [a, b, c]);
+    let row =
+        EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
+    let (kind, epsilons) = (PointKind::Ray, row.epsilons::<f32>());
+    let of = Trials::of(row.entry, &epsilons, kind, 1, &[(0, first)]);
+    let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
+    let start = parse("waechter-binder").unwrap().offset::<f32>().unwrap().start(&trial.hit);
+    // The ray came from above, and the start is below.
+    assert!(trial.hit.normal[1] > 0.0 && start.origin[1] < 0.0, "{start:?}");
+}
+
+#[test]
+fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does() {
+    let row =
+        EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);
+    let schemes = [parse("waechter-binder").unwrap()];
+    let (kind, wall, fold, with_least, seed, count) =
+        (PointKind::Ray, 0.01, 45.0, false, 1, 20_000);
+    let wrong = |words: &str| {
+        let (scene, _) = Scene::parse(words).unwrap();
+        let (row, scene, schemes) = (&row, &scene, &schemes);
+        let plan = Plan { row, scene, kind, schemes, wall, fold, with_least, seed, count };
+        let of = &run::<f32>(&plan, &Unobserved).schemes[0];
+        of.wrong as f64 / of.rays as f64
+    };
+    let place = "extent=1000,edge=100..1000,distance=0..1000";
+    assert!(wrong(place) < 1e-3);
+    let at_zero = wrong(&format!("{place},plane=axis-0"));
+    assert!((0.13..0.21).contains(&at_zero), "{at_zero}");
+    assert!(0.1 < wrong(&format!("{place},plane=axis-near-0")));
+    for text in ["unit", "room", "city", "cad-mm", place] {
+        for scene in Scene::parse(text).unwrap().0.of_all_planes() {
+            let proved = proved_normal::<f32>(&scene).unwrap();
+            let (row, scene, kind) = (&row, &scene, PointKind::Weights);
+            let schemes = &[parse(&format!("normal={proved}")).unwrap()];
+            let plan = Plan { row, scene, kind, schemes, wall, fold, with_least, seed, count };
+            let sums = run::<f32>(&plan, &Unobserved);
+            assert!(0 < sums.schemes[0].rays && sums.schemes[0].wrong == 0, "{scene}");
+        }
+    }
 }

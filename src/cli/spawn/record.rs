@@ -3,7 +3,7 @@
 use super::choice::{best, is_too_high, proved_name};
 use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, shell_word};
-use crate::case::Case;
+use crate::case::{Case, Scene};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
@@ -37,6 +37,8 @@ pub struct SpawnRecord {
     pub wall: f64,
     /// The angle in degrees at which a neighbour is folded up at the edge nearest to the hit point.
     pub fold: f64,
+    /// The kinds of planes on which each scheme was tried. All numbers are about the first, but those of `elsewhere`.
+    pub planes: Vec<String>,
     /// By kernel, kind of hit point and scalar.
     pub points: Vec<PointsPart>,
 }
@@ -147,6 +149,23 @@ pub struct SchemePart {
     pub over_least: Option<f64>,
     /// The first wrong start.
     pub first_wrong: Option<WrongPart>,
+    /// What it does on the other kinds of planes.
+    pub elsewhere: Vec<PlanePart>,
+}
+
+/// What a scheme does on planes of one kind.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
+pub struct PlanePart {
+    /// The kind, as the word `plane` of a scene takes it.
+    pub plane: String,
+    /// Starts on the plane, behind it, or nowhere.
+    pub wrong: Rate,
+    /// New rays that hit the triangle which they leave, says the kernel; of none if it cannot tell.
+    pub self_hits: Rate,
+    /// The first wrong start.
+    pub first_wrong: Option<WrongPart>,
 }
 
 /// Quantiles of heights over the plane; none on the plane or behind it.
@@ -176,11 +195,11 @@ pub struct WrongPart {
 }
 
 impl PointsPart {
-    /// `preferred` are places of schemes that come first where they are about as low as any; `words` are the scene's as
-    /// the user wrote them.
+    /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
+    /// as any; `words` are the scene's as the user wrote them.
     pub fn new<F: Scalar>(
-        plan: &Plan<'_>,
-        [pilot, sums]: [&Sums; 2],
+        plans: &[Plan<'_>],
+        [pilots, runs]: [&[Sums]; 2],
         preferred: &[usize],
         proved_normal: Option<f64>,
         words: &str,
@@ -188,13 +207,16 @@ impl PointsPart {
     where
         AnyCase: From<Case<F>>,
     {
+        let (plan, sums) = (&plans[0], &runs[0]);
         let needed = sums.least.count() + sums.without_least;
-        let schemes = plan.schemes.iter().zip(&sums.schemes);
         let is_proved = |scheme: &Scheme| {
             proved_normal.is_some_and(|proved| scheme.name == proved_name(proved))
         };
         let proved = plan.schemes.iter().position(is_proved);
-        let best = best(pilot, sums, preferred, proved);
+        // A single wrong start refutes a proof, whatever its hypotheses say.
+        let is_refuted = |place: usize| runs.iter().any(|sums| 0 < sums.schemes[place].wrong);
+        let proved_normal = proved_normal.filter(|_| !proved.is_some_and(is_refuted));
+        let best = best([pilots, runs], preferred, proved);
         let flags = match plan.row.set.as_str() {
             "source" => plan.row.entry.selector(),
             _ => plan.row.flags(),
@@ -233,14 +255,17 @@ impl PointsPart {
                 }
             }),
             flags: flags.clone(),
-            schemes: schemes.map(|(scheme, of)| SchemePart::new::<F>(plan, scheme, of)).collect(),
+            schemes: (0..plan.schemes.len())
+                .map(|place| SchemePart::new::<F>(plans, runs, place))
+                .collect(),
         }
     }
 }
 
-/// The least distance along the normal that is proved for points of a kind, rounded up.
-pub fn proved_distance<F: Scalar>(plan: &Plan<'_>) -> Option<f64> {
-    let of_weights = (plan.kind == PointKind::Weights).then(|| proved_normal::<F>(plan.scene))?;
+/// The least distance along the normal that is proved for points of a kind, rounded up. The proof supposes nothing about
+/// how a plane lies, so it holds on every kind of plane.
+pub fn proved_distance<F: Scalar>(kind: PointKind, scene: &Scene) -> Option<f64> {
+    let of_weights = (kind == PointKind::Weights).then(|| proved_normal::<F>(scene))?;
     of_weights.map(|least| three_digits(least, true))
 }
 
@@ -269,24 +294,48 @@ impl HeightsPart {
 }
 
 impl SchemePart {
-    fn new<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, sums: &OfScheme) -> SchemePart
+    /// Of the scheme at a place.
+    fn new<F: Scalar>(plans: &[Plan<'_>], runs: &[Sums], place: usize) -> SchemePart
     where
         AnyCase: From<Case<F>>,
     {
+        let (scheme, sums) = (&plans[0].schemes[place], &runs[0].schemes[place]);
         let over_least = &sums.over_least;
         let rate = |count| Rate::new(sums.trials(count), true);
+        let on_plane = |(plan, sums): (&Plan<'_>, &Sums)| {
+            PlanePart::new::<F>(plan, &sums.schemes[place], place)
+        };
+        let mut of_planes = plans.iter().zip(runs).map(on_plane);
+        let first = of_planes.next().expect("one kind of plane");
         SchemePart {
             name: scheme.name.clone(),
             source: scheme.source.clone(),
-            wrong: rate(sums.wrong),
+            wrong: first.wrong,
             not_finite: sums.not_finite,
-            self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
+            self_hits: first.self_hits,
             beyond_wall: rate(sums.beyond_wall),
             past_neighbour: rate(sums.past_neighbour),
             height_in_edges: HeightsPart::new(&sums.in_edges),
             height_in_ulps: HeightsPart::new(&sums.in_ulps),
             over_least: (0 < over_least.count()).then(|| over_least.quantile(0.5)),
-            first_wrong: sums.first_wrong.and_then(|i| WrongPart::new::<F>(plan, scheme, i)),
+            first_wrong: first.first_wrong,
+            elsewhere: of_planes.collect(),
+        }
+    }
+}
+
+impl PlanePart {
+    fn new<F: Scalar>(plan: &Plan<'_>, sums: &OfScheme, place: usize) -> PlanePart
+    where
+        AnyCase: From<Case<F>>,
+    {
+        let rate = |count| Rate::new(sums.trials(count), true);
+        let wrong_at = |index| WrongPart::new::<F>(plan, &plan.schemes[place], index);
+        PlanePart {
+            plane: plan.scene.plane.name().to_owned(),
+            wrong: rate(sums.wrong),
+            self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
+            first_wrong: sums.first_wrong.and_then(wrong_at),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::choice::proved_name;
 use super::record::{HeightsPart, PointsPart, SchemePart, SpawnRecord};
-use crate::report::{group_digits, interval_of, percent};
+use crate::report::{Rate, group_digits, interval_of, percent};
 use crate::spawn::describe;
 use std::io::{self, Write};
 
@@ -14,9 +14,10 @@ pub fn write(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out)?;
         }
         heading(record, part, out)?;
-        advice(part, out)?;
+        advice(record, part, out)?;
         if 0 < part.hits {
             table(record, part, out)?;
+            elsewhere(record, part, out)?;
         }
         least(record, part, out)?;
     }
@@ -37,7 +38,7 @@ fn heading(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::
     writeln!(out, "{kernel}{set} {scalar}, {point}, in {scene}{}", of_unit(&record.unit))
 }
 
-fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+fn advice(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
     let hits = group_digits(part.hits);
     let find = |name: &String| part.schemes.iter().find(|scheme| scheme.name == *name);
     match &part.best {
@@ -73,8 +74,9 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
             }
             writeln!(
                 out,
-                "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
-                group_digits(best.one_in)
+                "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure){}",
+                group_digits(best.one_in),
+                if record.planes.len() < 2 { "" } else { ", nor on other planes" }
             )?;
             writeln!(
                 out,
@@ -123,6 +125,35 @@ fn table(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
         "least"
     )?;
     part.schemes.iter().try_for_each(|scheme| row(scheme, out))
+}
+
+/// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
+fn elsewhere(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+    let is_worse = |scheme: &&SchemePart| {
+        let [_, most] = scheme.wrong.interval.unwrap_or_default();
+        let lows = scheme.elsewhere.iter().filter_map(|plane| Some(plane.wrong.interval?[0]));
+        lows.into_iter().any(|least| most < least)
+    };
+    let worse: Vec<&SchemePart> = part.schemes.iter().filter(is_worse).collect();
+    let [first, others @ ..] = &record.planes[..] else { return Ok(()) };
+    if others.is_empty() {
+        return Ok(());
+    }
+    let others = others.join(", ");
+    if worse.is_empty() {
+        return writeln!(out, "on planes of other kinds ({others}) no offset has more wrong sides");
+    }
+    write!(out, "{:<16}{first:>12}", "wrong side on")?;
+    record.planes[1..].iter().try_for_each(|plane| write!(out, "{plane:>12}"))?;
+    writeln!(out)?;
+    for scheme in worse {
+        let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
+        write!(out, "{:<16}{:>12}", scheme.name, share(&scheme.wrong))?;
+        let mut planes = scheme.elsewhere.iter();
+        planes.try_for_each(|plane| write!(out, "{:>12}", share(&plane.wrong)))?;
+        writeln!(out)?;
+    }
+    Ok(())
 }
 
 fn row(scheme: &SchemePart, out: &mut dyn Write) -> io::Result<()> {

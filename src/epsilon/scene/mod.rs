@@ -8,6 +8,7 @@
 mod candidates;
 mod confidence;
 mod curves;
+mod elsewhere;
 mod errors;
 mod joint;
 mod knob;
@@ -22,6 +23,7 @@ mod trials;
 
 pub use confidence::{CONFIDENCE, rank};
 pub use curves::Curve;
+pub use elsewhere::{Elsewhere, try_elsewhere};
 pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};

@@ -3,6 +3,7 @@
 
 use super::candidates::{MOST_POINTS, around, grid, of_values};
 use super::curves::{Curve, axes, curves};
+use super::elsewhere::Elsewhere;
 use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
 use super::knob::{Knob, Margins};
@@ -38,6 +39,8 @@ pub struct SceneStudy<F> {
     pub relative: Option<Tried<F>>,
     /// How far such epsilons may move.
     pub relative_limits: Vec<Limit<F>>,
+    /// What the cheapest epsilons do on planes of other kinds, once that is tried.
+    pub elsewhere: Vec<Elsewhere>,
 }
 
 /// A bound of one knob, and what its value does on fresh rays while the other knobs stay.
@@ -182,6 +185,7 @@ pub fn study_scene<F: Scalar>(
         curves,
         relative,
         relative_limits,
+        elsewhere: Vec::new(),
     })
 }
 

@@ -60,9 +60,10 @@ pub fn turn(draw: &mut Draw) -> [f64; 2] {
     vector.map(|x| x / length)
 }
 
-/// Along and across, two vertices of half a rectangle whose corner is the third and whose diagonal is at most `size`.
+/// Along and across, two vertices of half a rectangle whose corner is the third and whose diagonal is `size` long.
 pub fn half_of_a_face(draw: &mut Draw, size: f64) -> [(f64, f64); 2] {
-    [(0.8 * size, 0.0), (0.0, (0.25 + 0.35 * draw.unit()) * size)]
+    let across = 0.25 + 0.45 * draw.unit();
+    [((1.0 - across * across).sqrt() * size, 0.0), (0.0, across * size)]
 }
 
 /// The ends of the six edges around a corner of a box: three are the box's, three are diagonals of faces, all at most

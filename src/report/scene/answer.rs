@@ -4,7 +4,8 @@ use super::commands::commands;
 use super::notes::{accuracy, is_coarse, no_good, notes, tolerates};
 use super::record::*;
 use super::words::{
-    bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t, where_of,
+    RAYS, bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t,
+    where_of,
 };
 use crate::case::Number;
 use crate::report::epsilon::{FLUSHED, is_subnormal, least_normal};
@@ -341,6 +342,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = costs.collect::<Vec<_>>().join(", ");
     let aim = if record.aims_inside { "; all aimed inside" } else { "" };
     let mut lines = vec![
+        RAYS.to_owned(),
         format!("cost: each share, of its own row, times its weight ({costs})"),
         format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
     ];

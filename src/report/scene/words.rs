@@ -8,6 +8,9 @@ use crate::kernel::Role;
 use crate::report::group_digits;
 use crate::report::record::Rate;
 
+/// From where rays are aimed.
+pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
+
 /// What is counted, by its stratum's family and its kind.
 pub(super) fn label(stratum: &str, kind: &str) -> &'static str {
     match (stratum, kind) {
