@@ -93,7 +93,7 @@ fn scenes_are_sources_whose_cases_explain_themselves() {
     let (record, _) = ends(&folder, &audit, 0);
     let id = record.split('"').find(|word| word.starts_with("scene-")).unwrap();
     assert!(record.contains("scene-shadow") && record.contains("scene-grazing"), "{id}");
-    let id = "scene-edges@1/f32/extent=1000,edge=0.01..10,distance=0..2000,direction=unit/1/17";
+    let id = "scene-edges@2/f32/extent=1000,edge=0.01..10,distance=0..2000,direction=unit/1/17";
     let (shown, _) = ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
     assert!(shown.contains("cramer"), "{shown}");
     let id = "scene-shadow@1/f32/extent=1,edge=0.1..1,distance=0..4,direction=unit,kernel=X/1/17";
@@ -487,7 +487,7 @@ fn meshes_that_are_no_scene_get_one_clear_line() {
         assert!(row(label).ends_with(" -"), "{screen}");
     }
     assert!(!row("at a triangle: hits lost").ends_with(" -"), "{screen}");
-    let id = "scene-edges@1/f32/mesh=0123456789abcdef,distance=0..1/1/17";
+    let id = "scene-edges@2/f32/mesh=0123456789abcdef,distance=0..1/1/17";
     let (_, error) = ends(&folder, &["explain", id, "--mesh", "one.obj"], 65);
     assert!(error.contains("its digest is"), "{error}");
 }

@@ -42,7 +42,7 @@ fn a_scene_says_how_flat_its_rays_are() {
         screen.contains("almost parallel: angles whose sines go from 1e-8 to 1e-7"),
         "{screen}"
     );
-    let id = "scene-grazing@1/f32/extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..1e-7/1/7";
+    let id = "scene-grazing@2/f32/extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..1e-7/1/7";
     ends(&folder, &["explain", id, "--kernel", "cramer"], 0);
 }
 

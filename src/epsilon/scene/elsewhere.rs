@@ -1,20 +1,11 @@
 //! What a study's recommendation does in the same scene on planes of other kinds.
 
 use super::measure::{Attempt, count_at};
-use super::study::{SceneStudy, fresh_seed};
+use super::study::{Elsewhere, SceneStudy, fresh_seed};
 use super::trials::Setting;
-use crate::audit::Trials;
-use crate::case::{PlaneKind, Scene};
+use crate::case::Scene;
 use crate::engine::Observer;
 use crate::kernel::Scalar;
-
-/// What the recommended epsilons do on planes of one kind, on fresh rays.
-pub struct Elsewhere {
-    /// The kind.
-    pub plane: PlaneKind,
-    /// By count: the wrong answers.
-    pub wrong: Vec<Trials>,
-}
 
 /// Tries the recommended epsilons and the proved values in other scenes. A value that is wrong there is taken out of what
 /// is proved: its proof is about the scene's own kind of plane.

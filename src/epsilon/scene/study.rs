@@ -3,7 +3,6 @@
 
 use super::candidates::{MOST_POINTS, around, grid, of_values};
 use super::curves::{Curve, axes, curves};
-use super::elsewhere::Elsewhere;
 use super::errors::{ErrorSums, MaxError};
 use super::joint::{Costs, Grid, Joint};
 use super::knob::{Knob, Margins};
@@ -14,7 +13,7 @@ use super::proved::{Proved, proved};
 use super::trials::{Count, Kind, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
-use crate::case::Case;
+use crate::case::{Case, PlaneKind};
 use crate::engine::Observer;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
@@ -41,6 +40,14 @@ pub struct SceneStudy<F> {
     pub relative_limits: Vec<Limit<F>>,
     /// What the cheapest epsilons do on planes of other kinds, once that is tried.
     pub elsewhere: Vec<Elsewhere>,
+}
+
+/// What the recommended epsilons do on planes of one kind, on fresh rays.
+pub struct Elsewhere {
+    /// The kind.
+    pub plane: PlaneKind,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Trials>,
 }
 
 /// A bound of one knob, and what its value does on fresh rays while the other knobs stay.
