@@ -264,7 +264,7 @@ impl FromStr for CaseId {
     fn from_str(text: &str) -> Result<Self, String> {
         let shape = || {
             format!(
-                "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@1/f32/-/1/135"
+                "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@2/f32/-/1/135"
             )
         };
         let [family, scalar, parameters, seed, index] =

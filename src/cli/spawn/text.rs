@@ -74,10 +74,15 @@ fn advice(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::R
             }
             writeln!(
                 out,
-                "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure){}",
-                group_digits(best.one_in),
-                if record.planes.len() < 2 { "" } else { ", nor on other planes" }
+                "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
+                group_digits(best.one_in)
             )?;
+            if let [_, others @ ..] = &record.planes[..]
+                && !others.is_empty()
+            {
+                let others = others.join(", ");
+                writeln!(out, "       nor on planes of any other kind ({others})")?;
+            }
             writeln!(
                 out,
                 "       half of the new rays start at most {median} of their triangle's longest edge above it"
