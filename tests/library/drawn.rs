@@ -175,7 +175,7 @@ fn planes_are_of_the_kind_that_the_scene_names() {
 #[test]
 fn waechter_binder_fails_at_points_o_plus_t_d_on_a_floor_at_height_0() {
     let [a, b, c] = [[-1000.0, 0.0, -1000.0], [0.0, 0.0, 1000.0], [1000.0, 0.0, -1000.0]];
-    let direction = [-0.32852643728256226, -0.7071420550346375, -0.6261153177816719];
+    let direction = [-0.32852643728256226, -0.7071420550346375, -0.626_115_317_781_672];
     let first = Case::new([265.0f32, 480.0, 370.0], direction.map(|x: f64| x as f32), [a, b, c]);
     let row =
         EpsilonChoice::Source.rows(&[find("moller-trumbore").unwrap()], None).unwrap().remove(0);

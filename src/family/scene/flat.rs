@@ -43,7 +43,7 @@ fn at_an_angle<F: Float>(
     sine: f64,
 ) -> ([F; 3], [F; 3]) {
     let is_free = scene.sine.is_none() && sine.abs() < LEAST_ULPS * F::EPSILON.to_f64();
-    let mut nearest: Option<(f64, ([F; 3], [F; 3]))> = None;
+    let mut nearest: Option<(f64, _)> = None;
     for _ in 0..TRIES {
         let flat = in_plane(draw, frame);
         let toward = flat * (1.0 - sine * sine).sqrt() + frame.normal * sine;

@@ -3,7 +3,7 @@
 use super::record::SceneKernelPart;
 use super::words::{label, share};
 
-/// The kinds, and a label with a share for each: the scene's own first. Only what is more often wrong on some kind, by
+/// The kinds, and a label with a share for each. Only what is more often wrong on some kind, by
 /// more than chance explains.
 pub(super) fn worse_elsewhere(
     part: &SceneKernelPart,
@@ -17,8 +17,7 @@ pub(super) fn worse_elsewhere(
     let row = |count: usize| {
         let others = part.elsewhere.iter().map(|plane| share(&plane.wrong[count]));
         let words = &part.counts[count];
-        let cells = std::iter::once(share(&own[count])).chain(others).collect();
-        (label(&words.stratum, &words.kind), cells)
+        (label(&words.stratum, &words.kind), others.collect())
     };
     let planes = part.elsewhere.iter().map(|plane| plane.plane.as_str()).collect();
     (planes, (0..own.len()).filter(is_worse).map(row).collect())

@@ -67,8 +67,8 @@ fn elsewhere(part: &SceneKernelPart, out: &mut dyn Write) -> io::Result<()> {
         let planes = planes.join(", ");
         return writeln!(out, "recommended, on other planes ({planes}): no more often wrong");
     }
-    const WIDTH: usize = 13;
-    write!(out, "{:<32}{:>WIDTH$}", "recommended, on other planes:", "generic")?;
+    const WIDTH: usize = 12;
+    write!(out, "{:<32}", "recommended, on other planes:")?;
     planes.iter().try_for_each(|plane| write!(out, "{plane:>WIDTH$}"))?;
     writeln!(out)?;
     for (label, cells) in &rows {
