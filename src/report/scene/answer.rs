@@ -4,10 +4,9 @@ use super::commands::commands;
 use super::notes::{accuracy, is_coarse, no_good, notes, tolerates};
 use super::record::*;
 use super::words::{
-    RAYS, bound, flag, human, label, least_t, of_unit, share, short_error, unit_of, unit_of_t,
-    where_of,
+    RAYS, bound, flag, flatness, human, label, least_t, of_unit, share, short_error, unit_of,
+    unit_of_t, where_of,
 };
-use crate::case::Number;
 use crate::report::epsilon::{FLUSHED, is_subnormal, least_normal};
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
@@ -322,14 +321,6 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
         }
     }
     all
-}
-
-/// Which angles almost parallel rays have.
-fn flatness(record: &SceneRecord) -> String {
-    match record.sine {
-        None => "from 7 degrees down to below rounding".to_owned(),
-        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
-    }
 }
 
 fn has_parallel_gate(part: &SceneKernelPart) -> bool {

@@ -206,3 +206,11 @@ pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
         _ => String::new(),
     }
 }
+
+/// Which angles almost parallel rays have.
+pub(super) fn flatness(record: &SceneRecord) -> String {
+    match record.sine {
+        None => "from 7 degrees down to below rounding".to_owned(),
+        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
+    }
+}
