@@ -10,7 +10,7 @@ mod scene;
 pub use any::AnyScalar;
 pub(crate) use literal::{rust_case, rust_list};
 pub(crate) use scene::Number;
-pub use scene::{DirectionLength, SCENES, Scene, ScenePreset};
+pub use scene::{DirectionLength, PlaneKind, RayKind, SCENES, Scene, ScenePreset};
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
 use std::fmt;
@@ -264,7 +264,7 @@ impl FromStr for CaseId {
     fn from_str(text: &str) -> Result<Self, String> {
         let shape = || {
             format!(
-                "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@1/f32/-/1/135"
+                "'{text}' is not a case id: family@version/scalar/parameters/seed/index, as tiny@2/f32/-/1/135"
             )
         };
         let [family, scalar, parameters, seed, index] =

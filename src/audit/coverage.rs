@@ -9,7 +9,7 @@ use crate::oracle;
 use crate::truth::{Crossing, Facing, Place, Truth};
 
 /// One thing that a case may be like, among others of its kind.
-pub struct Cell {
+pub struct Aspect {
     /// The kind: `corner`, `plane`, ….
     pub kind: &'static str,
     /// What the case is like: `a`, `along an axis`.
@@ -35,14 +35,14 @@ struct Shape {
 /// A weight that counts as 0: as near to an edge as that many longest edges.
 const NEAR: f64 = 1.0 / 1024.0;
 
-macro_rules! cells {
+macro_rules! aspects {
     ($($kind:literal: $($name:literal => $is_met:expr),+;)+) => {
-        /// Every cell, the cells of a kind together.
-        pub const CELLS: &[Cell] = &[$($(Cell { kind: $kind, name: $name, is_met: $is_met },)+)+];
+        /// Every aspect, those of a kind together.
+        pub const ASPECTS: &[Aspect] = &[$($(Aspect { kind: $kind, name: $name, is_met: $is_met },)+)+];
     };
 }
 
-cells! {
+aspects! {
     "corner":
         "a" => |s| s.is_corner(0), "b" => |s| s.is_corner(1), "c" => |s| s.is_corner(2);
     "edge":
@@ -99,7 +99,11 @@ fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
 
 fn length(v: [f64; 3]) -> f64 {
     let largest = v.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    if largest == 0.0 { 0.0 } else { largest * v.map(|x| x / largest).map(|x| x * x).iter().sum::<f64>().sqrt() }
+    if largest == 0.0 {
+        0.0
+    } else {
+        largest * v.map(|x| x / largest).map(|x| x * x).iter().sum::<f64>().sqrt()
+    }
 }
 
 impl Shape {
@@ -167,7 +171,7 @@ impl Shape {
     }
 }
 
-/// The share of a family's cases that are like each of [`CELLS`], in both scalars together; of a stratum in the scene
+/// The share of a family's cases that are like each of [`ASPECTS`], in both scalars together; of a stratum in the scene
 /// `room`, on every kind of plane.
 pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
     let is_stratum = STRATA.iter().any(|stratum| stratum.name == family.name);
@@ -179,7 +183,7 @@ pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
             room.of_all_planes().into_iter().map(in_scene).collect()
         }
     };
-    let (mut counts, mut cases) = (vec![0u64; CELLS.len()], 0);
+    let (mut counts, mut cases) = (vec![0u64; ASPECTS.len()], 0);
     for parameters in &scenes {
         cases += add::<f32>(family, parameters, indices, &mut counts)
             + add::<f64>(family, parameters, indices, &mut counts);
@@ -198,7 +202,7 @@ fn add<F: Scalar>(
     for case in made.flat_map(|made| made.cases().to_vec()) {
         let shape = Shape::of(&case);
         cases += 1;
-        for (count, cell) in counts.iter_mut().zip(CELLS) {
+        for (count, cell) in counts.iter_mut().zip(ASPECTS) {
             *count += u64::from((cell.is_met)(&shape));
         }
     }

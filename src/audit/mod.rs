@@ -49,7 +49,7 @@ pub use choice::EpsilonChoice;
 pub(crate) use chunk::Chunk;
 pub use chunk::SourceSummary;
 #[cfg(feature = "studies")]
-pub use coverage::{CELLS, Cell, coverage};
+pub use coverage::{ASPECTS, Aspect, coverage};
 pub use digest::{Digest, Place};
 pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;

@@ -3,7 +3,8 @@
 
 use crate::arith::{Float, smallest_normal};
 use crate::suggest::nearest_name;
-use std::fmt;
+pub(crate) use text::Number;
+use text::{Range, Sizes, extent_in, number, one_of, range, sizes};
 
 /// What the rays and triangles of a scene measure, in the scene's own unit of length.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Scene {
     /// The shortest and the longest length of a triangle's longest edge; each doubling between them is
     /// equally likely.
     pub edge: [f64; 2],
+    /// Half of the triangles' longest edges are below this; none if each doubling is equally likely.
+    pub median_edge: Option<f64>,
     /// How far a ray starts from the point that it is aimed at: at least, and at most.
     pub distance: [f64; 2],
     /// The length of the directions.
@@ -24,6 +27,51 @@ pub struct Scene {
     pub sine: Option<[f64; 2]>,
     /// Whether all almost parallel rays are aimed inside their triangle; half of them are aimed beside it otherwise.
     pub aims_inside: bool,
+    /// Where the direction of a ray comes from.
+    pub ray: RayKind,
+    /// How the planes of triangles lie.
+    pub plane: PlaneKind,
+}
+
+named! {
+    pub names
+    /// Where the direction of a ray comes from. It decides where rays far from 0 pass, because there the origin is
+    /// rounded by much.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum RayKind {
+        /// From the rounded origin to the target: the stored ray still passes the target, but for the rounding of the
+        /// direction.
+        Stored = "stored",
+        /// From the origin before it is rounded, as a camera or a light generates it: the rounding moves the ray.
+        Generated = "generated",
+    }
+}
+
+named! {
+    pub names
+    /// How the planes of triangles lie. Their rates differ, so they are never pooled.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum PlaneKind {
+        /// Turned at random.
+        Generic = "generic",
+        /// Parallel to two axes, at any place: floors and walls.
+        Axis = "axis",
+        /// Parallel to two axes, at a coordinate from a millionth to a thousandth of the extent.
+        AxisNearZero = "axis-near-0",
+        /// Holding two axes: one coordinate of all vertices is exactly 0.
+        AxisAtZero = "axis-0",
+        /// At an angle of up to 6 degrees to two axes, at heights up to a thousandth of the extent: level ground.
+        Terrain = "terrain",
+        /// Parallel to two axes, with edges along axes; neighbours stand at right angles.
+        Box = "box",
+    }
+}
+
+impl PlaneKind {
+    /// Whether the plane is at or near coordinate 0, so that the scene's center has to be 0.
+    fn is_near_zero(self) -> bool {
+        matches!(self, PlaneKind::AxisNearZero | PlaneKind::AxisAtZero)
+    }
 }
 
 /// How long the directions of a scene's rays are.
@@ -53,8 +101,18 @@ const fn preset(
     distance: [f64; 2],
 ) -> ScenePreset {
     let direction = DirectionLength::Unit;
-    let scene =
-        Scene { extent, center: 0.0, edge, distance, direction, sine: None, aims_inside: false };
+    let scene = Scene {
+        extent,
+        center: 0.0,
+        edge,
+        median_edge: None,
+        distance,
+        direction,
+        sine: None,
+        aims_inside: false,
+        ray: RayKind::Stored,
+        plane: PlaneKind::Generic,
+    };
     ScenePreset { name, unit, scene }
 }
 
@@ -79,14 +137,16 @@ const LEAST_SINE: f64 = 1e-30;
 const OF_MESH: &str = "mesh";
 
 /// The words of a scene, as errors list them.
-const WORDS: &str = "extent=1000, center=0, edge=0.01..10, distance=0..2000, direction=unit or target, sine=1e-7..0.1, \
-     aim=inside or both";
+const WORDS: &str = "extent=1000, center=0, edge=0.01..10 or 0.01..0.1..10, distance=0..2000, direction=unit or target, \
+     sine=1e-7..0.1, aim=inside or both, ray=stored or generated, \
+     plane=generic, axis, axis-near-0, axis-0, terrain or box";
 
 impl Scene {
     /// The same with lengths that are so many times as large.
     fn grown(self, times: f64) -> Scene {
         let [edge, distance] = [self.edge, self.distance].map(|range| range.map(|x| x * times));
-        Scene { extent: self.extent * times, edge, distance, ..self }
+        let median_edge = self.median_edge.map(|x| x * times);
+        Scene { extent: self.extent * times, edge, median_edge, distance, ..self }
     }
 
     /// The lengths that the words of a scene leave out, as words; none where a preset's name has them.
@@ -142,12 +202,12 @@ impl Scene {
     pub fn of_mesh(mut self, text: &str) -> Result<Scene, String> {
         let words = text.split(',').map(str::trim);
         let words = words.enumerate().filter(|(i, word)| !(*i == 0 && *word == OF_MESH));
-        let own = (self.extent, self.center, self.edge);
+        let own = (self.extent, self.center, self.edge, self.median_edge, self.plane);
         let expected = "write mesh, or mesh,distance=0..20,direction=target";
         let wrong = |word: &str| format!("'{word}' is no word for the scene of a mesh: {expected}");
         self.set_all(words.map(|(_, word)| word), |word, _| wrong(word))?;
-        if own != (self.extent, self.center, self.edge) {
-            return Err(format!("a mesh has its own extent and edges: {expected}"));
+        if own != (self.extent, self.center, self.edge, self.median_edge, self.plane) {
+            return Err(format!("a mesh has its own extent, edges and planes: {expected}"));
         }
         self.check()?;
         Ok(self)
@@ -179,7 +239,7 @@ impl Scene {
         match key {
             "extent" => self.extent = number(key, value)?,
             "center" => self.center = number(key, value)?,
-            "edge" => self.edge = range(key, value)?,
+            "edge" => (self.edge, self.median_edge) = sizes(key, value)?,
             "distance" => self.distance = range(key, value)?,
             "aim" => {
                 self.aims_inside = match value {
@@ -189,6 +249,10 @@ impl Scene {
                 }
             }
             "sine" => self.sine = Some(range(key, value)?),
+            "ray" => self.ray = one_of(key, value, RayKind::ALL.map(|kind| (kind.name(), kind)))?,
+            "plane" => {
+                self.plane = one_of(key, value, PlaneKind::ALL.map(|kind| (kind.name(), kind)))?
+            }
             "direction" => {
                 self.direction = match value {
                     "unit" => DirectionLength::Unit,
@@ -208,12 +272,18 @@ impl Scene {
             return Err(format!("extent={extent}: must be above 0"));
         }
         if shortest <= 0.0 {
-            return Err(format!("edge={}: must be above 0", Range(self.edge)));
+            return Err(format!("edge={}: must be above 0", Sizes(self.edge, self.median_edge)));
         }
         if nearest < 0.0 || farthest <= 0.0 {
             return Err(format!(
                 "distance={}: must be from 0 up, and not 0 alone",
                 Range(self.distance)
+            ));
+        }
+        if self.plane.is_near_zero() && self.center != 0.0 {
+            let (plane, center) = (self.plane.name(), Number(self.center));
+            return Err(format!(
+                "plane={plane}: such planes are at coordinate 0, not around center={center}"
             ));
         }
         match self.sine {
@@ -223,6 +293,18 @@ impl Scene {
             )),
             _ => Ok(()),
         }
+    }
+
+    /// The same scene with each kind of plane that it can have; the generic one first.
+    pub fn of_all_planes(&self) -> Vec<Scene> {
+        let all = PlaneKind::ALL.into_iter();
+        let can_have = |plane: &PlaneKind| !plane.is_near_zero() || self.center == 0.0;
+        all.filter(can_have).map(|plane| Scene { plane, ..self.clone() }).collect()
+    }
+
+    /// Whether the words of a scene name a kind of plane.
+    pub fn names_planes(text: &str) -> bool {
+        text.split(',').any(|word| word.split('=').next().is_some_and(|key| key.trim() == "plane"))
     }
 
     /// The largest coordinate of a triangle.
@@ -235,7 +317,7 @@ impl Scene {
         if self.extent < self.edge[1] {
             return Err(format!(
                 "edge={}: the longest edge is at most the extent, {}",
-                Range(self.edge),
+                Sizes(self.edge, self.median_edge),
                 Number(self.extent)
             ));
         }
@@ -279,94 +361,6 @@ impl Scene {
     }
 }
 
-/// The extent that words give; 1 if they give none that is a length.
-fn extent_in<'a>(mut words: impl Iterator<Item = &'a str>) -> f64 {
-    let given = |word: &str| {
-        let (_, value) = word.split_once('=').filter(|(key, _)| key.trim() == "extent")?;
-        value.trim().parse().ok().filter(|extent: &f64| extent.is_finite() && 0.0 < *extent)
-    };
-    words.find_map(given).unwrap_or(1.0)
-}
-
-/// A finite number.
-fn number(key: &str, text: &str) -> Result<f64, String> {
-    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
-    number.ok_or_else(|| {
-        let (whole, text) = (text, text.trim());
-        let starts_with_digit = text.starts_with(|c: char| c.is_ascii_digit());
-        let has_unit = starts_with_digit && text.ends_with(|c: char| c.is_ascii_alphabetic());
-        let is_number = |end: &str| end.trim().parse::<f64>().is_ok();
-        let takes_two = ["edge", "distance", "sine"].contains(&key);
-        let mut places = text.match_indices('-').map(|(place, _)| place);
-        let is_range =
-            takes_two && places.any(|at| is_number(&text[..at]) && is_number(&text[at + 1..]));
-        let unit = match (has_unit, is_range) {
-            (true, _) => ": write all lengths in one unit, without its name",
-            (_, true) => ": a range is written LOW..HIGH",
-            _ => "",
-        };
-        format!("{key}={whole}: '{text}' is not a finite number{unit}")
-    })
-}
-
-/// Two finite numbers in order; one stands for both.
-fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
-    let (low, high) = text.split_once("..").unwrap_or((text, text));
-    if high.starts_with('.') {
-        return Err(format!("{key}={text}: write a range with two dots, as 0.5..2"));
-    }
-    if low.trim().is_empty() || high.trim().is_empty() {
-        return Err(format!("{key}={text}: write both ends, as 0.5..2, or one number"));
-    }
-    let [low, high] = [number(key, low)?, number(key, high)?];
-    if high < low {
-        return Err(format!("{key}={text}: the range is empty; write the smaller number first"));
-    }
-    Ok([low, high])
-}
-
-/// A number in as few digits as bring it back.
-pub(crate) struct Number(pub f64);
-
-impl fmt::Display for Number {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.abs() {
-            0.0 => f.write_str("0"),
-            size if (1e-4..1e7).contains(&size) => write!(f, "{}", self.0),
-            _ => write!(f, "{:e}", self.0),
-        }
-    }
-}
-
-struct Range([f64; 2]);
-
-impl fmt::Display for Range {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            [low, high] if low == high => write!(f, "{}", Number(low)),
-            [low, high] => write!(f, "{}..{}", Number(low), Number(high)),
-        }
-    }
-}
-
-impl fmt::Display for Scene {
-    /// The words that make it again, as they stand in case ids.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let direction = match self.direction {
-            DirectionLength::Unit => "unit",
-            DirectionLength::Target => "target",
-        };
-        let (edge, distance) = (Range(self.edge), Range(self.distance));
-        let extent = Number(self.extent);
-        write!(f, "extent={extent},")?;
-        if self.center != 0.0 {
-            write!(f, "center={},", Number(self.center))?;
-        }
-        write!(f, "edge={edge},distance={distance},direction={direction}")?;
-        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))?;
-        if self.aims_inside { f.write_str(",aim=inside") } else { Ok(()) }
-    }
-}
-
 #[cfg(test)]
 mod tests;
+mod text;

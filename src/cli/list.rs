@@ -4,7 +4,7 @@ use super::exit::{Failure, Status};
 use super::output::write_result;
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
-use crate::audit::{CELLS, Cell, EpsilonText, coverage};
+use crate::audit::{ASPECTS, Aspect, EpsilonText, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
 use crate::kernel::{self, KernelInfo, PRESETS, PresetValue, Tunable};
@@ -88,12 +88,13 @@ fn write_coverage(out: &mut dyn Write) -> io::Result<()> {
     const INDICES: u64 = 500;
     const WIDTH: usize = 100;
     let of_family = |family: &'static Family| (family.name, coverage(family, INDICES));
-    let rows: Vec<(&str, Vec<f64>)> =
-        FAMILIES.iter().chain(STRATA).map(of_family).collect();
-    let kinds: Vec<&[Cell]> = CELLS.chunk_by(|a, b| a.kind == b.kind).collect();
+    let rows: Vec<(&str, Vec<f64>)> = FAMILIES.iter().chain(STRATA).map(of_family).collect();
+    let kinds: Vec<&[Aspect]> = ASPECTS.chunk_by(|a, b| a.kind == b.kind).collect();
     let mut first = 0;
     while first < kinds.len() {
-        let width = |kind: &&[Cell]| kind.iter().map(|cell| cell.name.len().max(4) + 1).sum::<usize>() + 2;
+        let width = |kind: &&[Aspect]| {
+            kind.iter().map(|cell| cell.name.len().max(4) + 1).sum::<usize>() + 2
+        };
         let mut taken = 1;
         while first + taken < kinds.len()
             && 18 + kinds[first..=first + taken].iter().map(width).sum::<usize>() <= WIDTH

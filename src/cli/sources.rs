@@ -68,7 +68,9 @@ pub struct SourceArguments {
     direction: Option<String>,
 
     /// Run rays in a scene instead of families: unit, room, city or cad-mm, or what is known of yours,
-    /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit; mesh is the scene that --mesh names
+    /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit; mesh is the scene that --mesh names.
+    /// edge=0.01..0.1..10: half are smaller than 0.1; plane=generic, axis, axis-near-0, axis-0, terrain
+    /// or box: how triangles lie; ray=generated: aimed before the origin is rounded
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
 
@@ -126,13 +128,15 @@ impl SourceArguments {
     pub fn studied_scene(&self, quiet: bool) -> Result<StudiedScene, Failure> {
         if !self.mesh.is_empty() {
             let (scene, mesh) = self.mesh_scene(quiet)?;
-            return Ok(StudiedScene { scene, unit: "", mesh: Some(mesh) });
+            return Ok(StudiedScene { scene, unit: "", mesh: Some(mesh), others: Vec::new() });
         }
         let (scene, unit) = self.scene()?.unwrap_or_default();
         if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
             note_left_out(&scene, text);
         }
-        Ok(StudiedScene { scene, unit, mesh: None })
+        let names_planes = self.scene.as_deref().is_some_and(Scene::names_planes);
+        let others = if names_planes { Vec::new() } else { scene.of_all_planes().split_off(1) };
+        Ok(StudiedScene { scene, unit, mesh: None, others })
     }
 
     /// Whether a scene or a mesh is named.

@@ -17,7 +17,7 @@ use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::plugin::{OffsetCommand, Program};
 use crate::spawn::{
-    Plan, PointKind, Scheme, default_schemes, needs_t, parse, register, run as run_plan,
+    Plan, PointKind, Scheme, Sums, default_schemes, needs_t, parse, register, run as run_plan,
 };
 use choice::{least_without_failure, made_for};
 use clap::Args;
@@ -34,7 +34,9 @@ pub struct SpawnArguments {
     kernels: KernelArguments,
 
     /// Where triangles are, how large they are, and how far first rays travel: unit, room, city or cad-mm,
-    /// or what is known of yours, as extent=1000,edge=0.01..10,distance=0..2000; center=1e5 moves it
+    /// or what is known of yours, as extent=1000,edge=0.01..10,distance=0..2000; center=1e5 moves it,
+    /// edge=0.01..0.1..10 makes half of them smaller than 0.1, plane=axis-0 tries floors at 0 only
+    /// (generic, axis, axis-near-0, axis-0, terrain, box) [without plane: all kinds, told apart]
     #[arg(long, value_name = "SCENE", default_value = "unit")]
     scene: String,
 
@@ -124,13 +126,17 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         note_left_out(&scene, &arguments.scene);
     }
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
+    let scenes = match Scene::names_planes(&arguments.scene) {
+        true => vec![scene.clone()],
+        false => scene.of_all_planes(),
+    };
     let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;
     let mut studies: Vec<Study<'_>> = Vec::new();
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
             let in_scalar = row.entry.scalars();
-            let settings = Settings { arguments, row, scene: &scene, kind, wall, fold };
+            let settings = Settings { arguments, row, scenes: &scenes, kind, wall, fold };
             if scalars[0] && in_scalar[0] && has::<f32>(&schemes) {
                 let schemes = &schemes;
                 studies.push(Box::new(move |progress| settings.study::<f32>(schemes, progress)));
@@ -146,7 +152,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
     }
     let passes = if arguments.makes_schemes() { 3 } else { 2 };
-    let total = studies.len() as u64 * passes * arguments.count;
+    let total = (studies.len() * scenes.len()) as u64 * passes * arguments.count;
     let progress = Progress::new(total, "first rays", arguments.quiet);
     let points = studies.iter().map(|study| study(&progress)).collect();
     progress.finish();
@@ -164,6 +170,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         count: arguments.count,
         wall,
         fold,
+        planes: scenes.iter().map(|scene| scene.plane.name().to_owned()).collect(),
         points,
     };
     write_results(outputs, |format, _, out| (format.write)(&record, out))?;
@@ -187,7 +194,8 @@ fn pilot_seed(seed: u64) -> u64 {
 struct Settings<'a> {
     arguments: &'a SpawnArguments,
     row: &'a Row,
-    scene: &'a Scene,
+    /// The scene with each kind of plane; the table is about the first.
+    scenes: &'a [Scene],
     kind: PointKind,
     wall: f64,
     fold: f64,
@@ -200,28 +208,40 @@ impl Settings<'_> {
     where
         AnyCase: From<Case<F>>,
     {
-        let Settings { arguments, row, scene, kind, wall, fold } = *self;
+        let Settings { arguments, row, scenes, kind, wall, fold } = *self;
         let gives_t = row.entry.info.gives.t;
         let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
-        let schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
-        let (seed, count) = (pilot_seed(arguments.seed), arguments.count);
-        let (schemes_of_pilot, with_least) = (&schemes, true);
-        let schemes = schemes_of_pilot;
-        let plan = Plan { row, scene, kind, schemes, wall, fold, with_least, seed, count };
-        let pilot = run_plan::<F>(&plan, progress);
-        let mut schemes = schemes.clone();
-        let (given, derived) = (schemes.len(), DerivedPart::of::<F>(&plan, &pilot));
+        let mut schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
+        let count = arguments.count;
+        let [tried_on, counted_on] = [pilot_seed(arguments.seed), arguments.seed];
+        let (with_least, scene, no_schemes) = (true, &scenes[0], &[]);
+        let seed = tried_on;
+        let plan =
+            Plan { row, scene, kind, schemes: no_schemes, wall, fold, with_least, seed, count };
+        let run = |plans: &[Plan<'_>]| -> Vec<Sums> {
+            plans.iter().map(|plan| run_plan::<F>(plan, progress)).collect()
+        };
+        let pilots = run(&on_each(scenes, &Plan { schemes: &schemes, ..plan }));
+        let (given, derived) = (schemes.len(), DerivedPart::of::<F>(&plan, &pilots));
         if arguments.makes_schemes() {
-            let made = made_for(&pilot, derived.as_ref().map(|derived| derived.normal));
-            let plan = Plan { schemes: &made.concat(), with_least: false, ..plan };
-            let tried = run_plan::<F>(&plan, progress);
+            let made = made_for(&pilots, derived.as_ref().map(|derived| derived.normal));
+            let all = made.concat();
+            let tried = Plan { schemes: &all, with_least: false, ..plan };
+            let tried = run(&on_each(scenes, &tried));
             schemes.extend(least_without_failure(made, &tried));
         }
-        let plan = Plan { schemes: &schemes, seed: arguments.seed, ..plan };
-        let sums = run_plan::<F>(&plan, progress);
         let made: Vec<usize> = (given..schemes.len()).collect();
-        PointsPart::new::<F>(&plan, [&pilot, &sums], &made, derived, &arguments.scene)
+        let mut plans = on_each(scenes, &Plan { schemes: &schemes, seed: counted_on, ..plan });
+        // How much a hit point needs is reported of the first kind of plane.
+        plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
+        let sums = run(&plans);
+        PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &arguments.scene)
     }
+}
+
+/// A plan in each of some scenes.
+fn on_each<'a>(scenes: &'a [Scene], plan: &Plan<'a>) -> Vec<Plan<'a>> {
+    scenes.iter().map(|scene| Plan { scene, ..*plan }).collect()
 }
 
 impl SpawnArguments {

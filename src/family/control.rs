@@ -1,6 +1,7 @@
 //! `interior`, `outside`: the control. Random transversal hits and misses, both sides, well away
 //! from every boundary.
 
+use super::integer::shuffle;
 use super::{Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
@@ -29,6 +30,7 @@ impl Recipe for Interior {
 
 impl Recipe for Outside {
     const NAME: &'static str = "outside";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, in front of the origin, outside the triangle";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -36,11 +38,12 @@ impl Recipe for Outside {
             let [u, v, w] = interior_weights(draw);
             // One weight or two below zero; the sum stays 1.
             let shift = 0.125 + draw.unit();
-            if draw.coin() {
+            let weights = if draw.coin() {
                 [-u - shift, v + u, w + u + shift]
             } else {
                 [u + 2.0 + shift, v - 1.0 - shift, w - 1.0]
-            }
+            };
+            shuffle(draw, weights)
         }))
     }
 

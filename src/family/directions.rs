@@ -14,12 +14,13 @@ pub(super) struct AxisAligned;
 
 impl Recipe for DirectionLength {
     const NAME: &'static str = "direction-length";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, the direction scaled by 2^-60 to 2^60";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let case = aimed::<F>(draw, &mut |draw| {
             let s = draw.unit();
-            if draw.coin() { [s, 1.0 - s, 0.0] } else { interior_weights(draw) }
+            if draw.coin() { shuffle(draw, [s, 1.0 - s, 0.0]) } else { interior_weights(draw) }
         });
         let exponent = draw.integer(-60, 60) as i32;
         let [origin, direction, a, b, c] = case.vectors();
@@ -34,6 +35,7 @@ impl Recipe for DirectionLength {
 
 impl Recipe for AxisAligned {
     const NAME: &'static str = "axis-aligned";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, along an axis, zeros and negative zeros throughout";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -52,11 +54,11 @@ impl Recipe for AxisAligned {
         };
         let mut direction = [0; 3];
         direction[axis] = draw.pick(&[-2, -1, 1, 2]);
-        let target =
-            draw.pick(&[triangle[0], triangle[1], edge_point, plus(edge_point, [0, 1, 0])]);
+        let (vertex, other) = (draw.pick(&triangle), draw.pick(&triangle));
+        let target = draw.pick(&[vertex, other, edge_point, plus(edge_point, [0, 1, 0])]);
         let origin = minus(target, times(direction, draw.integer(1, 4)));
         // Half of the cases have a vertex at the coordinate origin: zeros in the triangle.
-        let base = if draw.coin() { triangle[0] } else { [0; 3] };
+        let base = if draw.coin() { draw.pick(&triangle) } else { [0; 3] };
         let case = IntegerCase {
             origin: minus(origin, base),
             direction,

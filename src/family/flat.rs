@@ -104,7 +104,7 @@ impl Recipe for Coplanar {
 
 impl Recipe for Grazing {
     const NAME: &'static str = "grazing";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
     const PROMISE: &'static str =
         "transversal, sines from 1/2 down to below an ulp of 1, half of them on generic planes";
 

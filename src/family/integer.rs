@@ -79,6 +79,12 @@ pub(super) fn shuffle<T: Copy>(draw: &mut Draw, triangle: [T; 3]) -> [T; 3] {
     draw.pick(&[[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]])
 }
 
+/// The vertices in a random one of the three orders with the same winding.
+pub(crate) fn turned<T: Copy>(draw: &mut Draw, triangle: [T; 3]) -> [T; 3] {
+    let [a, b, c] = triangle;
+    draw.pick(&[[a, b, c], [b, c, a], [c, a, b]])
+}
+
 /// A triangle with area whose first edge holds lattice points, and one of those points: vertices are
 /// multiples of small steps, so that everything stays within `reach`.
 pub(super) fn triangle_with_edge_point(draw: &mut Draw, reach: i64) -> ([Point; 3], Point) {

@@ -1,7 +1,7 @@
 //! `shared-edge`, `fan`: two triangles on one edge, and a closed fan around a vertex.
 
 use super::control::{combination, is_steep, well_shaped};
-use super::integer::{Point, dot, minus, normal, plus, times, triangle_with_edge_point};
+use super::integer::{Point, dot, minus, normal, plus, times, triangle_with_edge_point, turned};
 use super::{Grouping, Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
@@ -13,6 +13,7 @@ pub(super) struct Fan;
 
 impl Recipe for SharedEdge {
     const NAME: &'static str = "shared-edge";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "two triangles on one edge, both transversal: crossings and folds, exact and near";
     const GROUPING: Grouping = Grouping::SharedEdge;
@@ -42,7 +43,7 @@ fn exact_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
         let float = |p: Point| p.map(|x| F::from_f64(x as f64));
         let case =
             |triangle: [Point; 3]| Case::new(float(origin), float(direction), triangle.map(float));
-        return vec![case(first), case(rotated(draw, second))];
+        return [first, second].map(|triangle| case(turned(draw, triangle))).into();
     }
 }
 
@@ -59,14 +60,9 @@ fn near_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
             std::array::from_fn(|i| (target[i] - origin[i]).offset_ulps(draw.integer(-ulps, ulps)));
         if is_steep(direction, [a, b, c]) && is_steep(direction, second) {
             let case = |triangle| Case::new(origin, direction, triangle);
-            return vec![case([a, b, c]), case(rotated(draw, second))];
+            return [[a, b, c], second].map(|triangle| case(turned(draw, triangle))).into();
         }
     }
-}
-
-/// One of the three rotations: the shared edge may be any of the second triangle's.
-fn rotated<T: Copy>(draw: &mut Draw, [a, b, c]: [T; 3]) -> [T; 3] {
-    draw.pick(&[[a, b, c], [b, c, a], [c, a, b]])
 }
 
 /// Directions around the axis, counter-clockwise; consecutive ones of any choice that leaves out no
@@ -75,6 +71,7 @@ const RING: [[i64; 2]; 8] = [[2, 0], [2, 2], [0, 2], [-2, 2], [-2, 0], [-2, -2],
 
 impl Recipe for Fan {
     const NAME: &'static str = "fan";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "a closed fan around a vertex, all transversal and facing alike, the line in its inside";
     const GROUPING: Grouping = Grouping::Fan;
@@ -106,7 +103,9 @@ impl Recipe for Fan {
         let origin = float(origin).map(|x| x.offset_ulps(draw.integer(-nudge, nudge)));
         let case = |i: usize| {
             let (from, to) = (ring[i], ring[(i + 1) % ring.len()]);
-            Case::new(origin, float(direction), [center, from, to].map(doubled))
+            // The centre may be any corner: kernels do not treat a, b and c alike.
+            let corners = turned(draw, [center, from, to]);
+            Case::new(origin, float(direction), corners.map(doubled))
         };
         Made::Group((0..ring.len()).map(case).collect())
     }

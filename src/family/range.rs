@@ -2,6 +2,7 @@
 //! is not a finite ray and triangle.
 
 use super::control::{aimed, interior_weights};
+use super::integer::shuffle;
 use super::{Made, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
@@ -17,11 +18,11 @@ fn drawn<F: Float>(draw: &mut Draw, mut coordinate: impl FnMut(&mut Draw) -> F) 
     let mut vector = |draw: &mut Draw| -> [F; 3] { std::array::from_fn(|_| coordinate(draw)) };
     let [origin, a, b, c] = std::array::from_fn(|_| vector(draw));
     // At a vertex, at the middle of two, or anywhere.
+    let [p, q, _] = shuffle(draw, [a, b, c]);
+    let half = F::from_f64(0.5);
     let direction = match draw.below(3) {
-        0 => std::array::from_fn(|i| a[i] - origin[i]),
-        1 => {
-            std::array::from_fn(|i| (a[i] * F::from_f64(0.5) + b[i] * F::from_f64(0.5)) - origin[i])
-        }
+        0 => std::array::from_fn(|i| p[i] - origin[i]),
+        1 => std::array::from_fn(|i| (p[i] * half + q[i] * half) - origin[i]),
         _ => vector(draw),
     };
     let usable = direction.iter().all(|x| x.is_finite()) && direction.iter().any(|x| !x.is_zero());
@@ -35,6 +36,7 @@ fn all_finite(truths: &[Truth]) -> bool {
 
 impl Recipe for MixedScale {
     const NAME: &'static str = "mixed-scale";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "finite, each exponent drawn independently in -30..30";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -51,6 +53,7 @@ impl Recipe for MixedScale {
 
 impl Recipe for RangeEnds {
     const NAME: &'static str = "range-ends";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "finite, subnormals and values near the largest float";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {

@@ -1,7 +1,7 @@
 //! `tiny`, `huge`, `far`: triangles of 2^-40 and of 2^40, and small triangles far from the origin.
 
 use super::control::{aimed, interior_weights};
-use super::integer::{minus, normal, plus, times, transversal, triangle_with_edge_point};
+use super::integer::{minus, normal, plus, shuffle, times, transversal, triangle_with_edge_point};
 use super::{Made, Recipe, apply};
 use crate::arith::Float;
 use crate::case::{Case, Draw, Parameters};
@@ -16,11 +16,12 @@ pub(super) struct Far;
 fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> Made<F> {
     let mut case = aimed::<F>(draw, &mut |draw| {
         let s = draw.unit();
-        match draw.below(4) {
+        let weights = match draw.below(4) {
             0 => [s, 1.0 - s, 0.0],
             1 => [-s, 1.0, s],
             _ => interior_weights(draw),
-        }
+        };
+        shuffle(draw, weights)
     });
     let parameters = Parameters { scale, scale_direction: draw.coin(), ..Parameters::default() };
     apply(&parameters, &mut case);
@@ -33,6 +34,7 @@ fn all_transversal(truths: &[Truth]) -> bool {
 
 impl Recipe for Tiny {
     const NAME: &'static str = "tiny";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, triangles of size 2^-40";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -46,6 +48,7 @@ impl Recipe for Tiny {
 
 impl Recipe for Huge {
     const NAME: &'static str = "huge";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str = "transversal, triangles of size 2^40";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
@@ -59,6 +62,7 @@ impl Recipe for Huge {
 
 impl Recipe for Far {
     const NAME: &'static str = "far";
+    const VERSION: u32 = 2;
     const PROMISE: &'static str =
         "transversal, triangles some hundred ulps wide, far from the origin";
 
@@ -68,6 +72,7 @@ impl Recipe for Far {
         let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| times(p, 2));
         let middle = std::array::from_fn(|i| (c[i] + edge_point[i]) / 2);
         let target = draw.pick(&[middle, edge_point, c, plus(c, [1, 0, 0])]);
+        let [a, b, c] = shuffle(draw, [a, b, c]);
         let exponent = draw.integer(10, i64::from(F::DIGITS) - 2);
         let base = draw.lattice_point(1 << exponent);
         let direction = transversal(draw, normal([a, b, c]), 32);

@@ -7,8 +7,8 @@ use crate::arith::{Float, three_digits};
 use crate::case::{DirectionLength, Draw, Parameters, Scene};
 use crate::corpus::is_without_area;
 use crate::family::{
-    Corners, Frame, Made, Parallel, Stratum, Triangles, along_axis, circle, flat_along, in_plane,
-    rounded, wide,
+    Corners, Frame, Made, Pair, Parallel, Ring, Stratum, Triangles, along_axis, circle, flat_along,
+    in_plane, rounded, wide,
 };
 use crate::kernel::Scalar;
 use glam::DVec3;
@@ -64,9 +64,7 @@ impl SceneMesh {
             center: 0.0,
             edge: [three_digits(edge[0], false), three_digits(edge[1], true)],
             distance: [0.0, three_digits((high - low).length(), true)],
-            direction: DirectionLength::Unit,
-            sine: None,
-            aims_inside: false,
+            ..Scene::default()
         }
     }
 
@@ -137,16 +135,12 @@ struct OfMesh<'a> {
 impl OfMesh<'_> {
     fn any_face<F: Float>(&self, draw: &mut Draw) -> Corners<F> {
         let faces = self.mesh.faces_of::<F>();
-        self.mesh.surface.mesh().vertices(faces[draw.below(faces.len())] as usize)
+        self.corners(faces[draw.below(faces.len())])
     }
 
-    /// A face's vertices in its winding, turned so that a point is the first.
-    fn turned_to<F: Float>(&self, face: u32, point: u32) -> Corners<F> {
-        let mesh = self.mesh.surface.mesh();
-        let vertices = mesh.triangles[face as usize];
-        let is_point = |vertex: &u32| self.topology.points[*vertex as usize] == point;
-        let first = vertices.iter().position(is_point).unwrap_or(0);
-        [0, 1, 2].map(|k| mesh.position(vertices[(first + k) % 3]))
+    /// Faces as they stand in the file.
+    fn corners<F: Float>(&self, face: u32) -> Corners<F> {
+        self.mesh.surface.mesh().vertices(face as usize)
     }
 }
 
@@ -156,25 +150,16 @@ impl<F: Float> Triangles<F> for OfMesh<'_> {
         (triangle, Frame::of(triangle).expect("faces without a normal are left out"))
     }
 
-    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4] {
+    fn pair(&self, draw: &mut Draw) -> Pair<F> {
         let edge = self.topology.shared[draw.below(self.topology.shared.len())];
-        let [first, second] = edge.faces;
-        let [one, other] = edge.ends;
-        // The winding of the first face decides at which end its edge starts.
-        let [p, q, r] = self.turned_to::<F>(first, one);
-        let end: [F; 3] = self.mesh.surface.mesh().position(other);
-        if q == end {
-            let [.., s] = self.turned_to::<F>(second, other);
-            [p, q, r, s]
-        } else {
-            let [.., s] = self.turned_to::<F>(second, one);
-            [end, p, q, s]
-        }
+        let ends = edge.ends.map(|point| self.mesh.surface.mesh().position(point));
+        Pair { ends, triangles: edge.faces.map(|face| self.corners(face)) }
     }
 
-    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>> {
+    fn fan(&self, draw: &mut Draw) -> Ring<F> {
         let (center, faces) = self.topology.fans.get(draw.below(self.topology.fans.len()));
-        faces.iter().map(|face| self.turned_to(*face, center)).collect()
+        let triangles = faces.iter().map(|face| self.corners(*face)).collect();
+        Ring { center: self.mesh.surface.mesh().position(center), triangles }
     }
 
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {

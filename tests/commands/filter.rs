@@ -125,7 +125,7 @@ fn what_is_missing_twice_out_of_order_or_no_verdict_is_an_error_with_its_line() 
         swapped.swap(1, 2);
         joined(&swapped)
     };
-    let second_group = lines.iter().position(|line| line.starts_with("fan@1/f32/-/1/1.0")).unwrap();
+    let second_group = lines.iter().position(|line| line.starts_with("fan@2/f32/-/1/1.0")).unwrap();
     let end = lines.len() - 1;
     for (answers, message) in [
         (String::new(), "no verdicts in it"),
@@ -133,26 +133,26 @@ fn what_is_missing_twice_out_of_order_or_no_verdict_is_an_error_with_its_line() 
         ("end 0\n".to_owned(), "no verdicts in it"),
         (
             without(0),
-            "-:1: expected the verdict on the first case of a set, found 'fan@1/f32/-/1/0.1'",
+            "-:1: expected the verdict on the first case of a set, found 'fan@2/f32/-/1/0.1'",
         ),
-        (without(1), "-:2: expected the verdict on fan@1/f32/-/1/0.1, or "),
-        (without(second_group), "expected the verdict on fan@1/f32/-/1/1.0, or "),
+        (without(1), "-:2: expected the verdict on fan@2/f32/-/1/0.1, or "),
+        (without(second_group), "expected the verdict on fan@2/f32/-/1/1.0, or "),
         (without(end - 1), "after "),
         (
             without(end - 1).replace(lines[end], &format!("end {}", end - 1)),
-            "the verdict on fan@1/f32/-/1/2.",
+            "the verdict on fan@2/f32/-/1/2.",
         ),
         (without(end), "the kernel stopped after "),
-        (swapped, "-:2: expected the verdict on fan@1/f32/-/1/0.1, or "),
-        (format!("{0}\n{1}", lines[0], all), "-:2: expected the verdict on fan@1/f32/-/1/0.1, or "),
+        (swapped, "-:2: expected the verdict on fan@2/f32/-/1/0.1, or "),
+        (format!("{0}\n{1}", lines[0], all), "-:2: expected the verdict on fan@2/f32/-/1/0.1, or "),
         (
             joined(&[&lines[..end], &lines[..]].concat()),
-            "expected the verdict on fan@1/f32/-/1/3.0, or ",
+            "expected the verdict on fan@2/f32/-/1/3.0, or ",
         ),
         (format!("{all}more\n"), "'more' stands behind the last 'end'"),
         (all.replace("0.2 miss", "0.2 maybe"), "-:3: expected 'ID miss', "),
-        (all.replace("fan@1", "fan@9"), "-:1: 'fan@9/f32/-/1/0.0' is of version 9"),
-        (all.replace("fan@1", "fun@1"), "-:1: unknown family 'fun'; did you mean 'fan'?"),
+        (all.replace("fan@2", "fan@9"), "-:1: 'fan@9/f32/-/1/0.0' is of version 9"),
+        (all.replace("fan@2", "fun@2"), "-:1: unknown family 'fun'; did you mean 'fan'?"),
         (all.replace("/f32/", "/f16/"), "-:1: unknown scalar 'f16'"),
         (all.replace("end ", "end 1"), "after "),
         ("x".repeat(70_000), "-:1: a line of more than 65536 bytes"),

@@ -103,11 +103,11 @@ fn points_are_mapped_by_id_by_name_and_as_json() {
 #[test]
 fn a_drawing_is_an_svg_with_the_exact_words() {
     let folder = scratch("map-drawing");
-    let id = "tiny@1/f32/-/1/2314";
+    let id = "tiny@2/f32/-/1/2314";
     let kernel = ["--kernel", "moller-trumbore", "--epsilon", "parallel=1e-6,edge=0"];
     let (out, error) =
         ends(&folder, &[&["map", id, "--drawing", "-o", "w.svg"], &kernel[..]].concat(), 0);
-    assert!(out.is_empty() && error.contains("2.354e-1 of the longest edge"), "{error}");
+    assert!(out.is_empty() && error.contains("2.148e-1 of the longest edge"), "{error}");
     let svg = fs::read_to_string(folder.join("w.svg")).unwrap();
     assert!(svg.contains("in f32: false-miss</title>"), "{svg}");
     assert!(svg.contains("Computed: a miss, refused by gate parallel."), "{svg}");
@@ -126,7 +126,7 @@ fn wrong_usage_and_bad_input_end_with_their_codes() {
         (&["map", "--at", "edges", "--kernel", "cramer"], 2, "did you mean 'edge'?"),
         (&["map", "--at", "edge", "--scalar", "f16", "--kernel", "cramer"], 2, "unknown scalar"),
         (&["map", "nonsense", "--kernel", "cramer"], 2, "is not a case id"),
-        (&["map", "fan@1/f32/-/1/2", "--kernel", "cramer"], 2, "say which"),
+        (&["map", "fan@2/f32/-/1/2", "--kernel", "cramer"], 2, "say which"),
         (&["map", "{\"scalar\":\"f32\"}", "--kernel", "cramer"], 65, "missing field 'origin'"),
         (&["map", "{\"points\":[]}"], 65, "argument:1: missing field 'scalar'"),
         (&["map", "{\"points\":[[0]],\"scalar\":\"f64\"}"], 65, "expected 3 points"),

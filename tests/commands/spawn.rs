@@ -18,7 +18,7 @@ fn the_screen_says_what_to_use_and_its_command_works() {
     let (screen, error) = ends(&folder, &["spawn", "--scene", "room", "-n", "20000"], 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
-    assert!(lines.len() <= 60, "{} lines", lines.len());
+    assert!(lines.len() <= 90, "{} lines", lines.len());
     let long = lines.iter().find(|line| 110 < line.chars().count());
     assert!(long.is_none(), "{long:?}");
     assert_eq!(screen.matches("\n  use  ").count(), 2, "{screen}");
@@ -96,6 +96,42 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
     assert!(told.contains("moller-trumbore"), "{told}");
     let first_ray = none["first_wrong"]["first_ray"].as_str().unwrap();
     ends(&folder, &["explain", first_ray, "--kernel", "cramer"], 0);
+}
+
+#[test]
+fn the_recommended_offset_holds_on_every_kind_of_plane() {
+    let folder = scratch("spawn-planes");
+    let place = ["--scene", "extent=1000,edge=100..1000,distance=0..1000", "-n", "5000"];
+    let record = json(&folder, &place);
+    let planes = ["generic", "axis", "axis-near-0", "axis-0", "terrain", "box"];
+    assert_eq!(record["planes"], serde_json::json!(planes));
+    for part in record["points"].as_array().unwrap() {
+        let schemes = part["schemes"].as_array().unwrap();
+        let of = |name: &str| schemes.iter().find(|scheme| scheme["name"] == name).unwrap();
+        let best = of(part["best"]["scheme"].as_str().unwrap());
+        let elsewhere = best["elsewhere"].as_array().unwrap();
+        assert_eq!(elsewhere.len(), 5);
+        for plane in elsewhere {
+            assert_eq!(
+                (&plane["wrong"]["count"], &plane["self_hits"]["count"]),
+                (&0.into(), &0.into())
+            );
+        }
+        // What looks right on generic planes is not on a floor.
+        let moved = of("waechter-binder");
+        assert!(moved["wrong"]["rate"].as_f64().unwrap() < 0.001);
+        let at_zero = &moved["elsewhere"][2];
+        assert_eq!(at_zero["plane"], "axis-0");
+        let rate = at_zero["wrong"]["rate"].as_f64().unwrap();
+        assert!(part["point"] == "uv" || (0.12..0.22).contains(&rate), "{at_zero}");
+    }
+    let (screen, _) = ends(&folder, &[&["spawn", "-q"], &place[..]].concat(), 0);
+    assert!(screen.contains("\nwrong side on  "), "{screen}");
+    // A scene that names a kind is about it alone.
+    let floor = ["--scene", "room,plane=axis-0", "-n", "500", "--point", "uv"];
+    let record = json(&folder, &floor);
+    assert_eq!(record["planes"], serde_json::json!(["axis-0"]));
+    assert_eq!(record["points"][0]["schemes"][0]["elsewhere"], serde_json::json!([]));
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod arithmetic;
 mod contradictions;
 mod derived;
 mod drawing;
+mod drawn;
 mod expectations;
 mod facts;
 mod families;

@@ -67,5 +67,7 @@ fn intervals_cover_the_rate_of_all_seeds() {
 fn triangles_of_one_ray_are_not_independent() {
     let [misses, _] = samples("plane-unit-normal", &[("edge", "1e-6")], "fan");
     let binomial = |sample: &Trials| Trials::independent(sample.count, sample.of).interval();
-    assert_eq!(coverage(&misses, binomial), 0.8);
+    // 95 % are promised.
+    let covered = coverage(&misses, binomial);
+    assert!(covered < 0.9, "{covered}");
 }

@@ -3,7 +3,7 @@
 #[test]
 fn moller_trumbore_f32_false_miss() {
     use hairline::{Case, Scalar, Verdict, find, truth};
-    let case = Case::<f32>::new([0.0, 0.0, 2.3841858e-7], [1.0, 0.0, 0.0], [[0.0, -1.0, 0.0], [0.0, 1.0, 9.536743e-7], [0.0, 0.0, 0.0]]);
+    let case = Case::<f32>::new([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [[0.0, 0.0, 1.0], [0.0, 9.536743e-7, -1.0], [0.0, -1.4901161e-8, 0.0]]);
     let kernel = f32::subject(find("moller-trumbore").unwrap()).unwrap();
     let mut verdict = [Verdict::miss(None)];
     kernel.run(&[case], &[1e-6, 0.0], &mut verdict);

@@ -10,6 +10,7 @@ fn scenes_survive_their_text() {
         "extent=10,center=-100000,edge=1,distance=0..4,direction=unit",
         "extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..0.01",
         "extent=1,edge=1,distance=0..4,direction=unit,aim=inside",
+        "extent=100,edge=0.05..0.1..20,distance=0..4,direction=unit,ray=generated,plane=axis-near-0",
     ] {
         assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
     }
@@ -50,6 +51,12 @@ fn bad_scenes_say_what_was_expected() {
         ("edge=0..1", "edge=0..1: must be above 0"),
         ("edge=1..", "edge=1..: write both ends"),
         ("edge=0.5..0.25", "the range is empty"),
+        ("edge=0.1..0.05..1", "the one that half are below"),
+        ("edge=0.1..0.2..0.3..1", "two numbers or three"),
+        ("edge=0.1....1", "two numbers or three"),
+        ("ray=cast", "there are stored, generated"),
+        ("plane=flat", "there are generic, axis"),
+        ("extent=2,center=1,edge=1,plane=axis-0", "at coordinate 0, not around center=1"),
         ("edge=0.5..2", "the longest edge is at most the extent, 1"),
         ("distance=0", "not 0 alone"),
         ("distance=-1..2", "from 0 up"),

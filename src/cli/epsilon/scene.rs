@@ -8,7 +8,7 @@ use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
 use crate::epsilon::scene::{
     Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
-    own_epsilons, study_scene,
+    own_epsilons, study_scene, try_elsewhere,
 };
 use crate::family::Stratum;
 use crate::kernel::Scalar;
@@ -77,7 +77,8 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     let (seed, count) = arguments.sources.seed_and_count();
     let count = if is_count_given { count } else { COUNT };
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
-    let total = PASSES * Stratum::ALL.len() as u64 * count * studies as u64;
+    let passes = PASSES + studied.others.len() as u64;
+    let total = passes * Stratum::ALL.len() as u64 * count * studies as u64;
     let progress = Progress::new(total, "indices", arguments.quiet);
     let run = Run {
         studied: &studied,
@@ -173,7 +174,8 @@ impl Run<'_> {
         let Run { costs, max_error, seed, count, progress, .. } = *self;
         let study = study_scene(&setting, costs, max_error, &named, seed, count, progress);
         found_margins(name, setting.subject)?;
-        let study = study.map_err(|error| fault(row.entry, error))?;
+        let mut study = study.map_err(|error| fault(row.entry, error))?;
+        try_elsewhere(&setting, &mut study, &self.studied.others, seed, count, progress);
         Ok(kernel_part(&setting, &tuned.row.contract, &study, max_error))
     }
 }

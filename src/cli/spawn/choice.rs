@@ -1,14 +1,18 @@
 //! Which scheme to use: a simple one that never fails and is about as low as any.
 
 use crate::case::Number;
-use crate::spawn::{OfScheme, Scheme, Sums, parse};
+use crate::spawn::{Lengths, OfScheme, Scheme, Sums, parse};
 
 /// Offsets that are made for a scene are 2, 4, … times the largest that was needed in the pilot.
 const DOUBLINGS: u32 = 10;
 
 /// Distances along the normal, and others that follow the coordinates. Of the first the derived one, if there is one;
-/// of others each is the double of the one before, from twice the largest smallest safe offset that a pilot saw.
-pub fn made_for(pilot: &Sums, derived: Option<f64>) -> [Vec<Scheme>; 2] {
+/// of others each is the double of the one before, from twice the largest smallest safe offset that a pilot saw on any
+/// kind of plane.
+pub fn made_for(pilots: &[Sums], derived: Option<f64>) -> [Vec<Scheme>; 2] {
+    let largest = |of: fn(&Sums) -> &Lengths| {
+        pilots.iter().map(|pilot| of(pilot).largest()).fold(0.0, f64::max)
+    };
     let made = |name: &str, needed: f64| -> Vec<Scheme> {
         let times = (1..=DOUBLINGS).filter(|_| 0.0 < needed).map(|k| f64::from(1u32 << k));
         let scheme = |times| parse(&format!("{name}={}", rounded_up(times * needed)));
@@ -16,9 +20,9 @@ pub fn made_for(pilot: &Sums, derived: Option<f64>) -> [Vec<Scheme>; 2] {
     };
     let along_normal = match derived {
         Some(derived) => parse(&derived_name(derived)).into_iter().collect(),
-        None => made("normal", pilot.least.largest()),
+        None => made("normal", largest(|pilot| &pilot.least)),
     };
-    [along_normal, made("ulps", pilot.least_in_ulps.largest())]
+    [along_normal, made("ulps", largest(|pilot| &pilot.least_in_ulps))]
 }
 
 /// The scheme of a derived distance along the normal.
@@ -26,13 +30,14 @@ pub fn derived_name(derived: f64) -> String {
     format!("normal={}", Number(derived))
 }
 
-/// Of such schemes the first of each list without a failure; the last if there is none.
-pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &Sums) -> Vec<Scheme> {
-    let mut sums = tried.schemes.iter();
+/// Of such schemes the first of each list without a failure on any kind of plane; the last if there is none.
+pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[Sums]) -> Vec<Scheme> {
+    let mut places = 0..;
     let mut chosen = Vec::new();
     for schemes in made {
+        let fails = |place: usize| tried.iter().any(|sums| 0 < sums.schemes[place].failed);
         let failed: Vec<bool> =
-            schemes.iter().zip(&mut sums).map(|(_, of)| 0 < of.failed).collect();
+            schemes.iter().zip(&mut places).map(|(_, place)| fails(place)).collect();
         let first = failed.iter().position(|failed| !failed);
         chosen.extend(schemes.into_iter().nth(first.unwrap_or(failed.len().saturating_sub(1))));
     }
@@ -53,19 +58,20 @@ fn rounded_up(x: f64) -> String {
 /// An offset at most this many times as high as the lowest is as good: another seed may turn them round.
 const AS_LOW: f64 = 4.0;
 
-/// The scheme to use of those that never failed: in the pilot, which those that are made for a scene were made on, and
-/// in the run: one that is `derived`; else the first of some preferred ones that is about as low as any; else the lowest.
+/// The scheme to use of those that never failed on any kind of plane: in the pilots, which those that are made for a
+/// scene were made on, and in the runs: one that is `derived`; else the first of some preferred ones that is about as low
+/// as any; else the lowest. Heights are those on the first kind of plane.
 pub fn best(
-    pilot: &Sums,
-    sums: &Sums,
+    [pilots, runs]: [&[Sums]; 2],
     preferred: &[usize],
     derived: Option<usize>,
 ) -> Option<usize> {
+    let sums = runs.first()?;
     let median =
         |place: &usize| sums.schemes[*place].in_edges.quantile(0.5).unwrap_or(f64::INFINITY);
     let never = |place: &usize| {
-        let in_run = [pilot.schemes.get(*place), sums.schemes.get(*place)];
-        0 < sums.schemes[*place].rays && in_run.into_iter().flatten().all(|of| of.failed == 0)
+        let in_runs = pilots.iter().chain(runs).filter_map(|sums| sums.schemes.get(*place));
+        0 < sums.schemes[*place].rays && in_runs.into_iter().all(|of| of.failed == 0)
     };
     let all = (0..sums.schemes.len()).filter(never);
     let lowest = all.min_by(|a, b| median(a).total_cmp(&median(b)))?;

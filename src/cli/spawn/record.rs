@@ -3,7 +3,7 @@
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, shell_word};
-use crate::case::Case;
+use crate::case::{Case, Scene};
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
@@ -38,6 +38,8 @@ pub struct SpawnRecord {
     pub wall: f64,
     /// The angle in degrees at which a neighbour is folded up at the edge nearest to the hit point.
     pub fold: f64,
+    /// The kinds of planes on which each scheme was tried. All numbers are about the first, but those of `elsewhere`.
+    pub planes: Vec<String>,
     /// By kernel, kind of hit point and scalar.
     pub points: Vec<PointsPart>,
 }
@@ -161,6 +163,23 @@ pub struct SchemePart {
     pub over_least: Option<f64>,
     /// The first wrong start.
     pub first_wrong: Option<WrongPart>,
+    /// What it does on the other kinds of planes.
+    pub elsewhere: Vec<PlanePart>,
+}
+
+/// What a scheme does on planes of one kind.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, serde(deny_unknown_fields))]
+pub struct PlanePart {
+    /// The kind, as the word `plane` of a scene takes it.
+    pub plane: String,
+    /// Starts on the plane, behind it, or nowhere.
+    pub wrong: Rate,
+    /// New rays that hit the triangle which they leave, says the kernel; of none if it cannot tell.
+    pub self_hits: Rate,
+    /// The first wrong start.
+    pub first_wrong: Option<WrongPart>,
 }
 
 /// Quantiles of heights over the plane; none on the plane or behind it.
@@ -190,11 +209,11 @@ pub struct WrongPart {
 }
 
 impl PointsPart {
-    /// `preferred` are places of schemes that come first where they are about as low as any; `words` are the scene's as
-    /// the user wrote them.
+    /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
+    /// as any; `words` are the scene's as the user wrote them.
     pub fn new<F: Scalar>(
-        plan: &Plan<'_>,
-        [pilot, sums]: [&Sums; 2],
+        plans: &[Plan<'_>],
+        [pilots, runs]: [&[Sums]; 2],
         preferred: &[usize],
         derived: Option<DerivedPart>,
         words: &str,
@@ -202,14 +221,18 @@ impl PointsPart {
     where
         AnyCase: From<Case<F>>,
     {
+        let (plan, sums) = (&plans[0], &runs[0]);
         let needed = sums.least.count() + sums.without_least;
-        let schemes = plan.schemes.iter().zip(&sums.schemes);
-        let derived = derived.filter(|derived| derived.covers(sums));
+        let derived = derived.filter(|derived| derived.covers(runs));
         let is_derived = |scheme: &Scheme| {
             derived.as_ref().is_some_and(|derived| scheme.name == derived_name(derived.normal))
         };
         let at_derived = plan.schemes.iter().position(is_derived);
-        let best = best(pilot, sums, preferred, at_derived);
+        // A single wrong start refutes a bound, whatever it assumes.
+        let is_refuted = |place: usize| runs.iter().any(|sums| 0 < sums.schemes[place].wrong);
+        let derived = derived.filter(|_| !at_derived.is_some_and(is_refuted));
+        let at_derived = at_derived.filter(|_| derived.is_some());
+        let best = best([pilots, runs], preferred, at_derived);
         let flags = match plan.row.set.as_str() {
             "source" => plan.row.entry.selector(),
             _ => plan.row.flags(),
@@ -248,26 +271,28 @@ impl PointsPart {
                 }
             }),
             flags: flags.clone(),
-            schemes: schemes.map(|(scheme, of)| SchemePart::new::<F>(plan, scheme, of)).collect(),
+            schemes: (0..plan.schemes.len())
+                .map(|place| SchemePart::new::<F>(plans, runs, place))
+                .collect(),
         }
     }
 }
 
 impl DerivedPart {
     /// The derived bound of a plan, rounded up; none if what the row's gates let through may have any weights, or a
-    /// pilot saw others than that.
-    pub fn of<F: Scalar>(plan: &Plan<'_>, pilot: &Sums) -> Option<DerivedPart> {
+    /// pilot saw others than that. It assumes nothing of how a plane lies, so it holds on every kind of plane.
+    pub fn of<F: Scalar>(plan: &Plan<'_>, pilots: &[Sums]) -> Option<DerivedPart> {
         let of_weights = (plan.kind == PointKind::Weights).then(|| least_weight(plan.row))?;
         let least_weight = of_weights?;
         let normal = three_digits(derived_normal::<F>(plan.scene, least_weight)?, true);
         let derived =
             DerivedPart { normal, least_weight, largest_weight: 1.0 - 2.0 * least_weight };
-        Some(derived).filter(|derived| derived.covers(pilot))
+        Some(derived).filter(|derived| derived.covers(pilots))
     }
 
-    /// Whether every hit point of a run has such weights, but for rounding.
-    fn covers(&self, sums: &Sums) -> bool {
-        self.least_weight - ROOM <= sums.least_weight
+    /// Whether every hit point of these runs has such weights, but for rounding.
+    fn covers(&self, runs: &[Sums]) -> bool {
+        runs.iter().all(|sums| self.least_weight - ROOM <= sums.least_weight)
     }
 }
 
@@ -296,24 +321,48 @@ impl HeightsPart {
 }
 
 impl SchemePart {
-    fn new<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, sums: &OfScheme) -> SchemePart
+    /// Of the scheme at a place.
+    fn new<F: Scalar>(plans: &[Plan<'_>], runs: &[Sums], place: usize) -> SchemePart
     where
         AnyCase: From<Case<F>>,
     {
+        let (scheme, sums) = (&plans[0].schemes[place], &runs[0].schemes[place]);
         let over_least = &sums.over_least;
         let rate = |count| Rate::new(sums.trials(count), true);
+        let on_plane = |(plan, sums): (&Plan<'_>, &Sums)| {
+            PlanePart::new::<F>(plan, &sums.schemes[place], place)
+        };
+        let mut of_planes = plans.iter().zip(runs).map(on_plane);
+        let first = of_planes.next().expect("one kind of plane");
         SchemePart {
             name: scheme.name.clone(),
             source: scheme.source.clone(),
-            wrong: rate(sums.wrong),
+            wrong: first.wrong,
             not_finite: sums.not_finite,
-            self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
+            self_hits: first.self_hits,
             beyond_wall: rate(sums.beyond_wall),
             past_neighbour: rate(sums.past_neighbour),
             height_in_edges: HeightsPart::new(&sums.in_edges),
             height_in_ulps: HeightsPart::new(&sums.in_ulps),
             over_least: (0 < over_least.count()).then(|| over_least.quantile(0.5)),
-            first_wrong: sums.first_wrong.and_then(|i| WrongPart::new::<F>(plan, scheme, i)),
+            first_wrong: first.first_wrong,
+            elsewhere: of_planes.collect(),
+        }
+    }
+}
+
+impl PlanePart {
+    fn new<F: Scalar>(plan: &Plan<'_>, sums: &OfScheme, place: usize) -> PlanePart
+    where
+        AnyCase: From<Case<F>>,
+    {
+        let rate = |count| Rate::new(sums.trials(count), true);
+        let wrong_at = |index| WrongPart::new::<F>(plan, &plan.schemes[place], index);
+        PlanePart {
+            plane: plan.scene.plane.name().to_owned(),
+            wrong: rate(sums.wrong),
+            self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
+            first_wrong: sums.first_wrong.and_then(wrong_at),
         }
     }
 }

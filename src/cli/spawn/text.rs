@@ -4,7 +4,7 @@
 use super::choice::derived_name;
 use super::record::{DerivedPart, HeightsPart, PointsPart, SchemePart, SpawnRecord};
 use crate::case::Number;
-use crate::report::{group_digits, interval_of, percent};
+use crate::report::{Rate, group_digits, interval_of, percent};
 use crate::spawn::describe;
 use std::io::{self, Write};
 
@@ -15,9 +15,10 @@ pub fn write(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
             writeln!(out)?;
         }
         heading(record, part, out)?;
-        advice(part, out)?;
+        advice(record, part, out)?;
         if 0 < part.hits {
             table(record, part, out)?;
+            elsewhere(record, part, out)?;
         }
         least(record, part, out)?;
     }
@@ -38,7 +39,7 @@ fn heading(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::
     writeln!(out, "{kernel}{set} {scalar}, {point}, in {scene}{}", of_unit(&record.unit))
 }
 
-fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+fn advice(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
     let hits = group_digits(part.hits);
     let find = |name: &String| part.schemes.iter().find(|scheme| scheme.name == *name);
     match &part.best {
@@ -78,6 +79,12 @@ fn advice(part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
                 "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
                 group_digits(best.one_in)
             )?;
+            if let [_, others @ ..] = &record.planes[..]
+                && !others.is_empty()
+            {
+                let others = others.join(", ");
+                writeln!(out, "       nor on planes of any other kind ({others})")?;
+            }
             writeln!(
                 out,
                 "       half of the new rays start at most {median} of their triangle's longest edge above it"
@@ -131,6 +138,35 @@ fn table(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
         "least"
     )?;
     part.schemes.iter().try_for_each(|scheme| row(scheme, out))
+}
+
+/// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
+fn elsewhere(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
+    let is_worse = |scheme: &&SchemePart| {
+        let [_, most] = scheme.wrong.interval.unwrap_or_default();
+        let lows = scheme.elsewhere.iter().filter_map(|plane| Some(plane.wrong.interval?[0]));
+        lows.into_iter().any(|least| most < least)
+    };
+    let worse: Vec<&SchemePart> = part.schemes.iter().filter(is_worse).collect();
+    let [first, others @ ..] = &record.planes[..] else { return Ok(()) };
+    if others.is_empty() {
+        return Ok(());
+    }
+    let others = others.join(", ");
+    if worse.is_empty() {
+        return writeln!(out, "on planes of other kinds ({others}) no offset has more wrong sides");
+    }
+    write!(out, "{:<16}{first:>12}", "wrong side on")?;
+    record.planes[1..].iter().try_for_each(|plane| write!(out, "{plane:>12}"))?;
+    writeln!(out)?;
+    for scheme in worse {
+        let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
+        write!(out, "{:<16}{:>12}", scheme.name, share(&scheme.wrong))?;
+        let mut planes = scheme.elsewhere.iter();
+        planes.try_for_each(|plane| write!(out, "{:>12}", share(&plane.wrong)))?;
+        writeln!(out)?;
+    }
+    Ok(())
 }
 
 fn row(scheme: &SchemePart, out: &mut dyn Write) -> io::Result<()> {

@@ -8,6 +8,7 @@
 mod candidates;
 mod confidence;
 mod curves;
+mod elsewhere;
 mod errors;
 mod joint;
 mod knob;
@@ -22,6 +23,7 @@ mod trials;
 
 pub use confidence::{CONFIDENCE, ranks};
 pub use curves::Curve;
+pub use elsewhere::try_elsewhere;
 pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
 pub use joint::Costs;
 pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
@@ -30,6 +32,7 @@ pub use measure::{Attempt, count_at};
 pub use prepared::Store;
 pub use proved::{Proved, proved};
 pub use study::{
-    OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons, study_scene,
+    Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons,
+    study_scene,
 };
 pub use trials::{Count, Kind, Setting, StudiedScene, Trial, counts};

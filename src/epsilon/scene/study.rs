@@ -13,7 +13,7 @@ use super::proved::{Proved, proved};
 use super::trials::{Count, Kind, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
-use crate::case::Case;
+use crate::case::{Case, PlaneKind};
 use crate::engine::Observer;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
@@ -38,6 +38,16 @@ pub struct SceneStudy<F> {
     pub relative: Option<Tried<F>>,
     /// How far such epsilons may move.
     pub relative_limits: Vec<Limit<F>>,
+    /// What the cheapest epsilons do on planes of other kinds, once that is tried.
+    pub elsewhere: Vec<Elsewhere>,
+}
+
+/// What the recommended epsilons do on planes of one kind, on fresh rays.
+pub struct Elsewhere {
+    /// The kind.
+    pub plane: PlaneKind,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Trials>,
 }
 
 /// A bound of one knob, and what its value does on fresh rays while the other knobs stay.
@@ -182,6 +192,7 @@ pub fn study_scene<F: Scalar>(
         curves,
         relative,
         relative_limits,
+        elsewhere: Vec::new(),
     })
 }
 

@@ -86,6 +86,8 @@ pub struct StudiedScene {
     pub unit: &'static str,
     /// The mesh that it is, if it is one.
     pub mesh: Option<Arc<SceneMesh>>,
+    /// The same scene with planes of other kinds; none if a kind is named, and for a mesh, which has its own.
+    pub others: Vec<Scene>,
 }
 
 /// What a pass runs: a kernel, its knobs and a scene.

@@ -3,6 +3,7 @@
 use super::super::Made;
 use super::Setup;
 use super::draw::{any_direction, beside, inside, point_of, ray, wide};
+use super::triangles::{Pair, Ring};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 
@@ -25,21 +26,20 @@ pub fn outside<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
 }
 
 pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let [p, q, first, second] = setup.triangles.pair(draw);
+    let Pair { ends: [p, q], triangles } = setup.triangles.pair(draw);
     // Away from the ends, where rounding moves the ray off the rim of both.
     let along = 0.0625 + 0.875 * draw.unit();
     let target = wide(p) + (wide(q) - wide(p)) * along;
     let toward = any_direction(draw);
     let (start, direction) = ray(draw, setup.scene, target, toward);
-    let turned = |[a, b, c]: [[F; 3]; 3], turn: usize| [[a, b, c], [b, c, a], [c, a, b]][turn];
-    let case = |triangle| Case::new(start, direction, triangle);
-    let turns = [draw.below(3), draw.below(3)];
-    Made::Group(vec![case(turned([p, q, first], turns[0])), case(turned([q, p, second], turns[1]))])
+    Made::Group(triangles.map(|triangle| Case::new(start, direction, triangle)).into())
 }
 
 pub fn vertices<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let fan = setup.triangles.fan(draw);
+    let Ring { center, triangles } = setup.triangles.fan(draw);
     let toward = any_direction(draw);
-    let (start, direction) = ray(draw, setup.scene, wide(fan[0][0]), toward);
-    Made::Group(fan.into_iter().map(|triangle| Case::new(start, direction, triangle)).collect())
+    let (start, direction) = ray(draw, setup.scene, wide(center), toward);
+    Made::Group(
+        triangles.into_iter().map(|triangle| Case::new(start, direction, triangle)).collect(),
+    )
 }

@@ -1,8 +1,9 @@
 //! What the strata share: sizes, places, orientations, and the ray toward a target.
 
+use super::super::integer::turned;
 use super::super::unit;
 use crate::arith::Float;
-use crate::case::{DirectionLength, Draw, Scene};
+use crate::case::{DirectionLength, Draw, RayKind, Scene};
 use glam::DVec3;
 
 /// A number between two positive ones, each doubling equally likely: 2^-8 of the range on a scale of
@@ -20,6 +21,18 @@ pub fn between_powers(draw: &mut Draw, [low, high]: [f64; 2]) -> f64 {
         bits >>= 1;
     }
     low + (high - low) * draw.unit()
+}
+
+/// The length of a triangle's longest edge: half of them are below the median, where the scene has one.
+pub fn edge_length(draw: &mut Draw, scene: &Scene) -> f64 {
+    let [low, high] = scene.edge;
+    match scene.median_edge {
+        None => between_powers(draw, [low, high]),
+        Some(median) => {
+            let range = if draw.coin() { [low, median] } else { [median, high] };
+            between_powers(draw, range)
+        }
+    }
 }
 
 pub fn between(draw: &mut Draw, [low, high]: [f64; 2]) -> f64 {
@@ -65,6 +78,25 @@ impl Frame {
         }
     }
 
+    /// Upright on two axes, the first two of three in cyclic order, and turned about the third by the angle of a
+    /// vector of length 1.
+    pub fn upright([i, j, k]: [usize; 3], [x, y]: [f64; 2]) -> Frame {
+        let mut frame = Frame { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
+        (frame.along[i], frame.along[j]) = (x, y);
+        (frame.across[i], frame.across[j]) = (-y, x);
+        frame.normal[k] = 1.0;
+        frame
+    }
+
+    /// Tilted about an axis of its own plane, by the angle of a sine.
+    pub fn tilted(self, [x, y]: [f64; 2], sine: f64) -> Frame {
+        let downhill = self.flat(x, y);
+        let normal = self.normal * (1.0 - sine * sine).sqrt() + downhill * sine;
+        let across = normal.cross(self.along);
+        let across = across / across.dot(across).sqrt();
+        Frame { along: across.cross(normal), across, normal }
+    }
+
     /// Of a triangle's plane, along its first edge; none if `f64` finds no normal.
     pub fn of<F: Float>(triangle: [[F; 3]; 3]) -> Option<Frame> {
         let [a, b, c] = triangle.map(wide);
@@ -103,12 +135,14 @@ pub fn inside(draw: &mut Draw) -> [f64; 2] {
     if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] }
 }
 
-/// Weights of b and c, uniform in a rhomboid three times as large on each side, but outside.
+/// Weights of b and c, uniform in a rhomboid three times as large on each side, but outside; the rhomboid's
+/// corner belongs to any of the three vertices.
 pub fn beside(draw: &mut Draw) -> [f64; 2] {
     loop {
         let (u, v) = (3.0 * draw.unit() - 1.0, 3.0 * draw.unit() - 1.0);
         if u < 0.0 || v < 0.0 || 1.0 < u + v {
-            return [u, v];
+            let [_, v, w] = turned(draw, [1.0 - u - v, u, v]);
+            return [v, w];
         }
     }
 }
@@ -120,8 +154,13 @@ pub fn ray<F: Float>(
     target: DVec3,
     toward: DVec3,
 ) -> ([F; 3], [F; 3]) {
-    let start: [F; 3] = rounded(target - toward * between(draw, scene.distance));
-    (start, direction(scene, target - wide(start), toward))
+    let start = target - toward * between(draw, scene.distance);
+    let stored: [F; 3] = rounded(start);
+    let seen_from = match scene.ray {
+        RayKind::Stored => wide(stored),
+        RayKind::Generated => start,
+    };
+    (stored, direction(scene, target - seen_from, toward))
 }
 
 /// The direction along a way in a scene; along a unit vector if the way is too short.

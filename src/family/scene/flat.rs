@@ -2,15 +2,19 @@
 
 use super::super::Made;
 use super::Setup;
-use super::draw::{any_direction, beside, between, between_powers, in_plane, inside, point_of};
-use super::draw::{ray, rounded, wide};
+use super::draw::{
+    Frame, any_direction, beside, between, between_powers, in_plane, inside, point_of, ray,
+    rounded, wide,
+};
 use super::triangles::Parallel;
 use crate::arith::{Float, scale_by_power_of_two};
-use crate::case::{Case, Draw};
+use crate::case::{Case, Draw, Scene};
 use glam::DVec3;
 
 pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
-    let (triangle, frame) = setup.triangles.triangle(draw);
+    let (triangle, drawn) = setup.triangles.triangle(draw);
+    // Rounding the vertices tilts the plane: the angle is that to the rounded triangle.
+    let frame = Frame::of(triangle).unwrap_or(drawn);
     // The coin is tossed in any case, so that the other draws stay the same.
     let is_inside = draw.coin() || setup.scene.aims_inside;
     let weights = if is_inside { inside(draw) } else { beside(draw) };
@@ -19,10 +23,48 @@ pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
         Some(range) => between_powers(draw, range) * if draw.coin() { 1.0 } else { -1.0 },
         None => grazing_sine::<F>(draw),
     };
-    let flat = in_plane(draw, &frame);
-    let toward = flat * (1.0 - sine * sine).sqrt() + frame.normal * sine;
-    let (start, direction) = ray(draw, setup.scene, target, toward);
+    let (start, direction) = at_an_angle(draw, setup.scene, target, &frame, sine);
     Made::One(Case::new(start, direction, triangle))
+}
+
+/// How many rays are tried for one at the angle that was drawn.
+const TRIES: usize = 4096;
+
+/// Sines below this many ulps of 1 are left to the rounding of the direction, unless the scene asks for them.
+const LEAST_ULPS: f64 = 8.0;
+
+/// A ray toward a target in a plane, at an angle of a sine. Rounding the origin and the direction changes the angle, so
+/// rays are drawn until one has it within a tenth, from either side; if none of many has, the nearest is taken.
+fn at_an_angle<F: Float>(
+    draw: &mut Draw,
+    scene: &Scene,
+    target: DVec3,
+    frame: &Frame,
+    sine: f64,
+) -> ([F; 3], [F; 3]) {
+    let is_free = scene.sine.is_none() && sine.abs() < LEAST_ULPS * F::EPSILON.to_f64();
+    let mut nearest: Option<(f64, _)> = None;
+    for _ in 0..TRIES {
+        let flat = in_plane(draw, frame);
+        let toward = flat * (1.0 - sine * sine).sqrt() + frame.normal * sine;
+        let made = ray::<F>(draw, scene, target, toward);
+        let reached = sine_to(frame, made.1).abs();
+        // A ratio; infinite for a ray in the plane.
+        let off = reached.max(sine.abs()) / reached.min(sine.abs());
+        if is_free || off <= 1.1 {
+            return made;
+        }
+        if nearest.is_none_or(|(other, _)| off < other) {
+            nearest = Some((off, made));
+        }
+    }
+    nearest.expect("one try at least").1
+}
+
+/// The sine of the angle between a direction and the plane of a frame.
+fn sine_to<F: Float>(frame: &Frame, direction: [F; 3]) -> f64 {
+    let direction = wide(direction);
+    frame.normal.dot(direction) / direction.dot(direction).sqrt()
 }
 
 /// The sine of the angle to a plane, of either sign: from 1/8 down to an eighth of an ulp of 1, each

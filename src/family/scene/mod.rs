@@ -1,19 +1,21 @@
 //! The strata of a scene: rays at the inside, edges and vertices of its triangles and beside them, nearly
 //! and exactly parallel to them, and from a kernel's own hit points on them.
 //!
-//! Triangles lie on generic planes: their positions and orientations are uniform. Points are computed in
-//! `f64` and rounded, so the oracle, not the construction, says what is a hit.
+//! Triangles lie on generic planes, of uniform positions and orientations, or on planes of a kind that the scene
+//! names ([`PlaneKind`](crate::case::PlaneKind)). Points are computed in `f64` and rounded, so the oracle, not the
+//! construction, says what is a hit.
 
 mod aimed;
 mod draw;
 mod flat;
+mod planes;
 mod shadow;
 mod triangles;
 
 pub(crate) use draw::{Frame, any_direction, circle, in_plane, rounded, wide};
 pub(super) use flat::grazing_sine;
 pub(super) use shadow::hit_point;
-pub(crate) use triangles::{Corners, Parallel, Triangles, along_axis, flat_along};
+pub(crate) use triangles::{Corners, Pair, Parallel, Ring, Triangles, along_axis, flat_along};
 
 use super::{Family, Grouping, Made, Question};
 use crate::arith::Float;
@@ -146,7 +148,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-edges",
-        1,
+        2,
         Edges,
         SharedEdge,
         Edges,
@@ -155,7 +157,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-vertices",
-        1,
+        2,
         Vertices,
         Fan,
         Vertices,
@@ -164,7 +166,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-grazing",
-        1,
+        2,
         Flat,
         Single,
         Grazing,
@@ -173,7 +175,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-parallel",
-        2,
+        3,
         Flat,
         Single,
         Parallel,
@@ -191,7 +193,7 @@ pub static STRATA: &[Family] = &[
     ),
     stratum!(
         "scene-outside",
-        1,
+        2,
         Inside,
         Single,
         Outside,

@@ -1,9 +1,11 @@
 //! Where the strata's triangles come from: the numbers of a scene, or (in `mesh`) the faces of a mesh.
 
-use super::super::{integer, unit};
-use super::draw::{Frame, between_powers, circle, in_plane, rounded, symmetric};
+use super::super::integer::{shuffle, turned};
+use super::super::unit;
+use super::draw::{Frame, edge_length, in_plane, rounded, symmetric};
+use super::planes::{AXES, faces_at_a_corner, half_of_a_face, place, plane, turn};
 use crate::arith::Float;
-use crate::case::{DirectionLength, Draw, Scene};
+use crate::case::{DirectionLength, Draw, PlaneKind, Scene};
 use glam::DVec3;
 
 /// A triangle's vertices, in order.
@@ -19,17 +21,33 @@ pub struct Parallel<F> {
     pub size: f64,
 }
 
-/// Triangles to aim rays at.
+/// Two triangles on one edge.
+pub struct Pair<F> {
+    /// The ends of the edge.
+    pub ends: [[F; 3]; 2],
+    /// The triangles. They run through the edge in opposite directions; it may be any edge of each.
+    pub triangles: [Corners<F>; 2],
+}
+
+/// A closed fan around a vertex.
+pub struct Ring<F> {
+    /// The vertex.
+    pub center: [F; 3],
+    /// The triangles, in order; the vertex may be any corner of each.
+    pub triangles: Vec<Corners<F>>,
+}
+
+/// Triangles to aim rays at. Those of a mesh keep the order of their vertices; of others each corner is as
+/// likely to be the one that a ray is aimed at, because kernels do not treat a, b and c alike.
 pub trait Triangles<F: Float> {
     /// A triangle, and the frame of its plane.
     fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame);
 
-    /// Two triangles on one edge: its two ends and the third vertex of each. The first triangle runs from
-    /// end to end in this order, the second in the other.
-    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4];
+    /// Two triangles on one edge.
+    fn pair(&self, draw: &mut Draw) -> Pair<F>;
 
-    /// The triangles of a closed fan, in order; the first vertex of each is the one that they share.
-    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>>;
+    /// The triangles of a closed fan.
+    fn fan(&self, draw: &mut Draw) -> Ring<F>;
 
     /// A triangle and a direction exactly parallel to its plane, where one can be made.
     fn parallel(&self, draw: &mut Draw) -> Parallel<F>;
@@ -37,50 +55,79 @@ pub trait Triangles<F: Float> {
 
 impl<F: Float> Triangles<F> for Scene {
     fn triangle(&self, draw: &mut Draw) -> (Corners<F>, Frame) {
-        let size = between_powers(draw, self.edge);
-        let (a, frame) = (place(draw, self, size), Frame::draw(draw));
-        let (x, y) = apex(draw, size);
-        let (b, c) = (a + frame.flat(size, 0.0), a + frame.flat(x, y));
-        let corners = integer::shuffle(draw, [a, b, c]);
+        let size = edge_length(draw, self);
+        let (a, frame) = plane(draw, self, size);
+        let [base, (x, y)] = match self.plane {
+            PlaneKind::Box => half_of_a_face(draw, size),
+            _ => [(size, 0.0), apex(draw, size)],
+        };
+        let (b, c) = (a + frame.flat(base.0, base.1), a + frame.flat(x, y));
+        let corners = shuffle(draw, [a, b, c]);
         (corners.map(rounded), frame)
     }
 
-    fn pair(&self, draw: &mut Draw) -> [[F; 3]; 4] {
-        let size = between_powers(draw, self.edge);
-        let (p, frame) = (place(draw, self, size), Frame::draw(draw));
+    fn pair(&self, draw: &mut Draw) -> Pair<F> {
+        let size = edge_length(draw, self);
+        let (p, frame) = plane(draw, self, size);
         let q = p + frame.flat(size, 0.0);
         let (x, y) = apex(draw, size);
         let first = p + frame.flat(x, y);
-        // The second triangle is bent out of the plane of the first by up to 27 degrees.
+        // The second triangle is bent out of the plane of the first by up to 27 degrees; on level ground by up to 6; in
+        // planes of two axes not at all; at the edge of a box by a right angle.
         let (x, y) = apex(draw, size);
-        let bend = 0.5 * symmetric(draw);
-        let down = (frame.normal * bend - frame.across) / (1.0 + bend * bend).sqrt();
+        let bend = symmetric(draw);
+        let bent = |bend: f64| (frame.normal * bend - frame.across) / (1.0 + bend * bend).sqrt();
+        let down = match self.plane {
+            PlaneKind::Generic => bent(0.5 * bend),
+            PlaneKind::Terrain => bent(0.1 * bend),
+            PlaneKind::Axis | PlaneKind::AxisNearZero | PlaneKind::AxisAtZero => -frame.across,
+            PlaneKind::Box => frame.normal * bend.signum(),
+        };
         let second = p + frame.along * x + down * y;
-        [p, q, first, second].map(rounded)
+        let [p, q, first, second] = [p, q, first, second].map(rounded);
+        let triangles = [[p, q, first], [q, p, second]].map(|corners| turned(draw, corners));
+        Pair { ends: [p, q], triangles }
     }
 
-    fn fan(&self, draw: &mut Draw) -> Vec<Corners<F>> {
-        let size = between_powers(draw, self.edge);
-        let (center, frame) = (place(draw, self, size), Frame::draw(draw));
-        let ring = HEXAGON.map(|[x, y]| {
-            let (spoke, height) = (0.5 + 0.5 * draw.unit(), 0.2 * symmetric(draw));
-            let corner = frame.flat(x * spoke, y * spoke) + frame.normal * height;
-            rounded::<F>(center + corner * (size / 1.1))
-        });
+    fn fan(&self, draw: &mut Draw) -> Ring<F> {
+        let size = edge_length(draw, self);
+        let (center, frame) = plane(draw, self, size);
+        let steep = match self.plane {
+            PlaneKind::Generic => 0.2,
+            PlaneKind::Terrain => 0.02,
+            _ => 0.0,
+        };
+        let ring = match self.plane {
+            PlaneKind::Box => faces_at_a_corner(draw, &frame),
+            _ => HEXAGON.map(|[x, y]| {
+                let (spoke, height) = (0.5 + 0.5 * draw.unit(), steep * symmetric(draw));
+                frame.flat(x * spoke, y * spoke) + frame.normal * height
+            }),
+        };
+        let ring = ring.map(|corner| rounded::<F>(center + corner * (size / 1.1)));
         let center = rounded(center);
-        (0..ring.len()).map(|i| [center, ring[i], ring[(i + 1) % ring.len()]]).collect()
+        let triangle = |i: usize| turned(draw, [center, ring[i], ring[(i + 1) % ring.len()]]);
+        Ring { center, triangles: (0..ring.len()).map(triangle).collect() }
     }
 
     /// Unit vectors exactly in a generic plane do not exist among floats. What does: rays along an axis in
     /// a plane that holds the axis, rays in planes of constant height, and, if directions may have any
     /// length, sums of edges on a grid.
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
-        let size = between_powers(draw, self.edge);
-        let axes = draw.pick(&[[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
+        let size = edge_length(draw, self);
+        if !matches!(self.plane, PlaneKind::Generic | PlaneKind::Terrain) {
+            let (base, frame) = plane(draw, self, size);
+            let (triangle, direction) = level(draw, self, size, base, &frame);
+            return Parallel { triangle, direction, size };
+        }
+        let axes = draw.pick(&AXES);
         let (triangle, direction) = match (self.direction, draw.below(3)) {
             (DirectionLength::Target, 0) => on_grid::<F>(draw, self, size),
             (_, 0 | 1) => holding_axis(draw, self, size, axes),
-            _ => level(draw, self, size, axes),
+            _ => {
+                let (base, turned) = (place(draw, self, size), turn(draw));
+                level(draw, self, size, base, &Frame::upright(axes, turned))
+            }
         };
         Parallel { triangle, direction, size }
     }
@@ -91,14 +138,6 @@ const HEXAGON: [[f64; 2]; 6] = {
     const SINE: f64 = 0.866_025_403_784_438_6;
     [[1.0, 0.0], [0.5, SINE], [-0.5, SINE], [-1.0, 0.0], [-0.5, -SINE], [0.5, -SINE]]
 };
-
-/// A point so far inside the extent that all within `size` of it is inside too, where there is one.
-fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
-    let reach = (scene.extent - size).max(0.0);
-    let from_center = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach;
-    // Adding 0 would take the sign from zeros.
-    if scene.center == 0.0 { from_center } else { from_center + DVec3::splat(scene.center) }
-}
 
 /// Along and across, the third vertex of a triangle on the edge from (0, 0) to (size, 0), which is the
 /// longest; its height is at least an eighth of that.
@@ -136,7 +175,7 @@ fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3],
         if 0.001 * size.powi(4) < normal.dot(normal) {
             let sums = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 2.0)];
             let (i, j) = draw.pick(&sums);
-            return ([a, b, c].map(rounded), rounded(e * i + f * j));
+            return (shuffle(draw, [a, b, c]).map(rounded), rounded(e * i + f * j));
         }
     }
 }
@@ -174,37 +213,32 @@ fn holding_axis<F: Float>(
                 }
                 p.map(F::from_f64)
             };
-            return (corners.map(at_base), along_axis(draw, scene, axes[0]));
+            let corners = shuffle(draw, corners.map(at_base));
+            return (corners, along_axis(draw, scene, axes[0]));
         }
     }
 }
 
-/// A triangle at one height above a plane of two axes, and a direction in that plane.
+/// A triangle in a plane of two axes, and a direction in that plane.
 fn level<F: Float>(
     draw: &mut Draw,
     scene: &Scene,
     size: f64,
-    [i, j, k]: [usize; 3],
+    base: DVec3,
+    frame: &Frame,
 ) -> ([[F; 3]; 3], [F; 3]) {
-    let base = place(draw, scene, size);
-    let mut frame = Frame { along: DVec3::ZERO, across: DVec3::ZERO, normal: DVec3::ZERO };
-    let (turned, length) = circle(draw);
-    let turned = turned.map(|x| x / length);
-    (frame.along[i], frame.along[j]) = (turned[0], turned[1]);
-    (frame.across[i], frame.across[j]) = (-turned[1], turned[0]);
-    frame.normal[k] = 1.0;
     let (x, y) = apex(draw, size);
     let corners = [base, base + frame.flat(size, 0.0), base + frame.flat(x, y)];
-    let flat = in_plane(draw, &frame);
+    let flat = in_plane(draw, frame);
     let flat = flat_along(draw, scene, flat);
-    (integer::shuffle(draw, corners).map(rounded), flat)
+    (shuffle(draw, corners).map(rounded), flat)
 }
 
 /// A direction along an axis, of the length that the scene's directions have.
 pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 3] {
     let length = match scene.direction {
         DirectionLength::Unit => 1.0,
-        DirectionLength::Target => between_powers(draw, scene.edge),
+        DirectionLength::Target => edge_length(draw, scene),
     };
     let mut direction = [F::zero(); 3];
     direction[axis] = F::from_f64(if draw.coin() { length } else { -length });
@@ -215,6 +249,6 @@ pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 
 pub fn flat_along<F: Float>(draw: &mut Draw, scene: &Scene, flat: DVec3) -> [F; 3] {
     match scene.direction {
         DirectionLength::Unit => unit::<f64>(flat.to_array()).map(F::from_f64),
-        DirectionLength::Target => rounded(flat * between_powers(draw, scene.edge)),
+        DirectionLength::Target => rounded(flat * edge_length(draw, scene)),
     }
 }

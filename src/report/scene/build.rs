@@ -8,8 +8,8 @@ use crate::case::{DirectionLength, Scene};
 use crate::contract::{Contract, Extent};
 use crate::epsilon::scale_free_form;
 use crate::epsilon::scene::{
-    Costs, Curve, ERRORS_ONE_IN, ErrorSums, Kind, Knob, Limit, MaxError, OnFresh, Proved,
-    SceneStudy, Setting, StudiedScene, Tried, Value, fresh_seed,
+    Costs, Curve, ERRORS_ONE_IN, Elsewhere, ErrorSums, Kind, Knob, Limit, MaxError, OnFresh,
+    Proved, SceneStudy, Setting, StudiedScene, Tried, Value, fresh_seed,
 };
 use crate::kernel::{Role, Scalar, Tunable};
 use crate::report::epsilon::shortest;
@@ -24,7 +24,7 @@ pub fn scene_record(
     count: u64,
     kernels: Vec<SceneKernelPart>,
 ) -> SceneRecord {
-    let StudiedScene { scene, unit, mesh } = studied;
+    let StudiedScene { scene, unit, mesh, .. } = studied;
     SceneRecord {
         schema: SCENE_SCHEMA.to_owned(),
         scene: scene.to_string(),
@@ -136,7 +136,13 @@ pub fn kernel_part<F: Scalar>(
         curves: study.curves.iter().map(curve_part).collect(),
         conflicts: conflicts(study),
         relative: study.relative.as_ref().map(tried_part),
+        elsewhere: study.elsewhere.iter().map(plane_part).collect(),
     }
+}
+
+fn plane_part(found: &Elsewhere) -> PlanePart {
+    let wrong = found.wrong.iter().map(|trials| Rate::new(*trials, true)).collect();
+    PlanePart { plane: found.plane.name().to_owned(), wrong }
 }
 
 /// Of each knob the highest limit from below and the lowest from above, where they do not meet.

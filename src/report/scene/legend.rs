@@ -2,16 +2,8 @@
 
 use super::notes::tolerates;
 use super::record::*;
-use crate::case::Number;
+use super::words::{RAYS, flatness};
 use crate::report::epsilon::{FLUSHED, is_subnormal};
-
-/// Which angles almost parallel rays have.
-fn flatness(record: &SceneRecord) -> String {
-    match record.sine {
-        None => "from 7 degrees down to below rounding".to_owned(),
-        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
-    }
-}
 
 /// What the numbers of a limit mean, where there is one.
 fn of_limits(record: &SceneRecord) -> Vec<String> {
@@ -42,6 +34,7 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = costs.collect::<Vec<_>>().join(", ");
     let aim = if record.aims_inside { "; all aimed inside" } else { "" };
     let mut lines = vec![
+        RAYS.to_owned(),
         format!("cost: each share, of its own row, times its weight ({costs})"),
         format!("almost parallel: angles {}, each halving equally often{aim}", flatness(record)),
     ];

@@ -4,6 +4,7 @@ mod answer;
 mod build;
 mod commands;
 mod csv;
+mod elsewhere;
 mod legend;
 mod marks;
 mod notes;

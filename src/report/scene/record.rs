@@ -114,6 +114,20 @@ pub struct SceneKernelPart {
     /// Epsilons that follow each case's size, if they are cheaper by a fifth, or if only they keep the errors
     /// as small as was wanted; counted, no kernel runs with them.
     pub relative: Option<TriedPart>,
+    /// What the recommended epsilons do in the same scene on planes of other kinds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub elsewhere: Vec<PlanePart>,
+}
+
+/// What epsilons do on planes of one kind, on fresh rays.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PlanePart {
+    /// The kind, as the word `plane` of a scene takes it.
+    pub plane: String,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Rate>,
 }
 
 /// A number that can be chosen.

@@ -2,8 +2,9 @@
 //! number.
 
 use super::answer::{Answer, answer};
+use super::elsewhere::worse_elsewhere;
 use super::legend::legend;
-use super::record::SceneRecord;
+use super::record::{SceneKernelPart, SceneRecord};
 use crate::report::Style;
 use std::io::{self, Write};
 
@@ -26,6 +27,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             used.notes.iter().try_for_each(|note| writeln!(out, "       {note}"))?;
         }
         effects(record, &answer, out)?;
+        elsewhere(part, out)?;
         limits(&answer, out)?;
         let (of, commands) = &answer.next;
         for (i, command) in commands.iter().enumerate() {
@@ -52,6 +54,28 @@ fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Re
     for (label, row) in &answer.rows {
         write!(out, "  {label:<first$}")?;
         cells(row, out)?;
+    }
+    Ok(())
+}
+
+/// Where the recommended epsilons are more often wrong on planes of other kinds.
+fn elsewhere(part: &SceneKernelPart, out: &mut dyn Write) -> io::Result<()> {
+    let (planes, rows) = worse_elsewhere(part);
+    if planes.is_empty() {
+        return Ok(());
+    }
+    if rows.is_empty() {
+        let planes = planes.join(", ");
+        return writeln!(out, "recommended, on other planes ({planes}): no more often wrong");
+    }
+    const WIDTH: usize = 12;
+    write!(out, "{:<32}", "recommended, on other planes:")?;
+    planes.iter().try_for_each(|plane| write!(out, "{plane:>WIDTH$}"))?;
+    writeln!(out)?;
+    for (label, cells) in &rows {
+        write!(out, "  {label:<30}")?;
+        cells.iter().try_for_each(|cell| write!(out, "{cell:>WIDTH$}"))?;
+        writeln!(out)?;
     }
     Ok(())
 }

@@ -8,6 +8,9 @@ use crate::kernel::Role;
 use crate::report::group_digits;
 use crate::report::record::Rate;
 
+/// From where rays are aimed.
+pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
+
 /// What is counted, by its stratum's family and its kind.
 pub(super) fn label(stratum: &str, kind: &str) -> &'static str {
     match (stratum, kind) {
@@ -222,5 +225,13 @@ pub(super) fn unit_of(record: &SceneRecord, knob: &KnobPart) -> String {
     match (knob.role.as_str(), record.unit_directions) {
         ("t", true) => spaced(&record.unit),
         _ => String::new(),
+    }
+}
+
+/// Which angles almost parallel rays have.
+pub(super) fn flatness(record: &SceneRecord) -> String {
+    match record.sine {
+        None => "from 7 degrees down to below rounding".to_owned(),
+        Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
     }
 }
