@@ -6,7 +6,7 @@ use hairline::internals::case::{Case, Parameters, PlaneKind, Scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Scalar, find};
 use hairline::internals::oracle;
-use hairline::internals::spawn::{Plan, PointKind, Trials, parse, proved_normal, run};
+use hairline::internals::spawn::{Plan, PointKind, Trials, derived_normal, parse, run};
 use hairline::internals::truth::Truth;
 use num_rational::BigRational as Rational;
 use num_traits::{One, ToPrimitive};
@@ -208,9 +208,9 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     assert!(0.1 < wrong(&format!("{place},plane=axis-near-0")));
     for text in ["unit", "room", "city", "cad-mm", place] {
         for scene in Scene::parse(text).unwrap().0.of_all_planes() {
-            let proved = proved_normal::<f32>(&scene).unwrap();
+            let derived = derived_normal::<f32>(&scene, 0.0).unwrap();
             let (row, scene, kind) = (&row, &scene, PointKind::Weights);
-            let schemes = &[parse(&format!("normal={proved}")).unwrap()];
+            let schemes = &[parse(&format!("normal={derived}")).unwrap()];
             let plan = Plan { row, scene, kind, schemes, wall, fold, with_least, seed, count };
             let sums = run::<f32>(&plan, &Unobserved);
             assert!(0 < sums.schemes[0].rays && sums.schemes[0].wrong == 0, "{scene}");

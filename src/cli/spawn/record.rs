@@ -3,7 +3,7 @@
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
 use crate::audit::{Trials, quoted, shell_word};
-use crate::case::{Case, Scene};
+use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;

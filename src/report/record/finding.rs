@@ -201,6 +201,7 @@ mod tests {
             in_space: f64::INFINITY,
             edge_in_ulps: f64::INFINITY,
             along: Some(1.5),
+            value_off: None,
             off_end: None,
         };
         let text = serde_json::to_string(&part).unwrap();
