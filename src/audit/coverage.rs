@@ -208,3 +208,62 @@ fn add<F: Scalar>(
     }
     cases
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::family::FAMILIES;
+
+    #[test]
+    fn every_aspect_is_met_by_some_family_and_no_family_prefers_a_corner_or_an_edge() {
+        let rows: Vec<(&str, Vec<f64>)> = FAMILIES
+            .iter()
+            .chain(STRATA)
+            .map(|family| (family.name, coverage(family, 400)))
+            .collect();
+        for (i, aspect) in ASPECTS.iter().enumerate() {
+            let most = rows.iter().map(|(_, shares)| shares[i]).fold(0.0, f64::max);
+            assert!(0.05 < most, "{} {}: {most}", aspect.kind, aspect.name);
+        }
+        for (name, shares) in &rows {
+            for kind in ["corner", "edge"] {
+                let of = ASPECTS.iter().zip(shares).filter(|(aspect, _)| aspect.kind == kind);
+                let of: Vec<f64> = of.map(|(_, share)| *share).collect();
+                let all: f64 = of.iter().sum();
+                let least = of.iter().fold(1.0, |least: f64, share| least.min(*share));
+                // Of few cases chance decides; a polygon's triangles are the fan of its first vertex.
+                assert!(
+                    all < 0.1 || *name == "polygon" || all / 5.0 < least,
+                    "{name} {kind}: {of:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn aspects_are_those_of_the_case() {
+        let case = Case::<f64>::new(
+            [0.25, -0.0, 2.0],
+            [0.0, 0.0, -1.0],
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        );
+        let shape = Shape::of(&case);
+        let met: Vec<&str> =
+            ASPECTS.iter().filter(|aspect| (aspect.is_met)(&shape)).map(|a| a.name).collect();
+        let expected = [
+            "ab",
+            "front",
+            "axis plane",
+            "at 0",
+            "along an axis",
+            "> 0.1",
+            "ordinary",
+            "1 to 1000",
+            "within",
+            "near",
+            "negative",
+            "-0",
+        ];
+        assert_eq!(met, expected);
+    }
+}

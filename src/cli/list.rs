@@ -93,7 +93,7 @@ fn write_coverage(out: &mut dyn Write) -> io::Result<()> {
     let mut first = 0;
     while first < kinds.len() {
         let width = |kind: &&[Aspect]| {
-            kind.iter().map(|cell| cell.name.len().max(4) + 1).sum::<usize>() + 2
+            kind.iter().map(|cell| cell.name.len().max(4) + 2).sum::<usize>() + 1
         };
         let mut taken = 1;
         while first + taken < kinds.len()
@@ -105,21 +105,21 @@ fn write_coverage(out: &mut dyn Write) -> io::Result<()> {
         let start: usize = kinds[..first].iter().map(|kind| kind.len()).sum();
         write!(out, "{:<18}", "")?;
         for kind in block {
-            write!(out, "  {:<1$}", kind[0].kind, width(kind) - 2)?;
+            write!(out, "   {:<1$}", kind[0].kind, width(kind) - 3)?;
         }
         write!(out, "\n{:<18}", "family")?;
         for cells in block {
-            write!(out, "  ")?;
-            cells.iter().try_for_each(|cell| write!(out, " {:>4}", cell.name))?;
+            write!(out, " ")?;
+            cells.iter().try_for_each(|cell| write!(out, "  {:>4}", cell.name))?;
         }
         writeln!(out)?;
         for (name, shares) in &rows {
             write!(out, "{name:<18}")?;
             let mut shares = shares[start..].iter();
             for cells in block {
-                write!(out, "  ")?;
+                write!(out, " ")?;
                 for (cell, share) in cells.iter().zip(&mut shares) {
-                    write!(out, " {:>1$}", percent_in_three(*share), cell.name.len().max(4))?;
+                    write!(out, "  {:>1$}", percent_in_three(*share), cell.name.len().max(4))?;
                 }
             }
             writeln!(out)?;
