@@ -44,24 +44,27 @@ impl Recipe for Behind {
 
 impl Recipe for IntervalEnds {
     const NAME: &'static str = "interval-ends";
-    const PROMISE: &'static str = "transversal, in the closed triangle, exactly at t_min or t_max";
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str =
+        "transversal, in the closed triangle, exactly at t_min or t_max, or beyond t_max";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
         let t = draw.integer(0, 4);
         let case = at(draw, t).case::<F>();
         let end = F::from_f64(t as f64);
         let room = F::from_f64(draw.integer(0, 4) as f64);
-        Made::One(match draw.below(3) {
+        Made::One(match draw.below(4) {
             0 => case.on(end, F::infinity()),
             1 => case.on(end, end + room),
-            _ => case.on(end - room, end),
+            2 => case.on(end - room, end),
+            _ => case.on(end - room - F::one(), end - F::from_f64(draw.pick(&[0.25, 1.0]))),
         })
     }
 
     fn keeps(truths: &[Truth]) -> bool {
         truths.iter().all(|truth| {
             truth.crossing().is_some_and(|crossing| {
-                matches!(crossing.place, Place::AtMin | Place::AtMax)
+                matches!(crossing.place, Place::AtMin | Place::AtMax | Place::Beyond)
                     && crossing.feature != Feature::Outside
             })
         })

@@ -245,11 +245,13 @@ fn a_kernel_by_the_definition_conforms_on_any_case() {
 fn a_kernel_that_misses_edges_cracks_and_one_that_hits_them_twice_doubles() {
     let on = |hits: bool| {
         move |case: &Case<f32>| {
-            let crossing = *define(case).truth.crossing()?;
+            let definition = define(case);
+            let crossing = *definition.truth.crossing()?;
             let inside = crossing.feature == Feature::Interior
                 || hits && crossing.feature != Feature::Outside;
             // What shrinks may end up with its origin on the triangle.
-            (inside && crossing.t_sign != Ordering::Less).then_some(1.0)
+            let t = definition.exact.t?.to_f32()?;
+            (inside && crossing.t_sign != Ordering::Less).then_some(t)
         }
     };
     let contract = Contract { boundary: Boundary::Free, ..Contract::CLOSED_RAY };

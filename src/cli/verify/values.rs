@@ -59,8 +59,8 @@ impl<'a> Answer<'a> {
                 .parse()
                 .map_err(|_| {
                     format!(
-                        "expected \"hit\", \"miss\", a number of hits, or an object such as {{\"hit\": true, \"t\": 1.5}}, \
-                         found {}",
+                        "expected \"hit\", \"miss\" or a number of hits, found {}; a hit with its values is \
+                         {{\"hit\": true, \"t\": 1.5}}",
                         json::excerpt(other)
                     )
                 })
