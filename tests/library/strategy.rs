@@ -63,7 +63,8 @@ fn keeps<F: Float>(name: &str, case: &Case<F>) -> bool {
         "interval-ends" => {
             let ends = [case.ray.t_min, case.ray.t_max].map(F::to_f64);
             let at = |end: &f64| BigRational::from_float(*end).is_some_and(|end| end == t);
-            feature != Feature::Outside && ends.iter().any(at)
+            let beyond = BigRational::from_float(ends[1]).is_some_and(|end| end < t);
+            feature != Feature::Outside && (beyond || ends.iter().any(at))
         }
         "grazing" => {
             let n = normal([a, b, c]);

@@ -46,11 +46,8 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     let mut parts: Vec<String> =
         told.map(|column| format!("{}: {}", column.label(), column.about())).collect();
     if lines.iter().any(|line| line.across.is_some()) {
-        parts.push("values: hits with a wrong t, u or v".to_owned());
-        parts.push(
-            "cracks, doubles: rays at shared edges with no hit, two; promised: how many"
-                .to_owned(),
-        );
+        parts.push("values: wrong t, u, v".to_owned());
+        parts.push("cracks, doubles: shared edges with no hit, two; promised: how many".to_owned());
     }
     parts.join("; ")
 }
