@@ -313,7 +313,7 @@ fn write_table(
                 write!(out, " {:>width$}", format!("{} ", column.label()))?;
             }
             let groups = if has_groups { " cracks doubles  promised" } else { "" };
-            writeln!(out, " values {groups}{plain}")?;
+            writeln!(out, " values{groups}{plain}")?;
         }
         let mut text = format!("{:<first$}", line.label());
         for ((cell, share), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
@@ -326,7 +326,7 @@ fn write_table(
         let color = if values.wrong.of == 0 { "" } else { colour(style, values.wrong.count) };
         let far = if values.is_far() { '*' } else { ' ' };
         let share = short_percent([values.wrong.count, values.wrong.of]);
-        text.push_str(&painted(&format!(" {share:>6}{far}"), color));
+        text.push_str(&painted(&format!(" {share:>5}{far}"), color));
         if has_groups {
             text.push_str(&across_text(line.across.as_ref(), style));
         }
