@@ -20,10 +20,8 @@ pub use elsewhere::may_be_elsewhere;
 pub(crate) use expected::{Expectations, Kinds, ask_all, suspects};
 pub(crate) use group::owes_groups_alike;
 pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
-pub(crate) use values::Limits;
-#[cfg(feature = "studies")]
-pub(crate) use values::exact_values_are_near;
 pub use values::{ALLOWANCE, ValueErrors};
+pub(crate) use values::{Limits, exact_values_are_near};
 
 use crate::arith::Float;
 use crate::case::Case;

@@ -161,10 +161,10 @@ fn measure<F: Float, R: Real>(
 ) -> Option<([f64; 3], [f64; 3], [f64; 3])> {
     let allowed = Allowed::of(case, number);
     let mut all = ([0.0; 3], [0.0; 3], [0.0; 3]);
-    for which in 0..3 {
+    for (which, value) in values.into_iter().enumerate() {
         all.0[which] = float(&allowed.exact[which])?;
-        if values[which].is_finite() {
-            let off = (number(values[which]) - &allowed.exact[which]).abs();
+        if value.is_finite() {
+            let off = (number(value) - &allowed.exact[which]).abs();
             all.1[which] = float(&off)?;
             let unit = &allowed.unit[which];
             // Of a t that is 0 whatever rounds.
@@ -263,7 +263,9 @@ fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
     let error = 4.0 * f64::EPSILON;
     let determinant_error = error * dot(abs(d), rows[0].1);
     let least = determinant - determinant_error;
-    if !(least > determinant / 2.0) {
+    // False of NaN too.
+    let is_known = determinant / 2.0 < least;
+    if !is_known {
         return None;
     }
     let values = rows.map(|(row, _)| sign * dot(row, start) / determinant);
@@ -289,7 +291,8 @@ fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
         let unit = if i == 0 { unit } else { unit.max(roundoff) };
         let off = ALLOWANCE * unit * (1.0 - 1e-9) - errors[i];
         // Most values of kernels are off by less than twice this unit. A limit of 0 is one.
-        if !(off >= 2.0 * unit) {
+        let is_known = 2.0 * unit <= off;
+        if !is_known {
             return None;
         }
         found[i] = (values[i], off);

@@ -126,7 +126,7 @@ fn attributions<F: Scalar>(
             }
             let asked = obligation(&truth, &contract, false);
             let verdict = run(subject, case, &epsilons);
-            let finding = judge(asked, (&case, &truth), entry.info.gives, &verdict);
+            let finding = judge(asked, (case, &truth), entry.info.gives, &verdict);
             let why = attribute(subject, case, &epsilons, &truth, asked);
             assert_eq!(finding.is_some(), why.is_some());
             if let (Some(finding), Some(why)) = (finding, why) {
