@@ -4,7 +4,7 @@ use super::dice::Dice;
 use super::meshes::Mesh;
 use super::rays::{Aim, Shot, plane_of, shots, words};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
-use hairline::internals::case::Scene;
+use hairline::internals::case::{Case, Scene};
 use hairline::internals::epsilon::scene::{
     Attempt, Count, Kind, Knob, Setting, contract_with, count_at, counts, own_epsilons,
 };
@@ -88,36 +88,39 @@ impl Tuned {
         own_epsilons(&self.row, &self.knobs, F::zero())
     }
 
-    /// The least t of each ray at which some triangle of it is hit, with epsilons for the gates.
-    pub fn hits<F: Scalar>(&self, all: &[Shot], epsilons: &[F]) -> Vec<Option<F>> {
+    /// How many rays are answered wrongly with epsilons for all knobs.
+    pub fn wrong<F: Scalar>(&self, aim: Aim, all: &[Shot], epsilons: &[F]) -> Rate {
+        let cases: Vec<_> = all.iter().flat_map(Shot::cases::<F>).collect();
+        self.wrong_of(aim, all, &cases, epsilons)
+    }
+
+    /// The same, with the rays' cases.
+    pub fn wrong_of<F: Scalar>(
+        &self,
+        aim: Aim,
+        all: &[Shot],
+        cases: &[Case<F>],
+        epsilons: &[F],
+    ) -> Rate {
         let mut of_gates = self.row.epsilons::<F>();
-        let mut reports_t = false;
+        let mut least_t = None;
         for (knob, epsilon) in self.knobs.iter().zip(epsilons) {
             match knob {
                 Knob::Gate(gate) => of_gates[*gate] = *epsilon,
-                Knob::LeastT => reports_t = true,
+                Knob::LeastT => least_t = Some(*epsilon),
             }
         }
-        let cases: Vec<_> = all.iter().flat_map(Shot::cases::<F>).collect();
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
-        F::subject(self.row.entry).unwrap().run(&cases, &of_gates, &mut verdicts);
-        let mut rest = verdicts.into_iter();
-        let hit = |shot: &Shot| {
-            let of_shot = rest.by_ref().take(shot.faces.len()).filter(|verdict| verdict.hit);
-            let t = |verdict: Verdict<F>| if reports_t { verdict.t } else { F::infinity() };
-            of_shot.map(t).reduce(|one, other| if one < other { other } else { one })
+        F::subject(self.row.entry).unwrap().run(cases, &of_gates, &mut verdicts);
+        let mut rest = &verdicts[..];
+        let is_wrong = |shot: &&Shot| {
+            let (of_shot, others) = rest.split_at(shot.faces.len());
+            rest = others;
+            let counts = |verdict: &Verdict<F>| least_t.is_none_or(|least_t| least_t <= verdict.t);
+            let is_hit = of_shot.iter().any(|verdict| verdict.hit && counts(verdict));
+            is_hit != aim.owes_a_hit()
         };
-        all.iter().map(hit).collect()
-    }
-
-    /// How many rays are answered wrongly with epsilons for all knobs.
-    pub fn wrong<F: Scalar>(&self, aim: Aim, all: &[Shot], epsilons: &[F]) -> Rate {
-        let least_t = self.knobs.iter().position(|knob| *knob == Knob::LeastT);
-        let least_t = least_t.map_or(-F::infinity(), |knob| epsilons[knob]);
-        let is_hit = |t: &Option<F>| t.is_some_and(|t| least_t <= t);
-        let hits = self.hits(all, epsilons);
-        let wrong = hits.iter().filter(|t| is_hit(t) != aim.owes_a_hit()).count();
-        Rate { count: wrong as u64, of: all.len() as u64 }
+        Rate { count: all.iter().filter(is_wrong).count() as u64, of: all.len() as u64 }
     }
 }
 
