@@ -2,16 +2,19 @@
 
 use super::dice::Dice;
 use super::meshes::Mesh;
-use super::rays::{Aim, Shot, plane_of, shots, words};
+use super::rays::{Aim, Shot, plane_of, shots, words, words_of_rays};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Scene};
+use hairline::internals::corpus::mesh::read_obj;
 use hairline::internals::epsilon::scene::{
     Attempt, Count, Kind, Knob, Setting, contract_with, count_at, counts, own_epsilons,
 };
-use hairline::internals::family::Stratum;
+use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::kernel::{Scalar, Verdict, find};
+use hairline::internals::mesh::{SceneMesh, Surface};
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::Arc;
 
 /// So many of so many.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -173,6 +176,37 @@ pub fn theirs<F: Scalar>(
     let counts = [count_of(aim)];
     let attempts = [Attempt::new(epsilons.to_vec())];
     let setting = tuned.setting::<F>(scene, &counts);
+    let trials = count_at(&setting, &attempts, 1, count, &Unobserved)[0][0];
+    Rate { count: trials.count, of: trials.of }
+}
+
+/// The same mesh as hairline reads it from a file, and its scene with the rays' distances.
+pub fn read(mesh: &Mesh, shots: &[Shot]) -> (Arc<SceneMesh>, Scene) {
+    let mut text = String::new();
+    for (i, face) in mesh.faces.iter().enumerate() {
+        face.iter().for_each(|[x, y, z]| text += &format!("v {x} {y} {z}\n"));
+        text += &format!("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+    }
+    let read = read_obj(text.as_bytes(), "world.obj", &mut |_| {}).unwrap();
+    let family = Arc::new(MeshFamily::new(read, "world.obj"));
+    let read = Arc::new(SceneMesh::new(Surface::new(family, [true, true])));
+    let all: Vec<&Shot> = shots.iter().collect();
+    let (_, distance) = words_of_rays(mesh, &all);
+    let scene = read.scene().of_mesh(&distance).unwrap();
+    (read, scene)
+}
+
+/// What hairline counts of an aim at a mesh.
+pub fn theirs_at<F: Scalar>(
+    tuned: &Tuned,
+    (mesh, scene): &(Arc<SceneMesh>, Scene),
+    aim: Aim,
+    epsilons: &[F],
+    count: u64,
+) -> Rate {
+    let counts = [count_of(aim)];
+    let attempts = [Attempt::new(epsilons.to_vec())];
+    let setting = Setting { mesh: Some(mesh), ..tuned.setting::<F>(scene, &counts) };
     let trials = count_at(&setting, &attempts, 1, count, &Unobserved)[0][0];
     Rate { count: trials.count, of: trials.of }
 }

@@ -15,10 +15,11 @@ mod starts;
 
 use allowed::{Allowed, Comparison};
 use costs::Recommended;
-use counts::{Tuned, by_plane, scene_of, theirs};
+use counts::{Tuned, by_plane, read, scene_of, theirs, theirs_at};
+use dice::Dice;
 use hairline::internals::spawn::{PointKind, default_schemes};
 use meshes::{MESHES, Mesh};
-use rays::Aim;
+use rays::{Aim, shots};
 
 fn sample(count: u64) -> u64 {
     if std::env::var("HAIRLINE_WORLD").is_ok_and(|word| word == "whole") {
@@ -103,6 +104,38 @@ fn wrong_answers_are_as_frequent_as_hairline_says() {
         }
     }
     assert!(60 < comparison.seen, "{}", comparison.seen);
+    comparison.end();
+}
+
+const AT_MESHES: &[Allowed] = &[
+    Allowed::new(
+        "room|loft Along|AlongBeside",
+        1.5,
+        3.5,
+        "hairline chooses any face, small ones included; here a face is as likely as it is large",
+    ),
+    Allowed::new("room|loft Edge|Vertex", 1.15, 1.5, "hairline's rays come through walls, too"),
+    Allowed::new("", 1.2, 1.2, "the mesh is the same"),
+];
+
+#[test]
+fn at_the_same_mesh_wrong_answers_are_as_frequent() {
+    let mut comparison = Comparison::new(AT_MESHES);
+    for mesh in meshes() {
+        for kernel in ["moller-trumbore", "plane-inside-out"] {
+            let tuned = Tuned::new(kernel);
+            let zeros = tuned.zeros::<f32>();
+            for aim in Aim::ALL {
+                let mut dice = Dice::new(31);
+                let count = sample(8000);
+                let shots = shots::<f32>(&mesh, aim, tuned.row.entry, &mut dice, count as usize);
+                let here = tuned.wrong(aim, &shots, &zeros);
+                let said = theirs_at(&tuned, &read(&mesh, &shots), aim, &zeros, count);
+                comparison.add(&format!("{} {kernel} {aim:?}", mesh.name), here, said);
+            }
+        }
+    }
+    assert!(20 < comparison.seen, "{}", comparison.seen);
     comparison.end();
 }
 

@@ -244,8 +244,14 @@ pub fn plane_of(mesh: &Mesh, faces: &[[Point; 3]]) -> &'static str {
 }
 
 /// The scene, in hairline's words, whose numbers are those of some rays: the extent of their mesh, the least, the median
-/// and the largest size of their triangles, and distances of the same mean and spread.
+/// and the largest size of their triangles, and their distances.
 pub fn words(mesh: &Mesh, shots: &[&Shot]) -> String {
+    let (of_mesh, of_rays) = words_of_rays(mesh, shots);
+    format!("{of_mesh},{of_rays}")
+}
+
+/// The words of the mesh, and those of the rays: distances of the same mean and spread.
+pub fn words_of_rays(mesh: &Mesh, shots: &[&Shot]) -> (String, String) {
     let size = |face: &[Point; 3]| {
         (0..3).map(|i| length(minus(face[i], face[(i + 1) % 3]))).fold(0.0, f64::max)
     };
@@ -257,9 +263,9 @@ pub fn words(mesh: &Mesh, shots: &[&Shot]) -> String {
     let spread = shots.iter().map(|shot| (shot.distance - mean).powi(2)).sum::<f64>() / count;
     let reach = (3.0 * spread).sqrt();
     let (near, far) = ((mean - reach).max(0.0), mean + reach);
-    let (extent, center) = (mesh.extent, mesh.center);
-    let [low, high] = SINES;
-    format!(
-        "extent={extent},center={center},edge={least}..{median}..{most},distance={near}..{far},sine={low}..{high}"
+    let (extent, center, [low, high]) = (mesh.extent, mesh.center, SINES);
+    (
+        format!("extent={extent},center={center},edge={least}..{median}..{most}"),
+        format!("distance={near}..{far},sine={low}..{high}"),
     )
 }
