@@ -23,7 +23,7 @@ impl Dice {
         ((self.roll() >> 12) as f64 + 0.5) / (1u64 << 52) as f64
     }
 
-    pub fn from_to(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.share()
     }
 
@@ -37,7 +37,7 @@ impl Dice {
 
     /// A unit vector, uniform on the sphere: its height is uniform.
     pub fn sphere(&mut self) -> [f64; 3] {
-        let (height, turn) = (self.from_to(-1.0, 1.0), self.from_to(0.0, std::f64::consts::TAU));
+        let (height, turn) = (self.between(-1.0, 1.0), self.between(0.0, std::f64::consts::TAU));
         let flat = (1.0 - height * height).sqrt();
         [flat * turn.cos(), height, flat * turn.sin()]
     }

@@ -8,9 +8,10 @@ use std::collections::{BTreeMap, HashMap};
 pub struct Mesh {
     pub name: &'static str,
     pub faces: Vec<[Point; 3]>,
-    /// For each edge with two faces, and for each vertex inside a closed fan: the edge or the vertex, and its faces.
-    pub edges: Vec<([Point; 2], Vec<usize>)>,
-    pub fans: Vec<(Point, Vec<usize>)>,
+    /// The edges with two faces.
+    pub edges: Vec<Edge>,
+    /// The vertices inside closed fans.
+    pub fans: Vec<Fan>,
     /// Two opposite corners of the box from which rays start.
     pub air: [Point; 2],
     /// The same for all three coordinates.
@@ -20,8 +21,17 @@ pub struct Mesh {
     pub ground: &'static str,
 }
 
+/// The ends of an edge, and its faces.
+type Edge = ([Point; 2], Vec<usize>);
+
+/// A vertex, and its faces.
+type Fan = (Point, Vec<usize>);
+
+/// A mesh whose coordinates are rounded as a function says.
+type Make = fn(fn(f64) -> f64) -> Mesh;
+
 /// In the order of the tests.
-pub const MESHES: [fn(fn(f64) -> f64) -> Mesh; 5] = [field, sphere, room, loft, scan];
+pub const MESHES: [Make; 5] = [field, sphere, room, loft, scan];
 
 fn bits(point: Point) -> [u64; 3] {
     // Adding 0 makes -0 and 0 one.
@@ -37,8 +47,8 @@ impl Mesh {
             [0, 1, 2].map(|i| face[(first + i) % 3].map(round))
         };
         let faces: Vec<[Point; 3]> = faces.into_iter().map(turned).collect();
-        let mut of_edges = BTreeMap::<[[u64; 3]; 2], ([Point; 2], Vec<usize>)>::new();
-        let mut of_vertices = HashMap::<[u64; 3], (Point, Vec<usize>)>::new();
+        let mut of_edges = BTreeMap::<[[u64; 3]; 2], Edge>::new();
+        let mut of_vertices = HashMap::<[u64; 3], Fan>::new();
         let mut order = Vec::new();
         for (i, face) in faces.iter().enumerate() {
             assert!(0.0 < length(cross(minus(face[1], face[0]), minus(face[2], face[0]))));
@@ -172,14 +182,14 @@ fn room(round: fn(f64) -> f64) -> Mesh {
     let mut dice = Dice::new(7);
     for _ in 0..24 {
         let low =
-            [dice.from_to(-390.0, 300.0), dice.from_to(5.0, 200.0), dice.from_to(-290.0, 200.0)];
+            [dice.between(-390.0, 300.0), dice.between(5.0, 200.0), dice.between(-290.0, 200.0)];
         let of_axis =
-            |i: usize, dice: &mut Dice| even(low[i], low[i] + dice.from_to(20.0, 70.0), 2);
+            |i: usize, dice: &mut Dice| even(low[i], low[i] + dice.between(20.0, 70.0), 2);
         let [x, y, z] = [0, 1, 2].map(|i| of_axis(i, &mut dice));
         add_box(&mut faces, [&x, &y, &z], false);
     }
     for height in [0.0006, 0.002, 0.007, 0.02, 0.07, 0.2] {
-        let (x, z) = (dice.from_to(-390.0, 200.0), dice.from_to(-290.0, 100.0));
+        let (x, z) = (dice.between(-390.0, 200.0), dice.between(-290.0, 100.0));
         let (x, z) = (even(x, x + 180.0, 3), even(z, z + 150.0, 3));
         for of_x in x.windows(2) {
             for of_z in z.windows(2) {
@@ -207,7 +217,7 @@ fn loft(round: fn(f64) -> f64) -> Mesh {
             let mut to = *vertex;
             (0..3)
                 .filter(|axis| *axis != flat)
-                .for_each(|axis| to[axis] += dice.from_to(-reach, reach));
+                .for_each(|axis| to[axis] += dice.between(-reach, reach));
             moved.insert(bits(*vertex), to);
         }
     }
@@ -222,8 +232,8 @@ fn scan(round: fn(f64) -> f64) -> Mesh {
     let mut dice = Dice::new(3);
     let (rings, around) = (60, 80);
     let mut point = |ring: i32, place: i32| {
-        let along = (f64::from(ring) + 1.0 + dice.from_to(-0.3, 0.3)) / f64::from(rings + 1);
-        let turn = (f64::from(place) + dice.from_to(-0.3, 0.3)) / f64::from(around);
+        let along = (f64::from(ring) + 1.0 + dice.between(-0.3, 0.3)) / f64::from(rings + 1);
+        let turn = (f64::from(place) + dice.between(-0.3, 0.3)) / f64::from(around);
         let (height, turn) = ((1.0 - 2.0 * along) * 0.15, turn * std::f64::consts::TAU);
         let bulge = 1.0 + 0.2 * (3.0 * turn).sin() * (20.0 * height).cos();
         let radius = 0.14 * (4.0 * along * (1.0 - along)).sqrt() * bulge;

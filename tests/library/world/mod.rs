@@ -17,6 +17,7 @@ use allowed::{Allowed, Comparison};
 use costs::Recommended;
 use counts::{Tuned, by_plane, read, scene_of, theirs, theirs_at};
 use dice::Dice;
+use hairline::internals::kernel::Scalar;
 use hairline::internals::spawn::{PointKind, default_schemes};
 use meshes::{MESHES, Mesh};
 use rays::{Aim, shots};
@@ -29,8 +30,8 @@ fn sample(count: u64) -> u64 {
     }
 }
 
-fn meshes() -> impl Iterator<Item = Mesh> {
-    MESHES.iter().map(|make| make(|x| f64::from(x as f32)))
+fn meshes<F: Scalar>() -> impl Iterator<Item = Mesh> {
+    MESHES.iter().map(|make| make(|x| F::from_f64(x).to_f64()))
 }
 
 /// Planes of which so few rays are in a sample are left out.
@@ -47,7 +48,7 @@ const RATES: &[Allowed] = &[
     Allowed::new(
         "room Edge|Vertex axis|axis-0|axis-near-0",
         1.25,
-        2.3,
+        3.0,
         "two of three edges lie along axes, where products with 0 are exact; half of hairline's do",
     ),
     Allowed::new(
@@ -83,28 +84,35 @@ const RATES: &[Allowed] = &[
 #[test]
 fn wrong_answers_are_as_frequent_as_hairline_says() {
     let mut comparison = Comparison::new(RATES);
-    for mesh in meshes() {
-        for kernel in ["moller-trumbore", "cramer", "plane-inside-out", "woop-watertight"] {
+    let kernels = ["moller-trumbore", "cramer", "plane-inside-out", "woop-watertight"];
+    compare_rates::<f32>(&mut comparison, &kernels);
+    compare_rates::<f64>(&mut comparison, &kernels[..1]);
+    assert!(80 < comparison.seen, "{}", comparison.seen);
+    comparison.end();
+}
+
+fn compare_rates<F: Scalar>(comparison: &mut Comparison, kernels: &[&str]) {
+    for mesh in meshes::<F>() {
+        for kernel in kernels {
             let tuned = Tuned::new(kernel);
-            let all = [("zero", tuned.zeros::<f32>()), ("source", tuned.published::<f32>())];
+            let all = [("zero", tuned.zeros::<F>()), ("source", tuned.published::<F>())];
             // Where a source has no epsilons, both are the same.
             let different = 1 + usize::from(all[0].1 != all[1].1);
             for aim in Aim::ALL {
-                let planes = by_plane::<f32>(&mesh, aim, &tuned, 5, sample(8000) as usize);
+                let planes = by_plane::<F>(&mesh, aim, &tuned, 5, sample(4000) as usize);
                 for (plane, shots) in planes.iter().filter(|(_, shots)| FEW <= shots.len()) {
                     let scene = scene_of(&mesh, shots, plane);
                     for (set, epsilons) in &all[..different] {
                         let here = tuned.wrong(aim, shots, epsilons);
-                        let said = theirs(&tuned, &scene, aim, epsilons, sample(8000));
-                        let row = format!("{} {kernel} {set} {aim:?} {plane}", mesh.name);
+                        let said = theirs(&tuned, &scene, aim, epsilons, sample(4000));
+                        let row =
+                            format!("{} {kernel} {} {set} {aim:?} {plane}", mesh.name, F::NAME);
                         comparison.add(&row, here, said);
                     }
                 }
             }
         }
     }
-    assert!(60 < comparison.seen, "{}", comparison.seen);
-    comparison.end();
 }
 
 const AT_MESHES: &[Allowed] = &[
@@ -121,13 +129,13 @@ const AT_MESHES: &[Allowed] = &[
 #[test]
 fn at_the_same_mesh_wrong_answers_are_as_frequent() {
     let mut comparison = Comparison::new(AT_MESHES);
-    for mesh in meshes() {
+    for mesh in meshes::<f32>() {
         for kernel in ["moller-trumbore", "plane-inside-out"] {
             let tuned = Tuned::new(kernel);
             let zeros = tuned.zeros::<f32>();
             for aim in Aim::ALL {
                 let mut dice = Dice::new(31);
-                let count = sample(8000);
+                let count = sample(4000);
                 let shots = shots::<f32>(&mesh, aim, tuned.row.entry, &mut dice, count as usize);
                 let here = tuned.wrong(aim, &shots, &zeros);
                 let said = theirs_at(&tuned, &read(&mesh, &shots), aim, &zeros, count);
@@ -173,12 +181,12 @@ const STARTS: &[Allowed] = &[
 fn new_rays_start_wrong_as_often_as_spawn_says() {
     let (tuned, schemes) = (Tuned::new("moller-trumbore"), default_schemes());
     let mut comparison = Comparison::new(STARTS);
-    for mesh in meshes() {
+    for mesh in meshes::<f32>() {
         for kind in PointKind::ALL {
-            let planes = starts::hits::<f32>(&mesh, &tuned, kind, 11, sample(8000) as usize);
+            let planes = starts::hits::<f32>(&mesh, &tuned, kind, 11, sample(5000) as usize);
             for (plane, hits) in planes.iter().filter(|(_, hits)| FEW <= hits.len()) {
                 let scene = scene_of(&mesh, &starts::first_rays(hits), plane);
-                let said = starts::theirs::<f32>(&tuned, &scene, kind, &schemes, sample(8000));
+                let said = starts::theirs::<f32>(&tuned, &scene, kind, &schemes, sample(5000));
                 for (scheme, said) in schemes.iter().zip(said) {
                     let name = scheme.name.split('=').next().unwrap();
                     let row = format!("{} {name} {kind:?} {plane}", mesh.name);
@@ -195,7 +203,7 @@ fn new_rays_start_wrong_as_often_as_spawn_says() {
 fn costly() -> impl Iterator<Item = (Mesh, &'static str)> {
     let is_costly = |mesh: &Mesh| ["sphere", "scan"].contains(&mesh.name) || sample(1) != 1;
     // In a room planes of several kinds meet.
-    let all = meshes().filter(move |mesh| mesh.name != "room" && is_costly(mesh));
+    let all = meshes::<f32>().filter(move |mesh| mesh.name != "room" && is_costly(mesh));
     all.map(|mesh| {
         let plane = if mesh.name == "loft" { "axis" } else { mesh.ground };
         (mesh, plane)
@@ -204,7 +212,7 @@ fn costly() -> impl Iterator<Item = (Mesh, &'static str)> {
 
 #[test]
 fn recommended_epsilons_cost_what_hairline_says_and_little_more_than_the_best() {
-    let count = sample(2000);
+    let count = sample(1500);
     for (mesh, plane) in costly() {
         for kernel in ["moller-trumbore", "woop-watertight", "plane-unit-normal"] {
             let found = costs::recommended::<f32>(&mesh, plane, kernel, count);

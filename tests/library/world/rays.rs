@@ -114,7 +114,7 @@ fn point_inside([a, b, c]: [Point; 3], dice: &mut Dice) -> Point {
 fn point_beside(face: [Point; 3], dice: &mut Dice) -> Point {
     let k = dice.one_of(3);
     let (p, q, r) = (face[k], face[(k + 1) % 3], face[(k + 2) % 3]);
-    let on_edge = plus(p, minus(q, p), dice.from_to(-0.5, 1.5));
+    let on_edge = plus(p, minus(q, p), dice.between(-0.5, 1.5));
     plus(on_edge, minus(on_edge, r), dice.share())
 }
 
@@ -143,14 +143,14 @@ pub fn shots<F: Scalar>(
         if all.len() == count {
             break;
         }
-        let from = [0, 1, 2].map(|i| dice.from_to(mesh.air[0][i], mesh.air[1][i]));
+        let from = [0, 1, 2].map(|i| dice.between(mesh.air[0][i], mesh.air[1][i]));
         let face = surface.face(dice);
         let made = match aim {
             Aim::Inside => shot::<F>(from, point_inside(face, dice), vec![face]),
             Aim::Beside => shot::<F>(from, point_beside(face, dice), vec![face]),
             Aim::Edge => {
                 let ([p, q], faces) = &mesh.edges[dice.one_of(mesh.edges.len())];
-                let to = plus(*p, minus(*q, *p), dice.from_to(0.02, 0.98));
+                let to = plus(*p, minus(*q, *p), dice.between(0.02, 0.98));
                 shot::<F>(from, to, of(faces))
             }
             Aim::Vertex => {
