@@ -25,3 +25,4 @@ mod strategy;
 mod trials;
 mod vectors;
 mod watertight;
+mod world;
