@@ -67,8 +67,10 @@ fn cell(results: &[&Value]) -> String {
     let [misses, hits] = ["/total/false_misses", "/total/false_hits"];
     let of = |what: &str| sum(results, &[&format!("{misses}{what}"), &format!("{hits}{what}")]);
     let octaves = results.iter().flat_map(|result| {
-        let kinds = result["severity"].as_object().unwrap().values();
-        kinds.flat_map(|severity| severity["edges"]["octaves"].as_object().unwrap())
+        // Wrong values have a column of their own.
+        let kinds = result["severity"].as_object().unwrap().iter();
+        let verdicts = kinds.filter(|(kind, _)| *kind != "wrong-value");
+        verdicts.flat_map(|(_, severity)| severity["edges"]["octaves"].as_object().unwrap())
     });
     let is_far = |octave: &str| match octave.strip_prefix("2^") {
         Some(exponent) => -10 <= exponent.parse::<i32>().unwrap(),
