@@ -102,6 +102,12 @@ impl Bounded {
         if self.error <= tolerance { Some(self.high) } else { self.approximate() }
     }
 
+    /// The number as a float, if its error is known to be at most this; the float's own rounding is left out.
+    #[inline]
+    pub fn known_to(&self, error: f64) -> Option<f64> {
+        (self.error <= error).then_some(self.high)
+    }
+
     #[inline]
     fn exact(high: f64) -> Bounded {
         Bounded { high, low: 0.0, error: 0.0 }

@@ -4,6 +4,7 @@
 use super::exit::{Failure, Status};
 use crate::audit::{self, CorpusSet, Plan, Row, Source};
 use crate::case::Parameters;
+use crate::contract::Direction;
 use crate::engine::Unobserved;
 use crate::family;
 use crate::judge::Finding;
@@ -24,14 +25,10 @@ pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Fail
 /// Refuses kernels whose t, u or v is wrong on plain hits: no epsilon and no offset can be right for them. They are run on
 /// the control family, at the insides of well-shaped triangles; one hit in a hundred may be off there.
 pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failure> {
+    let unit_direction = rows.iter().any(|row| row.contract.direction != Direction::Any);
+    let parameters = Parameters { unit_direction, ..Parameters::default() };
     let family = family::find("interior").expect("the control family");
-    let source = Source::Family {
-        family,
-        parameters: Parameters::default(),
-        seed: 1,
-        count: 1024,
-        exhaustive: false,
-    };
+    let source = Source::Family { family, parameters, seed: 1, count: 1024, exhaustive: false };
     let plan =
         Plan { rows: rows.to_vec(), sources: vec![source], scalars, examples: 1, attribute: 0 };
     for cell in audit::run(&plan, &Unobserved).cells {

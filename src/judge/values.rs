@@ -167,8 +167,12 @@ fn measure<F: Float, R: Real>(
             let off = (number(value) - &allowed.exact[which]).abs();
             all.1[which] = float(&off)?;
             let unit = &allowed.unit[which];
-            // Of a t that is 0 whatever rounds.
-            all.2[which] = if unit.is_zero() { all.1[which] } else { float(&(off / unit))? };
+            // A t that is 0 whatever rounds has no unit.
+            all.2[which] = match (unit.is_zero(), all.1[which]) {
+                (true, 0.0) => 0.0,
+                (true, _) => f64::INFINITY,
+                (false, _) => float(&(off / unit))?,
+            };
         }
     }
     Some(all)
@@ -211,7 +215,7 @@ impl<F: Float> Limits<F> {
             for i in 0..3 {
                 // Each is known to a millionth of itself at least; what that leaves open is taken off.
                 let off = ALLOWANCE * unit[i].approximate()? * (1.0 - 1e-5);
-                found[i] = (exact[i].within(off * 1e-5)?, off * (1.0 - 1e-5));
+                found[i] = (exact[i].known_to(off * 1e-5)?, off * (1.0 - 1e-5));
             }
             Some(found)
         });
@@ -282,11 +286,12 @@ fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
     // The weights' errors move each term by no more than this.
     let moved = (errors[1] + errors[2] + error) * (largest(a) + largest(b) + largest(c))
         + errors[0] * largest(d);
-    let size = largest(sizes) * (1.0 - error) - moved;
+    let size = (largest(sizes) * (1.0 - error) - moved).max(0.0);
     let mut found = [(0.0, 0.0); 3];
     for i in 0..3 {
         let ([x, y, z], permanents) = (rows[i].0.map(f64::abs), rows[i].1);
         let row = x + y + z - error * (permanents[0] + permanents[1] + permanents[2]);
+        let row = row.max(0.0);
         let unit = roundoff * size * row / (determinant + determinant_error);
         let unit = if i == 0 { unit } else { unit.max(roundoff) };
         let off = ALLOWANCE * unit * (1.0 - 1e-9) - errors[i];
