@@ -2,11 +2,12 @@
 //! kernel is tried on.
 
 use crate::arith::Float;
-use crate::case::{Case, Parameters, Scene};
+use crate::case::{Case, Parameters, Ray, Scene};
 use crate::family::{Family, STRATA};
 use crate::kernel::Scalar;
 use crate::oracle;
 use crate::truth::{Crossing, Facing, Place, Truth};
+use glam::DVec3;
 
 /// One thing that a case may be like, among others of its kind.
 pub struct Aspect {
@@ -22,10 +23,10 @@ struct Shape {
     truth: Truth,
     /// Weights of a, b and c where the line meets the plane; NaN where it does not.
     weights: [f64; 3],
-    origin: [f64; 3],
-    direction: [f64; 3],
-    points: [[f64; 3]; 3],
-    normal: [f64; 3],
+    origin: DVec3,
+    direction: DVec3,
+    points: [DVec3; 3],
+    normal: DVec3,
     /// The longest edge, and the distance from the origin to the hit in longest edges.
     edge: f64,
     distance: f64,
@@ -81,43 +82,28 @@ aspects! {
 /// 2^20.
 const POWER: f64 = 1_048_576.0;
 
-fn zeros(v: [f64; 3]) -> usize {
-    if v == [0.0; 3] { 0 } else { v.iter().filter(|x| **x == 0.0).count() }
+fn zeros(v: DVec3) -> usize {
+    if v == DVec3::ZERO { 0 } else { v.to_array().iter().filter(|x| **x == 0.0).count() }
 }
 
-fn cross(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-}
-
-fn dot(p: [f64; 3], q: [f64; 3]) -> f64 {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
-
-fn minus(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    let largest = v.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    if largest == 0.0 {
-        0.0
-    } else {
-        largest * v.map(|x| x / largest).map(|x| x * x).iter().sum::<f64>().sqrt()
-    }
+/// The length, also where its square is beyond the range.
+fn length(v: DVec3) -> f64 {
+    let largest = v.abs().max_element();
+    if largest == 0.0 { 0.0 } else { largest * (v / largest).length() }
 }
 
 impl Shape {
     fn of<F: Float>(case: &Case<F>) -> Shape {
-        let [origin, direction, a, b, c] = case.widen().vectors();
-        let (ab, ac, start) = (minus(b, a), minus(c, a), minus(a, origin));
-        let edge = length(ab).max(length(ac)).max(length(minus(c, b)));
+        let Case { ray: Ray { origin, direction, .. }, triangle } = case.widen();
+        let [a, b, c] = triangle.vertices();
+        let edge = [b - a, c - b, a - c].map(length).into_iter().fold(0.0, f64::max);
         // Near 1, so that products of extreme numbers stay numbers.
-        let [ab, ac, start] = [ab, ac, start].map(|v| v.map(|x| x / edge));
-        let unit = direction.map(|x| x / length(direction));
-        let normal = cross(ab, ac);
-        let determinant = dot(unit, normal);
-        let of = |row: [f64; 3]| dot(row, start) / determinant;
-        let (u, v) = (of(cross(unit, ac)), of(cross(ab, unit)));
+        let [ab, ac, start] = [b - a, c - a, a - origin].map(|v| v / edge);
+        let unit = direction / length(direction);
+        let normal = ab.cross(ac);
+        let determinant = unit.dot(normal);
+        let of = |row: DVec3| row.dot(start) / determinant;
+        let (u, v) = (of(unit.cross(ac)), of(ab.cross(unit)));
         Shape {
             truth: oracle::truth(case),
             weights: [1.0 - u - v, u, v],
@@ -162,7 +148,7 @@ impl Shape {
 
     fn numbers(&self) -> impl Iterator<Item = f64> {
         let vectors = [self.origin, self.direction].into_iter().chain(self.points);
-        vectors.flatten()
+        vectors.flat_map(|v| v.to_array())
     }
 
     /// How far the triangle lies from 0, in longest edges.
