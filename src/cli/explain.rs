@@ -378,8 +378,8 @@ fn write_wrong_values<F: Scalar>(
         let (reported, exact) = (reported[which], errors.exact[which]);
         writeln!(
             out,
-            "    wrong {name}: reported {reported:e}, exactly {exact:.9e}; off by {times:.3e} times what one rounding \
-             of the coordinates does (up to {ALLOWANCE} is allowed)"
+            "    wrong {name}: reported {reported:e}, exactly {exact:.9e}; off by {times:.3e} u·κ, the size of one \
+             rounding (up to {ALLOWANCE} is allowed)"
         )?;
     }
     writeln!(out, "    the point is off by {:.3e} longest edges", errors.edges)

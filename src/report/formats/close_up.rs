@@ -36,7 +36,7 @@ pub(super) fn write(
     }
     write_wrapped(
         "Shares of the cases that must be hit, and that must be missed, with 95 % intervals, on cases chosen to be \
-         hard; far off: wrong by over 1/1000 of the triangle's longest edge.",
+         hard; far off: a verdict wrong by over 1/1000 of the longest edge.",
         out,
     )?;
     let has_other_causes = |line: &Line| {
@@ -162,8 +162,8 @@ fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
     let values = &line.values.wrong;
     if 0 < values.count {
         let text = format!(
-            "  wrong values in ordinary sizes: the t, u or v of {} other hits is off by more than rounding explains, \
-             of {} by over 1/1000 of the longest edge; most: {}",
+            "  wrong values in ordinary sizes: the t, u or v of {} hits that are not false is off by more than rounding \
+             explains, of {} by over 1/1000 of the longest edge; most: {}",
             count_of([values.count, values.of]),
             group_digits(line.values.far),
             cause(&line.row.results, "wrong-value").trim_end(),

@@ -97,9 +97,18 @@ struct Standing {
     /// The mean of the cells' shares.
     share: f64,
     wrong: u64,
+    /// Wrong verdicts that can be seen, and wrong values.
     far: u64,
+    far_values: u64,
     /// What else broke the contract, on any case: `crash`, `bad-value`, `crack`, ….
     others: BTreeMap<String, u64>,
+}
+
+impl Standing {
+    /// How many answers are off so far that it can be seen.
+    fn all_far(&self) -> u64 {
+        self.far + self.far_values
+    }
 }
 
 /// How often a row broke its contract in other ways than by false misses and false hits of single cases.
@@ -133,8 +142,8 @@ fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standin
             label: format!("{} ({})", part.kernel, part.set),
             share: shares.iter().sum::<f64>() / shares.len() as f64,
             wrong: cells.iter().map(|(_, cell)| cell.wrong.count).sum(),
-            far: cells.iter().map(|(_, cell)| cell.far).sum::<u64>()
-                + lines.clone().map(|line| line.values.far).sum::<u64>(),
+            far: cells.iter().map(|(_, cell)| cell.far).sum(),
+            far_values: lines.clone().map(|line| line.values.far).sum(),
             others: other_findings(record, part),
         })
     };
@@ -206,17 +215,20 @@ fn write_answer(
                 _ => "The rows promise different things; --contract closed-ray judges all by the same. "
                     .to_owned(),
             };
-            let [near, far] = [first(|a, b| a.far.cmp(&b.far)), first(|a, b| b.far.cmp(&a.far))];
-            let far = match far.far {
+            let [near, far] = [
+                first(|a, b| a.all_far().cmp(&b.all_far())),
+                first(|a, b| b.all_far().cmp(&a.all_far())),
+            ];
+            let far = match far.all_far() {
                 0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
-                most if most == near.far => format!(
+                most if most == near.all_far() => format!(
                     "Each was wrong {} times by over 1/1000 of the longest edge.",
                     group_digits(most),
                 ),
                 most => format!(
                     "Fewest answers off by over 1/1000 of the longest edge: {}, {}; most: {}, {}.",
                     near.label,
-                    group_digits(near.far),
+                    group_digits(near.all_far()),
                     far.label,
                     group_digits(most),
                 ),
