@@ -26,87 +26,17 @@
 // Some of the modules' items serve only this project's own tests, through `internals`.
 #![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 
-/// An enum whose values have names.
-macro_rules! named {
-    ($methods:vis names $(#[$about:meta])* $visible:vis enum $type:ident {
-        $($(#[$doc:meta])* $value:ident = $name:literal,)*
-    }) => {
-        $(#[$about])*
-        $visible enum $type {
-            $($(#[$doc])* $value,)*
-        }
-
-        impl $type {
-            /// All of them, in their order.
-            $methods const ALL: [$type; [$($name),*].len()] = [$($type::$value),*];
-
-            /// The name in files, in reports and on the command line.
-            $methods const fn name(self) -> &'static str {
-                match self {
-                    $($type::$value => $name,)*
-                }
-            }
-        }
-    };
-}
-
-/// Does the same with whichever scalar's value an [`AnyScalar`](crate::case::AnyScalar) holds.
+// What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies.
+#[macro_use(either_scalar, in_named_scalar)]
+extern crate hairline_core;
+use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest};
 #[cfg(feature = "studies")]
-macro_rules! either_scalar {
-    ($any:expr, $value:pat => $do:expr) => {
-        match $any {
-            $crate::case::AnyScalar::F32($value) => $do,
-            $crate::case::AnyScalar::F64($value) => $do,
-        }
-    };
-}
-
-/// Does something in the scalar of a name, which is one of the two.
-macro_rules! in_named_scalar {
-    ($name:expr, $scalar:ident => $do:expr) => {
-        if $name == <f32 as $crate::arith::Float>::NAME {
-            type $scalar = f32;
-            $do
-        } else {
-            type $scalar = f64;
-            $do
-        }
-    };
-}
+use hairline_prove as prove;
+use hairline_study::{audit, corpus, family, judge, mesh, plot};
+#[cfg(feature = "studies")]
+use hairline_study::{epsilon, explore, map, orientation, selfcheck, spawn};
 
 // The floors, from the ground up: each module uses only those above it in this list.
-mod arith;
-mod engine;
-
-mod case;
-mod contract;
-mod plot;
-mod suggest;
-mod truth;
-
-mod corpus;
-mod family;
-mod kernel;
-mod mesh;
-mod oracle;
-
-mod judge;
-
-mod audit;
-#[cfg(feature = "studies")]
-mod epsilon;
-#[cfg(feature = "studies")]
-mod explore;
-#[cfg(feature = "studies")]
-mod map;
-#[cfg(feature = "studies")]
-mod orientation;
-#[cfg(feature = "studies")]
-mod prove;
-#[cfg(feature = "studies")]
-mod selfcheck;
-#[cfg(feature = "studies")]
-mod spawn;
 #[cfg(feature = "studies")]
 mod vectors;
 
@@ -124,7 +54,8 @@ mod plugin;
 pub mod cli;
 
 pub use case::{Case, Parameters, Ray, Triangle};
-pub use oracle::{Batch, Layers, UnequalColumns, truth, truths};
+pub use hairline_core::truth;
+pub use oracle::{Batch, Layers, UnequalColumns, truths};
 pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 
 pub use contract::{
@@ -145,7 +76,7 @@ pub use report::{Example, FindingPart, Rate, SeverityPart};
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
 
 #[cfg(feature = "proptest")]
-pub use explore::strategy;
+pub use hairline_study::{prop_assert_conforms, prop_assert_conforms_together, strategy};
 
 #[cfg(feature = "internals")]
 #[doc(hidden)]

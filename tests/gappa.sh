@@ -6,4 +6,4 @@ if ! command -v gappa > /dev/null; then
     echo "skipped: there is no gappa here (apt-get install gappa)"
     exit 0
 fi
-cargo test --locked --lib prove::tests::gappa -- --nocapture
+cargo test --locked -p hairline-prove tests::gappa -- --nocapture

@@ -3,7 +3,7 @@
 
 use hairline::internals::case::Draw;
 use hairline::internals::corpus::lines::{AnyCase, read};
-use hairline::internals::explore::inputs::{AnyInput, CONSTRUCTIONS, Input, MAX_GATES};
+use hairline::internals::explore::inputs::{AnyInput, CONSTRUCTIONS, Input, MAX_GATES, to_bytes};
 use hairline::internals::kernel::KERNELS;
 use std::fs;
 
@@ -30,6 +30,6 @@ fn main() {
             AnyCase::F32(case) => AnyInput::F32(Input::of_source(entry, case)),
             AnyCase::F64(case) => AnyInput::F64(Input::of_source(entry, case)),
         };
-        write(format!("curated-{i:02}"), input.to_bytes());
+        write(format!("curated-{i:02}"), to_bytes(&input));
     }
 }

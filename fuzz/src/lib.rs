@@ -8,7 +8,7 @@ pub use checks::*;
 pub use pinned::Pinned;
 
 use hairline::internals::case::Draw;
-use hairline::internals::explore::inputs::AnyInput;
+use hairline::internals::explore::inputs;
 use std::{env, fs, path::Path};
 
 /// Declares a fuzz target over bytes: `target!(function)`; with `target!(function, cases)` bytes are
@@ -42,11 +42,11 @@ pub fn move_input(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> O
     if draw.below(4) == 0 {
         return None;
     }
-    let mut input = AnyInput::from_bytes(&data[..size]).mutated(&mut draw);
+    let mut input = inputs::mutated(&inputs::from_bytes(&data[..size]), &mut draw);
     if draw.coin() {
-        input = input.mutated(&mut draw);
+        input = inputs::mutated(&input, &mut draw);
     }
-    let bytes = input.to_bytes();
+    let bytes = inputs::to_bytes(&input);
     let fits = bytes.len() <= max_size.min(data.len());
     fits.then(|| {
         data[..bytes.len()].copy_from_slice(&bytes);
@@ -58,7 +58,7 @@ pub fn move_input(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> O
 #[macro_export]
 macro_rules! with_input {
     ($data:expr, |$input:ident| $body:expr) => {
-        match hairline::internals::explore::inputs::AnyInput::from_bytes($data) {
+        match hairline::internals::explore::inputs::from_bytes($data) {
             hairline::internals::explore::inputs::AnyInput::F32($input) => $body,
             hairline::internals::explore::inputs::AnyInput::F64($input) => $body,
         }

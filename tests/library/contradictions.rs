@@ -7,8 +7,8 @@ mod checks;
 use checks::{check_kernel, check_oracle, check_orientation, check_response, disagreement};
 use hairline::internals::case::{Case, Draw};
 use hairline::internals::epsilon::Axis;
-use hairline::internals::explore::inputs::AnyInput;
 use hairline::internals::explore::inputs::Input;
+use hairline::internals::explore::inputs::{self, AnyInput};
 use hairline::internals::kernel::Scalar;
 use hairline::internals::kernel::find;
 use hairline::internals::orientation;
@@ -19,9 +19,9 @@ fn for_all_inputs(count: u64, mut check: impl FnMut(&AnyInput)) {
     for i in 0..count {
         let mut draw = Draw::new("checks", 1, i);
         let data: Vec<u8> = (0..draw.below(200)).map(|_| draw.bits() as u8).collect();
-        let input = AnyInput::from_bytes(&data);
+        let input = inputs::from_bytes(&data);
         check(&input);
-        check(&input.mutated(&mut draw));
+        check(&inputs::mutated(&input, &mut draw));
     }
 }
 

@@ -5,8 +5,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-fn source() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+/// The crates' sources, the lowest first.
+const CRATES: [&str; 4] = ["crates/core/src", "crates/prove/src", "crates/study/src", "src"];
+
+fn source(of_crate: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(of_crate)
+}
+
+/// Every Rust file of a crate, and its place in it.
+fn rust_files(of_crate: &str) -> Vec<(PathBuf, PathBuf)> {
+    let source = source(of_crate);
+    let all = files(&source).into_iter().filter(|file| file.extension().is_some_and(|e| e == "rs"));
+    all.map(|file| (file.clone(), file.strip_prefix(&source).unwrap().to_owned())).collect()
 }
 
 /// Every file under a folder.
@@ -53,15 +63,23 @@ fn names_after(text: &str, prefix: &str) -> BTreeSet<String> {
     names
 }
 
-/// The floors of `src/lib.rs`, the lowest first: its `mod` lines, in blocks between blank lines.
+/// The floors, the lowest first: the `mod` lines of the crates' `lib.rs`, in blocks between blank lines. The prover is
+/// one module with its crate's name.
 fn floors() -> Vec<BTreeSet<String>> {
-    let text = code(&source().join("lib.rs"));
     let module = |line: &str| {
         let line = line.strip_prefix("pub ").unwrap_or(line);
         Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
     };
-    let blocks = text.split("\n\n").map(|block| block.lines().filter_map(module).collect());
-    let mut floors: Vec<BTreeSet<String>> = blocks.collect();
+    let of_crate = |of_crate: &str| -> Vec<BTreeSet<String>> {
+        let text = code(&source(of_crate).join("lib.rs"));
+        text.split("\n\n").map(|block| block.lines().filter_map(module).collect()).collect()
+    };
+    let prover = BTreeSet::from([String::from("prove")]);
+    let [core, _, study, top] = CRATES;
+    let mut floors = of_crate(core);
+    floors.push(prover);
+    floors.extend(of_crate(study));
+    floors.extend(of_crate(top));
     floors.iter_mut().for_each(|floor| floor.retain(|name| name != "internals"));
     floors.retain(|floor| !floor.is_empty());
     floors
@@ -70,14 +88,16 @@ fn floors() -> Vec<BTreeSet<String>> {
 /// What each module uses of the others.
 fn uses() -> BTreeMap<String, BTreeSet<String>> {
     let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for file in files(&source()).iter().filter(|file| file.extension().is_some_and(|e| e == "rs")) {
-        let place = file.strip_prefix(source()).unwrap();
-        let top = place.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
-        if ["lib", "main", "internals"].contains(&top) || place.ends_with("tests.rs") {
+    let [core, prover, study, top] = CRATES;
+    for (file, place) in [core, study, top].into_iter().flat_map(rust_files) {
+        let module = place.iter().next().unwrap().to_str().unwrap().trim_end_matches(".rs");
+        if ["lib", "main", "internals"].contains(&module) || place.ends_with("tests.rs") {
             continue;
         }
-        uses.entry(top.to_owned()).or_default().extend(names_after(&code(file), "crate::"));
+        uses.entry(module.to_owned()).or_default().extend(names_after(&code(&file), "crate::"));
     }
+    let lib = code(&source(prover).join("lib.rs"));
+    uses.insert("prove".into(), names_after(&lib, "hairline_core::"));
     for (module, used) in &mut uses {
         used.remove(module);
     }
@@ -112,10 +132,10 @@ fn every_module_uses_only_floors_below_it_and_neighbours_that_do_not_use_it() {
 #[test]
 fn no_two_files_of_a_folder_import_each_other() {
     let mut uses: BTreeMap<(PathBuf, String), BTreeSet<String>> = BTreeMap::new();
-    for file in files(&source()).iter().filter(|file| file.extension().is_some_and(|e| e == "rs")) {
+    for (file, _) in CRATES.into_iter().flat_map(rust_files) {
         let (folder, stem) = (file.parent().unwrap(), file.file_stem().unwrap().to_str().unwrap());
         if !["mod", "tests", "lib", "main"].contains(&stem) {
-            uses.insert((folder.to_owned(), stem.to_owned()), names_after(&code(file), "super::"));
+            uses.insert((folder.to_owned(), stem.to_owned()), names_after(&code(&file), "super::"));
         }
     }
     let mutual: Vec<String> = uses
@@ -151,8 +171,7 @@ fn below_the_command_line_nothing_prints_opens_files_or_reads_a_clock() {
         "Instant::now",
         "SystemTime",
     ];
-    for file in files(&source()).iter().filter(|file| file.extension().is_some_and(|e| e == "rs")) {
-        let place = file.strip_prefix(source()).unwrap();
+    for (file, place) in CRATES.into_iter().flat_map(rust_files) {
         // A kernel's process is a kernel: it has pipes, patience and a clock. A user's test has its files.
         let is_test = place.components().any(|part| part.as_os_str() == "tests");
         let may = place.starts_with("cli") || place.starts_with("plugin") || is_test;
@@ -160,7 +179,7 @@ fn below_the_command_line_nothing_prints_opens_files_or_reads_a_clock() {
         if may || place.ends_with("main.rs") {
             continue;
         }
-        let code = code(file);
+        let code = code(&file);
         for word in forbidden {
             assert!(!code.contains(word), "{}: {word}", place.display());
         }

@@ -7,7 +7,7 @@ use crate::cli::input::files_under;
 use crate::corpus::InputError;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::campaign::Find;
-use crate::explore::inputs::AnyInput;
+use crate::explore::inputs;
 use std::fs;
 use std::path::Path;
 
@@ -60,7 +60,7 @@ fn read_file(path: &Path, rows: &[Row], finds: &mut Vec<Find>) -> Result<(), Fai
         return Ok(());
     }
     if !is_corpus && WITH_INPUTS.contains(&&*target) {
-        let (row, case) = either_scalar!(AnyInput::from_bytes(&bytes), input => {
+        let (row, case) = either_scalar!(inputs::from_bytes(&bytes), input => {
             (input.row(), AnyCase::from(input.case))
         });
         finds.extend(of_rows(&[row], case, &name));

@@ -1,0 +1,70 @@
+//! A case as bit patterns, and back.
+
+use super::Case;
+use crate::arith::Float;
+
+impl<F: Float> Case<F> {
+    /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.
+    pub fn hex(&self) -> String {
+        let triples = self.vectors().map(|v| v.map(F::hex).join(","));
+        let [o, d, a, b, c] = triples;
+        let (t_min, t_max) = (self.ray.t_min.hex(), self.ray.t_max.hex());
+        format!("o={o} d={d} a={a} b={b} c={c} t={t_min},{t_max}")
+    }
+
+    /// The bits of all seventeen numbers, in the order of [`Case::hex`]: what a digest covers.
+    pub fn bits(&self) -> [u64; 17] {
+        let vectors = self.vectors();
+        std::array::from_fn(|i| match i {
+            15 => self.ray.t_min.to_bits(),
+            16 => self.ray.t_max.to_bits(),
+            _ => vectors[i / 3][i % 3].to_bits(),
+        })
+    }
+
+    /// From all seventeen numbers, as [`Case::bits`] has them.
+    pub fn from_bits(bits: &[u64; 17]) -> Case<F> {
+        let number = |i: usize| F::from_bits(bits[i]);
+        let vector = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2)];
+        let triangle = [vector(2), vector(3), vector(4)];
+        Case::new(vector(0), vector(1), triangle).on(number(15), number(16))
+    }
+
+    /// From what [`Case::hex`] writes; none of anything else, nor of the other scalar's.
+    pub fn from_hex(text: &str) -> Option<Case<F>> {
+        let mut words = text.split(' ');
+        let mut numbers = |name: &str| -> Option<Vec<F>> {
+            let list = words.next()?.strip_prefix(name)?.strip_prefix('=')?;
+            let number = |text: &str| {
+                let bits = u64::from_str_radix(text, 16).ok()?;
+                let number = F::from_bits(bits);
+                (number.hex() == text).then_some(number)
+            };
+            list.split(',').map(number).collect()
+        };
+        let mut vector = |name: &str| <[F; 3]>::try_from(numbers(name)?).ok();
+        let (origin, direction) = (vector("o")?, vector("d")?);
+        let triangle = [vector("a")?, vector("b")?, vector("c")?];
+        let [t_min, t_max] = <[F; 2]>::try_from(numbers("t")?).ok()?;
+        Some(Case::new(origin, direction, triangle).on(t_min, t_max))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_comes_back_from_its_bits_and_nothing_else_does() {
+        let case =
+            Case::<f32>::new([0.1, -0.0, f32::NAN], [1.0; 3], [[0.0; 3], [2.0; 3], [1e30; 3]]);
+        let case = case.on(-1.0, f32::INFINITY);
+        let again = Case::<f32>::from_hex(&case.hex()).unwrap();
+        assert_eq!(again.hex(), case.hex());
+        assert_eq!(Case::<f32>::from_bits(&case.bits()).hex(), case.hex());
+        assert!(Case::<f64>::from_hex(&case.hex()).is_none(), "of the other scalar");
+        for bad in ["", "o=", "o=zz,00000000,00000000 d=", &case.hex()[..60]] {
+            assert!(Case::<f32>::from_hex(bad).is_none(), "{bad}");
+        }
+    }
+}

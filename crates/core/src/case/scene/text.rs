@@ -1,0 +1,149 @@
+//! How the numbers of a scene are read and written.
+
+use super::{DirectionLength, PlaneKind, RayKind, Scene};
+use std::fmt;
+
+/// The extent that words give; 1 if they give none that is a length.
+pub(super) fn extent_in<'a>(mut words: impl Iterator<Item = &'a str>) -> f64 {
+    let given = |word: &str| {
+        let (_, value) = word.split_once('=').filter(|(key, _)| key.trim() == "extent")?;
+        value.trim().parse().ok().filter(|extent: &f64| extent.is_finite() && 0.0 < *extent)
+    };
+    words.find_map(given).unwrap_or(1.0)
+}
+
+/// A finite number.
+pub(super) fn number(key: &str, text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| {
+        let (whole, text) = (text, text.trim());
+        let starts_with_digit = text.starts_with(|c: char| c.is_ascii_digit());
+        let has_unit = starts_with_digit && text.ends_with(|c: char| c.is_ascii_alphabetic());
+        let is_number = |end: &str| end.trim().parse::<f64>().is_ok();
+        let takes_two = ["edge", "distance", "sine"].contains(&key);
+        let mut places = text.match_indices('-').map(|(place, _)| place);
+        let is_range =
+            takes_two && places.any(|at| is_number(&text[..at]) && is_number(&text[at + 1..]));
+        let unit = match (has_unit, is_range) {
+            (true, _) => ": write all lengths in one unit, without its name",
+            (_, true) => ": a range is written LOW..HIGH",
+            _ => "",
+        };
+        format!("{key}={whole}: '{text}' is not a finite number{unit}")
+    })
+}
+
+/// Two finite numbers in order; one stands for both.
+pub(super) fn range(key: &str, text: &str) -> Result<[f64; 2], String> {
+    let (low, high) = text.split_once("..").unwrap_or((text, text));
+    if high.starts_with('.') {
+        return Err(format!("{key}={text}: write a range with two dots, as 0.5..2"));
+    }
+    if low.trim().is_empty() || high.trim().is_empty() {
+        return Err(format!("{key}={text}: write both ends, as 0.5..2, or one number"));
+    }
+    let [low, high] = [number(key, low)?, number(key, high)?];
+    if high < low {
+        return Err(format!("{key}={text}: the range is empty; write the smaller number first"));
+    }
+    Ok([low, high])
+}
+
+/// The value of a name.
+pub(super) fn one_of<T: Copy, const N: usize>(
+    key: &str,
+    value: &str,
+    all: [(&str, T); N],
+) -> Result<T, String> {
+    let found = all.iter().find(|(name, _)| *name == value).map(|(_, one)| *one);
+    found.ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
+        format!("{key}={value}: there are {}", names.join(", "))
+    })
+}
+
+/// Sizes: a range, perhaps with the number in its middle that half of them are below.
+pub(super) fn sizes(key: &str, text: &str) -> Result<([f64; 2], Option<f64>), String> {
+    let Some((low, rest)) = text.split_once("..") else { return Ok((range(key, text)?, None)) };
+    let Some((middle, high)) = rest.split_once("..") else { return Ok((range(key, text)?, None)) };
+    if [low, middle, high].iter().any(|part| part.trim().is_empty() || part.contains("..")) {
+        return Err(format!(
+            "{key}={text}: write two numbers or three, as 0.05..20 or 0.05..0.1..20"
+        ));
+    }
+    let [low, middle, high] = [number(key, low)?, number(key, middle)?, number(key, high)?];
+    if middle < low || high < middle {
+        return Err(format!(
+            "{key}={text}: write the smallest, then the one that half are below, then the largest"
+        ));
+    }
+    Ok(([low, high], Some(middle)))
+}
+
+/// A number in as few digits as bring it back.
+pub struct Number(pub f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            0.0 => f.write_str("0"),
+            size if (1e-4..1e7).contains(&size) => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
+        }
+    }
+}
+
+/// A range, or the one number that it holds.
+pub(super) struct Range(pub [f64; 2]);
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [low, high] if low == high => write!(f, "{}", Number(low)),
+            [low, high] => write!(f, "{}..{}", Number(low), Number(high)),
+        }
+    }
+}
+
+/// Sizes with the number that half of them are below.
+pub(super) struct Sizes(pub [f64; 2], pub Option<f64>);
+
+impl fmt::Display for Sizes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.0, self.1) {
+            ([low, high], Some(middle)) => {
+                write!(f, "{}..{}..{}", Number(low), Number(middle), Number(high))
+            }
+            (range, None) => Range(range).fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for Scene {
+    /// The words that make it again, as they stand in case ids.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let direction = match self.direction {
+            DirectionLength::Unit => "unit",
+            DirectionLength::Target => "target",
+        };
+        let (edge, distance) = (Sizes(self.edge, self.median_edge), Range(self.distance));
+        let extent = Number(self.extent);
+        write!(f, "extent={extent},")?;
+        if self.center != 0.0 {
+            write!(f, "center={},", Number(self.center))?;
+        }
+        write!(f, "edge={edge},distance={distance},direction={direction}")?;
+        self.sine.map_or(Ok(()), |sine| write!(f, ",sine={}", Range(sine)))?;
+        if self.aims_inside {
+            f.write_str(",aim=inside")?;
+        }
+        if self.ray != RayKind::Stored {
+            write!(f, ",ray={}", self.ray.name())?;
+        }
+        if self.plane == PlaneKind::Generic {
+            Ok(())
+        } else {
+            write!(f, ",plane={}", self.plane.name())
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The margins of a kernel that does not show its gates: by running it at many epsilons.
+
+use super::{Hit, KernelInfo, Tunable, Verdict};
+use crate::arith::Float;
+use crate::case::Case;
+
+/// By gate, the epsilon that lets the most through: 0 where smaller ones mean the same, otherwise the
+/// smallest number.
+pub fn open_epsilons<F: Float>(info: &KernelInfo) -> Vec<F> {
+    let smallest = -F::infinity().offset_ulps(-1);
+    let open = |tunable| if tunable == Tunable::Signed { smallest } else { F::zero() };
+    info.gates.iter().map(|gate| open(gate.epsilon)).collect()
+}
+
+/// Each gate's margin on a case that the kernel hits at the epsilons that let the most through: the largest
+/// epsilon at which it still hits while the other gates stay open; +inf if it hits at the largest number.
+///
+/// So raising an epsilon must only refuse more, and gates must not look at each other's epsilons.
+pub fn by_running<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mut [F]) {
+    let mut epsilons = open.to_vec();
+    for (gate, margin) in margins.iter_mut().enumerate() {
+        let mut hits_at = |place| {
+            epsilons[gate] = F::from_place(place);
+            is_hit(&epsilons)
+        };
+        let (mut accepted, mut refused) = (open[gate].place(), F::infinity().place() - 1);
+        *margin = if hits_at(refused) {
+            F::infinity()
+        } else {
+            while accepted + 1 < refused {
+                let middle = accepted.midpoint(refused);
+                if hits_at(middle) { accepted = middle } else { refused = middle }
+            }
+            F::from_place(accepted)
+        };
+        epsilons[gate] = open[gate];
+    }
+}
+
+/// The same on a case that it misses there: no epsilon is accepted, unless it hits at a larger one, which no
+/// margin can say. Then every one is, and a run at any epsilons shows the contradiction.
+pub fn of_miss<F: Float>(open: &[F], is_hit: impl Fn(&[F]) -> bool, margins: &mut [F]) {
+    let largest = F::infinity().offset_ulps(-1);
+    let is_hit_above = (0..open.len()).any(|gate| {
+        let mut epsilons = open.to_vec();
+        epsilons[gate] = largest;
+        is_hit(&epsilons)
+    });
+    margins.fill(if is_hit_above { F::infinity() } else { -F::infinity() });
+}
+
+/// Measures case by case: margins into one entry a gate for each case in turn, and what a hit would report into
+/// `values`, unless that is empty.
+pub fn each_case<F: Float>(
+    info: &KernelInfo,
+    cases: &[Case<F>],
+    margins: &mut [F],
+    values: &mut [Option<Hit<F>>],
+    mut measure: impl FnMut(&Case<F>, &mut [F]) -> Option<Hit<F>>,
+) {
+    let width = info.gates.len();
+    for (i, case) in cases.iter().enumerate() {
+        let hit = measure(case, &mut margins[i * width..(i + 1) * width]);
+        if let Some(place) = values.get_mut(i) {
+            *place = hit;
+        }
+    }
+}
+
+/// What a kernel would report of a hit.
+pub fn values_of<F: Float>(info: &KernelInfo, verdict: &Verdict<F>) -> Option<Hit<F>> {
+    let &Verdict { hit, facing, t, u, v, .. } = verdict;
+    let (t, uv) = (info.gives.t.then_some(t), info.gives.uv.then_some((u, v)));
+    hit.then_some(Hit { t, uv, facing })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::hard_cases;
+    use crate::kernel::{KERNELS, Scalar, Subject};
+
+    /// A kernel whose gates nobody sees.
+    struct Closed<F: 'static>(&'static dyn Subject<F>);
+
+    impl<F: Float> Subject<F> for Closed<F> {
+        fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+            self.0.run(cases, epsilons, verdicts);
+        }
+    }
+
+    fn margins_agree<F: Scalar>() {
+        for entry in KERNELS {
+            let (shown, info) = (F::subject(entry).unwrap(), entry.info);
+            let open = open_epsilons::<F>(info);
+            let cases = hard_cases::<F>(5, 100);
+            let width = info.gates.len();
+            let mut by_gates = vec![F::zero(); cases.len() * width];
+            let mut by_runs = by_gates.clone();
+            let mut values = vec![None; cases.len()];
+            shown.margins(info, &cases, &mut by_gates, &mut []);
+            Closed(shown).margins(info, &cases, &mut by_runs, &mut values);
+            let rows = by_gates.chunks(width).zip(by_runs.chunks(width)).zip(&cases);
+            for (((by_gates, by_runs), case), values) in rows.zip(values) {
+                let is_hit = by_gates.iter().zip(&open).all(|(margin, e)| e <= margin);
+                let of_gates = by_gates.iter().map(|m| if is_hit { *m } else { -F::infinity() });
+                let expected: Vec<F> = of_gates
+                    .zip(info.gates)
+                    .map(|(m, gate)| match gate.epsilon {
+                        Tunable::Fixed if is_hit => F::infinity(),
+                        // The largest number is the largest epsilon there is.
+                        _ if m.place() == F::infinity().place() - 1 => F::infinity(),
+                        _ => m,
+                    })
+                    .collect();
+                let about = (info.name, case.hex());
+                assert!(by_runs == expected, "{about:?}: {by_runs:?}, {expected:?}");
+                assert_eq!(values.is_some(), is_hit, "{about:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn runs_find_the_margins_that_the_gates_show() {
+        margins_agree::<f32>();
+        margins_agree::<f64>();
+    }
+}

@@ -1,0 +1,202 @@
+//! Floor 2: the kernels. The trait, gates and margins, the registry, and one algorithm a file.
+//!
+//! Architecture invariant: nothing here knows the oracle.
+//!
+//! A kernel that is written for every arithmetic also runs as other machines would compute it, under a
+//! name such as `moller-trumbore+fma`.
+//!
+//! To add a kernel: write its file, and give it a row in `registry.rs`. A program of your own adds
+//! its kernels with [`Entry`] and `hairline::cli::main_with`.
+
+#![forbid(unsafe_code)]
+
+/// What most kernels compute ahead of any ray: nothing.
+macro_rules! stores_triangle {
+    () => {
+        type Prepared<V: Vector> = Triangle<V>;
+
+        fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
+            triangle.clone()
+        }
+    };
+}
+
+pub mod gate;
+mod generic;
+mod margins;
+mod own;
+mod preset;
+mod recording;
+mod registry;
+mod runs;
+#[cfg(feature = "margins")]
+mod shown;
+mod subject;
+#[cfg(feature = "margins")]
+mod variant;
+mod verdict;
+
+mod baldwin_weber;
+mod cramer;
+mod half_space;
+mod havel_herout;
+mod moller_trumbore;
+mod plane_inside_out;
+mod plane_unit_normal;
+mod plucker;
+mod scalar_triple;
+mod woop_watertight;
+
+pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
+pub use generic::Generic;
+pub use margins::{by_running, of_miss, open_epsilons, values_of};
+pub use own::Test;
+pub use preset::{PRESETS, Preset, PresetEntry, PresetValue};
+pub use recording::{Acceptance, Compared, Path};
+pub use registry::kept;
+pub use registry::{Entry, KERNELS, Scalar, all, find, in_arithmetic, register, unnamed};
+pub use runs::{ExactRun, Measured, TrackedRun};
+pub use subject::verdicts_of;
+pub use subject::{Gated, Subject};
+pub use verdict::{Failure, Verdict};
+
+use crate::arith::{Real, Vector};
+use crate::case::{Ray, Triangle};
+use crate::contract::Contract;
+use crate::truth::Facing;
+
+/// A ray–triangle kernel, written once for every arithmetic.
+pub trait Kernel: Sync + 'static {
+    /// What it is and what it promises.
+    const INFO: KernelInfo;
+    /// What it stores for a triangle.
+    type Prepared<V: Vector>;
+
+    /// What the source computes for each triangle ahead of any ray.
+    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Self::Prepared<V>;
+
+    /// The test of the source, in its order of operations and with its comparisons. A sink that does not
+    /// stop at a refusal gets every margin; the result then does not say whether the ray hits.
+    fn test<V: Vector, S: Sink<V::Real>>(
+        prepared: &Self::Prepared<V>,
+        ray: &Ray<V>,
+        sink: &mut S,
+    ) -> Option<Hit<V::Real>>;
+
+    /// The same for a planar convex polygon, if the kernel takes polygons.
+    fn test_polygon<V: Vector, S: Sink<V::Real>>(
+        _vertices: &[V],
+        _ray: &Ray<V>,
+        _sink: &mut S,
+    ) -> Option<Hit<V::Real>> {
+        None
+    }
+}
+
+/// What a kernel reports of a hit. The weights of a, b and c are 1-u-v, u and v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hit<R> {
+    /// The ray's parameter, in units of the direction.
+    pub t: Option<R>,
+    /// The weights of b and c.
+    pub uv: Option<(R, R)>,
+    /// The side hit.
+    pub facing: Option<Facing>,
+}
+
+impl<R> Hit<R> {
+    /// A hit that reports its t alone.
+    pub fn at(t: R) -> Hit<R> {
+        Hit { t: Some(t), uv: None, facing: None }
+    }
+
+    /// The same in another arithmetic, number by number.
+    pub fn map<S>(self, number: impl Fn(R) -> S) -> Hit<S> {
+        let Hit { t, uv, facing } = self;
+        Hit { t: t.map(&number), uv: uv.map(|(u, v)| (number(u), number(v))), facing }
+    }
+}
+
+/// What a kernel is, where it comes from and what it promises.
+#[derive(Debug)]
+pub struct KernelInfo {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// Author, title, year and address of its source.
+    pub source: &'static str,
+    /// What its source promises.
+    pub contract: Contract,
+    /// Its gates, in the order of the test.
+    pub gates: &'static [Gate],
+    /// The epsilon sets of the default plan, one epsilon a gate.
+    pub epsilon_sets: &'static [EpsilonSet],
+    /// Which values of a hit it reports.
+    pub gives: Gives,
+    /// Whether it takes planar convex polygons too.
+    pub polygons: bool,
+    /// Whether it hits when every coordinate is NaN, as its comparisons are written.
+    pub hits_nan: bool,
+}
+
+impl KernelInfo {
+    /// For a kernel of your own: it has no epsilons, and only t of its hits is judged. Set other fields by
+    /// `KernelInfo { gives: …, ..KernelInfo::own(name, contract) }`.
+    pub const fn own(name: &'static str, contract: Contract) -> KernelInfo {
+        KernelInfo {
+            name,
+            source: "your own",
+            contract,
+            gates: &[],
+            epsilon_sets: &[EpsilonSet { name: "own", values: &[] }],
+            gives: Gives { t: true, uv: false, facing: false },
+            polygons: false,
+            hits_nan: false,
+        }
+    }
+}
+
+/// One epsilon a gate, as decimal text, or as a multiple of the scalar's distance from 1 to the next
+/// number: `EPSILON`, `16*EPSILON`. Fixed gates ignore theirs.
+#[derive(Clone, Copy, Debug)]
+pub struct EpsilonSet {
+    /// What the set is called in a report: `source`, `zero`, a value.
+    pub name: &'static str,
+    /// In the order of the gates.
+    pub values: &'static [&'static str],
+}
+
+/// Which values a kernel reports.
+#[derive(Clone, Copy, Debug)]
+pub struct Gives {
+    /// The ray's parameter.
+    pub t: bool,
+    /// The weights of b and c.
+    pub uv: bool,
+    /// The side hit.
+    pub facing: bool,
+}
+
+/// `facing` from a number that is positive when the ray comes from the front.
+fn facing_of<R: Real>(front_if_positive: &R) -> Option<Facing> {
+    if R::zero().is_less(front_if_positive) {
+        Some(Facing::Front)
+    } else if front_if_positive.is_less(&R::zero()) {
+        Some(Facing::Back)
+    } else {
+        None
+    }
+}
+
+/// An interval's end times a determinant; an end of zero stays zero whatever the determinant, as
+/// where a source compares with 0.
+#[inline(always)]
+fn end_times<R: Real>(end: &R, determinant: &R) -> R {
+    if end.is_zero() { R::zero() } else { end.clone() * determinant }
+}
+
+/// `a - b`, and zero where a = b even if both are infinite: its sign is the outcome of the source's
+/// comparison of a and b.
+#[inline(always)]
+fn gap<R: Real>(a: &R, b: &R) -> R {
+    if a.is_at_most(b) && b.is_at_most(a) { R::zero() } else { a.clone() - b }
+}

@@ -1,0 +1,284 @@
+//! The table of kernels: the built-in ones, and those that a program adds.
+
+use super::own::{Own, Test};
+use super::{Generic, Kernel, KernelInfo, Subject};
+use crate::arith::{Arithmetic, Float};
+use std::ptr;
+use std::sync::{Mutex, PoisonError, RwLock};
+
+/// A row: a kernel in one or both scalars.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// What it is and what it promises.
+    pub info: &'static KernelInfo,
+    /// The flag that chooses it on a command line, if not `--kernel` with its name.
+    flag: Option<&'static str>,
+    f32: Option<&'static dyn Subject<f32>>,
+    f64: Option<&'static dyn Subject<f64>>,
+}
+
+impl Entry {
+    /// A kernel that runs in no scalar yet: [`Entry::f32`] and [`Entry::f64`] give it its tests.
+    pub const fn new(info: &'static KernelInfo) -> Entry {
+        Entry { info, flag: None, f32: None, f64: None }
+    }
+
+    /// A kernel written for every arithmetic: both scalars, margins and exact runs.
+    pub const fn of<K: Kernel>() -> Entry {
+        Entry {
+            info: &const { K::INFO },
+            flag: None,
+            f32: Some(const { &Generic::<K>::SUBJECT }),
+            f64: Some(const { &Generic::<K>::SUBJECT }),
+        }
+    }
+
+    /// The same with a test in `f32`, which lives as long as the process.
+    pub fn f32(self, test: impl Test<f32> + 'static) -> Entry {
+        self.with_f32(Box::leak(Box::new(Own::new(test))))
+    }
+
+    /// The same with a test in `f64`, which lives as long as the process.
+    pub fn f64(self, test: impl Test<f64> + 'static) -> Entry {
+        self.with_f64(Box::leak(Box::new(Own::new(test))))
+    }
+
+    /// What should be known of it beside its verdicts; each in one line.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = self.f32.map_or(Vec::new(), |subject| subject.notes());
+        let more = self.f64.map_or(Vec::new(), |subject| subject.notes());
+        notes.extend(more.into_iter().filter(|note| !notes.contains(note)).collect::<Vec<_>>());
+        notes
+    }
+
+    /// Ends what it started; more verdicts start it again.
+    pub fn finish(&self) {
+        self.f32.into_iter().for_each(|subject| subject.finish());
+        self.f64.into_iter().for_each(|subject| subject.finish());
+    }
+
+    /// The same with a subject in `f32`.
+    pub const fn with_f32(self, subject: &'static dyn Subject<f32>) -> Entry {
+        Entry { f32: Some(subject), ..self }
+    }
+
+    /// The same with a subject in `f64`.
+    pub const fn with_f64(self, subject: &'static dyn Subject<f64>) -> Entry {
+        Entry { f64: Some(subject), ..self }
+    }
+
+    /// The same, chosen on a command line by another flag than `--kernel` with its name.
+    pub const fn chosen_by(self, flag: &'static str) -> Entry {
+        Entry { flag: Some(flag), ..self }
+    }
+
+    /// Whether it shows its gates: each one's margin on a case.
+    pub fn shows_gates(&self) -> bool {
+        let f32 = self.f32.is_some_and(|subject| subject.gated().is_some());
+        f32 || self.f64.is_some_and(|subject| subject.gated().is_some())
+    }
+
+    /// Whether a study of epsilons can ask it for margins: see [`Subject::tells_margins`].
+    pub fn tells_margins(&self) -> bool {
+        self.f32.is_none_or(|subject| subject.tells_margins())
+            && self.f64.is_none_or(|subject| subject.tells_margins())
+    }
+
+    /// Whether it runs in `f32`, and in `f64`.
+    pub const fn scalars(&self) -> [bool; 2] {
+        [self.f32.is_some(), self.f64.is_some()]
+    }
+
+    /// Whether a program has it without adding it, in whatever arithmetic.
+    pub fn is_built_in(&self) -> bool {
+        let name = self.info.name;
+        let base = name_and_arithmetic(name).map_or(name, |(base, _)| base);
+        KERNELS.iter().any(|entry| entry.info.name == base)
+    }
+
+    /// Whether it is the same kernel with the same code.
+    fn is(&self, other: &Entry) -> bool {
+        // Subjects without size share their address, so that their methods count too; methods that are
+        // in two places make the same kernel two, which is no harm.
+        #[allow(ambiguous_wide_pointer_comparisons)]
+        fn same<T: ?Sized>(a: Option<&T>, b: Option<&T>) -> bool {
+            a.map(ptr::from_ref) == b.map(ptr::from_ref)
+        }
+        ptr::eq(self.info, other.info)
+            && self.flag == other.flag
+            && same(self.f32, other.f32)
+            && same(self.f64, other.f64)
+    }
+
+    /// The flag that chooses it on a command line.
+    pub fn selector(&self) -> String {
+        self.flag.map_or_else(|| format!("--kernel {}", self.info.name), str::to_owned)
+    }
+}
+
+/// Every built-in kernel, in the order of reports.
+pub static KERNELS: &[Entry] = &[
+    Entry::of::<super::plane_unit_normal::PlaneUnitNormal>(),
+    Entry::of::<super::half_space::HalfSpace>(),
+    Entry::of::<super::scalar_triple::ScalarTriple>(),
+    Entry::of::<super::scalar_triple::ScalarTripleShared>(),
+    Entry::of::<super::scalar_triple::ScalarTripleTwoSided>(),
+    Entry::of::<super::cramer::Cramer>(),
+    Entry::of::<super::plane_inside_out::PlaneInsideOut>(),
+    Entry::of::<super::plane_inside_out::PlaneInsideOutPrecomputed>(),
+    Entry::of::<super::plane_inside_out::PlaneInsideOutStrict>(),
+    Entry::of::<super::plane_inside_out::ConvexPolygon>(),
+    Entry::of::<super::moller_trumbore::MollerTrumbore>(),
+    Entry::of::<super::moller_trumbore::MollerTrumboreT>(),
+    Entry::of::<super::moller_trumbore::MollerTrumboreCulling>(),
+    Entry::of::<super::woop_watertight::WoopWatertight>(),
+    Entry::of::<super::plucker::Plucker>(),
+    Entry::of::<super::baldwin_weber::BaldwinWeber>(),
+    Entry::of::<super::havel_herout::HavelHerout>(),
+];
+
+/// What programs added to the built-in kernels.
+static ADDED: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
+
+/// Every kernel: the added ones, then the built-in ones in the order of reports.
+pub fn all() -> Vec<&'static Entry> {
+    let added = ADDED.read().unwrap_or_else(PoisonError::into_inner);
+    added.iter().copied().chain(KERNELS).collect()
+}
+
+/// The kernels of a run that names none: those of the program's author, if it has some, or else all.
+pub fn unnamed() -> Vec<&'static Entry> {
+    let mut all = all();
+    let is_own = |entry: &&Entry| entry.flag.is_none() && !entry.is_built_in();
+    if all.iter().any(is_own) {
+        all.retain(is_own);
+    }
+    all
+}
+
+/// The kernels in other arithmetics that have been requested by name so far.
+static VARIANTS: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
+
+/// A kernel in an arithmetic, called `NAME+ARITHMETIC` unless that is IEEE 754's; none if the
+/// kernel is not written for every arithmetic, or is in another one already.
+pub fn in_arithmetic(entry: &'static Entry, arithmetic: Arithmetic) -> Option<&'static Entry> {
+    let base = entry.info;
+    if arithmetic == Arithmetic::IEEE {
+        return Some(entry);
+    }
+    if name_and_arithmetic(base.name).is_some() {
+        return None;
+    }
+    let name = format!("{}+{arithmetic}", base.name);
+    let mut variants = VARIANTS.write().unwrap_or_else(PoisonError::into_inner);
+    if let Some(variant) = variants.iter().find(|variant| variant.info.name == name) {
+        return Some(*variant);
+    }
+    let subjects = (entry.f32?, entry.f64?);
+    let source = format!("{}; {}", base.source, arithmetic.describe());
+    let info: &'static KernelInfo = Box::leak(Box::new(KernelInfo {
+        name: String::leak(name),
+        source: String::leak(source),
+        ..*base
+    }));
+    let variant: &'static Entry = Box::leak(Box::new(Entry {
+        info,
+        flag: None,
+        f32: Some(subjects.0.in_arithmetic(arithmetic, info)?),
+        f64: Some(subjects.1.in_arithmetic(arithmetic, info)?),
+    }));
+    variants.push(variant);
+    Some(variant)
+}
+
+/// A kernel's name and the arithmetic's, if it ends in one.
+fn name_and_arithmetic(name: &str) -> Option<(&str, Arithmetic)> {
+    let (kernel, arithmetic) = name.rsplit_once('+')?;
+    Some((kernel, arithmetic.parse().ok().filter(|found| *found != Arithmetic::IEEE)?))
+}
+
+/// Entries that live as long as the process without being in the table.
+static KEPT: Mutex<Vec<&'static Entry>> = Mutex::new(Vec::new());
+
+/// Keeps an entry for the rest of the process; the same entry is kept once.
+pub fn kept(entry: &Entry) -> &'static Entry {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = all().into_iter().chain(kept.iter().copied()).find(|e| e.is(entry)) {
+        return known;
+    }
+    let entry = Box::leak(Box::new(*entry));
+    kept.push(entry);
+    entry
+}
+
+/// Adds a kernel for the rest of the process; every command then knows its name. An error if the
+/// name is empty, taken, or not a word.
+pub fn register(entry: Entry) -> Result<&'static Entry, String> {
+    let name = entry.info.name;
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.+@".contains(c);
+    if name.is_empty() || !name.chars().all(is_word) {
+        return Err(format!(
+            "'{}' is no name for a kernel: use letters, digits and -_.+@",
+            name.escape_default()
+        ));
+    }
+    if let Some((_, arithmetic)) = name_and_arithmetic(name) {
+        return Err(format!(
+            "'{name}' is no name for a kernel: +{arithmetic} names a kernel in another arithmetic"
+        ));
+    }
+    if find(name).is_some() {
+        return Err(format!(
+            "there are two kernels of the name '{name}' (to compare two builds, audit each with --format json, \
+             and see hairline diff)"
+        ));
+    }
+    let entry: &'static Entry = Box::leak(Box::new(entry));
+    ADDED.write().unwrap_or_else(PoisonError::into_inner).push(entry);
+    Ok(entry)
+}
+
+/// The kernel of a name; with the feature `studies` also in another arithmetic, as `moller-trumbore+fma`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    if let Some((kernel, arithmetic)) = name_and_arithmetic(name) {
+        return in_arithmetic(find(kernel)?, arithmetic);
+    }
+    let is_named = |entry: &&'static Entry| entry.info.name == name;
+    let added =
+        || ADDED.read().unwrap_or_else(PoisonError::into_inner).iter().copied().find(is_named);
+    KERNELS.iter().find(is_named).or_else(added)
+}
+
+/// A scalar that kernels are registered in.
+pub trait Scalar: Float {
+    /// The kernel of a row, if it runs in this scalar.
+    fn subject(entry: &Entry) -> Option<&'static dyn Subject<Self>>;
+}
+
+impl Scalar for f32 {
+    fn subject(entry: &Entry) -> Option<&'static dyn Subject<f32>> {
+        entry.f32
+    }
+}
+
+impl Scalar for f64 {
+    fn subject(entry: &Entry) -> Option<&'static dyn Subject<f64>> {
+        entry.f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_each_set_has_one_epsilon_a_gate() {
+        for (i, entry) in KERNELS.iter().enumerate() {
+            assert!(KERNELS[..i].iter().all(|other| other.info.name != entry.info.name));
+            assert!(!entry.info.epsilon_sets.is_empty());
+            for set in entry.info.epsilon_sets {
+                assert_eq!(set.values.len(), entry.info.gates.len(), "{}", entry.info.name);
+            }
+        }
+    }
+}

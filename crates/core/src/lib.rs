@@ -1,0 +1,103 @@
+//! Whether a ray hits a triangle, exactly, for every finite `f32` and `f64`; and the published kernels that try to
+//! say so in floats.
+//!
+//! ```
+//! use hairline_core::{Case, Truth, truth};
+//!
+//! let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+//! let case = Case::<f64>::new([0.25, 0.25, 1.0], [0.0, 0.0, -1.0], triangle);
+//! assert!(matches!(truth(&case), Truth::Transversal(_)));
+//! ```
+//!
+//! [`truth()`] answers for one case, [`truths`] and [`Batch`] for millions. A [`Kernel`] is written once for every
+//! arithmetic; [`find`] knows the published ones. The crate `hairline` compares the two.
+//!
+//! What is at the root is the interface. The modules hold what `hairline` and its prover share, and change with them.
+
+/// An enum whose values have names.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! named {
+    ($methods:vis names $(#[$about:meta])* $visible:vis enum $type:ident {
+        $($(#[$doc:meta])* $value:ident = $name:literal,)*
+    }) => {
+        $(#[$about])*
+        $visible enum $type {
+            $($(#[$doc])* $value,)*
+        }
+
+        impl $type {
+            /// All of them, in their order.
+            $methods const ALL: [$type; [$($name),*].len()] = [$($type::$value),*];
+
+            /// The name in files, in reports and on the command line.
+            $methods const fn name(self) -> &'static str {
+                match self {
+                    $($type::$value => $name,)*
+                }
+            }
+        }
+    };
+}
+
+/// Does the same with whichever scalar's value an [`AnyScalar`](crate::case::AnyScalar) holds.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! either_scalar {
+    ($any:expr, $value:pat => $do:expr) => {
+        match $any {
+            $crate::case::AnyScalar::F32($value) => $do,
+            $crate::case::AnyScalar::F64($value) => $do,
+        }
+    };
+}
+
+/// Does something in the scalar of a name, which is one of the two.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! in_named_scalar {
+    ($name:expr, $scalar:ident => $do:expr) => {
+        if $name == <f32 as $crate::arith::Float>::NAME {
+            type $scalar = f32;
+            $do
+        } else {
+            type $scalar = f64;
+            $do
+        }
+    };
+}
+
+// The floors, from the ground up: each module uses only those above it in this list.
+#[doc(hidden)]
+pub mod arith;
+#[doc(hidden)]
+pub mod engine;
+
+#[doc(hidden)]
+pub mod case;
+#[doc(hidden)]
+pub mod contract;
+#[doc(hidden)]
+pub mod suggest;
+#[doc(hidden)]
+pub mod truth;
+
+#[doc(hidden)]
+pub mod kernel;
+#[doc(hidden)]
+pub mod oracle;
+
+pub use case::{Case, Parameters, Ray, Triangle};
+pub use oracle::{Batch, Layers, UnequalColumns, truth, truths};
+pub use truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
+
+pub use contract::{
+    Across, Band, BandUnit, Boundary, Contract, Demand, Direction, Extent, NAMED, NamedContract,
+    Sides,
+};
+
+pub use arith::{Float, Real, Vector};
+pub use kernel::{
+    Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
+    Scalar, Sink, Subject, Test, Tunable, Verdict, find,
+};

@@ -1,0 +1,204 @@
+//! Integer vectors and intervals, which the integer layers share.
+
+use crate::arith::decompose;
+use crate::case::Case;
+use num_bigint::BigInt;
+use std::cmp::Ordering;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// An exact integer of some width.
+pub trait Number {
+    /// In any size.
+    fn big(&self) -> BigInt;
+    /// Less, equal or greater than zero.
+    fn sign(&self) -> Ordering;
+
+    /// Whether it is zero.
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        self.sign() == Ordering::Equal
+    }
+}
+
+impl Number for i64 {
+    fn big(&self) -> BigInt {
+        BigInt::from(*self)
+    }
+    #[inline(always)]
+    fn sign(&self) -> Ordering {
+        self.cmp(&0)
+    }
+}
+
+impl Number for i128 {
+    fn big(&self) -> BigInt {
+        BigInt::from(*self)
+    }
+    #[inline(always)]
+    fn sign(&self) -> Ordering {
+        self.cmp(&0)
+    }
+}
+
+impl Number for BigInt {
+    fn big(&self) -> BigInt {
+        self.clone()
+    }
+    fn sign(&self) -> Ordering {
+        self.cmp(&BigInt::ZERO)
+    }
+}
+
+/// A [`Number`] that computes: `i128` or `BigInt`.
+pub trait Integer:
+    Number
+    + Clone
+    + Ord
+    + Neg<Output = Self>
+    + for<'a> Add<&'a Self, Output = Self>
+    + for<'a> Sub<&'a Self, Output = Self>
+    + for<'a> Mul<&'a Self, Output = Self>
+{
+    /// The order of `a*b` and `c*d`.
+    fn compare_products(a: &Self, b: &Self, c: &Self, d: &Self) -> Ordering;
+
+    /// `a*b - c*d`.
+    fn minor(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+        a.clone() * b - &(c.clone() * d)
+    }
+}
+
+impl Integer for i128 {
+    fn compare_products(a: &i128, b: &i128, c: &i128, d: &i128) -> Ordering {
+        match (a.checked_mul(*b), c.checked_mul(*d)) {
+            (Some(left), Some(right)) => left.cmp(&right),
+            _ => BigInt::compare_products(&a.big(), &b.big(), &c.big(), &d.big()),
+        }
+    }
+}
+
+impl Integer for BigInt {
+    fn compare_products(a: &BigInt, b: &BigInt, c: &BigInt, d: &BigInt) -> Ordering {
+        (a * b).cmp(&(c * d))
+    }
+}
+
+/// An integer vector.
+pub type Triple<I> = [I; 3];
+
+/// The interval of a case whose t = numerator / denominator carries a power of two.
+pub(super) struct Interval {
+    t_min: f64,
+    t_max: f64,
+    exponent: i64,
+}
+
+impl Interval {
+    /// With t = numerator / denominator * 2^exponent.
+    pub fn new(case: &Case<f64>, exponent: i64) -> Interval {
+        Interval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
+    }
+
+    /// Whether the interval is `[0, +inf]`.
+    pub fn is_default(&self) -> bool {
+        self.t_min == 0.0 && self.t_max == f64::INFINITY
+    }
+
+    /// Whether the interval is one point.
+    pub fn is_point(&self) -> bool {
+        self.t_min == self.t_max
+    }
+
+    /// The sign of t - t_min; the denominator is not zero.
+    pub fn compare_start<I: Number>(&self, numerator: &I, denominator: &I) -> Ordering {
+        self.compare(numerator, denominator, self.t_min)
+    }
+
+    /// The sign of t - t_max; the denominator is not zero.
+    pub fn compare_end<I: Number>(&self, numerator: &I, denominator: &I) -> Ordering {
+        self.compare(numerator, denominator, self.t_max)
+    }
+
+    #[inline]
+    fn compare<I: Number>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
+        let negative = denominator.sign() == Ordering::Less;
+        let relative = |sign: Ordering| if negative { sign.reverse() } else { sign };
+        if end == 0.0 {
+            return relative(numerator.sign());
+        }
+        if end.is_infinite() {
+            return if end > 0.0 { Ordering::Less } else { Ordering::Greater };
+        }
+        let (digits, exponent) = decompose(end);
+        let (mut left, mut right) = (numerator.big(), denominator.big() * digits);
+        let shift = self.exponent - exponent;
+        if shift >= 0 {
+            left <<= shift
+        } else {
+            right <<= -shift
+        }
+        relative(left.cmp(&right))
+    }
+}
+
+/// Points as integers on a common grid, and the grid's exponent.
+pub fn align<const N: usize>(points: [[f64; 3]; N]) -> ([Triple<BigInt>; N], i64) {
+    let parts = points.map(|point| point.map(decompose));
+    let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
+    let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
+    let integer = |(digits, exponent): (i64, i64)| match digits {
+        0 => BigInt::ZERO,
+        _ => BigInt::from(digits) << (exponent - grid),
+    };
+    (parts.map(|point| point.map(integer)), grid)
+}
+
+pub fn minus<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
+    std::array::from_fn(|i| a[i].clone() - &b[i])
+}
+
+pub fn dot<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> I {
+    a[0].clone() * &b[0] + &(a[1].clone() * &b[1]) + &(a[2].clone() * &b[2])
+}
+
+pub fn cross<I: Integer>(a: &Triple<I>, b: &Triple<I>) -> Triple<I> {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        I::minor(&a[j], &b[k], &a[k], &b[j])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fraction_is_compared_with_the_ends_of_an_interval() {
+        let case = Case::<f64>::new([0.0; 3], [1.0; 3], [[0.0; 3]; 3]);
+        // 3·2^exponent / -6 on [-4, -2].
+        let order = |exponent: i64| {
+            let interval = Interval::new(&case.on(-4.0, -2.0), exponent);
+            (interval.compare_start(&3i128, &-6), interval.compare_end(&3i128, &-6))
+        };
+        assert_eq!(order(1), (Ordering::Greater, Ordering::Greater));
+        assert_eq!(order(2), (Ordering::Greater, Ordering::Equal));
+        assert_eq!(order(3), (Ordering::Equal, Ordering::Less));
+        assert_eq!(order(4), (Ordering::Less, Ordering::Less));
+        // Also of a t beyond every float.
+        for exponent in [0, 2000] {
+            let all = Interval::new(&case.on(f64::NEG_INFINITY, f64::INFINITY), exponent);
+            for denominator in [1, -1] {
+                assert_eq!(all.compare_start(&1i128, &denominator), Ordering::Greater);
+                assert_eq!(all.compare_end(&1i128, &denominator), Ordering::Less);
+            }
+        }
+        let kinds = |low: f64, high: f64| {
+            let interval = Interval::new(&case.on(low, high), 0);
+            (interval.is_default(), interval.is_point())
+        };
+        assert_eq!(kinds(0.0, f64::INFINITY), (true, false));
+        assert_eq!(kinds(0.0, 1.0), (false, false));
+        assert_eq!(kinds(1.0, f64::INFINITY), (false, false));
+        assert_eq!(kinds(1.0, 1.0), (false, true));
+    }
+}

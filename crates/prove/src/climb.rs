@@ -1,0 +1,313 @@
+//! The search for witnesses.
+
+use super::witness::{Goal, Inputs, Search, Searched};
+use super::{Leaf, Source};
+use crate::arith::Float;
+use crate::arith::recorded::{Operation, Place};
+use crate::case::Draw;
+
+/// After so many evaluations without anything better a climb starts elsewhere.
+const STALE: u64 = 20_000;
+/// Steps to where the errors could be large.
+const ASCENT: u64 = 3_000;
+
+impl<F: Searched> Search<'_, F> {
+    /// Climbs for so many evaluations; the best inputs and their exact score.
+    ///
+    /// An error is a sum of roundings, each with a weight. A change of many digits changes all of the roundings, and so
+    /// hides what it does to the weights. So a climb goes first to where the errors could be large, and then through
+    /// the last digits there.
+    pub fn climb(
+        &mut self,
+        goal: Goal,
+        evaluations: u64,
+        draw: &mut Draw,
+        known: &[Inputs<F>],
+    ) -> Option<(Inputs<F>, f64)> {
+        let mut near = Vec::new();
+        let mut best: Option<(Inputs<F>, f64)> = None;
+        let mut current: Option<(Inputs<F>, f64)> = None;
+        let (mut stale, mut left) = (0, evaluations);
+        while 0 < left {
+            left -= 1;
+            // Starts again where nothing better came for long; sometimes from a known case.
+            if current.is_none() || stale > STALE {
+                let inputs = match known {
+                    [_, ..] if draw.below(4) == 0 => draw.pick(known),
+                    _ => self.start(goal, draw),
+                };
+                current = self.score(&inputs, goal, &mut near).map(|score| (inputs, score));
+                if let Some((inputs, score)) = &mut current
+                    && goal != Goal::Zero
+                    && draw.coin()
+                {
+                    let steps = ASCENT.min(left / 4);
+                    left -= steps;
+                    *inputs = self.ascend(*inputs, goal, steps, draw);
+                    *score = self.score(inputs, goal, &mut near).unwrap_or(*score);
+                }
+                best = best.into_iter().chain(current).max_by(|(_, a), (_, b)| a.total_cmp(b));
+                stale = 0;
+                continue;
+            }
+            let Some((inputs, score)) = current else { continue };
+            let mut tried = inputs;
+            for _ in 0..1 + draw.below(3) {
+                self.change(&mut tried, draw);
+            }
+            if goal == Goal::Zero {
+                make_parallel(&mut tried, draw);
+            }
+            stale += 1;
+            let Some(found) = self.score(&tried, goal, &mut near) else { continue };
+            // A little worse is allowed now and then.
+            let slack = if draw.below(64) == 0 { 0.02 * score.abs() } else { 0.0 };
+            if found >= score - slack {
+                if found > score {
+                    stale = stale.min(STALE / 2);
+                }
+                current = Some((tried, found));
+            }
+            if best.is_none_or(|(_, best)| found > best) {
+                (best, stale) = (Some((tried, found)), 0);
+            }
+        }
+        let (inputs, _) = best?;
+        self.exact(&inputs, goal).map(|score| (inputs, score))
+    }
+
+    /// Moves inputs inside the domain to where the roundings could add up to much.
+    fn ascend(
+        &mut self,
+        mut inputs: Inputs<F>,
+        goal: Goal,
+        steps: u64,
+        draw: &mut Draw,
+    ) -> Inputs<F> {
+        let mut near = Vec::new();
+        let mut highest = 0.0;
+        for _ in 0..steps {
+            let mut tried = inputs;
+            for _ in 0..1 + draw.below(4) {
+                let i = draw.below(if self.quantity.uses().extent { 17 } else { 15 });
+                let by = draw.symmetric::<f64>() * 2f64.powi(-(draw.below(12) as i32));
+                let scale = self.domain.reach.max(self.domain.edge).to_f64();
+                tried[i] = match draw.below(6) {
+                    0 => -tried[i],
+                    _ => tried[i] + F::from_f64(by * scale),
+                };
+            }
+            if self.score(&tried, goal, &mut near).is_some() {
+                let found = self.amplitude();
+                if found >= highest {
+                    (inputs, highest) = (tried, found);
+                }
+            }
+        }
+        inputs
+    }
+
+    /// What half an ulp of every rounded number of the last run could add up to, in units of its unit roundoff.
+    fn amplitude(&self) -> f64 {
+        let values: Vec<f64> = self.computed.iter().map(|x| x.to_f64()).collect();
+        let mut slopes = vec![0.0; values.len()];
+        slopes[self.place as usize] = 1.0;
+        let mut sum = 0.0;
+        for (place, operation) in self.operations.iter().enumerate().rev() {
+            let (slope, result) = (slopes[place], values[place]);
+            let of = |place: Place| values[place as usize];
+            let mut add = |place: Place, x: f64| slopes[place as usize] += x;
+            match *operation {
+                Operation::Input(_) | Operation::Number(_) => {}
+                Operation::Neg(a) => add(a, -slope),
+                Operation::Abs(a) => add(a, slope * of(a).signum()),
+                Operation::Sqrt(a) => add(a, slope / (2.0 * result)),
+                Operation::Add(a, b) => {
+                    add(a, slope);
+                    add(b, slope);
+                }
+                Operation::Sub(a, b) => {
+                    add(a, slope);
+                    add(b, -slope);
+                }
+                Operation::Div(a, b) => {
+                    add(a, slope / of(b));
+                    add(b, -slope * result / of(b));
+                }
+                Operation::Mul(a, b) => {
+                    add(a, slope * of(b));
+                    add(b, slope * of(a));
+                }
+                Operation::Fma(a, b, c) => {
+                    add(a, slope * of(b));
+                    add(b, slope * of(a));
+                    add(c, slope);
+                }
+                Operation::Minor(a, b, c, d) => {
+                    add(a, slope * of(b));
+                    add(b, slope * of(a));
+                    add(c, -slope * of(d));
+                    add(d, -slope * of(c));
+                }
+            }
+            use Operation::{Abs, Input, Neg, Number};
+            let is_exact = matches!(operation, Input(_) | Number(_) | Neg(_) | Abs(_));
+            if !is_exact && result != 0.0 {
+                sum += slope.abs() * result.abs().log2().floor().exp2();
+            }
+        }
+        sum
+    }
+
+    /// Inputs in the boxes, often near the corner of the bound.
+    fn start(&self, goal: Goal, draw: &mut Draw) -> Inputs<F> {
+        let mut inputs = [F::zero(); 17];
+        let world = self.domain.world.to_f64();
+        let shift = draw.below(30) as i32;
+        let offset = |draw: &mut Draw| world * draw.symmetric::<f64>() * 2f64.powi(-shift);
+        let [edge, reach] = [self.domain.edge, self.domain.reach].map(|x| x.to_f64());
+        let at_corner = draw.coin();
+        let size = |draw: &mut Draw, bound: f64| {
+            let size = match draw.below(3) {
+                0 => bound * draw.unit(),
+                1 => bound * (1.0 - draw.unit() * 0.01),
+                _ => bound * (1.0 - draw.unit() * 2f64.powi(-12)),
+            };
+            if draw.coin() { size } else { -size }
+        };
+        let lemma = self.quantity.lemmas.last();
+        let sign = |wanted: Leaf| {
+            let lemma = lemma.filter(|_| at_corner)?;
+            let at = lemma.formula.sources.iter().position(|s| *s == Source::Leaf(wanted))?;
+            Some(*lemma.maximum.corner.get(at)?)
+        };
+        let signed = |x: f64, minus: Option<bool>| match minus {
+            Some(true) => -x.abs(),
+            Some(false) => x.abs(),
+            None => x,
+        };
+        for axis in 0..3 {
+            let a = offset(draw);
+            inputs[6 + axis] = F::from_f64(a);
+            for (point, bound) in [(2, edge), (3, edge), (0, reach)] {
+                let x = size(draw, bound);
+                let minus = sign(Leaf::Difference(point, 1, axis))
+                    .or(sign(Leaf::Difference(1, point, axis)).map(|minus| !minus));
+                let at = if point == 0 { axis } else { 3 + 3 * point + axis };
+                inputs[at] = F::from_f64(a + signed(x, minus));
+            }
+            // Where only vectors from the origin count, they are drawn around it.
+            if sign(Leaf::Difference(1, 0, axis)).is_some() || !self.quantity.uses().edge {
+                let o = offset(draw);
+                inputs[axis] = F::from_f64(o);
+                for point in 1..=3 {
+                    let x = size(draw, reach);
+                    let minus = sign(Leaf::Difference(point, 0, axis));
+                    inputs[3 + 3 * point + axis] = F::from_f64(o + signed(x, minus));
+                }
+            }
+            let direction = size(draw, self.domain.direction.to_f64());
+            inputs[3 + axis] = F::from_f64(signed(direction, sign(Leaf::Direction(axis))));
+        }
+        let extent = self.domain.extent.to_f64();
+        inputs[15] = F::from_f64(size(draw, extent));
+        inputs[16] = F::from_f64(size(draw, extent));
+        if goal == Goal::Zero {
+            make_parallel(&mut inputs, draw);
+        }
+        inputs
+    }
+
+    fn change(&self, inputs: &mut Inputs<F>, draw: &mut Draw) {
+        let i = draw.below(if self.quantity.uses().extent { 17 } else { 15 });
+        let x = inputs[i];
+        inputs[i] = match draw.below(8) {
+            0..3 => x.offset_ulps(draw.integer(-3, 3)),
+            3 => x.offset_ulps(draw.integer(-300, 300)),
+            4 => {
+                let exponent = -draw.integer(0, i64::from(F::DIGITS) + 6);
+                let scale = self.domain.reach.max(self.domain.edge).to_f64();
+                x + F::from_f64(scale * draw.symmetric::<f64>() * 2f64.powi(exponent as i32))
+            }
+            5 => -x,
+            6 => {
+                // Fewer digits.
+                let keep = 1 + draw.below(F::DIGITS as usize) as u32;
+                let drop = F::DIGITS - keep.min(F::DIGITS);
+                F::from_bits(x.to_bits() >> drop << drop)
+            }
+            _ => {
+                // The other points along the same axis move along.
+                let by = F::from_f64(draw.symmetric::<f64>() * 2f64.powi(-(draw.below(40) as i32)));
+                if !(3..6).contains(&i) && i < 15 {
+                    for j in [0, 6, 9, 12].map(|j| j + i % 3) {
+                        if j != i {
+                            inputs[j] = inputs[j] + by;
+                        }
+                    }
+                }
+                x + by
+            }
+        };
+    }
+}
+
+/// Makes the direction one of the edges, so that it lies in the plane if the difference is exact.
+fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
+    let (from, to) = draw.pick(&[(6, 9), (6, 12), (9, 12)]);
+    for axis in 0..3 {
+        inputs[3 + axis] = inputs[to + axis] - inputs[from + axis];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel;
+    use crate::{Domain, Proof, format_of, paths_of, run};
+
+    /// Each rounded number is moved by a hair, and the program run again from there.
+    #[test]
+    fn an_amplitude_is_the_sum_of_what_each_half_ulp_does() {
+        for name in ["moller-trumbore", "plane-unit-normal", "woop-watertight", "cramer+fma"] {
+            let entry = kernel::find(name).unwrap();
+            let paths = paths_of::<f64>(entry).unwrap();
+            let proof = Proof::new(paths, None, Domain::UNIT, format_of::<f64>());
+            let quantities = proof.quantities.iter().filter(|q| !q.uses().extent);
+            for quantity in quantities.take(4) {
+                let mut search = Search::<f64>::new(&proof, quantity, Domain::UNIT);
+                let mut draw = Draw::new("amplitude", 1, 0);
+                for _ in 0..5 {
+                    let inputs = search.start(Goal::Error, &mut draw);
+                    run(&search.operations, search.place, &inputs, &mut search.computed);
+                    let expected = by_differences(&search, &inputs);
+                    let found = search.amplitude();
+                    let apart = (found - expected).abs();
+                    assert!(apart <= 1e-4 * expected, "{name}: {found} {expected}");
+                }
+            }
+        }
+    }
+
+    fn by_differences(search: &Search<'_, f64>, inputs: &Inputs<f64>) -> f64 {
+        let effect = |(place, operation): (usize, &Operation)| {
+            use Operation::{Abs, Input, Neg, Number};
+            let value = search.computed[place];
+            if matches!(operation, Input(_) | Number(_) | Neg(_) | Abs(_)) || value == 0.0 {
+                return 0.0;
+            }
+            // No quantity here uses the last input.
+            let mut operations = search.operations.clone();
+            operations[place] = Input(16);
+            let result = |by: f64| {
+                let (mut inputs, mut values) = (*inputs, Vec::new());
+                inputs[16] = value * (1.0 + by);
+                run(&operations, search.place, &inputs, &mut values);
+                values[search.place as usize]
+            };
+            let slope = (result(1e-6) - result(-1e-6)) / (2e-6 * value);
+            slope.abs() * value.abs().log2().floor().exp2()
+        };
+        search.operations.iter().enumerate().map(effect).sum()
+    }
+}

@@ -1,0 +1,58 @@
+//! What a ray–triangle kernel can never do wrong: bounds that hold for every float of a domain, beside the worst cases
+//! that are known in it, with certificates and a checker of its own.
+
+#![forbid(unsafe_code)]
+
+use hairline_core::{arith, case, kernel};
+
+mod bound;
+mod builder;
+pub mod certificate;
+pub mod checker;
+mod climb;
+mod corners;
+mod domain;
+mod dyadic;
+mod forms;
+mod formula;
+mod fpcore;
+mod gappa;
+mod gates;
+mod measures;
+mod mirrors;
+mod normal;
+mod order;
+mod permanent;
+mod quotient;
+mod rows;
+mod run;
+mod scene;
+mod sizes;
+mod statement;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod unit;
+mod watertight;
+mod witness;
+
+pub use bound::{Bound, Lemma, Prover, Rule};
+pub use domain::{Domain, Format};
+pub use dyadic::Dyadic;
+pub use forms::Leaf;
+pub use formula::{Formula, Maximum, Source, Step};
+pub use fpcore::fpcore;
+pub use gappa::gappa;
+pub use gates::{Proof, Quantity, Supposed, Uses, each_quantity};
+pub use measures::{Limit, Measures};
+pub use order::is_impossible;
+pub use permanent::{Relative, Roundings, relative};
+pub use run::{Number, run};
+pub use scene::{Scene, Shape};
+pub use sizes::BySize;
+pub use statement::{Published, Triangles, about_edges, in_short, statements, units};
+pub use summary::{
+    Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
+};
+pub use watertight::Symmetry;
+pub use witness::{Goal, Inputs, Search, Searched};

@@ -1,0 +1,175 @@
+//! Some indices of a source together: their cases, truths and groups.
+
+use super::digest::Place;
+use super::forms::ScalarName;
+use super::source::Source;
+use crate::case::Case;
+use crate::contract::Contract;
+use crate::engine::Observer;
+use crate::family::Grouping;
+use crate::judge::{
+    self, Class, Expectations, GroupTruth, Kinds, Limits, Obligation, group_obligation,
+    owes_groups_alike,
+};
+use crate::kernel::Scalar;
+use crate::oracle::{self, Layers};
+use crate::truth::Truth;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What a source gave in one scalar.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct SourceSummary {
+    /// The source's place in the plan.
+    pub source: usize,
+    /// `f32` or `f64`.
+    #[serde(with = "super::forms::scalar_name")]
+    pub scalar: ScalarName,
+    /// Indices made.
+    pub indices: u64,
+    /// Cases in them: a group has several.
+    pub cases: u64,
+    /// Indices whose truths do not keep the family's promise.
+    pub promise_broken: u64,
+    /// The first of them.
+    pub first_broken: Option<u64>,
+    /// Which layer of the oracle decided.
+    pub layers: Layers,
+    /// Time spent in the oracle, over all threads.
+    pub oracle_nanoseconds: u64,
+}
+
+impl SourceSummary {
+    /// Of nothing yet.
+    pub fn new(source: usize, scalar: &'static str) -> SourceSummary {
+        SourceSummary {
+            source,
+            scalar,
+            indices: 0,
+            cases: 0,
+            promise_broken: 0,
+            first_broken: None,
+            layers: Layers::default(),
+            oracle_nanoseconds: 0,
+        }
+    }
+
+    /// Adds what another part of the same source gave.
+    pub fn merge(&mut self, other: &SourceSummary) {
+        self.indices += other.indices;
+        self.cases += other.cases;
+        self.promise_broken += other.promise_broken;
+        self.first_broken = [self.first_broken, other.first_broken].into_iter().flatten().min();
+        self.layers.merge(&other.layers);
+        self.oracle_nanoseconds += other.oracle_nanoseconds;
+    }
+}
+
+/// The cases of some indices, flat, with their groups.
+pub struct Chunk<F: Scalar> {
+    pub(crate) grouping: Grouping,
+    pub(crate) cases: Vec<Case<F>>,
+    pub(crate) places: Vec<Place>,
+    pub(crate) truths: Vec<Truth>,
+    kinds: Kinds,
+    /// Where each index's cases start, and the end.
+    starts: Vec<usize>,
+    first_index: u64,
+}
+
+impl<F: Scalar> Chunk<F> {
+    /// Makes the cases and asks the oracle.
+    pub fn make(
+        source: &Source,
+        indices: Range<u64>,
+        observer: &dyn Observer,
+        summary: &mut SourceSummary,
+    ) -> Chunk<F> {
+        let first_index = indices.start;
+        let count = (indices.end - indices.start) as usize;
+        let (mut cases, mut places, mut starts) = (Vec::new(), Vec::new(), Vec::new());
+        starts.reserve(count + 1);
+        starts.push(0);
+        for index in indices {
+            let start = cases.len();
+            source.add::<F>(index, &mut cases);
+            if start == 0 {
+                places.reserve(count * cases.len());
+                cases.reserve(count * cases.len());
+            }
+            let triangles = 0..(cases.len() - start) as u32;
+            places.extend(triangles.map(|triangle| Place { index, triangle }));
+            starts.push(cases.len());
+        }
+        let start = observer.now();
+        let mut truths = Vec::with_capacity(cases.len());
+        oracle::truths(&cases, &mut truths, &mut summary.layers);
+        summary.oracle_nanoseconds += observer.now() - start;
+        let kinds = Kinds::new(&truths);
+        let grouping = source.grouping();
+        let chunk = Chunk { grouping, cases, places, truths, kinds, starts, first_index };
+        summary.indices += chunk.starts.len() as u64 - 1;
+        summary.cases += chunk.cases.len() as u64;
+        for (index, range) in chunk.groups() {
+            if !source.keeps_promise(&chunk.truths[range]) {
+                summary.promise_broken += 1;
+                summary.first_broken = Some(summary.first_broken.map_or(index, |i| i.min(index)));
+            }
+        }
+        chunk
+    }
+
+    /// Each index with the range of its cases.
+    pub fn groups(&self) -> impl Iterator<Item = (u64, Range<usize>)> {
+        let first = self.first_index;
+        self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
+    }
+
+    /// What a contract asks of each case.
+    pub fn expectations(&self, contract: &Contract) -> Expectations {
+        let secondary = self.grouping == Grouping::SecondaryRay;
+        judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, secondary)
+    }
+
+    /// What the values of a hit on each case may be.
+    pub fn limits(&self) -> Vec<Limits<F>> {
+        self.cases.iter().zip(&self.truths).map(|(case, truth)| Limits::of(case, truth)).collect()
+    }
+
+    /// The same, without what else is known of the cases.
+    pub fn obligations(&self, contract: &Contract) -> Vec<Obligation> {
+        self.expectations(contract).of.iter().map(|expected| expected.obligation()).collect()
+    }
+
+    /// The class of a case.
+    pub fn class(&self, case: usize) -> Class {
+        self.kinds.of[case].class()
+    }
+
+    /// What a contract asks of each group; empty if the source's cases stand alone.
+    pub fn group_truths(&self, contract: &Contract) -> Vec<GroupTruth> {
+        if !self.grouping.shares_a_ray() {
+            return Vec::new();
+        }
+        let ask = |(_, range): (u64, Range<usize>)| {
+            let (cases, truths) = (&self.cases[range.clone()], &self.truths[range]);
+            group_obligation(cases, truths, contract, self.grouping)
+        };
+        self.groups().map(ask).collect()
+    }
+
+    /// The same of each of some contracts, many of which ask alike.
+    pub fn group_truths_of_all(&self, contracts: &[Contract]) -> Vec<Arc<[GroupTruth]>> {
+        let mut all: Vec<Arc<[GroupTruth]>> = Vec::with_capacity(contracts.len());
+        for contract in contracts {
+            let alike = |(other, _): &(&Contract, _)| owes_groups_alike(contract, other);
+            let truths = match contracts.iter().zip(&all).find(alike) {
+                Some((_, truths)) => truths.clone(),
+                None => self.group_truths(contract).into(),
+            };
+            all.push(truths);
+        }
+        all
+    }
+}

@@ -1,0 +1,146 @@
+//! Sums of what the triangles of groups did together: a commutative monoid.
+
+use super::digest::{Digest, Place};
+use crate::judge::GroupTruth;
+use serde::{Deserialize, Serialize};
+
+/// A group that a kernel gave all verdicts on.
+pub struct Judged {
+    /// The index of the group in its source.
+    pub index: u64,
+    /// What the contract asks of it.
+    pub truth: GroupTruth,
+    /// How many of its triangles are hit.
+    pub hits: usize,
+    /// Whether it has none, and rounding may have moved the hit to a neighbour.
+    pub elsewhere: bool,
+}
+
+/// What the triangles of groups did together.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GroupCount {
+    /// Groups in which one hit is right.
+    pub crossings: u64,
+    /// Of these, those without a hit.
+    pub cracks: u64,
+    /// Of these, those with two hits or more.
+    pub doubles: u64,
+    /// Pairs that fold over their edge.
+    pub folds: u64,
+    /// Of these, those whose number of hits has the wrong parity.
+    pub odd_folds: u64,
+    /// Of these, those without a hit where the exact line has two.
+    pub missed_folds: u64,
+    /// Crossings with an even number of hits: there the parity is wrong.
+    pub even: u64,
+    /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
+    pub elsewhere: u64,
+    /// The first cracks, by index.
+    pub first_cracks: Vec<u64>,
+    /// The first doubles, by index.
+    pub first_doubles: Vec<u64>,
+    /// The first folds of wrong parity, by index.
+    pub first_odd_folds: Vec<u64>,
+    /// The first crossings whose hit may be elsewhere, by index.
+    pub first_elsewhere: Vec<u64>,
+    /// Of all cracks.
+    pub crack_digest: Digest,
+    /// Of all doubles.
+    pub double_digest: Digest,
+    /// Of all folds of wrong parity.
+    pub odd_fold_digest: Digest,
+}
+
+/// What a group of triangles shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The number of hits is right, or the contract asks nothing.
+    Right,
+    /// A crossing without a hit.
+    Crack,
+    /// A crossing without a hit, which a neighbour may have.
+    Elsewhere,
+    /// A crossing with two hits or more.
+    Double,
+    /// A fold of wrong parity.
+    OddFold,
+}
+
+impl Outcome {
+    fn of(group: &Judged) -> Outcome {
+        match (group.truth, group.hits) {
+            (GroupTruth::Crossing, 0) if group.elsewhere => Outcome::Elsewhere,
+            (GroupTruth::Crossing, 0) => Outcome::Crack,
+            (GroupTruth::Crossing, 2..) => Outcome::Double,
+            (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) != odd => Outcome::OddFold,
+            _ => Outcome::Right,
+        }
+    }
+}
+
+impl GroupCount {
+    /// Counts a group; returns what it shows.
+    pub(super) fn add(&mut self, group: &Judged, limit: usize) -> Outcome {
+        let Judged { index, truth, hits, .. } = *group;
+        let outcome = Outcome::of(group);
+        match truth {
+            GroupTruth::Free => {}
+            GroupTruth::Crossing => {
+                self.crossings += 1;
+                let is_even = hits.is_multiple_of(2) && outcome != Outcome::Elsewhere;
+                self.even += u64::from(is_even);
+            }
+            GroupTruth::Fold { odd } => {
+                self.folds += 1;
+                self.missed_folds += u64::from(hits == 0 && !odd);
+            }
+        }
+        let (count, first, digest) = match outcome {
+            Outcome::Right => return outcome,
+            Outcome::Crack => {
+                (&mut self.cracks, &mut self.first_cracks, Some(&mut self.crack_digest))
+            }
+            Outcome::Elsewhere => (&mut self.elsewhere, &mut self.first_elsewhere, None),
+            Outcome::Double => {
+                (&mut self.doubles, &mut self.first_doubles, Some(&mut self.double_digest))
+            }
+            Outcome::OddFold => {
+                (&mut self.odd_folds, &mut self.first_odd_folds, Some(&mut self.odd_fold_digest))
+            }
+        };
+        *count += 1;
+        if first.len() < limit {
+            first.push(index);
+        }
+        if let Some(digest) = digest {
+            let place = Place { index, triangle: 0 };
+            digest.add(place, Digest::hash(place));
+        }
+        outcome
+    }
+
+    /// Adds another count.
+    pub(super) fn merge(&mut self, other: GroupCount, limit: usize) {
+        self.crossings += other.crossings;
+        self.cracks += other.cracks;
+        self.doubles += other.doubles;
+        self.folds += other.folds;
+        self.odd_folds += other.odd_folds;
+        self.missed_folds += other.missed_folds;
+        self.even += other.even;
+        self.elsewhere += other.elsewhere;
+        self.crack_digest.merge(&other.crack_digest);
+        self.double_digest.merge(&other.double_digest);
+        self.odd_fold_digest.merge(&other.odd_fold_digest);
+        for (list, more) in [
+            (&mut self.first_cracks, other.first_cracks),
+            (&mut self.first_doubles, other.first_doubles),
+            (&mut self.first_odd_folds, other.first_odd_folds),
+            (&mut self.first_elsewhere, other.first_elsewhere),
+        ] {
+            list.extend(more);
+            list.sort_unstable();
+            list.truncate(limit);
+        }
+    }
+}

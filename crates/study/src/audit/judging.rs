@@ -1,0 +1,203 @@
+//! What the verdicts of one row on a chunk come to.
+
+use super::accuracy::Errors;
+use super::chunk::Chunk;
+use super::digest::Digest;
+use super::rows::RowIn;
+use super::run::Asked;
+use super::source::Source;
+use super::tally::{ClassCount, Tally};
+use super::trials::RayProducts;
+use crate::case::Case;
+use crate::contract::Contract;
+use crate::family::Grouping;
+use crate::judge::{
+    self, Class, Distances, Finding, Obligation, ValueErrors, polygon_obligation, polygon_truth,
+};
+use crate::kernel::{Failure, Scalar, Subject, Verdict};
+use crate::truth::Feature;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Per-case data, computed lazily when some kernel is wrong on the case.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    /// None of invalid input.
+    distances: Option<Distances>,
+    /// Of its place.
+    hash: u128,
+}
+
+impl Known {
+    fn of<F: Scalar>(chunk: &Chunk<F>, case: usize) -> Known {
+        let valid = !chunk.class(case).is_invalid();
+        Known {
+            distances: valid.then(|| Distances::of(&chunk.cases[case], &chunk.truths[case])),
+            hash: Digest::hash(chunk.places[case]),
+        }
+    }
+}
+
+impl<F: Scalar> RowIn<F> {
+    /// Judges the verdicts; only `suspects` can show a finding ([`judge::suspects`]).
+    pub fn judge(
+        &self,
+        (source, chunk): (&Source, &Chunk<F>),
+        (contract, asked): (&Contract, &Asked),
+        (verdicts, suspects): (&[Verdict<F>], &[usize]),
+        known: &mut [Option<Known>],
+        tally: &mut Tally,
+    ) {
+        tally.ask(&asked.classes);
+        let gives = self.info.gives;
+        let class = |i: usize| chunk.class(i);
+        // Who is no suspect hit where a hit was asked, and missed where a miss was.
+        let mut hits: [u64; Class::COUNT] = std::array::from_fn(|i| asked.classes[i].must_hit);
+        for &i in &asked.expectations.free {
+            hits[class(i).number()] += u64::from(verdicts[i].hit);
+        }
+        let shares_a_ray = chunk.grouping.shares_a_ray();
+        let mut found = Vec::new();
+        for &i in suspects {
+            let (case, truth) = (&chunk.cases[i], &chunk.truths[i]);
+            let (verdict, obligation) = (&verdicts[i], asked.expectations.of[i].obligation());
+            let number = class(i).number();
+            match obligation {
+                Obligation::MustHit => hits[number] -= u64::from(!verdict.hit),
+                Obligation::MustMiss => hits[number] += u64::from(verdict.hit),
+                Obligation::Free => {}
+            }
+            // Nothing is promised of values for a direction that the contract leaves out.
+            let promised = |finding: &Finding| {
+                *finding != Finding::WrongValue
+                    || judge::promises_direction::<F>(contract.direction, case.ray.direction.into())
+            };
+            let found_here = judge::judge(obligation, (case, truth), gives, verdict);
+            if let Some(finding) = found_here.filter(promised) {
+                // Kernels tend to be wrong on the same cases.
+                let Known { distances, hash } = known[i].get_or_insert_with(|| Known::of(chunk, i));
+                let severity = distances.as_ref().map(|distances| {
+                    let edges = match finding {
+                        Finding::WrongValue => ValueErrors::of(case, truth, gives, verdict).edges,
+                        _ => distances.nearest_change(truth, contract),
+                    };
+                    (edges, distances.edge_in_ulps)
+                });
+                tally.find(class(i), finding, (chunk.places[i], *hash), severity);
+                if finding.is_failure() {
+                    tally.classes[number].fail(obligation);
+                }
+                if shares_a_ray {
+                    found.push((i, finding));
+                }
+            }
+        }
+        if shares_a_ray {
+            add_rays(chunk, asked, verdicts, &found, tally);
+        }
+        tally.hits(&hits);
+        if chunk.grouping == Grouping::SecondaryRay {
+            tally.self_hits.rays += verdicts.len() as u64;
+            tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
+        }
+        let groups = (contract, &asked.groups[..]);
+        self.judge_groups(source, chunk, groups, verdicts).flatten().for_each(|g| tally.group(&g));
+    }
+
+    /// Measures the values of right hits on a sample.
+    pub fn measure(
+        &self,
+        chunk: &Chunk<F>,
+        sample: &[usize],
+        asked: &Asked,
+        verdicts: &[Verdict<F>],
+        tally: &mut Tally,
+    ) {
+        let gives = self.info.gives;
+        for &i in sample {
+            let (truth, verdict) = (&chunk.truths[i], &verdicts[i]);
+            let Some(crossing) = truth.crossing() else { continue };
+            let may_hit = asked.expectations.of[i].obligation() != Obligation::MustMiss;
+            let is_right = verdict.hit && may_hit;
+            if is_right && crossing.feature != Feature::Outside {
+                tally.accuracy.add(&Errors::of(&chunk.cases[i], crossing, gives, verdict));
+            }
+        }
+    }
+
+    /// Judges each polygon as a whole; its truth is that of the union of its fan.
+    pub fn judge_polygons(&self, chunk: &Chunk<F>, contract: &Contract, tally: &mut Tally) {
+        for (index, range) in chunk.groups() {
+            let (cases, truths) = (&chunk.cases[range.clone()], &chunk.truths[range]);
+            let owed = polygon_obligation(cases, truths, contract);
+            let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
+            let finding =
+                judge::judge(owed, (&cases[0], &polygon_truth(truths)), self.info.gives, &verdict);
+            tally.polygon(index, (owed, verdict.hit, finding));
+        }
+    }
+}
+
+/// Adds up, ray by ray, what was found on the triangles of each.
+fn add_rays<F: Scalar>(
+    chunk: &Chunk<F>,
+    asked: &Asked,
+    verdicts: &[Verdict<F>],
+    found: &[(usize, Finding)],
+    tally: &mut Tally,
+) {
+    const FINDINGS: usize = Finding::ALL.len();
+    // The last is of all classes together.
+    let mut sums = [[RayProducts::default(); FINDINGS]; Class::COUNT + 1];
+    let mut found = found.iter().peekable();
+    let mut counts: Vec<(usize, ClassCount)> = Vec::new();
+    for (_, range) in chunk.groups() {
+        counts.clear();
+        counts.push((Class::COUNT, ClassCount::default()));
+        for i in range {
+            let class = chunk.class(i);
+            let mut count = ClassCount::default();
+            let obligation = asked.expectations.of[i].obligation();
+            count.ask(obligation, 1);
+            count.hits = u64::from(verdicts[i].hit);
+            count.valued_hits = if class.is_invalid() { 0 } else { count.hits };
+            while let Some((_, finding)) = found.next_if(|(at, _)| *at == i) {
+                count.find(*finding, !class.is_invalid());
+                if finding.is_failure() {
+                    count.fail(obligation);
+                }
+            }
+            counts[0].1.merge(&count);
+            match counts.iter_mut().find(|(number, _)| *number == class.number()) {
+                Some((_, sum)) => sum.merge(&count),
+                None => counts.push((class.number(), count)),
+            }
+        }
+        for (number, count) in &counts {
+            for finding in Finding::ALL {
+                let sum = &mut sums[*number][finding as usize];
+                sum.add_ray(count.of(finding), count.trials(finding));
+            }
+        }
+    }
+    let keys = Class::all().map(Some).chain([None]);
+    for (class, sums) in keys.zip(sums) {
+        for (finding, sum) in Finding::ALL.into_iter().zip(sums) {
+            if sum.of_squared > 0 {
+                tally.products.entry((class, finding)).or_default().merge(&sum);
+            }
+        }
+    }
+}
+
+/// A kernel's verdict on a polygon, given as its fan.
+pub fn polygon_verdict<F: Scalar>(
+    subject: &dyn Subject<F>,
+    cases: &[Case<F>],
+    epsilons: &[F],
+) -> Verdict<F> {
+    let Case { ray, triangle } = &cases[0];
+    let mut vertices = vec![triangle.a, triangle.b];
+    vertices.extend(cases.iter().map(|case| case.triangle.c));
+    let run = || subject.run_polygon(&vertices, ray, epsilons);
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or(Verdict::failed(Failure::Panic))
+}

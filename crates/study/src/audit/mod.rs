@@ -1,0 +1,71 @@
+//! Floor 4: plans, runs and sums.
+//!
+//! A plan names kernels with their epsilons and sources of cases; a run sends each case once to the
+//! oracle and once to each kernel, lets `judge` compare, and adds up. The sums do not depend on the
+//! number of threads.
+
+#![forbid(unsafe_code)]
+
+mod accuracy;
+mod answers;
+mod attribution;
+mod by_finding;
+mod causes;
+mod choice;
+mod chunk;
+#[cfg(feature = "studies")]
+mod coverage;
+mod digest;
+mod epsilon_text;
+mod forms;
+mod group_count;
+mod groups;
+mod histogram;
+mod interval;
+mod judging;
+pub mod mesh;
+mod places;
+mod plan;
+mod row;
+mod rows;
+mod run;
+mod severity;
+mod shard;
+mod sketch;
+mod source;
+mod stored;
+mod tally;
+mod trials;
+
+pub use crate::engine::{Observer, Unobserved};
+pub use accuracy::values;
+pub use accuracy::{Accuracy, Errors};
+pub use answers::{Answers, Given};
+pub use attribution::attribute_with;
+pub use attribution::{Attribution, attribute, attribute_by_running};
+pub use by_finding::ByFinding;
+pub use causes::Causes;
+pub use choice::EpsilonChoice;
+pub use chunk::Chunk;
+pub use chunk::SourceSummary;
+#[cfg(feature = "studies")]
+pub use coverage::{ASPECTS, Aspect, coverage};
+pub use digest::{Digest, Place};
+pub use epsilon_text::EpsilonText;
+pub use group_count::GroupCount;
+pub use group_count::Judged;
+pub use histogram::Histogram;
+pub use interval::Interval;
+pub use judging::polygon_verdict;
+pub use plan::Plan;
+pub use row::flags;
+pub use row::{PlanError, Row, RowSpec, quoted, shell_word};
+pub use run::{Audit, Cell, finish, run, run_scalar, sum};
+pub use severity::{Severity, exact_severity};
+pub use shard::MOST_SHARDS;
+pub use shard::Shard;
+pub use source::{CHUNK, is_of_mesh};
+pub use source::{CorpusSet, Source};
+pub use stored::{StoredPlan, StoredSource};
+pub use tally::{ClassCount, Examples, PolygonCount, SelfHits, Severities, Tally};
+pub use trials::{RayProducts, Trials};

@@ -1,0 +1,363 @@
+//! Where a plan's cases come from, by index.
+
+use super::row::quoted;
+use crate::arith::Float;
+use crate::case::{Case, Parameters, Ray};
+use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
+use crate::kernel::Scalar;
+use crate::mesh::{Part, SceneMesh, Surface, Targets};
+use crate::truth::Truth;
+use std::sync::Arc;
+
+/// Indices that go through a run together.
+pub const CHUNK: u64 = 1024;
+
+/// A source of cases.
+#[derive(Clone)]
+pub enum Source {
+    /// A family's set.
+    Family {
+        /// The family.
+        family: &'static Family,
+        /// What its cases are put through.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+        /// Every case of a finite family, in its natural order.
+        exhaustive: bool,
+    },
+    /// Rays at a mesh.
+    Mesh {
+        /// The mesh and its rays.
+        family: Arc<MeshFamily>,
+        /// What the cases are put through.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+    },
+    /// Groups at the edges, or at the vertices, of a mesh: a ray and the triangles around its target.
+    MeshPart {
+        /// The mesh, in the scalars of the run.
+        surface: Arc<Surface>,
+        /// Edges or vertices.
+        part: Part,
+        /// What the cases are put through.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// Rays at each edge or vertex.
+        directions: u64,
+    },
+    /// A stratum of the scene that a mesh is.
+    SceneMesh {
+        /// The mesh.
+        mesh: Arc<SceneMesh>,
+        /// Which rays.
+        stratum: Stratum,
+        /// The mesh's digest, and what rays there are.
+        parameters: Parameters,
+        /// The seed of the set.
+        seed: u64,
+        /// How many indices.
+        count: u64,
+    },
+    /// Stored cases.
+    Corpus(CorpusSet),
+}
+
+/// Whether a source of this name in tables makes its cases from a mesh.
+pub fn is_of_mesh(name: &str) -> bool {
+    let kind = name.split_once(':').map(|(kind, _)| kind);
+    kind.is_some_and(|kind| {
+        kind == "mesh" || Part::of_family(kind).is_some() || Stratum::of_family(kind).is_some()
+    })
+}
+
+/// The stored cases of one file of which all are secondary rays, or none is.
+#[derive(Clone, Default)]
+pub struct CorpusSet {
+    /// The file's name.
+    pub file: String,
+    /// Whether each ray starts at a computed hit point on its triangle.
+    pub is_secondary: bool,
+    /// Names and cases in `f32`.
+    pub f32: Vec<(String, Case<f32>)>,
+    /// Names and cases in `f64`.
+    pub f64: Vec<(String, Case<f64>)>,
+}
+
+impl CorpusSet {
+    /// The names of cases whose rays start more than twice the triangle's longest edge from every vertex: no hit
+    /// point on it, unless rounding moved it by that much.
+    pub fn far_starts(&self) -> impl Iterator<Item = &str> {
+        fn is_far(case: &Case<f64>) -> bool {
+            let [origin, _, a, b, c] = case.vectors();
+            let distance = |p: [f64; 3], q: [f64; 3]| {
+                p.iter().zip(q).fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
+            };
+            let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
+            [a, b, c].into_iter().all(|vertex| 2.0 * longest < distance(origin, vertex))
+        }
+        let in_f32 = self.f32.iter().filter(|(_, case)| is_far(&case.widen()));
+        let in_f64 = self.f64.iter().filter(|(_, case)| is_far(case));
+        in_f32.map(|(name, _)| name.as_str()).chain(in_f64.map(|(name, _)| name.as_str()))
+    }
+
+    fn get<F: Float>(&self, index: u64) -> (&str, Case<F>) {
+        // The scalar of the run is F; its cases are stored in full, so the way through f64 is exact.
+        let narrow = |case: Case<f64>| {
+            let [o, d, a, b, c] = case.vectors().map(|v| v.map(F::from_f64));
+            Case::new(o, d, [a, b, c]).on(F::from_f64(case.ray.t_min), F::from_f64(case.ray.t_max))
+        };
+        if F::NAME == f32::NAME {
+            let (name, case) = &self.f32[index as usize];
+            (name, narrow(case.widen()))
+        } else {
+            let (name, case) = &self.f64[index as usize];
+            (name, narrow(*case))
+        }
+    }
+}
+
+impl Source {
+    /// A stratum of the scene that a mesh is; the parameters get the mesh's digest.
+    pub fn of_scene_mesh(
+        mesh: &Arc<SceneMesh>,
+        stratum: Stratum,
+        parameters: Parameters,
+        seed: u64,
+        count: u64,
+    ) -> Source {
+        let digest = mesh.surface().mesh().digest.clone();
+        let parameters = Parameters { mesh: Some(digest), ..parameters };
+        Source::SceneMesh { mesh: mesh.clone(), stratum, parameters, seed, count }
+    }
+
+    /// The name in tables: one line, whatever a file is called.
+    pub fn name(&self) -> String {
+        let name = match self {
+            Source::Family { family, .. } => family.name.to_owned(),
+            Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
+            Source::MeshPart { surface, part, .. } => {
+                format!("{}:{}", part.name(), surface.file_name())
+            }
+            Source::SceneMesh { mesh, stratum, .. } => {
+                format!("{}:{}", stratum.family().name, mesh.surface().file_name())
+            }
+            Source::Corpus(set) if set.is_secondary => format!("corpus-secondary:{}", set.file),
+            Source::Corpus(set) => format!("corpus:{}", set.file),
+        };
+        let shown = |c: char| match c.is_control() {
+            true => c.escape_default().to_string(),
+            false => c.to_string(),
+        };
+        name.chars().map(shown).collect()
+    }
+
+    /// The number of indices in a scalar.
+    pub fn count<F: Float>(&self) -> u64 {
+        match self {
+            Source::Family { exhaustive: true, family, .. } => family.size.unwrap_or(LATTICE_SIZE),
+            Source::Family { family, count, .. } => {
+                family.size.map_or(*count, |size| size.min(*count))
+            }
+            Source::Mesh { count, .. } => *count,
+            Source::MeshPart { part, directions, .. } => {
+                self.targets::<F>().map_or(0, |targets| targets.count(*part) * directions)
+            }
+            Source::SceneMesh { mesh, stratum, count, .. } => mesh.count::<F>(*stratum, *count),
+            Source::Corpus(set) if F::NAME == f32::NAME => set.f32.len() as u64,
+            Source::Corpus(set) => set.f64.len() as u64,
+        }
+    }
+
+    /// Indices that go through a run together; of vertices fewer, which have more triangles.
+    pub fn chunk(&self) -> u64 {
+        match self {
+            Source::MeshPart { part: Part::Vertices, .. } => CHUNK / 4,
+            _ => CHUNK,
+        }
+    }
+
+    /// The groups at the edges and at the vertices of a mesh, in some scalars; none of other sources.
+    #[cfg(feature = "studies")]
+    pub fn mesh_parts(&self, directions: u64, scalars: [bool; 2]) -> Vec<Source> {
+        let Source::Mesh { family, parameters, seed, .. } = self else { return Vec::new() };
+        let surface = Arc::new(Surface::new(family.clone(), scalars));
+        let of = |part| Source::MeshPart {
+            surface: surface.clone(),
+            part,
+            parameters: parameters.clone(),
+            seed: *seed,
+            directions,
+        };
+        Part::ALL.map(of).into()
+    }
+
+    /// The edges and vertices of a mesh; none of other sources, or in another scalar.
+    fn targets<F: Float>(&self) -> Option<Targets<'_>> {
+        let Source::MeshPart { surface, parameters, seed, .. } = self else { return None };
+        surface.targets::<F>(parameters, *seed)
+    }
+
+    /// Whether there are triangles around those of a group, which may have the hit that it lacks.
+    pub fn has_neighbours(&self) -> bool {
+        matches!(self, Source::MeshPart { .. })
+    }
+
+    /// Adds the triangles around those of an index, with its ray; false if they are too many, or if there are
+    /// none.
+    pub fn add_neighbours<F: Float>(
+        &self,
+        index: u64,
+        ray: &Ray<F::Vector>,
+        cases: &mut Vec<Case<F>>,
+    ) -> bool {
+        let Source::MeshPart { part, .. } = self else { return false };
+        let targets = self.targets::<F>();
+        targets.is_some_and(|targets| targets.add_neighbours((*part, index), ray, cases))
+    }
+
+    /// Whether a case's id alone makes the case again.
+    pub fn is_remade_from_id(&self) -> bool {
+        matches!(self, Source::Family { exhaustive: false, .. })
+    }
+
+    /// Whether its rates are of a random sample, which has an interval, or of a whole set.
+    pub fn is_sample(&self) -> bool {
+        match self {
+            Source::Family { exhaustive, family, count, .. } => {
+                !exhaustive && family.size.is_none_or(|size| *count < size)
+            }
+            Source::Mesh { .. } | Source::MeshPart { .. } | Source::SceneMesh { .. } => true,
+            Source::Corpus(_) => false,
+        }
+    }
+
+    /// How the triangles of one index belong together.
+    pub fn grouping(&self) -> Grouping {
+        match self {
+            Source::Family { family, .. } => family.grouping,
+            Source::MeshPart { part, .. } => part.grouping(),
+            Source::SceneMesh { stratum, .. } => stratum.family().grouping,
+            Source::Corpus(set) if set.is_secondary => Grouping::SecondaryRay,
+            Source::Mesh { .. } | Source::Corpus(_) => Grouping::Single,
+        }
+    }
+
+    /// The cases of an index.
+    pub fn make<F: Scalar>(&self, index: u64) -> Made<F> {
+        match self {
+            Source::Family { family, parameters, exhaustive: true, .. } => {
+                family.make_in_order(parameters, index)
+            }
+            Source::Family { family, parameters, seed, .. } => {
+                family.make(parameters, *seed, index)
+            }
+            Source::Mesh { family, parameters, seed, .. } => {
+                Made::One(family.make(parameters, *seed, index))
+            }
+            Source::MeshPart { .. } => {
+                let mut cases = Vec::new();
+                self.add(index, &mut cases);
+                Made::Group(cases)
+            }
+            Source::SceneMesh { mesh, stratum, parameters, seed, .. } => {
+                mesh.make(*stratum, parameters, *seed, index)
+            }
+            Source::Corpus(set) => Made::One(set.get(index).1),
+        }
+    }
+
+    /// Adds the cases of an index.
+    pub fn add<F: Scalar>(&self, index: u64, cases: &mut Vec<Case<F>>) {
+        match self {
+            Source::MeshPart { part, .. } => {
+                self.targets::<F>().expect("a scalar of the run").make(*part, index, cases);
+            }
+            _ => cases.extend_from_slice(self.make(index).cases()),
+        }
+    }
+
+    /// Whether the truths of an index keep the family's promise, where the parameters leave it
+    /// standing.
+    pub fn keeps_promise(&self, truths: &[Truth]) -> bool {
+        match self {
+            Source::Family { family, .. } => family.keeps(truths),
+            _ => true,
+        }
+    }
+
+    /// Whether the parameters leave the promise standing.
+    pub fn promises(&self) -> bool {
+        match self {
+            // Scaling can leave the range at either end.
+            Source::Family { parameters, .. } => parameters.keep_truth() && parameters.scale == 0,
+            _ => true,
+        }
+    }
+
+    /// Whether the parameters leave truths alone, but for the ends of the range.
+    pub fn keeps_truth(&self) -> bool {
+        match self {
+            Source::Family { parameters, .. }
+            | Source::Mesh { parameters, .. }
+            | Source::MeshPart { parameters, .. }
+            | Source::SceneMesh { parameters, .. } => parameters.keep_truth(),
+            Source::Corpus(_) => true,
+        }
+    }
+
+    /// The id of a case, or of triangle k of a group.
+    pub fn id<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
+        let id = match self {
+            Source::Family { family, parameters, exhaustive: true, .. } => {
+                // In its natural order the lattice has a name of its own: `lattice-all@1/f32/-/0/17`,
+                // whose seed is always 0.
+                let mut id = family.id::<F>(parameters, 0, index);
+                id.family = format!("{}-all", family.name);
+                id
+            }
+            Source::Family { family, parameters, seed, .. } => {
+                family.id::<F>(parameters, *seed, index)
+            }
+            Source::Mesh { family, parameters, seed, .. } => {
+                family.id::<F>(parameters, *seed, index)
+            }
+            Source::MeshPart { surface, part, parameters, seed, .. } => {
+                surface.id::<F>(*part, parameters, *seed, index)
+            }
+            Source::SceneMesh { stratum, parameters, seed, .. } => {
+                stratum.family().id::<F>(parameters, *seed, index)
+            }
+            Source::Corpus(set) => return set.get::<F>(index).0.to_owned(),
+        };
+        crate::case::CaseId { triangle, ..id }.to_string()
+    }
+
+    /// The words after `hairline explain` that show a case again.
+    pub fn explain_arguments<F: Float>(&self, index: u64, triangle: Option<usize>) -> String {
+        let id = quoted(&self.id::<F>(index, triangle));
+        match self.file_flag() {
+            Some(flag) => format!("{id} {flag}"),
+            None => id,
+        }
+    }
+
+    /// The flag that names the file from which an id makes its case; none of families.
+    pub fn file_flag(&self) -> Option<String> {
+        match self {
+            Source::Family { .. } => None,
+            Source::Mesh { family, .. } => Some(format!("--mesh {}", quoted(family.path()))),
+            Source::MeshPart { surface, .. } => Some(format!("--mesh {}", quoted(surface.path()))),
+            Source::SceneMesh { mesh, .. } => {
+                Some(format!("--mesh {}", quoted(mesh.surface().path())))
+            }
+            Source::Corpus(set) => Some(format!("--corpus {}", quoted(&set.file))),
+        }
+    }
+}

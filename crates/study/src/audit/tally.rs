@@ -1,0 +1,374 @@
+//! Sums of findings: a commutative monoid, so that any split of a run adds up to the same.
+
+use super::accuracy::Accuracy;
+use super::by_finding::ByFinding;
+use super::digest::{Digest, Place};
+use super::group_count::{GroupCount, Judged};
+use super::histogram::Histogram;
+use super::trials::{RayProducts, Trials};
+use crate::judge::{Class, Finding, Obligation};
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// The counts of one class of truths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ClassCount {
+    /// Cases of the class.
+    pub cases: u64,
+    /// Of these, those that must be hit.
+    pub must_hit: u64,
+    /// Of these, those that must be missed.
+    pub must_miss: u64,
+    /// Of those that must be hit, and of those that must be missed, those without a verdict: the kernel
+    /// failed.
+    pub without_verdict: [u64; 2],
+    /// Hits that the kernel reported.
+    pub hits: u64,
+    /// Of these, those whose values are judged: all but those on invalid input.
+    pub valued_hits: u64,
+    /// Of those, the false ones.
+    pub false_valued_hits: u64,
+    /// By [`Finding::ALL`].
+    pub findings: [u64; Finding::ALL.len()],
+}
+
+impl ClassCount {
+    /// The count of a finding.
+    pub fn of(&self, finding: Finding) -> u64 {
+        self.findings[finding as usize]
+    }
+
+    /// How many cases could have shown a finding: the denominator of its rate.
+    pub fn trials(&self, finding: Finding) -> u64 {
+        match finding {
+            Finding::FalseMiss => self.must_hit - self.without_verdict[0],
+            Finding::FalseHit => self.must_miss - self.without_verdict[1],
+            Finding::BadValue | Finding::WrongValue => self.valued_hits - self.false_valued_hits,
+            Finding::Panic | Finding::Crash | Finding::Timeout => self.cases,
+        }
+    }
+
+    /// Counts cases and what was asked of them.
+    pub fn ask(&mut self, obligation: Obligation, cases: u64) {
+        self.cases += cases;
+        match obligation {
+            Obligation::MustHit => self.must_hit += cases,
+            Obligation::MustMiss => self.must_miss += cases,
+            Obligation::Free => {}
+        }
+    }
+
+    /// Counts a finding; `valued` says whether the values of a hit are judged on the case.
+    pub fn find(&mut self, finding: Finding, valued: bool) {
+        self.findings[finding as usize] += 1;
+        self.false_valued_hits += u64::from(valued && finding == Finding::FalseHit);
+    }
+
+    /// Counts a case on which the kernel failed.
+    pub fn fail(&mut self, obligation: Obligation) {
+        match obligation {
+            Obligation::MustHit => self.without_verdict[0] += 1,
+            Obligation::MustMiss => self.without_verdict[1] += 1,
+            Obligation::Free => {}
+        }
+    }
+
+    /// Adds another count.
+    pub fn merge(&mut self, other: &ClassCount) {
+        self.without_verdict[0] += other.without_verdict[0];
+        self.without_verdict[1] += other.without_verdict[1];
+        self.cases += other.cases;
+        self.must_hit += other.must_hit;
+        self.must_miss += other.must_miss;
+        self.hits += other.hits;
+        self.valued_hits += other.valued_hits;
+        self.false_valued_hits += other.false_valued_hits;
+        for (count, more) in self.findings.iter_mut().zip(other.findings) {
+            *count += more;
+        }
+    }
+}
+
+/// Examples of one finding in one class: the first by index, and the worst.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Examples {
+    /// In order of their place.
+    pub first: Vec<Place>,
+    /// The one with the largest approximate severity, the first of equals.
+    #[serde(with = "super::forms::scored")]
+    pub worst: Option<(f64, Place)>,
+    /// Of all places with the finding.
+    pub digest: Digest,
+}
+
+impl Examples {
+    fn add(&mut self, (place, hash): (Place, u128), severity: f64, limit: usize) {
+        if self.first.len() < limit {
+            self.first.push(place);
+        }
+        self.digest.add(place, hash);
+        self.propose((severity, place));
+    }
+
+    fn propose(&mut self, (severity, place): (f64, Place)) {
+        let better = self.worst.is_none_or(|(worst, at)| match severity.total_cmp(&worst) {
+            Ordering::Greater => true,
+            Ordering::Equal => place < at,
+            Ordering::Less => false,
+        });
+        if better {
+            self.worst = Some((severity, place));
+        }
+    }
+
+    fn merge(&mut self, other: Examples, limit: usize) {
+        self.digest.merge(&other.digest);
+        self.first.extend(other.first);
+        self.first.sort_unstable();
+        self.first.truncate(limit);
+        if let Some(worst) = other.worst {
+            self.propose(worst);
+        }
+    }
+}
+
+/// What a kernel that takes polygons did with whole ones.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PolygonCount {
+    /// The polygons, what the contract asks of them, and what was found.
+    pub count: ClassCount,
+    /// The polygons that show a finding.
+    #[serde(with = "super::forms::pairs")]
+    pub examples: BTreeMap<Finding, Examples>,
+}
+
+impl PolygonCount {
+    /// Counts a polygon, whether it was hit, and what that shows.
+    fn add(&mut self, index: u64, answer: (Obligation, bool, Option<Finding>), limit: usize) {
+        let (obligation, hit, finding) = answer;
+        self.count.ask(obligation, 1);
+        self.count.hits += u64::from(hit);
+        self.count.valued_hits += u64::from(hit);
+        let Some(finding) = finding else { return };
+        self.count.find(finding, true);
+        if finding.is_failure() {
+            self.count.fail(obligation);
+        }
+        let place = Place { index, triangle: 0 };
+        self.examples.entry(finding).or_default().add((place, Digest::hash(place)), 0.0, limit);
+    }
+
+    fn merge(&mut self, other: PolygonCount, limit: usize) {
+        self.count.merge(&other.count);
+        for (finding, more) in other.examples {
+            self.examples.entry(finding).or_default().merge(more, limit);
+        }
+    }
+}
+
+/// Second hits on the triangle that a ray starts on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SelfHits {
+    /// Rays that start at a kernel's own hit point.
+    pub rays: u64,
+    /// Of these, those that hit that triangle again.
+    pub hits: u64,
+}
+
+/// How far findings are from where the verdict would be right.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Severities {
+    /// In longest edges of the triangle.
+    pub edges: Histogram,
+    /// In ulps of the largest coordinate.
+    pub ulps: Histogram,
+}
+
+impl Severities {
+    /// Adds more.
+    pub fn merge(&mut self, other: &Severities) {
+        self.edges.merge(&other.edges);
+        self.ulps.merge(&other.ulps);
+    }
+}
+
+/// Everything that is added up for one kernel row on one source in one scalar.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tally {
+    /// One a class, by [`Class::number`].
+    pub classes: Vec<ClassCount>,
+    /// By class, or of all classes together, and finding: sums over the rays; empty where each ray has one
+    /// triangle.
+    #[serde(with = "super::forms::pairs")]
+    pub products: BTreeMap<(Option<Class>, Finding), RayProducts>,
+    /// Examples by class and finding.
+    pub examples: ByFinding<Examples>,
+    /// How far false misses and false hits are from where the verdict would be right, and how far off the
+    /// points of wrong values are.
+    #[serde(with = "super::forms::pairs")]
+    pub severities: BTreeMap<Finding, Severities>,
+    /// How accurate the values of right hits are, of a sample.
+    pub accuracy: Accuracy,
+    /// What groups did together.
+    pub groups: GroupCount,
+    /// Whole polygons.
+    pub polygons: PolygonCount,
+    /// Second hits on the triangle that a ray starts on.
+    pub self_hits: SelfHits,
+    /// How many places of each class and finding, and of groups.
+    limit: usize,
+    group_limit: usize,
+}
+
+impl Tally {
+    /// Empty; keeps this many examples by index of each class and finding, and as many places as are
+    /// to be attributed if that is more.
+    pub fn new(examples: usize, attributed: usize) -> Tally {
+        Tally {
+            classes: vec![ClassCount::default(); Class::COUNT],
+            products: BTreeMap::new(),
+            examples: ByFinding::default(),
+            severities: BTreeMap::new(),
+            accuracy: Accuracy::default(),
+            groups: GroupCount::default(),
+            polygons: PolygonCount::default(),
+            self_hits: SelfHits::default(),
+            limit: examples.max(attributed),
+            group_limit: examples,
+        }
+    }
+
+    /// Drops the places beyond the examples.
+    pub fn keep_examples(&mut self, examples: usize) {
+        for found in self.examples.values_mut() {
+            found.first.truncate(examples);
+            found.first.shrink_to_fit();
+        }
+    }
+
+    /// Adds what was asked, by class.
+    pub fn ask(&mut self, classes: &[ClassCount]) {
+        for (count, more) in self.classes.iter_mut().zip(classes) {
+            count.merge(more);
+        }
+    }
+
+    /// Adds hits, by class. The values of hits on invalid input are not judged.
+    pub fn hits(&mut self, hits: &[u64; Class::COUNT]) {
+        for (class, hits) in Class::all().zip(hits) {
+            let count = &mut self.classes[class.number()];
+            count.hits += hits;
+            count.valued_hits += if class.is_invalid() { 0 } else { *hits };
+        }
+    }
+
+    /// Counts a finding at a place, whose hash is known, with its severity: how far the case is from
+    /// where the verdict would be right, in longest edges, and the longest edge in ulps; none of invalid
+    /// input.
+    pub fn find(
+        &mut self,
+        class: Class,
+        finding: Finding,
+        place: (Place, u128),
+        severity: Option<(f64, f64)>,
+    ) {
+        self.classes[class.number()].find(finding, !class.is_invalid());
+        let edges = severity.map_or(0.0, |(edges, _)| edges);
+        self.examples.slot(class, finding).add(place, edges, self.limit);
+        let has_severity =
+            matches!(finding, Finding::FalseMiss | Finding::FalseHit | Finding::WrongValue);
+        if let (true, Some((edges, edge_in_ulps))) = (has_severity, severity) {
+            let severities = self.severities.entry(finding).or_default();
+            severities.edges.add(edges);
+            severities.ulps.add(edges * edge_in_ulps);
+        }
+    }
+
+    /// Counts a group.
+    pub fn group(&mut self, group: &Judged) {
+        self.groups.add(group, self.group_limit);
+    }
+
+    /// Counts a whole polygon: what the contract asks of it, whether it was hit, and what that shows.
+    pub fn polygon(&mut self, index: u64, answer: (Obligation, bool, Option<Finding>)) {
+        self.polygons.add(index, answer, self.group_limit);
+    }
+
+    /// Adds another tally.
+    pub fn merge(&mut self, other: Tally) {
+        for (count, more) in self.classes.iter_mut().zip(&other.classes) {
+            count.merge(more);
+        }
+        for (key, more) in &other.products {
+            self.products.entry(*key).or_default().merge(more);
+        }
+        let limit = self.limit;
+        self.examples.merge(other.examples, |examples, more| examples.merge(more, limit));
+        for (finding, more) in &other.severities {
+            self.severities.entry(*finding).or_default().merge(more);
+        }
+        self.accuracy.merge(&other.accuracy);
+        self.groups.merge(other.groups, self.group_limit);
+        self.polygons.merge(other.polygons, self.group_limit);
+        self.self_hits.rays += other.self_hits.rays;
+        self.self_hits.hits += other.self_hits.hits;
+    }
+
+    /// How often a finding occurred in a class, or in all together.
+    pub fn trials(&self, class: Option<Class>, finding: Finding) -> Trials {
+        let counts = class.map_or_else(|| self.total(), |class| self.classes[class.number()]);
+        let (count, of) = (counts.of(finding), counts.trials(finding));
+        match self.products.get(&(class, finding)) {
+            Some(products) => Trials { count, of, products: *products },
+            None => Trials::independent(count, of),
+        }
+    }
+
+    /// All classes together.
+    pub fn total(&self) -> ClassCount {
+        self.classes.iter().fold(ClassCount::default(), |mut total, count| {
+            total.merge(count);
+            total
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::GroupTruth;
+
+    #[test]
+    fn any_split_adds_up_to_the_same() {
+        let class = Class::all().next().unwrap();
+        let event = |tally: &mut Tally, index: u64| {
+            tally.classes[class.number()].ask(Obligation::MustHit, 1);
+            if index.is_multiple_of(3) {
+                let place = Place { index, triangle: 0 };
+                let severity = Some(((index * 7 % 11) as f64, 2.0));
+                tally.find(class, Finding::FalseMiss, (place, Digest::hash(place)), severity);
+            }
+            let products = tally.products.entry((Some(class), Finding::FalseMiss)).or_default();
+            products.add_ray(index % 4, 4);
+            let (truth, hits) = (GroupTruth::Crossing, (index % 4) as usize);
+            tally.group(&Judged { index, truth, hits, elsewhere: index % 8 == 4 });
+        };
+        let mut whole = Tally::new(5, 0);
+        (0..100).for_each(|index| event(&mut whole, index));
+        for cut in [0, 1, 17, 50, 99] {
+            let (mut left, mut right) = (Tally::new(5, 0), Tally::new(5, 0));
+            (0..cut).for_each(|index| event(&mut left, index));
+            (cut..100).for_each(|index| event(&mut right, index));
+            let mut swapped = right.clone();
+            swapped.merge(left.clone());
+            left.merge(right);
+            assert_eq!(left, whole);
+            assert_eq!(swapped, whole);
+        }
+        let examples = &whole.examples.get(class, Finding::FalseMiss).unwrap();
+        assert_eq!(examples.first.len(), 5);
+        assert_eq!(examples.worst.unwrap().0, 10.0);
+        assert_eq!(whole.severities[&Finding::FalseMiss].ulps.largest(), 20.0);
+    }
+}

@@ -1,0 +1,341 @@
+//! Floats as text: read correctly rounded, written so that every reader gets the same float back.
+
+use super::json::quoted;
+use crate::arith::Float;
+
+/// The most characters of a number. The exact decimal of an `f64` has at most 1,077.
+const LONGEST: usize = 4096;
+
+/// The float nearest to a text, ties to even, straight from the text (an `f32` never through
+/// `f64`): a decimal (`-1.5e-3`), a hexadecimal float with its binary exponent (`0x1.8p-3`), `inf`
+/// or `infinity` with or without a sign, or `nan`.
+///
+/// A finite text that overflows is an error; one that underflows is a zero of its sign.
+pub fn parse<F: Float>(text: &str) -> Result<F, String> {
+    if text.len() > LONGEST {
+        return Err(format!("{} has more than {LONGEST} characters", quoted(text)));
+    }
+    let magnitude = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let value = match magnitude {
+        "inf" | "infinity" => Some(F::infinity()),
+        "nan" if magnitude == text => F::parse("nan"),
+        _ => finite(magnitude).map_err(|wrong| format!("{} {wrong}", quoted(text)))?,
+    };
+    match value {
+        Some(value) if text.starts_with('-') => Ok(-value),
+        Some(value) => Ok(value),
+        None => Err(format!(
+            "{} is not a number: write a decimal (-1.5e-3), a hexadecimal float (0x1.8p-3), inf or nan",
+            quoted(text)
+        )),
+    }
+}
+
+/// JSON text that reads back to the very same float from every reader that parses IEEE doubles: the
+/// shortest decimal of the value as an `f64`, and for what JSON has no number the strings `"nan"`,
+/// `"inf"` and `"-inf"`.
+pub fn write<F: Float>(value: F) -> String {
+    let value = value.to_f64();
+    if value.is_nan() {
+        "\"nan\"".to_owned()
+    } else if value.is_infinite() {
+        format!("\"{value}\"")
+    } else if value == 0.0 {
+        // `-0` is an integer to some readers, and loses its sign.
+        if value.is_sign_negative() { "-0.0" } else { "0" }.to_owned()
+    } else if (1e-5..1e15).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// An unsigned finite number; none if the text is none.
+fn finite<F: Float>(text: &str) -> Result<Option<F>, String> {
+    let value = match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+        Some(digits) if !digits.is_empty() && !digits.contains(['p', 'P']) => {
+            return Err("needs a binary exponent, as 0x1.8p-3".to_owned());
+        }
+        Some(digits) => hexadecimal(digits),
+        None if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') => F::parse(text),
+        None => None,
+    };
+    match value {
+        Some(value) if !value.is_finite() => Err(format!("overflows {}", F::NAME)),
+        value => Ok(value),
+    }
+}
+
+/// `digits.digits p exponent`, after the 0x; infinity if it overflows.
+fn hexadecimal<F: Float>(text: &str) -> Option<F> {
+    let (significand, power) = text.split_once(['p', 'P'])?;
+    let (whole, fraction) = significand.split_once('.').unwrap_or((significand, ""));
+    if whole.is_empty() && fraction.is_empty() {
+        return None;
+    }
+    let mut exponent = binary_exponent(power)?;
+    let (mut integer, mut inexact) = (0u128, false);
+    for (place, digit) in whole.chars().chain(fraction.chars()).enumerate() {
+        let digit = digit.to_digit(16)?;
+        let in_fraction = place >= whole.len();
+        if integer >> 120 == 0 {
+            integer = integer << 4 | u128::from(digit);
+            exponent -= if in_fraction { 4 } else { 0 };
+        } else {
+            inexact |= digit != 0;
+            exponent += if in_fraction { 0 } else { 4 };
+        }
+    }
+    Some(rounded(integer, inexact, exponent))
+}
+
+/// A decimal exponent; what is beyond every float's is cut off well beyond every float's.
+fn binary_exponent(text: &str) -> Option<i64> {
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let magnitude = digits.bytes().try_fold(0i64, |value, digit| {
+        digit.is_ascii_digit().then(|| (10 * value + i64::from(digit - b'0')).min(1 << 30))
+    })?;
+    let sign = if text.starts_with('-') { -1 } else { 1 };
+    (!digits.is_empty()).then_some(sign * magnitude)
+}
+
+/// The float nearest to `integer * 2^exponent`, or to a little more where `inexact` (by less than
+/// one unit of an integer that then has more than 120 bits); ties to even. `integer` is below
+/// 2^124.
+pub fn rounded<F: Float>(integer: u128, inexact: bool, exponent: i64) -> F {
+    if integer == 0 {
+        return F::zero();
+    }
+    let [digits, lowest, highest] =
+        [i64::from(F::DIGITS), F::MIN_EXPONENT.into(), F::MAX_EXPONENT.into()];
+    let top = exponent + i64::from(integer.ilog2());
+    if top > highest {
+        return F::infinity();
+    }
+    // The result counts units of 2^unit.
+    let unit = (top + 1 - digits).max(lowest);
+    let shift = unit - exponent;
+    let units = match shift {
+        ..=0 => integer << -shift,
+        1..=127 => {
+            let (units, rest, half) =
+                (integer >> shift, integer & ((1 << shift) - 1), 1 << (shift - 1));
+            let up = rest > half || rest == half && (inexact || units & 1 == 1);
+            units + u128::from(up)
+        }
+        _ => 0,
+    };
+    // The hidden bit, and a carry out of the significand, add one to the exponent field.
+    F::from_bits((((unit - lowest) as u64) << (digits - 1)) + units as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Draw;
+
+    fn check<F: Float>(text: &str, bits: u64) {
+        let value: F = parse(text).unwrap();
+        assert_eq!(value.hex(), F::from_bits(bits).hex(), "{text} as {}", F::NAME);
+    }
+
+    #[test]
+    fn a_decimal_is_rounded_once() {
+        // A little above the middle of 1 and its neighbour: f64 holds the middle itself, and would
+        // then round it to even.
+        let text = "1.000000059604644775390626";
+        assert_eq!(text.parse::<f64>().unwrap() as f32, 1.0);
+        check::<f32>(text, 0x3f80_0001);
+        check::<f32>("1.000000059604644775390625", 0x3f80_0000);
+        check::<f64>("0.1", 0x3fb9_9999_9999_999a);
+        check::<f32>("0.1", 0x3dcc_cccd);
+        check::<f64>("-0", 0x8000_0000_0000_0000);
+        check::<f32>("+1.5e-3", 0x3ac4_9ba6);
+        check::<f32>("-1e-999", 0x8000_0000);
+        check::<f64>("4.9e-324", 1);
+        check::<f32>("3.4028235677973366e38", 0x7f7f_ffff);
+    }
+
+    #[test]
+    fn the_words_for_infinity_and_nan_are_few() {
+        for (text, bits) in
+            [("inf", 0x7f80_0000), ("+infinity", 0x7f80_0000), ("-inf", 0xff80_0000)]
+        {
+            check::<f32>(text, bits);
+        }
+        assert!(parse::<f32>("nan").unwrap().is_nan());
+        for text in ["-nan", "+nan", "NaN", "Inf", "INFINITY", "infinit", "--inf"] {
+            assert!(parse::<f32>(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn hexadecimal_floats_are_the_patterns_they_spell() {
+        check::<f32>("0x1.8p-3", 0x3e40_0000);
+        check::<f32>("-0x.8P+4", 0xc100_0000);
+        check::<f32>("0X1P-149", 1);
+        check::<f32>("0x1.fffffep127", 0x7f7f_ffff);
+        check::<f32>("-0x0.0p0", 0x8000_0000);
+        check::<f64>("0x1.921fb54442d18p+1", std::f64::consts::PI.to_bits());
+        check::<f64>("0x0.0000000000001p-1022", 1);
+        check::<f64>("0x1.fffffffffffffp1023", f64::MAX.to_bits());
+        check::<f64>("0x8p-1077", 1);
+        check::<f64>(&format!("0x1{}p-400", "0".repeat(100)), 1f64.to_bits());
+        check::<f64>(&format!("0x.{}1p404", "0".repeat(100)), 1f64.to_bits());
+        check::<f32>("0x0p99999999999999999999", 0);
+        check::<f32>("0x1p-99999999999999999999", 0);
+    }
+
+    #[test]
+    fn hexadecimal_ties_go_to_even_and_nothing_else_does() {
+        check::<f32>("0x1.000001p0", 0x3f80_0000);
+        check::<f32>("0x1.000003p0", 0x3f80_0002);
+        check::<f32>("0x1.00000100000000000000000000000000000000001p0", 0x3f80_0001);
+        check::<f32>("0x1.000000fffffffffffffffffffffffffffffffffp0", 0x3f80_0000);
+        // Between subnormals, at half the smallest, and from the largest of them up.
+        check::<f32>("0x1p-150", 0);
+        check::<f32>("0x1.00000000000000000000000000000000000000001p-150", 1);
+        check::<f32>("0x1.8p-149", 2);
+        check::<f32>("0x2.8p-149", 2);
+        check::<f32>("0x.ffffffp-126", 0x0080_0000);
+        check::<f32>("0x.fffffdp-126", 0x007f_fffe);
+        check::<f64>("0x1p-1075", 0);
+        check::<f64>("0x1.0000000000001p-1075", 1);
+        // A carry into the next binade, and the last one before infinity.
+        check::<f32>("0x1.ffffffp0", 0x4000_0000);
+        check::<f32>("0x1.fffffeffp127", 0x7f7f_ffff);
+        check::<f64>("0x1.fffffffffffff7ffp1023", f64::MAX.to_bits());
+    }
+
+    #[test]
+    fn hexadecimal_floats_round_as_the_processor_does() {
+        let mut draw = Draw::new("corpus-numbers", 2, 0);
+        for _ in 0..100_000 {
+            // Significands of 53 bits; every second one is half a unit of something, or next to it.
+            let low = draw.integer(20, 51);
+            let bits = match draw.below(2) {
+                0 => {
+                    (draw.bits() >> 11 >> low << low) + (1 << (low - 1)) + draw.below(3) as u64 - 1
+                }
+                _ => draw.bits() >> 11,
+            };
+            let power = draw.integer(-210, 80);
+            let rounded = (bits as f64 * 2f64.powi(power as i32)) as f32;
+            match parse::<f32>(&format!("0x{bits:x}p{power}")) {
+                Ok(value) => assert_eq!(value.hex(), rounded.hex(), "{bits:x} {power}"),
+                Err(_) => assert_eq!(rounded, f32::INFINITY),
+            }
+        }
+    }
+
+    #[test]
+    fn what_overflows_is_an_error() {
+        for text in ["1e999", "-3.4028236e38", "0x1p128", "0x1.ffffffp127", "0x1p99999999999999"] {
+            let message = parse::<f32>(text).unwrap_err();
+            assert_eq!(message, format!("'{text}' overflows f32"));
+        }
+        assert_eq!(parse::<f64>("-1e309").unwrap_err(), "'-1e309' overflows f64");
+    }
+
+    #[test]
+    fn junk_is_refused() {
+        for text in [
+            "",
+            " ",
+            " 1",
+            "1 ",
+            "1_0",
+            "1e",
+            "1e+",
+            "e5",
+            ".",
+            "-",
+            "+-1",
+            "1.2.3",
+            "0x",
+            "0x.p0",
+            "0xp1",
+            "0x1p",
+            "0x1p+",
+            "0x1.gp0",
+            "0x1.1.1p0",
+            "0x1p1.5",
+            "0x-1p0",
+            "0x1pp1",
+            "1,5",
+            "١",
+            "0x1é1p0",
+            "1f",
+            "one",
+            "\n1",
+        ] {
+            assert!(parse::<f64>(text).is_err(), "{text:?}");
+        }
+        let message = parse::<f32>("1_0").unwrap_err();
+        assert!(message.starts_with("'1_0' is not a number: write a decimal"), "{message}");
+        let message = parse::<f32>("0x3f800000").unwrap_err();
+        assert_eq!(message, "'0x3f800000' needs a binary exponent, as 0x1.8p-3");
+        let message = parse::<f32>(&"1".repeat(5000)).unwrap_err();
+        assert!(message.ends_with("...' has more than 4096 characters"), "{message}");
+        assert!(!parse::<f32>("1\n2").unwrap_err().contains('\n'));
+    }
+
+    #[test]
+    fn what_is_written_stays_short_and_keeps_zeros_apart() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0, "-0.0"),
+            (1.0, "1"),
+            (-2.5, "-2.5"),
+            (0.1, "0.1"),
+            (1e-7, "1e-7"),
+            (1e15, "1e15"),
+            (f64::MAX, "1.7976931348623157e308"),
+            (f64::INFINITY, "\"inf\""),
+            (f64::NEG_INFINITY, "\"-inf\""),
+            (f64::NAN, "\"nan\""),
+        ] {
+            assert_eq!(write(value), text);
+        }
+        assert_eq!(write(0.1f32), "0.10000000149011612");
+    }
+
+    /// Written and read back, by this reader and by a reader of doubles; and spelled in hexadecimal.
+    fn check_round_trip<F: Float>(value: F) {
+        let text = write(value);
+        assert_eq!(parse::<F>(&text).unwrap().hex(), value.hex(), "{text}");
+        assert_eq!(F::from_f64(text.parse().unwrap()).hex(), value.hex(), "{text}");
+        assert!(text.len() < 26, "{text}");
+        let fraction_bits = F::DIGITS - 1;
+        let magnitude = value.abs().to_bits();
+        let (field, fraction) =
+            (magnitude >> fraction_bits, magnitude & ((1 << fraction_bits) - 1));
+        let hidden = u64::from(field > 0) << fraction_bits;
+        let exponent = field.max(1) as i64 - 1 + i64::from(F::MIN_EXPONENT);
+        let sign = if value.to_f64().is_sign_negative() { "-" } else { "" };
+        let spelled = format!("{sign}0x{:x}p{exponent}", hidden | fraction);
+        assert_eq!(parse::<F>(&spelled).unwrap().hex(), value.hex(), "{spelled}");
+    }
+
+    #[test]
+    fn every_finite_pattern_survives_its_text() {
+        let mut draw = Draw::new("corpus-numbers", 1, 0);
+        for _ in 0..200_000 {
+            let bits = draw.bits();
+            let [narrow, wide] = [f64::from(f32::from_bits(bits as u32)), f64::from_bits(bits)];
+            if narrow.is_finite() {
+                check_round_trip(narrow as f32);
+            }
+            if wide.is_finite() {
+                check_round_trip(wide);
+            }
+            check_round_trip(f32::from_bits(bits as u32 & 0x807f_ffff));
+            check_round_trip(f64::from_bits(bits & 0x800f_ffff_ffff_ffff));
+        }
+        for value in [f32::MAX, -f32::MAX, f32::MIN_POSITIVE, 0.0, -0.0] {
+            check_round_trip(value);
+            check_round_trip(f64::from(value));
+        }
+        check_round_trip(f64::MAX);
+    }
+}

@@ -1,0 +1,118 @@
+//! `interior`, `outside`: the control. Random transversal hits and misses, both sides, well away
+//! from every boundary.
+
+use super::integer::shuffle;
+use super::{Made, Recipe};
+use crate::arith::Float;
+use crate::case::{Case, Draw};
+use crate::kernel::Scalar;
+use crate::truth::{Feature, Place, Truth};
+
+pub(super) struct Interior;
+pub(super) struct Outside;
+
+impl Recipe for Interior {
+    const NAME: &'static str = "interior";
+    const PROMISE: &'static str = "transversal, within the interval, in the interior";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        Made::One(aimed(draw, &mut interior_weights))
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| {
+            truth.crossing().is_some_and(|crossing| {
+                crossing.feature == Feature::Interior && crossing.place == Place::Within
+            })
+        })
+    }
+}
+
+impl Recipe for Outside {
+    const NAME: &'static str = "outside";
+    const VERSION: u32 = 2;
+    const PROMISE: &'static str = "transversal, in front of the origin, outside the triangle";
+
+    fn make<F: Scalar>(draw: &mut Draw, _: u64) -> Made<F> {
+        Made::One(aimed(draw, &mut |draw| {
+            let [u, v, w] = interior_weights(draw);
+            // One weight or two below zero; the sum stays 1.
+            let shift = 0.125 + draw.unit();
+            let weights = if draw.coin() {
+                [-u - shift, v + u, w + u + shift]
+            } else {
+                [u + 2.0 + shift, v - 1.0 - shift, w - 1.0]
+            };
+            shuffle(draw, weights)
+        }))
+    }
+
+    fn keeps(truths: &[Truth]) -> bool {
+        truths.iter().all(|truth| {
+            truth.crossing().is_some_and(|crossing| {
+                crossing.feature == Feature::Outside && crossing.place == Place::Within
+            })
+        })
+    }
+}
+
+/// Weights of at least 1/16 each.
+pub(super) fn interior_weights(draw: &mut Draw) -> [f64; 3] {
+    let (mut u, mut v) = (draw.unit(), draw.unit());
+    if u + v > 1.0 {
+        (u, v) = (1.0 - u, 1.0 - v);
+    }
+    [u, v, 1.0 - u - v].map(|w| 0.0625 + w * 0.8125)
+}
+
+/// A ray at the point of a random well-shaped triangle that has the given weights, from far enough
+/// and steep enough that rounding leaves it there.
+pub(super) fn aimed<F: Float>(
+    draw: &mut Draw,
+    weights: &mut dyn FnMut(&mut Draw) -> [f64; 3],
+) -> Case<F> {
+    loop {
+        let [a, b, c] = well_shaped::<F>(draw);
+        let [u, v, w] = weights(draw).map(F::from_f64);
+        let target = combination([a, b, c], [u, v, w]);
+        let origin = draw.point::<F>();
+        let length = F::from_f64(0.25 + 3.75 * draw.unit());
+        let direction = std::array::from_fn(|i| (target[i] - origin[i]) * length);
+        if is_steep(direction, [a, b, c]) {
+            return Case::new(origin, direction, [a, b, c]);
+        }
+    }
+}
+
+/// A triangle of size about 1 whose normal is not small.
+pub(super) fn well_shaped<F: Float>(draw: &mut Draw) -> [[F; 3]; 3] {
+    loop {
+        let triangle = [draw.point::<F>(), draw.point(), draw.point()];
+        let n = wide_normal(triangle);
+        if n.dot(n) > 0.04 {
+            return triangle;
+        }
+    }
+}
+
+/// Whether a direction is at least 1/4 long and makes a sine of at least 1/8 with the plane.
+pub(super) fn is_steep<F: Float>(direction: [F; 3], triangle: [[F; 3]; 3]) -> bool {
+    let d = wide(direction);
+    let n = wide_normal(triangle);
+    let (along, length) = (n.dot(d), d.dot(d));
+    length > 0.0625 && along * along > length * n.dot(n) / 64.0
+}
+
+/// The point with the given weights, in the scalar's arithmetic.
+pub fn combination<F: Float>(triangle: [[F; 3]; 3], weights: [F; 3]) -> [F; 3] {
+    let [a, b, c] = triangle;
+    std::array::from_fn(|i| a[i] * weights[0] + b[i] * weights[1] + c[i] * weights[2])
+}
+
+fn wide<F: Float>(v: [F; 3]) -> glam::DVec3 {
+    v.map(F::to_f64).into()
+}
+
+fn wide_normal<F: Float>([a, b, c]: [[F; 3]; 3]) -> glam::DVec3 {
+    (wide(b) - wide(a)).cross(wide(c) - wide(a))
+}

@@ -1,0 +1,270 @@
+//! Floor 2: where cases come from. One family a file, each with its promise, which the oracle checks
+//! on every case.
+//!
+//! To add a family: write its file with a `Recipe`, and give it a row in [`FAMILIES`].
+
+#![forbid(unsafe_code)]
+
+mod boundary;
+mod control;
+mod directions;
+mod flat;
+pub mod integer;
+mod interval;
+mod lattice;
+#[cfg(feature = "studies")]
+pub mod manifest;
+mod mesh;
+mod neighbours;
+mod origin;
+mod polygon;
+mod question;
+mod range;
+mod scene;
+mod shape;
+mod sizes;
+
+pub(crate) use control::combination;
+pub use lattice::LATTICE_SIZE;
+pub use mesh::MeshFamily;
+pub use question::Question;
+pub(crate) use scene::{
+    Corners, Frame, Pair, Parallel, Ring, Triangles, along_axis, any_direction, circle, flat_along,
+    in_plane, rounded, wide,
+};
+pub use scene::{STRATA, Stratum};
+
+use crate::arith::Float;
+use crate::arith::scale_by_power_of_two;
+use crate::case::{Case, CaseId, Draw, Parameters};
+use crate::kernel::Scalar;
+use crate::truth::Truth;
+use std::any::Any;
+
+/// The triangles that one index of a family makes: one, or a group that shares a ray.
+#[derive(Clone, Debug)]
+pub enum Made<F: Float> {
+    /// One case.
+    One(Case<F>),
+    /// One ray, several triangles.
+    Group(Vec<Case<F>>),
+}
+
+impl<F: Float> Made<F> {
+    /// The cases, in order.
+    pub fn cases(&self) -> &[Case<F>] {
+        match self {
+            Made::One(case) => std::slice::from_ref(case),
+            Made::Group(cases) => cases,
+        }
+    }
+
+    fn cases_mut(&mut self) -> &mut [Case<F>] {
+        match self {
+            Made::One(case) => std::slice::from_mut(case),
+            Made::Group(cases) => cases,
+        }
+    }
+}
+
+/// How the triangles of one index belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grouping {
+    /// One triangle.
+    Single,
+    /// One triangle; the ray starts at a kernel's own hit point on it.
+    SecondaryRay,
+    /// Two triangles on one edge.
+    SharedEdge,
+    /// A closed fan around a vertex.
+    Fan,
+    /// The fan of a planar convex polygon: vertices are the first triangle's, then each last one.
+    Polygon,
+}
+
+impl Grouping {
+    /// Whether the triangles of one index share a ray.
+    pub fn shares_a_ray(self) -> bool {
+        !matches!(self, Grouping::Single | Grouping::SecondaryRay)
+    }
+}
+
+/// How a family makes its cases.
+trait Recipe {
+    const NAME: &'static str;
+    /// Raised whenever the cases change.
+    const VERSION: u32 = 1;
+    /// About the truth of its cases, in one line.
+    const PROMISE: &'static str;
+    const GROUPING: Grouping = Grouping::Single;
+    /// Case `index` of the set; `draw` is its own stream.
+    fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
+    /// What is left to do once the parameters are applied.
+    fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
+    /// Whether the truths of one index keep the promise.
+    fn keeps(truths: &[Truth]) -> bool;
+}
+
+/// A row of the table of families.
+pub struct Family {
+    /// The name on the command line and in case ids.
+    pub name: &'static str,
+    /// Part of the case ids.
+    pub version: u32,
+    /// About the truth of its cases, in one line.
+    pub promise: &'static str,
+    /// The question that it belongs to.
+    pub question: Question,
+    /// How the triangles of one index belong together.
+    pub grouping: Grouping,
+    /// The number of its cases, if there are finitely many.
+    pub size: Option<u64>,
+    keeps: fn(&[Truth]) -> bool,
+    make_f32: Generator<f32>,
+    make_f64: Generator<f64>,
+}
+
+/// Makes the case of an index in one scalar.
+type Generator<F> = fn(&Parameters, &mut Draw, u64) -> Made<F>;
+
+const fn row<R: Recipe>(question: Question) -> Family {
+    Family {
+        name: R::NAME,
+        version: R::VERSION,
+        promise: R::PROMISE,
+        question,
+        grouping: R::GROUPING,
+        size: None,
+        keeps: R::keeps,
+        make_f32: made::<R, f32>,
+        make_f64: made::<R, f64>,
+    }
+}
+
+/// A recipe's cases, put through the parameters.
+fn made<R: Recipe, F: Scalar>(parameters: &Parameters, draw: &mut Draw, index: u64) -> Made<F> {
+    let mut made = R::make::<F>(draw, index);
+    for case in made.cases_mut() {
+        apply(parameters, case);
+    }
+    R::finish(draw, parameters, &mut made);
+    made
+}
+
+/// Every family but the mesh, in the order of reports.
+pub static FAMILIES: &[Family] = &[
+    row::<control::Interior>(Question::Inside),
+    row::<control::Outside>(Question::Inside),
+    row::<boundary::EdgeExact>(Question::Edges),
+    row::<boundary::EdgeNear>(Question::Edges),
+    row::<boundary::VertexExact>(Question::Vertices),
+    row::<boundary::VertexNear>(Question::Vertices),
+    row::<flat::ParallelOff>(Question::Flat),
+    row::<flat::Coplanar>(Question::Flat),
+    row::<flat::Grazing>(Question::Flat),
+    row::<origin::OriginOn>(Question::Ends),
+    row::<origin::OriginNear>(Question::Ends),
+    row::<origin::SecondaryRay>(Question::Ends),
+    row::<interval::Behind>(Question::Ends),
+    row::<interval::IntervalEnds>(Question::Ends),
+    row::<shape::Sliver>(Question::Sizes),
+    row::<sizes::Tiny>(Question::Sizes),
+    row::<sizes::Huge>(Question::Sizes),
+    row::<sizes::Far>(Question::Sizes),
+    row::<directions::DirectionLength>(Question::Sizes),
+    row::<directions::AxisAligned>(Question::Grid),
+    row::<range::MixedScale>(Question::Range),
+    row::<range::RangeEnds>(Question::Range),
+    row::<shape::Degenerate>(Question::Flat),
+    row::<range::Invalid>(Question::Invalid),
+    row::<neighbours::SharedEdge>(Question::Edges),
+    row::<neighbours::Fan>(Question::Vertices),
+    row::<polygon::Polygon>(Question::Edges),
+    Family { size: Some(LATTICE_SIZE), ..row::<lattice::Lattice>(Question::Grid) },
+];
+
+/// The family of a name, be it a stratum of a scene.
+pub fn find(name: &str) -> Option<&'static Family> {
+    FAMILIES.iter().chain(STRATA).find(|family| family.name == name)
+}
+
+impl Family {
+    /// Case `index` of the set of a seed, put through the parameters.
+    pub fn make<F: Scalar>(&self, parameters: &Parameters, seed: u64, index: u64) -> Made<F> {
+        let mut draw = Draw::new(self.name, seed, index);
+        let index = self.size.map_or(index, |size| lattice::shuffled(index % size, seed));
+        self.generator::<F>()(parameters, &mut draw, index)
+    }
+
+    /// Case `index` in the natural order of a finite family.
+    pub fn make_in_order<F: Scalar>(&self, parameters: &Parameters, index: u64) -> Made<F> {
+        self.generator::<F>()(parameters, &mut Draw::new(self.name, 0, index), index)
+    }
+
+    /// The generator of a scalar, which is one of the two.
+    fn generator<F: Scalar>(&self) -> Generator<F> {
+        let both: [&dyn Any; 2] = [&self.make_f32, &self.make_f64];
+        let found = both.into_iter().find_map(|make| make.downcast_ref::<Generator<F>>());
+        *found.expect("a scalar is f32 or f64")
+    }
+
+    /// Whether the truths of one index keep the promise.
+    pub fn keeps(&self, truths: &[Truth]) -> bool {
+        (self.keeps)(truths)
+    }
+
+    /// The id of a case.
+    pub fn id<F: Float>(&self, parameters: &Parameters, seed: u64, index: u64) -> CaseId {
+        CaseId {
+            family: self.name.to_owned(),
+            version: self.version,
+            scalar: F::NAME.to_owned(),
+            parameters: parameters.clone(),
+            seed,
+            index,
+            triangle: None,
+        }
+    }
+}
+
+/// Scales, moves and normalises a case. Where only positions are scaled, t and the ends of the
+/// interval scale with them.
+pub fn apply<F: Float>(parameters: &Parameters, case: &mut Case<F>) {
+    let Parameters { scale, scale_direction, offset, .. } = parameters;
+    if *scale == 0 && *offset == [0.0; 3] && !parameters.unit_direction {
+        return;
+    }
+    let [origin, direction, a, b, c] = case.vectors();
+    let moved = |point: [F; 3]| -> [F; 3] {
+        std::array::from_fn(|i| {
+            let x = scaled(point[i], *scale);
+            if offset[i] == 0.0 { x } else { x + F::from_f64(offset[i]) }
+        })
+    };
+    let end = |t: F| if *scale_direction { t } else { scaled(t, *scale) };
+    let (t_min, t_max) = (end(case.ray.t_min), end(case.ray.t_max));
+    let direction = apply_to_direction(parameters, direction);
+    *case = Case::new(moved(origin), direction, [a, b, c].map(moved)).on(t_min, t_max);
+}
+
+fn apply_to_direction<F: Float>(parameters: &Parameters, direction: [F; 3]) -> [F; 3] {
+    let power = if parameters.scale_direction { parameters.scale } else { 0 };
+    let direction = direction.map(|x| scaled(x, power));
+    if parameters.unit_direction { unit(direction) } else { direction }
+}
+
+fn scaled<F: Float>(x: F, power: i32) -> F {
+    if power == 0 { x } else { F::from_f64(scale_by_power_of_two(x.to_f64(), power)) }
+}
+
+/// The rounded unit vector; the zero vector and vectors that are not finite stay.
+fn unit<F: Float>(direction: [F; 3]) -> [F; 3] {
+    let wide = direction.map(F::to_f64);
+    let largest = wide.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 || wide.iter().any(|x| !x.is_finite()) {
+        return direction;
+    }
+    let near_one = wide.map(|x| x / largest);
+    let length = near_one.iter().map(|x| x * x).sum::<f64>().sqrt();
+    near_one.map(|x| F::from_f64(x / length))
+}

@@ -1,0 +1,289 @@
+//! Floor 3: the only place that compares a verdict with a truth under a contract.
+
+#![forbid(unsafe_code)]
+
+mod change;
+mod class;
+mod distance;
+mod elsewhere;
+mod expected;
+mod group;
+#[cfg(test)]
+mod tests;
+mod values;
+
+pub use change::exact_to_change;
+pub use class::Class;
+pub use class::Kind;
+pub use distance::{Distances, Squares, nearest_on_segment, square, ulp_of_points};
+pub use elsewhere::may_be_elsewhere;
+pub use expected::{Expectations, Kinds, ask_all, suspects};
+pub use group::owes_groups_alike;
+pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
+pub use values::{ALLOWANCE, ValueErrors};
+pub use values::{Limits, exact_values_are_near};
+
+use crate::arith::Float;
+use crate::case::Case;
+use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
+use crate::kernel::{Failure, Gives, Verdict};
+use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
+use num_rational::BigRational;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+/// What a contract demands of a kernel on a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obligation {
+    /// A hit.
+    MustHit,
+    /// A miss.
+    MustMiss,
+    /// Nothing.
+    Free,
+}
+
+named! {
+    pub names
+    /// A disagreement.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    pub enum Finding {
+        /// It must hit, and missed.
+        FalseMiss = "false-miss",
+        /// It must miss, and hit.
+        FalseHit = "false-hit",
+        /// A hit that is not false, with a value that is not finite or with a wrong facing.
+        BadValue = "bad-value",
+        /// A hit that is not false, whose t, u or v is farther from its exact value than rounding could carry it
+        /// ([`ALLOWANCE`]).
+        WrongValue = "wrong-value",
+        /// The kernel panicked.
+        Panic = "panic",
+        /// The kernel's process died, or it wrote outside its output.
+        Crash = "crash",
+        /// The kernel's process gave no answer in time.
+        Timeout = "timeout",
+    }
+}
+
+impl Finding {
+    /// Whether the kernel gave no verdict at all.
+    pub fn is_failure(self) -> bool {
+        matches!(self, Finding::Panic | Finding::Crash | Finding::Timeout)
+    }
+}
+
+/// What the contract demands for this truth. `secondary` says that the ray starts at a kernel's own
+/// rounded hit point on the triangle, as a secondary ray does.
+pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obligation {
+    if contract.no_self_hit && secondary && *truth != Truth::Invalid {
+        return Obligation::MustMiss;
+    }
+    match truth {
+        Truth::Invalid => demanded(contract.invalid, false),
+        Truth::Parallel => Obligation::MustMiss,
+        Truth::Coplanar(contact) => demanded(contract.coplanar, touches(contact, contract.extent)),
+        Truth::Degenerate(contact) => {
+            demanded(contract.degenerate, touches(contact, contract.extent))
+        }
+        Truth::Transversal(crossing) => crossing_obligation(crossing, contract),
+    }
+}
+
+/// What the contract demands on a case: nothing if it promises nothing for the direction, and nothing
+/// within its band.
+pub fn asked<F: Float>(
+    case: &Case<F>,
+    truth: &Truth,
+    contract: &Contract,
+    secondary: bool,
+) -> Obligation {
+    if !promises_direction::<F>(contract.direction, case.ray.direction.into()) {
+        return Obligation::Free;
+    }
+    in_band(obligation(truth, contract, secondary), case, truth, contract)
+}
+
+/// Nothing, within the contract's band.
+fn in_band<F: Float>(
+    asked: Obligation,
+    case: &Case<F>,
+    truth: &Truth,
+    contract: &Contract,
+) -> Obligation {
+    match contract.band {
+        Some(band)
+            if asked != Obligation::Free
+                && *truth != Truth::Invalid
+                && change::is_within(band, case, truth, contract) =>
+        {
+            Obligation::Free
+        }
+        _ => asked,
+    }
+}
+
+fn demanded(demand: Demand, contact: bool) -> Obligation {
+    match (demand, contact) {
+        (Demand::Free, _) => Obligation::Free,
+        (Demand::Hit, true) => Obligation::MustHit,
+        (Demand::Hit, false) | (Demand::Miss, _) => Obligation::MustMiss,
+    }
+}
+
+fn touches(contact: &Contact, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => contact.meets_line,
+        Extent::Ray => contact.meets_ray,
+        Extent::Interval => contact.kind != ContactKind::None,
+    }
+}
+
+fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
+    let culled = contract.sides == Sides::Front && crossing.facing == Facing::Back;
+    if culled || !is_in_extent(crossing, contract.extent) {
+        return Obligation::MustMiss;
+    }
+    let across = match crossing.feature {
+        Feature::Outside => return Obligation::MustMiss,
+        Feature::Interior => Obligation::MustHit,
+        _ => at_rim(contract.boundary),
+    };
+    let along = match is_at_end(crossing, contract.extent) {
+        true => at_rim(contract.ends),
+        false => Obligation::MustHit,
+    };
+    match (across, along) {
+        (Obligation::MustMiss, _) | (_, Obligation::MustMiss) => Obligation::MustMiss,
+        (Obligation::Free, _) | (_, Obligation::Free) => Obligation::Free,
+        _ => Obligation::MustHit,
+    }
+}
+
+/// What is demanded on a boundary.
+fn at_rim(boundary: Boundary) -> Obligation {
+    match boundary {
+        Boundary::Closed => Obligation::MustHit,
+        Boundary::Open => Obligation::MustMiss,
+        Boundary::Free => Obligation::Free,
+    }
+}
+
+/// Whether a crossing lies exactly on an end of the part of the line that counts.
+fn is_at_end(crossing: &Crossing, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => false,
+        Extent::Ray => crossing.t_sign == Ordering::Equal,
+        Extent::Interval => matches!(crossing.place, Place::AtMin | Place::AtMax),
+    }
+}
+
+/// Whether a crossing lies on the part of the line that counts.
+pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
+    match extent {
+        Extent::Line => true,
+        Extent::Ray => crossing.t_sign != Ordering::Less,
+        Extent::Interval => !matches!(crossing.place, Place::Before | Place::Beyond),
+    }
+}
+
+/// Whether the contract promises anything for a direction.
+pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
+    let Direction::Unit { ulps } = direction else { return true };
+    let Some([x, y, z]) = exact(d) else { return false };
+    let length_squared = &x * &x + &y * &y + &z * &z;
+    let one = BigRational::from_integer(1.into());
+    let tolerance = BigRational::from_integer(ulps.into())
+        * BigRational::from_float(F::EPSILON.to_f64()).expect("finite");
+    let zero = BigRational::from_integer(0.into());
+    let (low, high) = ((&one - &tolerance).max(zero), &one + &tolerance);
+    &low * &low <= length_squared && length_squared <= &high * &high
+}
+
+fn exact<F: Float>(v: [F; 3]) -> Option<[BigRational; 3]> {
+    let [x, y, z] = v.map(|x| BigRational::from_float(x.to_f64()));
+    Some([x?, y?, z?])
+}
+
+/// As much of a run in any arithmetic as is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Hit or miss.
+    pub hit: bool,
+    /// Whether every value that the kernel gives is finite.
+    pub finite: bool,
+    /// Whether every one is near its exact value, where it has one ([`ALLOWANCE`]).
+    pub near: bool,
+    /// The side hit.
+    pub facing: Option<Facing>,
+}
+
+impl Answer {
+    /// Of a verdict on a case.
+    pub fn of<F: Float>(
+        case: &Case<F>,
+        truth: &Truth,
+        gives: Gives,
+        verdict: &Verdict<F>,
+    ) -> Answer {
+        let finite = (!gives.t || verdict.t.is_finite())
+            && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
+        let compares = verdict.hit && finite && values::has_values(truth);
+        let near = !compares || values::are_near(case, gives, verdict);
+        Answer { hit: verdict.hit, finite, near, facing: verdict.facing }
+    }
+}
+
+/// Compares a verdict on a case with the obligation. Values of hits on invalid input are not judged.
+#[inline]
+pub fn judge<F: Float>(
+    obligation: Obligation,
+    (case, truth): (&Case<F>, &Truth),
+    gives: Gives,
+    verdict: &Verdict<F>,
+) -> Option<Finding> {
+    if let Some(failure) = verdict.failure {
+        return Some(failed(failure));
+    }
+    match (obligation, verdict.hit) {
+        // No values are compared.
+        (Obligation::MustHit, false) => Some(Finding::FalseMiss),
+        (Obligation::MustMiss, true) => Some(Finding::FalseHit),
+        (_, false) => None,
+        _ => judge_answer(obligation, truth, gives, Answer::of(case, truth, gives, verdict)),
+    }
+}
+
+/// Compares an answer with the obligation.
+#[inline]
+pub fn judge_answer(
+    obligation: Obligation,
+    truth: &Truth,
+    gives: Gives,
+    answer: Answer,
+) -> Option<Finding> {
+    match (obligation, answer.hit) {
+        (Obligation::MustHit, false) => Some(Finding::FalseMiss),
+        (Obligation::MustMiss, true) => Some(Finding::FalseHit),
+        (_, true) if *truth == Truth::Invalid => None,
+        (_, true) if has_bad_value(truth, gives, answer) => Some(Finding::BadValue),
+        (_, true) if !answer.near => Some(Finding::WrongValue),
+        _ => None,
+    }
+}
+
+fn failed(failure: Failure) -> Finding {
+    match failure {
+        Failure::Panic => Finding::Panic,
+        Failure::Timeout => Finding::Timeout,
+        Failure::Signal(_) | Failure::Exit(_) | Failure::Overrun | Failure::Exception => {
+            Finding::Crash
+        }
+    }
+}
+
+fn has_bad_value(truth: &Truth, gives: Gives, answer: Answer) -> bool {
+    let wrong_facing = gives.facing
+        && truth.crossing().is_some_and(|crossing| answer.facing != Some(crossing.facing));
+    !answer.finite || wrong_facing
+}

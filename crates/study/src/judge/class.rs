@@ -1,0 +1,170 @@
+//! Classes of truths: what reports count by.
+
+use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+/// All of a truth that an obligation depends on: its class, and either the sign of t with whether it is
+/// at an end of the interval, or what a line in the plane meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kind(u8);
+
+impl Kind {
+    /// Numbers of kinds are below this.
+    pub const COUNT: usize = Class::COUNT * 8;
+
+    /// The kind of a truth.
+    pub fn of(truth: &Truth) -> Kind {
+        let digits = match truth {
+            Truth::Transversal(Crossing { place, t_sign, .. }) => [
+                matches!(place, Place::AtMin | Place::AtMax),
+                matches!(t_sign, Ordering::Less),
+                matches!(t_sign, Ordering::Equal),
+            ],
+            Truth::Coplanar(Contact { kind, meets_ray, meets_line })
+            | Truth::Degenerate(Contact { kind, meets_ray, meets_line }) => {
+                [matches!(kind, ContactKind::None), *meets_ray, *meets_line]
+            }
+            Truth::Parallel | Truth::Invalid => [false; 3],
+        };
+        Kind(
+            digits
+                .into_iter()
+                .fold(Class::of(truth).0, |number, digit| 2 * number + u8::from(digit)),
+        )
+    }
+
+    /// Its class.
+    pub fn class(self) -> Class {
+        Class(self.0 >> 3)
+    }
+
+    /// The side that the ray crosses the plane from; none if it does not.
+    pub fn facing(self) -> Option<Facing> {
+        const FACINGS: [Option<Facing>; Kind::COUNT] = {
+            let mut facings = [None; Kind::COUNT];
+            let mut kind = 0;
+            while kind < 8 * PARTS.len() * SIDES.len() * PLACES.len() {
+                let is_back = kind / 8 / PLACES.len() % SIDES.len() == 1;
+                facings[kind] = Some(if is_back { Facing::Back } else { Facing::Front });
+                kind += 1;
+            }
+            facings
+        };
+        FACINGS[self.number()]
+    }
+
+    /// A number below [`Kind::COUNT`].
+    #[inline]
+    pub fn number(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// A coarse class of truths: what reports count by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(into = "u8", try_from = "u8")]
+pub struct Class(u8);
+
+const PARTS: [&str; 4] = ["interior", "edge", "vertex", "outside"];
+const SIDES: [&str; 2] = ["front", "back"];
+const PLACES: [&str; 3] = ["within", "before", "beyond"];
+const FLAT: [&str; 4] = ["parallel", "coplanar", "degenerate", "invalid"];
+
+impl Class {
+    /// The number of classes.
+    pub const COUNT: usize = PARTS.len() * SIDES.len() * PLACES.len() + FLAT.len();
+
+    /// The class of a truth.
+    pub fn of(truth: &Truth) -> Class {
+        let first_flat = Class::COUNT - FLAT.len();
+        let number = match truth {
+            Truth::Transversal(Crossing { facing, place, feature, .. }) => {
+                let part = match feature {
+                    Feature::Interior => 0,
+                    feature if feature.is_edge() => 1,
+                    feature if feature.is_vertex() => 2,
+                    _ => 3,
+                };
+                let side = usize::from(*facing == Facing::Back);
+                let place = match place {
+                    Place::AtMin | Place::Within | Place::AtMax => 0,
+                    Place::Before => 1,
+                    Place::Beyond => 2,
+                };
+                (part * SIDES.len() + side) * PLACES.len() + place
+            }
+            Truth::Parallel => first_flat,
+            Truth::Coplanar(_) => first_flat + 1,
+            Truth::Degenerate(_) => first_flat + 2,
+            Truth::Invalid => first_flat + 3,
+        };
+        Class(number as u8)
+    }
+
+    /// All classes, in the order of reports.
+    pub fn all() -> impl Iterator<Item = Class> {
+        (0..Class::COUNT).map(|number| Class(number as u8))
+    }
+
+    /// A number below [`Class::COUNT`].
+    pub fn number(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// Where the line meets the triangle, or the kind of situation: `edge`, `coplanar`.
+    pub fn part(self) -> &'static str {
+        let per_part = SIDES.len() * PLACES.len();
+        PARTS
+            .get(self.number() / per_part)
+            .copied()
+            .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
+    }
+
+    /// Whether the input has no meaning: no value of a hit is judged then.
+    pub fn is_invalid(self) -> bool {
+        self.number() == Class::COUNT - 1
+    }
+
+    /// Whether the line is parallel to the plane, or the triangle has no area.
+    pub fn is_flat(self) -> bool {
+        matches!(self.part(), "parallel" | "coplanar" | "degenerate")
+    }
+
+    /// Whether the line crosses the plane from behind.
+    pub fn is_back(self) -> bool {
+        self.name().contains("/back/")
+    }
+
+    /// Whether the line crosses the plane before or beyond the interval.
+    pub fn is_off_the_interval(self) -> bool {
+        let name = self.name();
+        name.ends_with("/before") || name.ends_with("/beyond")
+    }
+
+    /// The name in records: `edge/front/within`, `coplanar`.
+    pub fn name(self) -> String {
+        let per_part = SIDES.len() * PLACES.len();
+        if self.number() >= PARTS.len() * per_part {
+            return self.part().to_owned();
+        }
+        let (side, place) =
+            (self.number() / PLACES.len() % SIDES.len(), self.number() % PLACES.len());
+        format!("{}/{}/{}", self.part(), SIDES[side], PLACES[place])
+    }
+}
+
+impl From<Class> for u8 {
+    fn from(class: Class) -> u8 {
+        class.0
+    }
+}
+
+impl TryFrom<u8> for Class {
+    type Error = String;
+
+    fn try_from(number: u8) -> Result<Class, String> {
+        let known = usize::from(number) < Class::COUNT;
+        if known { Ok(Class(number)) } else { Err(format!("no class of number {number}")) }
+    }
+}

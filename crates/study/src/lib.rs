@@ -1,0 +1,43 @@
+//! What ray–triangle kernels do on hard cases. Families make the cases, the oracle of `hairline-core` says what is
+//! true, `judge` compares a kernel's verdicts with it, and studies count: audits, epsilons, meshes, new rays, maps,
+//! searches.
+//!
+//! It is the library behind the program `hairline`, whose interface is stable; this one changes with it.
+
+#![cfg_attr(not(feature = "studies"), allow(dead_code, unused_imports))]
+
+#[macro_use(either_scalar, in_named_scalar, named)]
+extern crate hairline_core;
+use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest, truth};
+#[cfg(feature = "studies")]
+use hairline_prove as prove;
+
+// The floors, from the ground up: each module uses only those above it in this list.
+pub mod plot;
+
+pub mod corpus;
+pub mod family;
+pub mod mesh;
+
+pub mod judge;
+
+pub mod audit;
+#[cfg(feature = "studies")]
+pub mod epsilon;
+#[cfg(feature = "studies")]
+pub mod explore;
+#[cfg(feature = "studies")]
+pub mod map;
+#[cfg(feature = "studies")]
+pub mod orientation;
+#[cfg(feature = "studies")]
+pub mod selfcheck;
+#[cfg(feature = "studies")]
+pub mod spawn;
+
+pub use hairline_core::{Case, Contract};
+#[cfg(feature = "studies")]
+pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
+
+#[cfg(feature = "proptest")]
+pub use explore::strategy;

@@ -1,0 +1,324 @@
+//! Floor 4: maps of verdicts. One pixel is one float: what a kernel computes on each, beside what is
+//! exactly true, as in Kettner, Mehlhorn, Pion, Schirra and Yap 2008, "Classroom examples of robustness
+//! problems in geometric computations", figure 2.
+//!
+//! ```text
+//! Case, Row, Grid ──► of_kernel ────┐
+//!                                   ├─► Map ──► svg, png, counts
+//! Points, Row, Grid ─► of_predicate ┘
+//! Case, Row ──► drawing: the triangle, the ray, where they meet and where the kernel says so
+//! ```
+//!
+//! Pictures are returned as text and bytes; the caller writes them.
+//!
+//! ```
+//! use hairline_study::audit::Row;
+//! use hairline_study::map::{self, Spot};
+//!
+//! let row = Row::named("moller-trumbore", None, "own")?;
+//! let map = map::standard::<f32>(&row, Spot::Edge, [32, 32])?;
+//! assert!(map.wrong() > 0);
+//! assert!(map::svg(&map).starts_with("<svg"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![forbid(unsafe_code)]
+
+mod drawing;
+mod frame;
+mod grid;
+mod kernel;
+mod orientation;
+mod panel;
+#[cfg(feature = "files")]
+mod png;
+mod scene;
+mod spot;
+mod svg;
+
+pub use self::drawing::{drawing, drawing_document};
+pub use self::grid::{Axis, Grid, MOST_PIXELS, Step};
+pub use self::kernel::{Part, case_at, grid_of_case, of_kernel};
+pub use self::orientation::{POINT_NAMES, grid_of_points, of_predicate, points_at};
+#[cfg(feature = "files")]
+pub use self::png::png;
+pub use self::spot::{Spot, standard, standard_points};
+pub use self::svg::{svg, svg_document};
+
+use crate::arith::Float;
+use crate::corpus::number;
+use crate::judge::{Finding, Obligation};
+use crate::orientation as points;
+use crate::truth::Truth;
+use std::cmp::Ordering;
+use std::fmt;
+
+/// Why there is no map; one line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapError(pub String);
+
+impl fmt::Display for MapError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for MapError {}
+
+/// What is known at each pixel of a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// What was run: `moller-trumbore (source)`.
+    pub subject: String,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// What is right: the contract, or the exact sign.
+    pub measure: String,
+    /// To the right, and upwards.
+    pub axes: [AxisText; 2],
+    /// Row by row, the top row (the highest values of the second axis) first.
+    pub pixels: Pixels,
+}
+
+/// An axis in words and numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AxisText {
+    /// `direction.x`
+    pub name: String,
+    /// The value in the middle, as text that reads back.
+    pub centre: String,
+    /// Its bits in hexadecimal.
+    pub bits: String,
+    /// From pixel to pixel.
+    pub step: Step,
+    /// The number of pixels.
+    pub count: usize,
+}
+
+impl AxisText {
+    fn of<F: Float>(axis: &Axis<F>, point: &str) -> AxisText {
+        AxisText {
+            name: format!("{point}.{}", ["x", "y", "z"][axis.coordinate]),
+            centre: number::write(axis.centre),
+            bits: axis.centre.hex(),
+            step: axis.step,
+            count: axis.count,
+        }
+    }
+}
+
+/// The pixels of a kernel's map or of a predicate's.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// Of a ray-triangle kernel.
+    Rays(Vec<RayPixel>),
+    /// Of an orientation predicate.
+    Signs(Vec<SignPixel>),
+}
+
+/// A kernel on the case of one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RayPixel {
+    /// Whether the kernel hits; none if it failed.
+    pub hit: Option<bool>,
+    /// The exact truth.
+    pub truth: Truth,
+    /// What the contract demands.
+    pub asked: Obligation,
+    /// Whether the ray meets the boundary exactly, so that the contract demands a hit or leaves it free
+    /// only because of what it says of edges and vertices.
+    pub on_boundary: bool,
+    /// What is wrong.
+    pub finding: Option<Finding>,
+}
+
+/// A predicate on the points of one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SignPixel {
+    /// What the predicate says.
+    pub answer: points::Answer,
+    /// The exact sign; none of points that are not finite.
+    pub exact: Option<Ordering>,
+    /// What is wrong.
+    pub finding: Option<points::Finding>,
+}
+
+/// What a pixel looks like. Right is pale and wrong is dark, so that wrong pixels are seen without
+/// telling colours apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Ink {
+    /// A hit, or +.
+    Yes,
+    /// A miss, or -.
+    No,
+    /// Exactly on the boundary, or 0.
+    Boundary,
+    /// Nothing is demanded.
+    Free,
+    /// A false hit, or a wrong sign.
+    FalseYes,
+    /// A false miss, or a false 0.
+    FalseNo,
+    /// A hit with a bad or a wrong value, or a 0 that was missed.
+    Bad,
+    /// No verdict, or no sign.
+    Failed,
+}
+
+impl Ink {
+    /// All, in the order of legends.
+    pub const ALL: [Ink; 8] = [
+        Ink::Yes,
+        Ink::No,
+        Ink::Boundary,
+        Ink::Free,
+        Ink::FalseYes,
+        Ink::FalseNo,
+        Ink::Bad,
+        Ink::Failed,
+    ];
+
+    /// Red, green, blue.
+    pub fn rgb(self) -> [u8; 3] {
+        match self {
+            Ink::Yes => [0x6f, 0xb4, 0xe6],
+            Ink::No => [0xdc, 0xdf, 0xe2],
+            Ink::Boundary => [0xf0, 0xe4, 0x42],
+            Ink::Free => [0xfa, 0xfa, 0xfa],
+            Ink::FalseYes => [0xc8, 0x3e, 0x00],
+            Ink::FalseNo => [0x4b, 0x12, 0x7a],
+            Ink::Bad => [0x00, 0x66, 0x4b],
+            Ink::Failed => [0x00, 0x00, 0x00],
+        }
+    }
+
+    /// As HTML and SVG write it.
+    pub fn hex(self) -> String {
+        let [r, g, b] = self.rgb();
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+impl Map {
+    /// Pixels to the right, and upwards.
+    pub fn size(&self) -> [usize; 2] {
+        [self.axes[0].count, self.axes[1].count]
+    }
+
+    /// What the kernel or the predicate makes of a pixel, row by row from the top: what it says where
+    /// that is right, and how it is wrong where not.
+    pub fn computed(&self, pixel: usize) -> Ink {
+        match &self.pixels {
+            Pixels::Rays(pixels) => pixels[pixel].computed(),
+            Pixels::Signs(pixels) => pixels[pixel].computed(),
+        }
+    }
+
+    /// What is exactly true at a pixel.
+    pub fn exact(&self, pixel: usize) -> Ink {
+        match &self.pixels {
+            Pixels::Rays(pixels) => pixels[pixel].exact(),
+            Pixels::Signs(pixels) => pixels[pixel].exact(),
+        }
+    }
+
+    /// How many pixels are wrong.
+    pub fn wrong(&self) -> usize {
+        match &self.pixels {
+            Pixels::Rays(pixels) => pixels.iter().filter(|p| p.finding.is_some()).count(),
+            Pixels::Signs(pixels) => pixels.iter().filter(|p| p.finding.is_some()).count(),
+        }
+    }
+
+    /// The inks of the computed side that occur, what they mean and how many pixels have them.
+    pub fn computed_legend(&self) -> Vec<(Ink, &'static str, usize)> {
+        let words = |ink| match (&self.pixels, ink) {
+            (Pixels::Rays(_), Ink::Yes) => "hit",
+            (Pixels::Rays(_), Ink::FalseYes) => "false hit",
+            (Pixels::Rays(_), Ink::FalseNo) => "false miss",
+            (Pixels::Rays(_), Ink::Bad) => "hit with a wrong value",
+            (Pixels::Rays(_), Ink::Failed) => "failed: no verdict",
+            (Pixels::Rays(_), _) => "miss",
+            (Pixels::Signs(_), Ink::Yes) => "positive",
+            (Pixels::Signs(_), Ink::No) => "negative",
+            (Pixels::Signs(_), Ink::FalseYes) => "wrong sign",
+            (Pixels::Signs(_), Ink::FalseNo) => "false zero",
+            (Pixels::Signs(_), Ink::Bad) => "missed zero",
+            (Pixels::Signs(_), Ink::Failed) => "no sign: NaN",
+            (Pixels::Signs(_), _) => "zero",
+        };
+        self.legend(words, |pixel| self.computed(pixel))
+    }
+
+    /// The same of the exact side.
+    pub fn exact_legend(&self) -> Vec<(Ink, &'static str, usize)> {
+        let words = |ink| match (&self.pixels, ink) {
+            (Pixels::Rays(_), Ink::Yes) => "a hit is asked",
+            (Pixels::Rays(_), Ink::No) => "a miss is asked",
+            (Pixels::Rays(_), Ink::Boundary) => "exactly on an edge or a vertex",
+            (Pixels::Rays(_), _) => "nothing is asked",
+            (Pixels::Signs(_), Ink::Yes) => "positive",
+            (Pixels::Signs(_), Ink::No) => "negative",
+            (Pixels::Signs(_), Ink::Boundary) => "zero",
+            (Pixels::Signs(_), _) => "not finite",
+        };
+        self.legend(words, |pixel| self.exact(pixel))
+    }
+
+    fn legend(
+        &self,
+        words: impl Fn(Ink) -> &'static str,
+        ink: impl Fn(usize) -> Ink,
+    ) -> Vec<(Ink, &'static str, usize)> {
+        let mut counts = [0; Ink::ALL.len()];
+        let [width, height] = self.size();
+        (0..width * height).for_each(|pixel| counts[ink(pixel) as usize] += 1);
+        let counted = Ink::ALL.into_iter().zip(counts).filter(|(_, count)| *count > 0);
+        counted.map(|(ink, count)| (ink, words(ink), count)).collect()
+    }
+}
+
+impl RayPixel {
+    fn computed(&self) -> Ink {
+        match (self.finding, self.hit) {
+            (Some(Finding::FalseHit), _) => Ink::FalseYes,
+            (Some(Finding::FalseMiss), _) => Ink::FalseNo,
+            (Some(Finding::BadValue | Finding::WrongValue), _) => Ink::Bad,
+            (Some(_), _) | (None, None) => Ink::Failed,
+            (None, Some(true)) => Ink::Yes,
+            (None, Some(false)) => Ink::No,
+        }
+    }
+
+    fn exact(&self) -> Ink {
+        match self.asked {
+            _ if self.on_boundary => Ink::Boundary,
+            Obligation::MustHit => Ink::Yes,
+            Obligation::MustMiss => Ink::No,
+            Obligation::Free => Ink::Free,
+        }
+    }
+}
+
+impl SignPixel {
+    fn computed(&self) -> Ink {
+        match (self.finding, self.answer) {
+            (_, points::Answer::NaN) => Ink::Failed,
+            (Some(points::Finding::WrongSign), _) => Ink::FalseYes,
+            (Some(points::Finding::FalseZero), _) => Ink::FalseNo,
+            (Some(points::Finding::MissedZero), _) => Ink::Bad,
+            (None, points::Answer::Plus) => Ink::Yes,
+            (None, points::Answer::Minus) => Ink::No,
+            (None, points::Answer::Zero) => Ink::Boundary,
+        }
+    }
+
+    fn exact(&self) -> Ink {
+        match self.exact {
+            None => Ink::Free,
+            Some(Ordering::Greater) => Ink::Yes,
+            Some(Ordering::Less) => Ink::No,
+            Some(Ordering::Equal) => Ink::Boundary,
+        }
+    }
+}
