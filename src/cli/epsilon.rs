@@ -21,6 +21,7 @@ use crate::family::{FAMILIES, Family};
 use crate::kernel::{Entry, Gate, Scalar, Subject};
 use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
+use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
@@ -150,12 +151,12 @@ type StudyParts = Result<(Vec<GatePart>, Option<MapPart>), Failure>;
 /// A study that is still to be run.
 type Planned<'a> = Box<dyn Fn(&Progress) -> StudyParts + 'a>;
 
-fn run_study<F: Scalar>(
+fn run_study<F: Studied>(
     plan: &StudyPlan<'_, F>,
     sources: &[Source],
     progress: &Progress,
 ) -> StudyParts {
-    let study = study(plan, sources, progress);
+    let study = F::study(plan, sources, progress);
     found_margins(plan.row.entry.info.name, plan.subject)?;
     let study = study.map_err(|error| fault(plan.row.entry, error))?;
     Ok(parts(plan, sources, &study))

@@ -16,9 +16,8 @@ use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::plugin::{OffsetCommand, Program};
-use crate::spawn::{
-    Plan, PointKind, Scheme, Sums, default_schemes, needs_t, parse, register, run as run_plan,
-};
+use crate::spawn::{Plan, PointKind, Scheme, Sums, default_schemes, needs_t, parse, register};
+use crate::studied::Studied;
 use choice::{least_without_failure, made_for};
 use clap::Args;
 use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
@@ -204,7 +203,7 @@ struct Settings<'a> {
 impl Settings<'_> {
     /// Runs the schemes on the rays of the next seed, makes others for what is seen there, and runs all on
     /// the rays that are reported.
-    fn study<F: Scalar>(&self, schemes: &[Scheme], progress: &Progress) -> PointsPart
+    fn study<F: Studied>(&self, schemes: &[Scheme], progress: &Progress) -> PointsPart
     where
         AnyCase: From<Case<F>>,
     {
@@ -219,7 +218,7 @@ impl Settings<'_> {
         let plan =
             Plan { row, scene, kind, schemes: no_schemes, wall, fold, with_least, seed, count };
         let run = |plans: &[Plan<'_>]| -> Vec<Sums> {
-            plans.iter().map(|plan| run_plan::<F>(plan, progress)).collect()
+            plans.iter().map(|plan| F::spawn(plan, progress)).collect()
         };
         let pilots = run(&on_each(scenes, &Plan { schemes: &schemes, ..plan }));
         let (given, derived) = (schemes.len(), DerivedPart::of::<F>(&plan, &pilots));

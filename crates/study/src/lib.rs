@@ -35,6 +35,9 @@ pub mod selfcheck;
 #[cfg(feature = "studies")]
 pub mod spawn;
 
+#[cfg(feature = "studies")]
+pub mod studied;
+
 pub use hairline_core::{Case, Contract};
 #[cfg(feature = "studies")]
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};

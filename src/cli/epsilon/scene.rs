@@ -14,6 +14,7 @@ use crate::family::Stratum;
 use crate::kernel::Scalar;
 use crate::report::Style;
 use crate::report::scene::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
+use crate::studied::Studied;
 
 /// Rays of each stratum, if the flags do not say: enough to show one in 10,000.
 const COUNT: u64 = 40_000;
@@ -131,7 +132,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn study<F: Scalar>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
+    fn study<F: Studied>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
         let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
         let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
@@ -172,10 +173,10 @@ impl Run<'_> {
             named.push((text.clone(), vec![value]));
         }
         let Run { costs, max_error, seed, count, progress, .. } = *self;
-        let study = study_scene(&setting, costs, max_error, &named, seed, count, progress);
+        let study = F::study_scene(&setting, costs, max_error, &named, seed, count, progress);
         found_margins(name, setting.subject)?;
         let mut study = study.map_err(|error| fault(row.entry, error))?;
-        try_elsewhere(&setting, &mut study, &self.studied.others, seed, count, progress);
+        F::try_elsewhere(&setting, &mut study, &self.studied.others, seed, count, progress);
         Ok(kernel_part(&setting, &tuned.row.contract, &study, max_error))
     }
 }

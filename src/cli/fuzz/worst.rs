@@ -13,6 +13,7 @@ use crate::corpus::lines::{AnyCase, bare_case};
 use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
 use crate::kernel::{self, Scalar};
 use crate::prove;
+use crate::studied::Studied;
 use clap::Args;
 use std::fs;
 use std::io::{self, BufReader, Write};
@@ -173,10 +174,10 @@ fn search(arguments: &WorstArguments, [f32_goals, f64_goals]: &[Vec<Goal>; 2]) -
         let seed = arguments.seed.wrapping_add(round);
         let went_on = f32_goals
             .chunks(GOALS_AT_ONCE)
-            .all(|goals| goes_on(find_worst::<f32>(goals, arguments.evaluations, seed), round))
+            .all(|goals| goes_on(f32::find_worst(goals, arguments.evaluations, seed), round))
             && f64_goals
                 .chunks(GOALS_AT_ONCE)
-                .all(|goals| goes_on(find_worst::<f64>(goals, arguments.evaluations, seed), round));
+                .all(|goals| goes_on(f64::find_worst(goals, arguments.evaluations, seed), round));
         if !went_on || arguments.time.is_none_or(|limit| seconds() >= limit as f64) {
             break;
         }
