@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 /// kernel's own epsilons and contract, unless said otherwise.
 ///
 /// ```
-/// use hairline::{Case, Contract, Entry, Hit, KernelInfo, Vector};
+/// use hairline::{Case, Contract, Entry, FindingKind, Hit, KernelInfo, Vector};
 ///
 /// // The plane's t alone: whatever the triangle, it hits.
 /// fn plane(case: &Case<f64>, _: &[f64]) -> Option<Hit<f64>> {
@@ -40,7 +40,7 @@ use std::collections::BTreeMap;
 /// let kernel = Entry::new(&INFO).f64(plane);
 /// hairline::audit(&kernel).families(["interior"]).count(500).assert_conforms();
 /// let outcome = hairline::audit(&kernel).families(["outside"]).count(500).run()?;
-/// assert!(outcome.findings().any(|finding| finding.finding == "false-hit"));
+/// assert!(outcome.findings().any(|finding| finding.finding == FindingKind::FalseHit));
 /// # Ok::<(), hairline::PlanError>(())
 /// ```
 pub fn audit(kernel: &Entry) -> Request {
@@ -298,7 +298,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::kernel::{Hit, KERNELS, KernelInfo};
-    use crate::report::disagreements;
+    use crate::report::{FindingKind, disagreements};
 
     #[test]
     fn an_entry_is_kept_once_however_often_it_is_audited() {
@@ -314,7 +314,7 @@ mod tests {
         assert_ne!(kept(&always), kept(&never));
         let hits = |entry: &Entry| {
             let outcome = audit(entry).families(["behind"]).count(20).run().unwrap();
-            outcome.findings().any(|finding| finding.finding == "false-hit")
+            outcome.findings().any(|finding| finding.finding == FindingKind::FalseHit)
         };
         assert_eq!([hits(&always), hits(&never)], [true, false]);
     }
@@ -353,10 +353,10 @@ mod tests {
     fn a_promise_a_band_and_a_scene_change_what_is_asked() {
         let kernel = KERNELS.iter().find(|entry| entry.info.name == "moller-trumbore").unwrap();
         let scene = |request: Request| request.scene("room").families(["scene-edges"]).count(500);
-        let findings = |request: &Request| -> Vec<String> {
+        let findings = |request: &Request| -> Vec<FindingKind> {
             let outcome = request.run().unwrap();
             let found = disagreements(&outcome.record.result);
-            found.iter().map(|found| found.key.finding.clone()).collect()
+            found.iter().map(|found| found.key.finding).collect()
         };
         let plain = scene(audit(kernel));
         // At a shared edge a neighbour may take the ray, so only cracks count, and only a promise forbids them.
@@ -364,7 +364,7 @@ mod tests {
         for (request, conforms) in [(&plain, true), (&promised, false)] {
             let found = findings(request);
             assert!(
-                !found.is_empty() && found.iter().all(|finding| finding == "crack"),
+                !found.is_empty() && found.iter().all(|finding| *finding == FindingKind::Crack),
                 "{found:?}"
             );
             assert_eq!(request.run().unwrap().conforms(), conforms);
@@ -377,7 +377,7 @@ mod tests {
         };
         assert_eq!(["woop-watertight", "moller-trumbore"].map(crackless), [true, false]);
         // At an edge everything is within a hundredth of a triangle's size.
-        assert_eq!(findings(&plain.clone().band("0.01")), [""; 0]);
+        assert_eq!(findings(&plain.clone().band("0.01")), []);
         for (request, part) in [
             (plain.clone().band("wide"), "band: "),
             (plain.clone().scene("castle"), "scene: "),

@@ -27,7 +27,7 @@
 #![cfg_attr(not(feature = "internals"), allow(dead_code, unused_imports))]
 
 // What stands below: the words, the numbers, the kernels, the truth; the proofs; cases, counts and studies.
-#[macro_use(either_scalar, in_named_scalar)]
+#[macro_use(either_scalar, in_named_scalar, named)]
 extern crate hairline_core;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, suggest};
 #[cfg(feature = "studies")]
@@ -71,7 +71,7 @@ pub use kernel::{
 
 pub use audit::PlanError;
 pub use conformance::{Outcome, Request, audit};
-pub use report::{Example, FindingPart, Rate, SeverityPart};
+pub use report::{Example, FindingKind, FindingPart, Rate, SeverityPart};
 #[cfg(feature = "studies")]
 pub use spawn::{HitPoint, Offset, Scheme, Start, register as register_scheme};
 

@@ -16,7 +16,7 @@ use super::sources::SourceArguments;
 use crate::arith::{Float, smallest_normal};
 use crate::audit::{Row, Source};
 use crate::epsilon::scene::LEAST_T;
-use crate::epsilon::{SPANNING, StudyPlan, floor, study, tunable_gates};
+use crate::epsilon::{SPANNING, StudyPlan, floor, tunable_gates};
 use crate::family::{FAMILIES, Family};
 use crate::kernel::{Entry, Gate, Scalar, Subject};
 use crate::report::Style;

@@ -3,8 +3,8 @@
 use crate::case::{Case, rust_case};
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, Conformance, FindingPart, KernelResult, Key, Rate, Record, Verdict, counts_alone,
-    disagreements, interval_of, percent, rate_of,
+    ALL_CLASSES, Conformance, FindingKind, FindingPart, KernelResult, Key, Rate, Record, Verdict,
+    counts_alone, disagreements, interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -46,11 +46,13 @@ impl Outcome {
         let part = self.record.result.results.iter().find(is_of);
         // A kernel that promises nothing across triangles breaks no promise; expectations count its cracks.
         let promised = part.and_then(|part| part.across.as_ref()).map(|across| &across.promised);
-        if key.finding == "crack" && promised.is_some_and(|promised| promised == "nothing") {
+        if key.finding == FindingKind::Crack
+            && promised.is_some_and(|promised| promised == "nothing")
+        {
             return true;
         }
-        let Some(most) = self.allowed.get(&key.finding) else { return false };
-        let rate = part.map(|part| rate_of(part, ALL_CLASSES, &key.finding));
+        let Some(most) = self.allowed.get(key.finding.name()) else { return false };
+        let rate = part.map(|part| rate_of(part, ALL_CLASSES, key.finding));
         rate.is_some_and(|rate| rate.count as f64 <= most * rate.of as f64)
     }
 
@@ -80,8 +82,8 @@ impl fmt::Display for Outcome {
         for result in &self.record.result.results {
             let at = format!("{} {} ({})", result.scalar, result.family, result.set);
             for part in &result.findings {
-                let key = Key::of(result, &part.class, &part.finding);
-                if counts_alone(result, &part.finding) && !self.is_allowed(&key) {
+                let key = Key::of(result, &part.class, part.finding);
+                if counts_alone(result, part.finding) && !self.is_allowed(&key) {
                     parts.push(describe(&at, &result.kernel, part)?);
                 }
             }

@@ -8,10 +8,9 @@ use super::rows::changed_rows;
 use super::unjudged::{newly_judged_groups, not_judged_before};
 use super::{Amount, Entry, Expectations};
 use crate::audit::{Digest, Interval};
-use crate::judge::Finding;
 use crate::report::{
-    Conformance, Deviation, Example, Key, Method, NetChange, Rate, ResultPart, Verdict,
-    group_digits, rate_of,
+    Conformance, Deviation, Example, FindingKind, Key, Method, NetChange, Rate, ResultPart,
+    Verdict, group_digits, rate_of,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -70,7 +69,7 @@ pub fn compare(
                     conformance.stale.push(deviation);
                     conformance.change.newly_judged += 1;
                 } else {
-                    let harm = Harm::of(&found.key.finding, None, &found.rate, same_plan);
+                    let harm = Harm::of(found.key.finding, None, &found.rate, same_plan);
                     unexpected.push((harm, deviation));
                     conformance.change.new += 1;
                 }
@@ -90,7 +89,7 @@ pub fn compare(
             continue;
         };
         let found = found.get(key).copied();
-        let rate = rate_of(part, &key.class, &key.finding);
+        let rate = rate_of(part, &key.class, key.finding);
         let mut deviation = deviation(key, Some(entry), &rate, found);
         match judge.outcome(entry, &rate, found.and_then(|found| found.digest)) {
             Outcome::Same => conformance.known.push(deviation),
@@ -122,7 +121,7 @@ pub fn compare(
                     true => &mut conformance.change.other_cases,
                     false => &mut conformance.change.worse,
                 } += 1;
-                let harm = Harm::of(&key.finding, Some(entry), &rate, same_plan);
+                let harm = Harm::of(key.finding, Some(entry), &rate, same_plan);
                 unexpected.push((harm, deviation));
             }
         }
@@ -174,7 +173,7 @@ impl Judge {
         let row_of_found = row(&found.key);
         self.method == Method::CaseByCase
             || found.rate.interval.is_none()
-            || found.key.finding == Finding::Panic.name()
+            || found.key.finding == FindingKind::Panic
             || !entries.keys().any(|key| row(key) == row_of_found)
             || trials.interval_of_others(0, trials.of, self.tail).high
                 < trials.interval_at(self.tail).low
@@ -247,7 +246,7 @@ fn deviation(key: &Key, entry: Option<&Entry>, rate: &Rate, found: Option<&Found
         scalar: key.scalar.clone(),
         family: key.family.clone(),
         class: key.class.clone(),
-        finding: key.finding.clone(),
+        finding: key.finding,
         expected: entry.map_or("none".to_owned(), |entry| {
             describe(&entry.amount, rate, found.and_then(|found| found.digest))
         }),

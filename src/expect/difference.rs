@@ -148,7 +148,7 @@ impl<'a> Side<'a> {
     }
 
     fn rate(&self, key: &Key) -> Option<Rate> {
-        self.result(key).map(|part| rate_of(part, &key.class, &key.finding))
+        self.result(key).map(|part| rate_of(part, &key.class, key.finding))
     }
 }
 

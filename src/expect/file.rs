@@ -6,7 +6,7 @@ use crate::audit::is_of_mesh;
 use crate::corpus::InputError;
 use crate::family::{FAMILIES, STRATA};
 use crate::kernel;
-use crate::report::{FINDING_KINDS, Key};
+use crate::report::{FindingKind, Key};
 use crate::suggest::nearest_name;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -156,7 +156,7 @@ impl Reader<'_> {
         spanned: &Spanned<FindingText>,
     ) -> Result<Vec<(Key, Entry)>, InputError> {
         let FindingText { scalar, finding, counts, rates, why, url } = spanned.get_ref();
-        let kinds: Vec<&str> = FINDING_KINDS.iter().map(|(name, _)| *name).collect();
+        let kinds: Vec<&str> = FindingKind::FOUND.iter().map(|kind| kind.name()).collect();
         let families = FAMILIES.iter().chain(STRATA);
         let families: Vec<&str> = families.map(|family| family.name).collect();
         self.check("scalar", (scalar.get_ref(), scalar.span()), &["f32", "f64"])?;
@@ -182,7 +182,7 @@ impl Reader<'_> {
                 scalar: scalar.get_ref().clone(),
                 family,
                 class: String::new(),
-                finding: finding.get_ref().clone(),
+                finding: FindingKind::named(finding.get_ref()).expect("checked above"),
             };
             let line = self.line(&spanned.span());
             Ok((key.of_all_classes(), Entry { line, amount, why: why.clone(), url: url.clone() }))

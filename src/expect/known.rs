@@ -84,7 +84,7 @@ impl Known<'_> {
                 all.push(Found { key, rate: rate.clone(), digest: Some(digest), example });
             } else if together.insert(whole.clone()) {
                 let part = results[&[key.kernel.as_str(), &key.set, &key.scalar, &key.family]];
-                let rate = rate_of(part, &whole.class, &whole.finding);
+                let rate = rate_of(part, &whole.class, whole.finding);
                 all.push(Found { key: whole, rate, digest: None, example });
             }
         }

@@ -4,7 +4,7 @@
 use super::{Amount, Expectations};
 use crate::audit::Digest;
 use crate::corpus::InputError;
-use crate::report::{KernelResult, Key, ResultPart, RowPart, disagreements};
+use crate::report::{FindingKind, KernelResult, Key, ResultPart, RowPart, disagreements};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
@@ -178,6 +178,8 @@ impl Target {
             return Err(format!("a count from 1 to {of}, not {count}"));
         }
         Digest::try_from(digest.clone()).map_err(|_| "the digest of a set of cases".to_owned())?;
+        let finding = FindingKind::named(&finding)
+            .ok_or_else(|| format!("a kind of finding, not '{finding}'"))?;
         let key = Key { kernel, set, scalar, family, class, finding };
         Ok(self.cases.insert(key, Cases { count, of, digest }).is_some())
     }
@@ -238,7 +240,7 @@ impl Expectations {
             };
             if count != locked {
                 let mut message = String::new();
-                let place = [&key.scalar, &key.family, &key.finding].map(String::as_str).join(" ");
+                let place = [&*key.scalar, &key.family, key.finding.name()].join(" ");
                 let _ = write!(
                     message,
                     "{} {place}: {count} here, {locked} in {file}.lock: {advice}",

@@ -1,7 +1,7 @@
 //! The order in which unexpected disagreements are told: the worst first.
 
 use super::{Amount, Entry};
-use crate::report::{Deviation, Rate};
+use crate::report::{Deviation, FindingKind, Rate};
 use std::cmp::Ordering;
 
 /// How much harm a disagreement does beyond what is expected.
@@ -14,7 +14,7 @@ pub(super) struct Harm {
 
 impl Harm {
     /// Of a finding with so many cases, on the cases of the expectation or on others.
-    pub fn of(finding: &str, entry: Option<&Entry>, found: &Rate, same_cases: bool) -> Harm {
+    pub fn of(finding: FindingKind, entry: Option<&Entry>, found: &Rate, same_cases: bool) -> Harm {
         let (count, of) = (found.count as f64, found.of as f64);
         let expected = match entry.map(|entry| &entry.amount) {
             None => 0.0,
@@ -24,8 +24,7 @@ impl Harm {
             }
             Some(Amount::Count { count, .. }) => *count as f64,
         };
-        let is_failure = matches!(finding, "panic" | "crash" | "timeout");
-        Harm { is_failure, more: count - expected }
+        Harm { is_failure: finding.is_failure(), more: count - expected }
     }
 
     fn compare(&self, other: &Harm) -> Ordering {
@@ -46,7 +45,7 @@ mod tests {
     use super::*;
     use crate::audit::Trials;
 
-    fn harm(finding: &str, amount: Option<Amount>, found: u64, same_cases: bool) -> Harm {
+    fn harm(finding: FindingKind, amount: Option<Amount>, found: u64, same_cases: bool) -> Harm {
         let entry = amount.map(|amount| Entry { line: 1, amount, why: None, url: None });
         let found = Rate::new(Trials::independent(found, 200), true);
         Harm::of(finding, entry.as_ref(), &found, same_cases)
@@ -54,7 +53,7 @@ mod tests {
 
     #[test]
     fn harm_is_what_is_found_beyond_what_is_expected_of_as_many() {
-        let more = |amount, same_cases| harm("false-hit", amount, 30, same_cases).more;
+        let more = |amount, same_cases| harm(FindingKind::FalseHit, amount, 30, same_cases).more;
         let ten = |of: Option<u64>| {
             Some(Amount::Count { count: 10, cases: of.map(|of| (of, String::new())) })
         };
@@ -70,10 +69,16 @@ mod tests {
     fn cases_without_a_verdict_are_worst_then_the_most() {
         let none = |finding, found| harm(finding, None, found, true);
         let order = |one: Harm, other: Harm| one.compare(&other);
-        for finding in ["panic", "crash", "timeout"] {
-            assert_eq!(order(none(finding, 1), none("false-hit", 99)), Ordering::Greater);
+        for finding in [FindingKind::Panic, FindingKind::Crash, FindingKind::Timeout] {
+            assert_eq!(order(none(finding, 1), none(FindingKind::FalseHit, 99)), Ordering::Greater);
         }
-        assert_eq!(order(none("false-hit", 3), none("false-miss", 2)), Ordering::Greater);
-        assert_eq!(order(none("false-hit", 2), none("false-miss", 2)), Ordering::Equal);
+        assert_eq!(
+            order(none(FindingKind::FalseHit, 3), none(FindingKind::FalseMiss, 2)),
+            Ordering::Greater
+        );
+        assert_eq!(
+            order(none(FindingKind::FalseHit, 2), none(FindingKind::FalseMiss, 2)),
+            Ordering::Equal
+        );
     }
 }

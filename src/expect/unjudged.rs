@@ -3,15 +3,17 @@
 use super::known::Found;
 use super::{Amount, Entry, Target};
 use crate::audit::Digest;
-use crate::report::{KernelResult, Key};
+use crate::report::{FindingKind, KernelResult, Key};
 use std::collections::BTreeMap;
 
-/// Findings by which a case gets no verdict, and what the kernel did.
-const FAILURES: [(&str, &str); 3] =
-    [("crash", "crashed"), ("panic", "panicked"), ("timeout", "gave no answer")];
-
-fn verb(finding: &str) -> Option<&'static str> {
-    FAILURES.iter().find(|(name, _)| *name == finding).map(|(_, verb)| *verb)
+/// What the kernel did, if it gave no verdict.
+fn verb(finding: FindingKind) -> Option<&'static str> {
+    match finding {
+        FindingKind::Crash => Some("crashed"),
+        FindingKind::Panic => Some("panicked"),
+        FindingKind::Timeout => Some("gave no answer"),
+        _ => None,
+    }
 }
 
 /// Whether a failure keeps cases of a class from being judged: one on a triangle also keeps its group.
@@ -22,7 +24,7 @@ fn keeps(failure: &Key, key: &Key) -> bool {
         "group" => failure.class != "polygon",
         class => failure.class == class,
     };
-    verb(&failure.finding).is_some() && is_of_class && of_place(failure) == of_place(key)
+    failure.finding.is_failure() && is_of_class && of_place(failure) == of_place(key)
 }
 
 /// How many there were, where that is known.
@@ -35,10 +37,10 @@ fn had(entries: &BTreeMap<Key, Entry>, key: &Key) -> Option<u64> {
 }
 
 /// Whether a finding is on crossings (0) or folds (1) of groups, whatever class it is counted in.
-fn of_groups(finding: &str) -> Option<usize> {
+fn of_groups(finding: FindingKind) -> Option<usize> {
     match finding {
-        "crack" | "double" => Some(0),
-        "odd-fold" => Some(1),
+        FindingKind::Crack | FindingKind::Double => Some(0),
+        FindingKind::OddFold => Some(1),
         _ => None,
     }
 }
@@ -51,7 +53,7 @@ pub(super) fn newly_judged_groups(
     key: &Key,
 ) -> Option<u64> {
     let Key { kernel, set, scalar, family, .. } = key.clone();
-    let kind = of_groups(&key.finding)?;
+    let kind = of_groups(key.finding)?;
     let (before, across) =
         (known?.judged.get(&[kernel, set, scalar, family])?, part.across.as_ref()?);
     Some([across.cracks.of, across.odd_folds.of][kind].saturating_sub(before[kind]))
@@ -71,15 +73,15 @@ pub(super) fn not_judged_before(
     found: &Found,
 ) -> Option<String> {
     let key = &found.key;
-    if verb(&key.finding).is_some() {
+    if key.finding.is_failure() {
         return None;
     }
     let more = found.rate.count.checked_sub(had(entries, key)?).filter(|more| 0 < *more)?;
-    let kind = of_groups(&key.finding);
+    let kind = of_groups(key.finding);
     let is_beside = |other: &&Found| {
-        verb(&other.key.finding).is_none()
-            && of_groups(&other.key.finding) == kind
-            && Key { finding: key.finding.clone(), ..other.key.clone() } == *key
+        !other.key.finding.is_failure()
+            && of_groups(other.key.finding) == kind
+            && Key { finding: key.finding, ..other.key.clone() } == *key
     };
     let more_than =
         |other: &Found| Some(other.rate.count.saturating_sub(had(entries, &other.key)?));
@@ -95,7 +97,7 @@ pub(super) fn not_judged_before(
         None => repaired,
     };
     let (first, _) = failed.first().filter(|_| of_class <= repaired)?;
-    let did = verb(&first.finding)?;
+    let did = verb(first.finding)?;
     let digest = |text: &str| Digest::try_from(text.to_owned()).ok();
     let of_entry = |entry: &Entry| match &entry.amount {
         Amount::Count { cases, .. } => cases.as_ref().and_then(|(_, cases)| digest(cases)),
@@ -129,9 +131,9 @@ mod tests {
     use crate::audit::Place;
     use crate::report::Rate;
 
-    fn key(class: &str, finding: &str) -> Key {
+    fn key(class: &str, finding: FindingKind) -> Key {
         let [kernel, set, scalar, family] = ["k", "source", "f32", "edges"].map(str::to_owned);
-        Key { kernel, set, scalar, family, class: class.to_owned(), finding: finding.to_owned() }
+        Key { kernel, set, scalar, family, class: class.to_owned(), finding }
     }
 
     /// What a set of single triangles is written as.
@@ -145,15 +147,18 @@ mod tests {
     }
 
     /// What excuses the first of the findings of now, by those of before: class, finding, cases.
-    fn excuse(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> Option<String> {
+    fn excuse(
+        before: &[(&str, FindingKind, &[u64])],
+        now: &[(&str, FindingKind, &[u64])],
+    ) -> Option<String> {
         excuse_with(None, before, now)
     }
 
     /// The same, where so many more groups are judged than before.
     fn excuse_with(
         groups: Option<u64>,
-        before: &[(&str, &str, &[u64])],
-        now: &[(&str, &str, &[u64])],
+        before: &[(&str, FindingKind, &[u64])],
+        now: &[(&str, FindingKind, &[u64])],
     ) -> Option<String> {
         let entry = |cases: &[u64]| Entry {
             line: 1,
@@ -162,14 +167,14 @@ mod tests {
             url: None,
         };
         let entries =
-            before.iter().map(|(class, finding, cases)| (key(class, finding), entry(cases)));
+            before.iter().map(|(class, finding, cases)| (key(class, *finding), entry(cases)));
         let texts: Vec<String> = now.iter().map(|(.., cases)| written(cases)).collect();
         let rate = |count| Rate { count, of: 100, rate: None, interval: None, rays: None };
         let all: Vec<Found> = now
             .iter()
             .zip(&texts)
             .map(|((class, finding, cases), text)| Found {
-                key: key(class, finding),
+                key: key(class, *finding),
                 rate: rate(cases.len() as u64),
                 digest: Some(text),
                 example: None,
@@ -178,104 +183,126 @@ mod tests {
         not_judged_before(&entries.collect(), &all, (1000, groups), &all[0])
     }
 
-    fn is_excused(before: &[(&str, &str, &[u64])], now: &[(&str, &str, &[u64])]) -> bool {
+    fn is_excused(
+        before: &[(&str, FindingKind, &[u64])],
+        now: &[(&str, FindingKind, &[u64])],
+    ) -> bool {
         excuse(before, now).is_some()
     }
 
     fn with_groups(
         groups: Option<u64>,
-        before: &[(&str, &str, &[u64])],
-        now: &[(&str, &str, &[u64])],
+        before: &[(&str, FindingKind, &[u64])],
+        now: &[(&str, FindingKind, &[u64])],
     ) -> bool {
         excuse_with(groups, before, now).is_some()
     }
 
     #[test]
     fn what_came_from_repaired_failures_alone_is_excused() {
-        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30, 40]);
-        assert!(is_excused(&[crashed], &[("edge", "false-miss", &[10, 30])]));
-        assert!(!is_excused(&[], &[("edge", "false-miss", &[10, 30])]), "nothing crashed");
-        assert!(!is_excused(&[crashed], &[("vertex", "false-miss", &[10])]), "another class");
+        let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10, 20, 30, 40]);
+        assert!(is_excused(&[crashed], &[("edge", FindingKind::FalseMiss, &[10, 30])]));
+        assert!(
+            !is_excused(&[], &[("edge", FindingKind::FalseMiss, &[10, 30])]),
+            "nothing crashed"
+        );
+        assert!(
+            !is_excused(&[crashed], &[("vertex", FindingKind::FalseMiss, &[10])]),
+            "another class"
+        );
         let five: &[u64] = &[10, 20, 30, 40, 50];
-        assert!(!is_excused(&[crashed], &[("edge", "false-miss", five)]), "more than crashed");
+        assert!(
+            !is_excused(&[crashed], &[("edge", FindingKind::FalseMiss, five)]),
+            "more than crashed"
+        );
         // One of them is shown to be another case, though not the first.
-        assert!(!is_excused(&[crashed], &[("edge", "false-miss", &[10, 500, 600])]));
+        assert!(!is_excused(&[crashed], &[("edge", FindingKind::FalseMiss, &[10, 500, 600])]));
         // The findings of a class together are no more than what crashed.
-        let beside: (&str, &str, &[u64]) = ("edge", "false-hit", &[20, 40]);
-        assert!(is_excused(&[crashed], &[("edge", "false-miss", &[10, 30]), beside]));
-        assert!(!is_excused(&[crashed], &[("edge", "false-miss", &[10, 20, 30]), beside]));
+        let beside: (&str, FindingKind, &[u64]) = ("edge", FindingKind::FalseHit, &[20, 40]);
+        assert!(is_excused(&[crashed], &[("edge", FindingKind::FalseMiss, &[10, 30]), beside]));
+        assert!(!is_excused(
+            &[crashed],
+            &[("edge", FindingKind::FalseMiss, &[10, 20, 30]), beside]
+        ));
     }
 
     #[test]
     fn a_failure_of_another_kind_is_no_repair() {
-        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30]);
-        assert!(!is_excused(&[crashed], &[("edge", "panic", &[10, 20, 30])]));
-        let panics: (&str, &str, &[u64]) = ("edge", "panic", &[10, 20]);
-        assert!(is_excused(&[crashed], &[("edge", "false-miss", &[30]), panics]));
-        assert!(!is_excused(&[crashed], &[("edge", "false-miss", &[10, 30]), panics]));
+        let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10, 20, 30]);
+        assert!(!is_excused(&[crashed], &[("edge", FindingKind::Panic, &[10, 20, 30])]));
+        let panics: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Panic, &[10, 20]);
+        assert!(is_excused(&[crashed], &[("edge", FindingKind::FalseMiss, &[30]), panics]));
+        assert!(!is_excused(&[crashed], &[("edge", FindingKind::FalseMiss, &[10, 30]), panics]));
     }
 
     #[test]
     fn groups_wait_for_their_triangles_and_polygons_for_themselves() {
-        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10]);
-        assert!(with_groups(Some(1), &[crashed], &[("group", "crack", &[10])]));
-        assert!(!is_excused(&[crashed], &[("polygon", "polygon-false-miss", &[10])]));
-        let polygon: (&str, &str, &[u64]) = ("polygon", "crash", &[10]);
-        assert!(is_excused(&[polygon], &[("polygon", "polygon-false-miss", &[10])]));
-        assert!(!with_groups(Some(1), &[polygon], &[("group", "crack", &[10])]));
+        let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10]);
+        assert!(with_groups(Some(1), &[crashed], &[("group", FindingKind::Crack, &[10])]));
+        assert!(!is_excused(&[crashed], &[("polygon", FindingKind::PolygonFalseMiss, &[10])]));
+        let polygon: (&str, FindingKind, &[u64]) = ("polygon", FindingKind::Crash, &[10]);
+        assert!(is_excused(&[polygon], &[("polygon", FindingKind::PolygonFalseMiss, &[10])]));
+        assert!(!with_groups(Some(1), &[polygon], &[("group", FindingKind::Crack, &[10])]));
     }
 
     #[test]
     fn several_failures_in_one_group_hid_one_group() {
-        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 11, 12, 13]);
-        fn of_groups<'a>(finding: &'a str, cases: &'a [u64]) -> (&'a str, &'a str, &'a [u64]) {
+        let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10, 11, 12, 13]);
+        fn of_groups<'a>(
+            finding: FindingKind,
+            cases: &'a [u64],
+        ) -> (&'a str, FindingKind, &'a [u64]) {
             ("group", finding, cases)
         }
-        let two = of_groups("crack", &[10, 20]);
+        let two = of_groups(FindingKind::Crack, &[10, 20]);
         assert!(with_groups(Some(2), &[crashed], &[two]));
-        assert!(!with_groups(Some(2), &[crashed], &[of_groups("crack", &[10, 20, 30])]));
+        assert!(!with_groups(Some(2), &[crashed], &[of_groups(FindingKind::Crack, &[10, 20, 30])]));
         // A fold is another kind of group; a crossing is cracked or doubled.
-        assert!(!with_groups(Some(2), &[crashed], &[two, of_groups("double", &[30])]));
-        assert!(with_groups(Some(2), &[crashed], &[two, of_groups("odd-fold", &[40])]));
+        assert!(!with_groups(Some(2), &[crashed], &[two, of_groups(FindingKind::Double, &[30])]));
+        assert!(with_groups(Some(2), &[crashed], &[two, of_groups(FindingKind::OddFold, &[40])]));
         // Nobody knows how many were judged before.
-        assert!(!with_groups(None, &[crashed], &[of_groups("crack", &[10])]));
+        assert!(!with_groups(None, &[crashed], &[of_groups(FindingKind::Crack, &[10])]));
     }
 
     #[test]
     fn what_is_said_has_the_count_and_the_failure() {
-        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30]);
-        let text = excuse(&[crashed], &[("edge", "false-miss", &[10, 30])]);
+        let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10, 20, 30]);
+        let text = excuse(&[crashed], &[("edge", FindingKind::FalseMiss, &[10, 30])]);
         let said = "; 2 more, among 3 not judged before: the kernel crashed";
         assert_eq!(text.as_deref(), Some(said));
         // One of three still fails.
-        let late: (&str, &str, &[u64]) = ("edge", "timeout", &[10, 20, 30]);
-        let still: (&str, &str, &[u64]) = ("edge", "timeout", &[20]);
-        let text = excuse(&[late], &[("edge", "false-miss", &[10]), still]);
+        let late: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Timeout, &[10, 20, 30]);
+        let still: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Timeout, &[20]);
+        let text = excuse(&[late], &[("edge", FindingKind::FalseMiss, &[10]), still]);
         let said = "; 1 more, among 2 not judged before: the kernel gave no answer";
         assert_eq!(text.as_deref(), Some(said));
     }
 
     #[test]
     fn cases_that_were_judged_are_no_excuse() {
-        let crashed: (&str, &str, &[u64]) = ("edge", "crash", &[10, 20, 30]);
-        let one: (&str, &str, &[u64]) = ("edge", "false-miss", &[70]);
-        assert!(is_excused(&[crashed, one], &[("edge", "false-miss", &[10, 70])]));
+        let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10, 20, 30]);
+        let one: (&str, FindingKind, &[u64]) = ("edge", FindingKind::FalseMiss, &[70]);
+        assert!(is_excused(&[crashed, one], &[("edge", FindingKind::FalseMiss, &[10, 70])]));
         assert!(!is_excused(&[crashed, one], &[one]), "none more");
-        assert!(!is_excused(&[crashed, one], &[("edge", "false-miss", &[10, 20])]), "70 went");
+        assert!(
+            !is_excused(&[crashed, one], &[("edge", FindingKind::FalseMiss, &[10, 20])]),
+            "70 went"
+        );
         // The places of groups and polygons are not those of triangles.
-        assert!(with_groups(Some(1), &[crashed], &[("group", "crack", &[500])]));
+        assert!(with_groups(Some(1), &[crashed], &[("group", FindingKind::Crack, &[500])]));
     }
 
     #[test]
     fn failures_elsewhere_and_shares_are_no_excuse() {
-        let (found, failure) = (key("edge", "false-miss"), key("edge", "crash"));
+        let (found, failure) =
+            (key("edge", FindingKind::FalseMiss), key("edge", FindingKind::Crash));
         assert!(keeps(&failure, &found));
         let others = [
             Key { kernel: "other".to_owned(), ..failure.clone() },
             Key { set: "other".to_owned(), ..failure.clone() },
             Key { scalar: "f64".to_owned(), ..failure.clone() },
             Key { family: "other".to_owned(), ..failure.clone() },
-            Key { finding: "false-hit".to_owned(), ..failure.clone() },
+            Key { finding: FindingKind::FalseHit, ..failure.clone() },
         ];
         assert!(others.iter().all(|other| !keeps(other, &found)));
         let share = Entry { line: 1, amount: Amount::Rate(0.5), why: None, url: None };

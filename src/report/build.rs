@@ -209,7 +209,7 @@ pub(super) fn finding_part(
         severity.value_off = Some(edges);
     }
     FindingPart {
-        finding: finding.name().to_owned(),
+        finding: finding.into(),
         class: class.name(),
         rate,
         causes,
@@ -284,7 +284,7 @@ fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonP
         let examples = polygons.examples.get(&finding);
         let places = examples.iter().flat_map(|examples| &examples.first);
         PolygonFinding {
-            finding: finding.name().to_owned(),
+            finding: finding.into(),
             rate: rate(polygons.count.of(finding), polygons.count.trials(finding), sample),
             digest: examples
                 .map(|examples| examples.digest.clone())

@@ -1,7 +1,7 @@
 //! The part of a record that says how a run compares with what was expected of it.
 
 use super::rate::Rate;
-use super::{Key, group_digits, number_of};
+use super::{FindingKind, Key, group_digits, number_of};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -169,7 +169,7 @@ impl Unproved {
             scalar: self.scalar.clone(),
             family: "proof".to_owned(),
             class: self.gate.clone(),
-            finding: UNPROVED.to_owned(),
+            finding: FindingKind::Unproved,
         }
     }
 }
@@ -185,9 +185,6 @@ impl fmt::Display for Unproved {
         }
     }
 }
-
-/// The kind of finding of an [`Unproved`].
-pub const UNPROVED: &str = "unproved";
 
 /// In place of a gate, in a demand.
 pub const WATERTIGHT: &str = "watertight";
@@ -208,7 +205,8 @@ pub struct Deviation {
     /// The class of the truth.
     pub class: String,
     /// The kind of finding.
-    pub finding: String,
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub finding: FindingKind,
     /// What was expected, in words.
     pub expected: String,
     /// How many cases were expected; absent where a share was, and where some cases were not judged before.
@@ -239,7 +237,7 @@ impl Deviation {
             scalar: self.scalar.clone(),
             family: self.family.clone(),
             class: self.class.clone(),
-            finding: self.finding.clone(),
+            finding: self.finding,
         }
     }
 

@@ -18,42 +18,23 @@ pub struct Key {
     pub family: String,
     /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
     pub class: String,
-    /// `false-miss`, …, `crack`, `double`, `odd-fold`, `polygon-false-miss`, `polygon-false-hit`.
-    pub finding: String,
+    /// What it is.
+    pub finding: FindingKind,
 }
 
 /// In place of a class: all of them together.
 pub const ALL_CLASSES: &str = "any class";
 
-/// Every kind of finding that a record can hold, with what it means.
-pub const FINDING_KINDS: &[(&str, &str)] = &[
-    ("false-miss", "The contract asks for a hit and the kernel reports a miss"),
-    ("false-hit", "The contract asks for a miss and the kernel reports a hit"),
-    ("bad-value", "A hit that is not false, with a value that is not finite or a wrong facing"),
-    (
-        "wrong-value",
-        "A hit that is not false, with a t, u or v farther from its exact value than rounding could carry it",
-    ),
-    ("panic", "The kernel panicked"),
-    ("crash", "The kernel's process died, or it wrote outside its output"),
-    ("timeout", "The kernel's process gave no answer in time"),
-    ("crack", "No triangle of a group reports a ray through its inside"),
-    ("double", "Two triangles of a group report one crossing"),
-    ("polygon-false-miss", "The contract asks for a hit of the whole polygon, and it is missed"),
-    ("polygon-false-hit", "The contract asks for a miss of the whole polygon, and it is hit"),
-    ("odd-fold", "Over a folded edge the number of hits on its two triangles has the wrong parity"),
-];
-
 impl Key {
     /// The key of a finding of a result.
-    pub fn of(result: &KernelResult, class: &str, finding: &str) -> Key {
+    pub fn of(result: &KernelResult, class: &str, finding: FindingKind) -> Key {
         Key {
             kernel: result.kernel.clone(),
             set: result.set.clone(),
             scalar: result.scalar.clone(),
             family: result.family.clone(),
             class: class.to_owned(),
-            finding: finding.to_owned(),
+            finding,
         }
     }
 
@@ -101,9 +82,9 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
         result.plan.rows.iter().map(|row| ((row.kernel.as_str(), row.set.as_str()), row)).collect();
     let mut all = Vec::new();
     for part in &result.results {
-        let findings = part.findings.iter().filter(|found| counts_alone(part, &found.finding));
+        let findings = part.findings.iter().filter(|found| counts_alone(part, found.finding));
         all.extend(findings.map(|finding| Disagreement {
-            key: Key::of(part, &finding.class, &finding.finding),
+            key: Key::of(part, &finding.class, finding.finding),
             rate: &finding.rate,
             digest: &finding.digest,
             example: Some(finding.worst.clone()),
@@ -121,24 +102,28 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
     all
 }
 
-/// A finding on groups or polygons: its name, how often, of the set of all, ids of the first.
-pub(super) type Together<'a> = (&'a str, &'a Rate, &'a str, &'a [String]);
+/// A finding on groups or polygons: its kind, how often, of the set of all, ids of the first.
+pub(super) type Together<'a> = (FindingKind, &'a Rate, &'a str, &'a [String]);
 
 /// Whether a finding of a result counts for single triangles. At the shared edges and vertices of a scene a neighbour
 /// may take the ray: there only a ray that none of them takes is wrong.
-pub(crate) fn counts_alone(part: &KernelResult, finding: &str) -> bool {
-    !(is_shared_in_scene(&part.family) && matches!(finding, "false-miss" | "false-hit"))
+pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
+    !(is_shared_in_scene(&part.family) && kind.is_wrong_verdict())
 }
 
 /// What the contract promises across triangles, and of a scene cracks in any case, with what came of it.
 pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(across) = &part.across else { return Vec::new() };
     let cracks: Together =
-        ("crack", &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
-    let doubles: Together =
-        ("double", &across.doubles, &across.double_digest, across.first_doubles.as_slice());
+        (FindingKind::Crack, &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
+    let doubles: Together = (
+        FindingKind::Double,
+        &across.doubles,
+        &across.double_digest,
+        across.first_doubles.as_slice(),
+    );
     let folds: Together =
-        ("odd-fold", &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
+        (FindingKind::OddFold, &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
     match across.promised.as_str() {
         "nothing" if is_shared_in_scene(&part.family) => vec![cracks],
         "nothing" => Vec::new(),
@@ -156,24 +141,28 @@ pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(part) = &part.polygons else { return Vec::new() };
     let others = part.others.iter();
     let others = others
-        .map(|found| -> Together { (&found.finding, &found.rate, &found.digest, &found.first) });
+        .map(|found| -> Together { (found.finding, &found.rate, &found.digest, &found.first) });
     let misses: Together = (
-        "polygon-false-miss",
+        FindingKind::PolygonFalseMiss,
         &part.false_misses,
         &part.false_miss_digest,
         &part.first_false_misses,
     );
-    let hits: Together =
-        ("polygon-false-hit", &part.false_hits, &part.false_hit_digest, &part.first_false_hits);
+    let hits: Together = (
+        FindingKind::PolygonFalseHit,
+        &part.false_hits,
+        &part.false_hit_digest,
+        &part.first_false_hits,
+    );
     [misses, hits].into_iter().chain(others).collect()
 }
 
 /// How often a finding of a class occurred in a result, or could have: nought if it did not.
-pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
+pub fn rate_of(part: &KernelResult, class: &str, finding: FindingKind) -> Rate {
     if class == ALL_CLASSES {
         let together = across(part).into_iter().chain(polygons(part));
         let together =
-            together.filter(|(name, ..)| *name == finding).map(|(_, rate, ..)| rate.clone());
+            together.filter(|(kind, ..)| *kind == finding).map(|(_, rate, ..)| rate.clone());
         let alone = part.total.rate(finding).filter(|_| counts_alone(part, finding));
         return Rate::sum(&together.chain(alone).collect::<Vec<_>>());
     }
@@ -182,7 +171,7 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
         "polygon" => polygons(part),
         _ => Vec::new(),
     };
-    if let Some((_, rate, ..)) = together.into_iter().find(|(name, ..)| *name == finding) {
+    if let Some((_, rate, ..)) = together.into_iter().find(|(kind, ..)| *kind == finding) {
         return rate.clone();
     }
     let alone = part.classes.get(class).filter(|_| counts_alone(part, finding));
@@ -190,11 +179,11 @@ pub fn rate_of(part: &KernelResult, class: &str, finding: &str) -> Rate {
 }
 
 /// The kinds of finding that a result could show.
-pub(super) fn kinds_of(part: &KernelResult) -> Vec<&str> {
-    let kinds = Finding::ALL.iter().map(|finding| finding.name());
-    let mut kinds: Vec<&str> = kinds.filter(|finding| counts_alone(part, finding)).collect();
-    kinds.extend(across(part).into_iter().map(|(name, ..)| name));
-    kinds.extend(polygons(part).into_iter().map(|(name, ..)| name));
+pub(super) fn kinds_of(part: &KernelResult) -> Vec<FindingKind> {
+    let kinds = Finding::ALL.into_iter().map(FindingKind::from);
+    let mut kinds: Vec<FindingKind> = kinds.filter(|kind| counts_alone(part, *kind)).collect();
+    kinds.extend(across(part).into_iter().map(|(kind, ..)| kind));
+    kinds.extend(polygons(part).into_iter().map(|(kind, ..)| kind));
     kinds
 }
 

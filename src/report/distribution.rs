@@ -11,7 +11,7 @@ pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
     let share = |why: Attribution| {
         let trials = causes.of(why);
         let sample = trials.of + causes.untold < found;
-        (why.name().to_owned(), Rate::new(trials, sample))
+        (why, Rate::new(trials, sample))
     };
     // Only of kernels that do not show their formula.
     let is_told = |why: &Attribution| *why != Attribution::NotEpsilon || 0 < causes.of(*why).count;
@@ -19,15 +19,15 @@ pub(super) fn causes(causes: &Causes, found: u64) -> CausesPart {
     CausesPart { by: told.map(share).collect(), untold: causes.untold }
 }
 
-/// By the finding's name.
+/// By finding.
 pub(super) fn severities(
     severities: &BTreeMap<Finding, Severities>,
-) -> BTreeMap<String, SeverityDistribution> {
+) -> BTreeMap<FindingKind, SeverityDistribution> {
     let part = |severities: &Severities| SeverityDistribution {
         edges: distribution(&severities.edges),
         ulps: distribution(&severities.ulps),
     };
-    severities.iter().map(|(finding, of)| (finding.name().to_owned(), part(of))).collect()
+    severities.iter().map(|(finding, of)| ((*finding).into(), part(of))).collect()
 }
 
 /// By the value's name; those that the kernel does not give are left out.
@@ -39,19 +39,13 @@ pub(super) fn accuracy(accuracy: &Accuracy) -> BTreeMap<String, Distribution> {
 
 fn distribution(histogram: &Histogram) -> Distribution {
     let finite = |value: f64| value.is_finite().then_some(value);
-    let octave = |octave| match octave {
-        None => "0".to_owned(),
-        Some(i32::MAX) => "inf".to_owned(),
-        Some(exponent) => format!("2^{exponent}"),
-    };
-    let octaves = histogram.octaves().into_iter();
     Distribution {
         count: histogram.count(),
         median: finite(histogram.quantile(0.5)),
         percent_90: finite(histogram.quantile(0.9)),
         percent_99: finite(histogram.quantile(0.99)),
         worst: finite(histogram.largest()),
-        octaves: octaves.map(|(exponent, count)| (octave(exponent), count)).collect(),
+        octaves: histogram.octaves(),
     }
 }
 

@@ -31,7 +31,7 @@ pub use answered::{AnsweredTest, Asked, Product, Promised, answered};
 pub use build::{Context, build};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
-pub use disagreement::{ALL_CLASSES, Disagreement, FINDING_KINDS, Key, disagreements, rate_of};
+pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
 pub use formats::{FORMATS, Format, HTML, MARKDOWN_LIMIT, Style, markdown_within};
 #[cfg(feature = "cli")]

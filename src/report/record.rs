@@ -4,6 +4,7 @@
 //! number of threads. `provenance` says where and how it was made and is never compared.
 
 mod finding;
+mod kind;
 mod part;
 mod plan;
 
@@ -12,6 +13,7 @@ use super::illustration::Illustrations;
 pub use super::rate::Rate;
 use crate::audit::Trials;
 pub use finding::*;
+pub use kind::FindingKind;
 pub use part::*;
 pub use plan::*;
 use serde::{Deserialize, Serialize};
@@ -83,7 +85,8 @@ pub struct RowTotal {
     pub set: String,
     /// By `false-miss` and `false-hit`: how far from where the verdict would be right; by `wrong-value`: how far
     /// the point is off.
-    pub severity: BTreeMap<String, SeverityDistribution>,
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, SeverityDistribution>"))]
+    pub severity: BTreeMap<FindingKind, SeverityDistribution>,
     /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
     pub accuracy: BTreeMap<String, Distribution>,
 }
@@ -132,7 +135,8 @@ pub struct KernelResult {
     pub findings: Vec<FindingPart>,
     /// By `false-miss` and `false-hit`: how far from where the verdict would be right; by `wrong-value`: how far
     /// the point is off.
-    pub severity: BTreeMap<String, SeverityDistribution>,
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, SeverityDistribution>"))]
+    pub severity: BTreeMap<FindingKind, SeverityDistribution>,
     /// Errors of right hits in ulps, of a sample of the indices: by `t`, `uv` and `point` (o + t·d).
     pub accuracy: BTreeMap<String, Distribution>,
     /// Triangles of a group together.
@@ -172,17 +176,17 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// How often a finding of a name occurred, or could have; without an interval if it is a failure.
-    pub(crate) fn rate(&self, finding: &str) -> Option<Rate> {
+    /// How often a finding of a single triangle occurred, or could have; without an interval if it is a failure.
+    pub(crate) fn rate(&self, kind: FindingKind) -> Option<Rate> {
         let failures = |count| Some(Rate::new(Trials::independent(count, self.cases), false));
-        match finding {
-            "false-miss" => Some(self.false_misses.clone()),
-            "false-hit" => Some(self.false_hits.clone()),
-            "bad-value" => Some(self.bad_values.clone()),
-            "wrong-value" => Some(self.wrong_values.clone()),
-            "panic" => failures(self.panics),
-            "crash" => failures(self.crashes),
-            "timeout" => failures(self.timeouts),
+        match kind {
+            FindingKind::FalseMiss => Some(self.false_misses.clone()),
+            FindingKind::FalseHit => Some(self.false_hits.clone()),
+            FindingKind::BadValue => Some(self.bad_values.clone()),
+            FindingKind::WrongValue => Some(self.wrong_values.clone()),
+            FindingKind::Panic => failures(self.panics),
+            FindingKind::Crash => failures(self.crashes),
+            FindingKind::Timeout => failures(self.timeouts),
             _ => None,
         }
     }

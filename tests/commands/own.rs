@@ -250,8 +250,7 @@ fn a_panic_on_a_polygon_is_a_finding_with_its_place_and_command() {
     let found = hairline::internals::report::disagreements(&outcome.record.result);
     let panics = found.iter().find(|found| {
         let key = &found.key;
-        (key.scalar.as_str(), key.class.as_str(), key.finding.as_str())
-            == ("f32", "polygon", "panic")
+        (key.scalar.as_str(), key.class.as_str(), key.finding.name()) == ("f32", "polygon", "panic")
     });
     let panics = panics.expect("panics on polygons");
     assert_eq!((panics.rate.count, panics.rate.of), (pentagons.len() as u64, 300));

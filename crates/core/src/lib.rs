@@ -14,16 +14,19 @@
 //!
 //! What is at the root is the interface. The modules hold what `hairline` and its prover share, and change with them.
 
-/// An enum whose values have names.
+#[doc(hidden)]
+pub use serde;
+
+/// An enum whose values have names: in text, in files and in records.
 #[macro_export]
 #[doc(hidden)]
 macro_rules! named {
     ($methods:vis names $(#[$about:meta])* $visible:vis enum $type:ident {
-        $($(#[$doc:meta])* $value:ident = $name:literal,)*
+        $($(#[doc = $doc:literal])* $value:ident = $name:literal,)*
     }) => {
         $(#[$about])*
         $visible enum $type {
-            $($(#[$doc])* $value,)*
+            $($(#[doc = $doc])* $value,)*
         }
 
         impl $type {
@@ -35,6 +38,41 @@ macro_rules! named {
                 match self {
                     $($type::$value => $name,)*
                 }
+            }
+
+            /// The meaning, as its documentation has it, without the full stop.
+            #[allow(dead_code)]
+            $methods fn about(self) -> &'static str {
+                let text = match self {
+                    $($type::$value => concat!($($doc),*),)*
+                };
+                text.trim().trim_end_matches('.')
+            }
+
+            /// The value of a name.
+            #[allow(dead_code)]
+            $methods fn named(name: &str) -> Option<$type> {
+                $type::ALL.into_iter().find(|value| value.name() == name)
+            }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.pad(self.name())
+            }
+        }
+
+        impl $crate::serde::Serialize for $type {
+            fn serialize<S: $crate::serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                to.serialize_str(self.name())
+            }
+        }
+
+        impl<'de> $crate::serde::Deserialize<'de> for $type {
+            fn deserialize<D: $crate::serde::Deserializer<'de>>(from: D) -> Result<$type, D::Error> {
+                let name = <String as $crate::serde::Deserialize>::deserialize(from)?;
+                let unknown = || $crate::serde::de::Error::unknown_variant(&name, &[$($name),*]);
+                $type::named(&name).ok_or_else(unknown)
             }
         }
     };

@@ -29,7 +29,6 @@ use crate::contract::{Boundary, Contract, Demand, Direction, Extent, Sides};
 use crate::kernel::{Failure, Gives, Verdict};
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use num_rational::BigRational;
-use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
 /// What a contract demands of a kernel on a case.
@@ -46,7 +45,7 @@ pub enum Obligation {
 named! {
     pub names
     /// A disagreement.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum Finding {
         /// It must hit, and missed.
         FalseMiss = "false-miss",

@@ -8,10 +8,9 @@ use crate::cli::output::{ColorChoice, paired_outputs, write_results};
 use crate::cli::progress::Progress;
 use crate::epsilon::scene::{
     Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
-    own_epsilons, study_scene, try_elsewhere,
+    own_epsilons,
 };
 use crate::family::Stratum;
-use crate::kernel::Scalar;
 use crate::report::Style;
 use crate::report::scene::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
 use crate::studied::Studied;

@@ -10,7 +10,7 @@ use crate::cli::output::write_result;
 use crate::cli::progress::Progress;
 use crate::cli::select::KernelArguments;
 use crate::corpus::lines::{AnyCase, bare_case};
-use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update, find_worst};
+use crate::explore::{Domain, Entry, Goal, LANES, Objective, Table, Update};
 use crate::kernel::{self, Scalar};
 use crate::prove;
 use crate::studied::Studied;

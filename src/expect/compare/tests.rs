@@ -62,38 +62,38 @@ fn a_rate_is_a_bound_that_a_sample_must_clearly_exceed() {
     assert_eq!(few, 0, "none of ten does not tell");
 }
 
-fn key(kernel: &str, finding: &str) -> Key {
-    let [kernel, set, scalar, family, class, finding] =
-        [kernel, "source", "f32", "tiny", "interior", finding].map(str::to_owned);
+fn key(kernel: &str, finding: FindingKind) -> Key {
+    let [kernel, set, scalar, family, class] =
+        [kernel, "source", "f32", "tiny", "interior"].map(str::to_owned);
     Key { kernel, set, scalar, family, class, finding }
 }
 
 #[test]
 fn what_has_no_expectation_is_unexpected_unless_its_row_has_some_and_it_is_rare() {
-    let entries = [(key("mine", "false-hit"), entry(count(1, 9, "a")))].into();
+    let entries = [(key("mine", FindingKind::FalseHit), entry(count(1, 9, "a")))].into();
     let is_unexpected = |method, key: Key, (found, is_sample): (u64, bool)| {
         let rate = Rate::new(Trials::independent(found, 10_000), is_sample);
         let found = Found { key, rate, digest: None, example: None };
         Judge { method, tail: 1e-5 }.is_unexpected(&found, &entries)
     };
-    let of = |kernel: &str, finding: &str, found| {
+    let of = |kernel: &str, finding: FindingKind, found| {
         is_unexpected(Method::Intervals, key(kernel, finding), found)
     };
     // At 1e-5, none of 10,000 is at most 11.506 in them; 29 are at least 11.474, and 30 at least 12.088.
     assert_eq!(
-        [1, 29, 30, 999].map(|n| of("mine", "false-miss", (n, true))),
+        [1, 29, 30, 999].map(|n| of("mine", FindingKind::FalseMiss, (n, true))),
         [false, false, true, true]
     );
     // One is enough of all cases there are, of panics, of a row without expectations, and of the same cases.
-    assert!(of("mine", "false-miss", (1, false)));
-    assert!(of("mine", "panic", (1, true)));
-    assert!(of("other", "false-miss", (1, true)));
+    assert!(of("mine", FindingKind::FalseMiss, (1, false)));
+    assert!(of("mine", FindingKind::Panic, (1, true)));
+    assert!(of("other", FindingKind::FalseMiss, (1, true)));
     let others = [
-        Key { set: "other".to_owned(), ..key("mine", "false-hit") },
-        Key { scalar: "f64".to_owned(), ..key("mine", "false-hit") },
+        Key { set: "other".to_owned(), ..key("mine", FindingKind::FalseHit) },
+        Key { scalar: "f64".to_owned(), ..key("mine", FindingKind::FalseHit) },
     ];
     assert!(others.into_iter().all(|key| is_unexpected(Method::Intervals, key, (1, true))));
-    assert!(is_unexpected(Method::CaseByCase, key("mine", "false-miss"), (1, true)));
+    assert!(is_unexpected(Method::CaseByCase, key("mine", FindingKind::FalseMiss), (1, true)));
 }
 
 #[test]
@@ -121,7 +121,8 @@ fn a_case_is_shown_that_is_new_or_right_now_and_none_that_may_still_be_wrong() {
     };
     let shown = |old: Option<Example>, change: Change, changed: Option<Example>| {
         let rate = Rate::new(Trials::independent(1, 9), true);
-        let found = Found { key: key("mine", "panic"), rate, digest: None, example: old };
+        let found =
+            Found { key: key("mine", FindingKind::Panic), rate, digest: None, example: old };
         let mut deviation = deviation(&found.key, None, &found.rate, Some(&found));
         show(&mut deviation, change, changed);
         let case = [deviation.case, deviation.bits, deviation.command];

@@ -40,7 +40,7 @@ pub(super) fn write(
         out,
     )?;
     let has_other_causes = |line: &Line| {
-        let mut shares = ["false-miss", "false-hit"]
+        let mut shares = [FindingKind::FalseMiss, FindingKind::FalseHit]
             .into_iter()
             .filter_map(|kind| cause_shares(&line.row.results, kind, ""));
         shares.any(|shares| shares.iter().any(|(cause, ..)| *cause == Attribution::NotEpsilon))
@@ -102,8 +102,8 @@ fn write_line(
             continue;
         }
         for (kind, rate) in [
-            ("false-miss", (|total| &total.false_misses) as fn(&Counts) -> &Rate),
-            ("false-hit", |total| &total.false_hits),
+            (FindingKind::FalseMiss, (|total| &total.false_misses) as fn(&Counts) -> &Rate),
+            (FindingKind::FalseHit, |total| &total.false_hits),
         ] {
             let pool = Pool::of(results.iter().map(|result| rate(&result.total)));
             let share = match column.complete {
@@ -112,7 +112,10 @@ fn write_line(
             };
             write!(out, " {share}  {:<18}", cause(&results, kind))?;
         }
-        let far: u64 = results.iter().map(|r| far(r, "false-miss") + far(r, "false-hit")).sum();
+        let far: u64 = results
+            .iter()
+            .map(|r| far(r, FindingKind::FalseMiss) + far(r, FindingKind::FalseHit))
+            .sum();
         writeln!(out, " {:>10}", short_percent([far, cell.wrong.of]))?;
     }
     write_untold(line, out)?;
@@ -166,7 +169,7 @@ fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
              explains, of {} by over 1/1000 of the longest edge; most: {}",
             count_of([values.count, values.of]),
             group_digits(line.values.far),
-            cause(&line.row.results, "wrong-value").trim_end(),
+            cause(&line.row.results, FindingKind::WrongValue).trim_end(),
         );
         write_wrapped(text.trim_end_matches("; most: "), out)?;
     }
@@ -180,7 +183,7 @@ fn count_of(rate: [u64; 2]) -> String {
 }
 
 /// The cause of most findings of a kind: `epsilon 93%`.
-fn cause(results: &[&KernelResult], kind: &str) -> String {
+fn cause(results: &[&KernelResult], kind: FindingKind) -> String {
     let shares = cause_shares(results, kind, "").unwrap_or_default();
     let most = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
     most.map_or(String::new(), |(cause, share, _)| format!("{} {}", cause.name(), percent(share)))

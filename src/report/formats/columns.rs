@@ -3,7 +3,7 @@
 use super::disagreement::{family_of, is_shared_in_scene};
 use super::record::*;
 use super::row_view::RowView;
-use crate::audit::{Trials, is_of_mesh};
+use crate::audit::{Octave, Trials, is_of_mesh};
 use crate::family::Question;
 use crate::vectors;
 
@@ -109,7 +109,7 @@ impl Cell {
         for column in columns.iter().filter(|column| column.is_ordinary()) {
             for result in column.results(row) {
                 cell.wrong.merge(&result.total.wrong_values.trials());
-                cell.far += far(result, "wrong-value");
+                cell.far += far(result, FindingKind::WrongValue);
             }
         }
         cell
@@ -124,9 +124,10 @@ impl Cell {
                 continue;
             }
             let total = &result.total;
-            for (kind, rate) in
-                [("false-miss", &total.false_misses), ("false-hit", &total.false_hits)]
-            {
+            for (kind, rate) in [
+                (FindingKind::FalseMiss, &total.false_misses),
+                (FindingKind::FalseHit, &total.false_hits),
+            ] {
                 cell.wrong.merge(&rate.trials());
                 cell.far += far(result, kind);
             }
@@ -145,13 +146,9 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
 }
 
 /// The findings of a kind that are off by [`FAR`] longest edges or more.
-pub(super) fn far(result: &KernelResult, kind: &str) -> u64 {
-    let Some(severity) = result.severity.get(kind) else { return 0 };
-    let is_far = |octave: &str| match octave.strip_prefix("2^") {
-        Some(exponent) => exponent.parse::<i32>().is_ok_and(|exponent| FAR <= exponent),
-        None => octave == "inf",
-    };
-    severity.edges.octaves.iter().filter(|(octave, _)| is_far(octave)).map(|(_, n)| n).sum()
+pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
+    let Some(severity) = result.severity.get(&kind) else { return 0 };
+    severity.edges.octaves.range(Octave::From(FAR)..).map(|(_, n)| n).sum()
 }
 
 /// What the triangles of groups did together, of one row.

@@ -77,7 +77,7 @@ fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
         for column in columns.iter().filter(|column| column.is_ordinary()) {
             let results = column.results(&line.row).into_iter();
             let parts = results.flat_map(|result| &result.findings).filter(|part| {
-                matches!(&*part.finding, "false-miss" | "false-hit" | "wrong-value")
+                (part.finding.is_wrong_verdict() || part.finding == FindingKind::WrongValue)
                     && part.class != "degenerate"
             });
             all.extend(parts.filter(|part| part.worst.severity.is_some()).map(|part| Extreme {
@@ -94,8 +94,7 @@ fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
 /// What most of a class's findings come from, as far as is known.
 fn main_cause(part: &FindingPart) -> Option<Attribution> {
     let by = &part.causes.as_ref()?.by;
-    let share =
-        |cause: &Attribution| by.get(cause.name()).and_then(|rate| rate.rate).unwrap_or(0.0);
+    let share = |cause: &Attribution| by.get(cause).and_then(|rate| rate.rate).unwrap_or(0.0);
     let most = Attribution::ALL.into_iter().max_by(|a, b| share(a).total_cmp(&share(b)))?;
     (0.0 < share(&most)).then_some(most)
 }
@@ -132,7 +131,7 @@ fn group(cause: Option<Attribution>) -> Option<Attribution> {
 impl Extreme<'_> {
     /// What is wrong, by how much, and why.
     fn describe(&self) -> String {
-        let is_hit = self.part.finding == "false-hit";
+        let is_hit = self.part.finding == FindingKind::FalseHit;
         let distance = match self.distance.0 {
             d if (0.01..1000.0).contains(&d) => format!("{d:.2}"),
             d => format!("{d:.1e}"),
@@ -145,7 +144,7 @@ impl Extreme<'_> {
             ["interior/", "edge/", "vertex/"].iter().any(|start| class.starts_with(start));
         let hit = if is_hit { "a hit" } else { "a miss" };
         let what = match (is_hit, along) {
-            _ if self.part.finding == "wrong-value" => {
+            _ if self.part.finding == FindingKind::WrongValue => {
                 format!("a right hit with a wrong value: its point is {distance} edges off")
             }
             _ if at_rim && along => format!("{hit} exactly at an end of the ray"),

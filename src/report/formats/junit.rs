@@ -91,7 +91,7 @@ fn suites(record: &Record) -> BTreeMap<String, Suite> {
 
 fn case_of<'a>(suites: &'a mut BTreeMap<String, Suite>, key: &Key) -> &'a mut Case {
     let suite = suites.entry(key.row()).or_default();
-    suite.entry((format!("{}.{}", key.scalar, key.family), key.finding.clone())).or_default()
+    suite.entry((format!("{}.{}", key.scalar, key.family), key.finding.to_string())).or_default()
 }
 
 fn lines(found: &Deviation) -> String {

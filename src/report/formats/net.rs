@@ -1,6 +1,6 @@
 //! What changed between expectations and a run, in cases: by row and finding, so that a trade is seen as one.
 
-use super::{Conformance, Deviation, Method, group_digits};
+use super::{Conformance, Deviation, FindingKind, Method, group_digits};
 use std::collections::BTreeMap;
 
 /// What the lines are called.
@@ -10,7 +10,7 @@ pub(super) const NET_TITLE: &str = "What changed, in cases";
 const MOST_FAMILIES: usize = 3;
 
 /// By finding and family, how many cases more than expected.
-type Findings<'a> = BTreeMap<&'a str, BTreeMap<&'a str, i64>>;
+type Findings<'a> = BTreeMap<FindingKind, BTreeMap<&'a str, i64>>;
 
 /// At most so many lines, one for each row in a scalar, those that changed most first; none where rates were compared.
 pub(super) fn net_lines(conformance: &Conformance, most: usize) -> Vec<String> {
@@ -22,7 +22,7 @@ pub(super) fn net_lines(conformance: &Conformance, most: usize) -> Vec<String> {
         let Some(more) = more_than_expected(found) else { continue };
         let row = format!("{} {}", found.key().row(), found.scalar);
         let findings = rows.entry(row).or_default();
-        *findings.entry(&found.finding).or_default().entry(&found.family).or_default() += more;
+        *findings.entry(found.finding).or_default().entry(&found.family).or_default() += more;
     }
     let mut rows: Vec<(String, Findings<'_>)> = rows.into_iter().collect();
     for (_, findings) in &mut rows {
@@ -54,7 +54,7 @@ fn more_than_expected(found: &Deviation) -> Option<i64> {
 }
 
 /// `false-miss +2,250 (sliver +794, grazing +771, direction-length +371, 2 more)`.
-fn finding_words((finding, families): (&&str, &BTreeMap<&str, i64>)) -> String {
+fn finding_words((finding, families): (&FindingKind, &BTreeMap<&str, i64>)) -> String {
     let sum: i64 = families.values().sum();
     let mut families: Vec<(&&str, &i64)> = families.iter().collect();
     families.sort_by_key(|(name, more)| (-more.abs(), **name));
@@ -84,28 +84,31 @@ mod tests {
 
     #[test]
     fn a_trade_is_a_line() {
-        let of = |family: &str, finding: &str, expected: Option<u64>, found: u64| {
+        let of = |family: &str, finding: FindingKind, expected: Option<u64>, found: u64| {
             let mut one = deviation("k", "");
-            (one.family, one.finding) = (family.to_owned(), finding.to_owned());
+            (one.family, one.finding) = (family.to_owned(), finding);
             (one.expected_count, one.found.count) = (expected, found);
             one
         };
         let mut all = conformance(vec![
-            of("tiny", "false-miss", Some(10), 1_234),
-            of("tiny", "false-miss", Some(5), 4),
-            of("fan", "false-miss", Some(0), 3),
-            of("far", "false-miss", Some(7), 2),
-            of("sliver", "false-miss", Some(0), 1),
-            of("axis-aligned", "bad-value", Some(1), 4),
-            of("fan", "bad-value", Some(3), 0),
+            of("tiny", FindingKind::FalseMiss, Some(10), 1_234),
+            of("tiny", FindingKind::FalseMiss, Some(5), 4),
+            of("fan", FindingKind::FalseMiss, Some(0), 3),
+            of("far", FindingKind::FalseMiss, Some(7), 2),
+            of("sliver", FindingKind::FalseMiss, Some(0), 1),
+            of("axis-aligned", FindingKind::BadValue, Some(1), 4),
+            of("fan", FindingKind::BadValue, Some(3), 0),
             // As many on other cases, and a share: no number of cases.
-            of("huge", "crack", Some(4), 4),
-            of("huge", "double", None, 4),
+            of("huge", FindingKind::Crack, Some(4), 4),
+            of("huge", FindingKind::Double, None, 4),
         ]);
-        all.stale = vec![of("far", "false-hit", Some(20), 0), of("fan", "panic", Some(8), 0)];
+        all.stale = vec![
+            of("far", FindingKind::FalseHit, Some(20), 0),
+            of("fan", FindingKind::Panic, Some(8), 0),
+        ];
         // Nothing of it is in the run.
         all.stale[1].found.of = 0;
-        let mut other = of("tiny", "crack", Some(0), 1);
+        let mut other = of("tiny", FindingKind::Crack, Some(0), 1);
         other.scalar = "f64".to_owned();
         all.stale.push(other);
         let expected = "k (k) f32: bad-value 0 (axis-aligned +3, fan -3); false-hit -20 (far -20); false-miss +1,222 (tiny +1,223, far -5, fan +3, 1 more)";

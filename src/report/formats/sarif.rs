@@ -1,8 +1,8 @@
 //! The record as SARIF 2.1.0, for forges that show code scanning: one result a class of disagreement.
 
 use super::{
-    Conformance, Deviation, FINDING_KINDS, Key, Rate, Record, Style, UNPROVED, disagreements,
-    group_digits, write_json,
+    Conformance, Deviation, FindingKind, Key, Rate, Record, Style, disagreements, group_digits,
+    write_json,
 };
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -52,8 +52,8 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
 /// The rules, whose order and names are stable: new ones go to the end.
 fn rules() -> Vec<Value> {
     let stale = (STALE, "What was expected to be wrong is less so, or right");
-    let unproved = (UNPROVED, "A bound or a property that must be proved is not");
-    let all = FINDING_KINDS.iter().copied().chain([stale, unproved]);
+    let rule = |kind: &FindingKind| (kind.name(), kind.about());
+    let all = FindingKind::FOUND.iter().map(rule).chain([stale, rule(&FindingKind::Unproved)]);
     all.map(|(id, text)| json!({ "id": id, "shortDescription": { "text": text } })).collect()
 }
 
@@ -62,13 +62,15 @@ fn of_check(conformance: &Conformance) -> Vec<Value> {
     let file = conformance.expectations.as_deref();
     let unproved = conformance.unproved.iter().map(|unproved| {
         let text = format!("{unproved}\n{}", unproved.command);
-        result(&unproved.key(), UNPROVED, "error", &text, &Rate::default())
+        result(&unproved.key(), FindingKind::Unproved.name(), "error", &text, &Rate::default())
     });
-    let unexpected =
-        conformance.unexpected.iter().map(|found| deviation(found, &found.finding, "error", file));
+    let unexpected = conformance
+        .unexpected
+        .iter()
+        .map(|found| deviation(found, found.finding.name(), "error", file));
     let stale = conformance.stale.iter().map(|found| deviation(found, STALE, "error", file));
     let known = conformance.known.iter().map(|found| {
-        let mut result = deviation(found, &found.finding, "note", file);
+        let mut result = deviation(found, found.finding.name(), "note", file);
         let why = found.why.as_deref().unwrap_or("a known disagreement");
         result["suppressions"] = json!([{ "kind": "external", "justification": why }]);
         result
@@ -99,7 +101,7 @@ fn of_audit(record: &Record) -> Vec<Value> {
         if let Some(example) = &found.example {
             text.push_str(&format!("\n{}\n{}", example.command, example.bits));
         }
-        result(&found.key, &found.key.finding, "warning", &text, found.rate)
+        result(&found.key, found.key.finding.name(), "warning", &text, found.rate)
     });
     of_found.collect()
 }

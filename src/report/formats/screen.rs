@@ -101,7 +101,7 @@ struct Standing {
     far: u64,
     far_values: u64,
     /// What else broke the contract, on any case: `crash`, `bad-value`, `crack`, ….
-    others: BTreeMap<String, u64>,
+    others: BTreeMap<FindingKind, u64>,
 }
 
 impl Standing {
@@ -112,13 +112,13 @@ impl Standing {
 }
 
 /// How often a row broke its contract in other ways than by false misses and false hits of single cases.
-fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<String, u64> {
+fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<FindingKind, u64> {
     let mut others = BTreeMap::new();
     for found in disagreements(&record.result) {
         let Key { kernel, set, family, finding, .. } = found.key;
         // Cracks at the shared edges and vertices of a scene are in the shares, promised or not.
-        let is_in_shares = matches!(&*finding, "false-miss" | "false-hit")
-            || finding == "crack" && is_shared_in_scene(&family);
+        let is_in_shares = finding.is_wrong_verdict()
+            || finding == FindingKind::Crack && is_shared_in_scene(&family);
         if (&kernel, &set) == (&part.kernel, &part.set) && !is_in_shares {
             *others.entry(finding).or_default() += found.rate.count;
         }
@@ -240,7 +240,7 @@ fn write_answer(
             )
         }
     };
-    let broken: BTreeMap<String, u64> =
+    let broken: BTreeMap<FindingKind, u64> =
         record.result.plan.rows.iter().flat_map(|part| other_findings(record, part)).fold(
             BTreeMap::new(),
             |mut sums, (finding, count)| {

@@ -130,7 +130,7 @@ fn write_scalar(
                 writeln!(out, "    stored or exhaustive cases, apart: false {what} {apart}")?;
             }
         }
-        for (kind, what) in [("false-miss", "misses"), ("false-hit", "hits")] {
+        for (kind, what) in [(FindingKind::FalseMiss, "misses"), (FindingKind::FalseHit, "hits")] {
             if let Some(causes) = causes_text(&row.results, kind, "") {
                 writeln!(out, "    false {what}: {causes}")?;
             }

@@ -11,7 +11,11 @@ use std::collections::BTreeMap;
 ///
 /// Each class of each family is a sample of its own; their shares and the ends of their intervals are
 /// weighted by how many findings they have, which is wider than an interval of the sum would be.
-pub(super) fn causes_text(results: &[&KernelResult], kind: &str, class: &str) -> Option<String> {
+pub(super) fn causes_text(
+    results: &[&KernelResult],
+    kind: FindingKind,
+    class: &str,
+) -> Option<String> {
     let shares = cause_shares(results, kind, class)?;
     let text = |(attribution, share, interval): &CauseShare| {
         let interval =
@@ -27,7 +31,7 @@ pub(super) type CauseShare = (Attribution, f64, Option<[f64; 2]>);
 /// The causes that occur, as [`causes_text`] lists them.
 pub(super) fn cause_shares(
     results: &[&KernelResult],
-    kind: &str,
+    kind: FindingKind,
     class: &str,
 ) -> Option<Vec<CauseShare>> {
     let findings = results.iter().flat_map(|result| &result.findings);
@@ -44,7 +48,7 @@ pub(super) fn cause_shares(
         let mut sums = [0.0; 3];
         let mut sampled = false;
         for (count, causes) in &chosen {
-            let Some(rate) = causes.by.get(attribution.name()) else { continue };
+            let Some(rate) = causes.by.get(&attribution) else { continue };
             let share = rate.rate.unwrap_or(0.0);
             let [low, high] = rate.interval.unwrap_or([share; 2]);
             sampled |= rate.interval.is_some();

@@ -3,7 +3,7 @@
 use super::disagreement::polygons;
 use super::pool::Pool;
 use super::rate::interval_of;
-use super::record::{FindingPart, Rate};
+use super::record::{FindingKind, FindingPart, Rate};
 use super::row_view::RowView;
 use super::why::{causes_text, severity_text};
 use super::{Style, group_digits};
@@ -16,10 +16,10 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
     writeln!(out, "\n{bold}Worst findings of each kind and of each class{plain}")?;
     for row in rows {
         // The empty class stands for all.
-        let mut worst: BTreeMap<(&str, &str), &FindingPart> = BTreeMap::new();
+        let mut worst: BTreeMap<(FindingKind, &str), &FindingPart> = BTreeMap::new();
         for finding in row.results.iter().flat_map(|result| &result.findings) {
             for class in ["", &finding.class] {
-                let entry = worst.entry((&finding.finding, class)).or_insert(finding);
+                let entry = worst.entry((finding.finding, class)).or_insert(finding);
                 if severity(entry) < severity(finding) {
                     *entry = finding;
                 }
@@ -35,7 +35,7 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
         }
         writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
         for ((kind, class), finding) in &worst {
-            let pool = row.found(kind, class);
+            let pool = row.found(*kind, class);
             let rate = pool.rate();
             let share = interval_of(rate);
             let (count, of) = (group_digits(rate.count), group_digits(rate.of));
@@ -50,14 +50,14 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
                 out,
                 "    {kind}{named}: {count} of {of}{share}{apart}; worst {worst}{distance}"
             )?;
-            let severity = row.total.and_then(|total| total.severity.get(*kind));
+            let severity = row.total.and_then(|total| total.severity.get(kind));
             match severity {
                 Some(severity) if class.is_empty() => {
                     writeln!(out, "        {}", severity_text(severity))?;
                 }
                 _ => {}
             }
-            if let Some(causes) = causes_text(&row.results, kind, class) {
+            if let Some(causes) = causes_text(&row.results, *kind, class) {
                 writeln!(out, "        why: {causes}")?;
             }
             writeln!(out, "        {}", finding.worst.command)?;
@@ -84,7 +84,7 @@ pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -
 
 impl RowView<'_> {
     /// The findings of a kind, of a class or of all.
-    fn found(&self, kind: &str, class: &str) -> Pool {
+    fn found(&self, kind: FindingKind, class: &str) -> Pool {
         let counts = self.results.iter().filter_map(|result| match class {
             "" => Some(&result.total),
             class => result.classes.get(class),
@@ -102,20 +102,20 @@ pub(super) fn severity_of(finding: &FindingPart) -> (f64, bool) {
         return (off, false);
     }
     match severity.along {
-        Some(along) if finding.finding == "false-hit" && severity.off_end.is_some() => {
+        Some(along) if finding.finding == FindingKind::FalseHit && severity.off_end.is_some() => {
             let outside = finding.class.starts_with("outside");
             let in_space = if outside { severity.in_space } else { 0.0 };
             if along > in_space { (along, true) } else { (in_space, false) }
         }
         // A hit at an end that does not count.
         Some(along)
-            if finding.finding == "false-hit"
+            if finding.finding == FindingKind::FalseHit
                 && along == 0.0
                 && !finding.class.starts_with("outside") =>
         {
             (along, true)
         }
-        Some(along) if finding.finding == "false-miss" && along < severity.in_space => {
+        Some(along) if finding.finding == FindingKind::FalseMiss && along < severity.in_space => {
             (along, true)
         }
         _ => (severity.in_space, false),
@@ -127,7 +127,7 @@ pub(super) fn severity(finding: &FindingPart) -> f64 {
 }
 
 pub(super) fn describe_severity(finding: &FindingPart) -> String {
-    if matches!(finding.finding.as_str(), "panic" | "crash" | "timeout") {
+    if finding.finding.is_failure() {
         return "on the case below".to_owned();
     }
     let Some(severity) = &finding.worst.severity else { return "on invalid input".to_owned() };

@@ -1,6 +1,7 @@
 //! Findings: how often, why, how bad, and cases that show them.
 
-use super::Rate;
+use super::{FindingKind, Rate};
+use crate::audit::{Attribution, Octave};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -10,7 +11,8 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub struct FindingPart {
     /// `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `panic`, `crash`, `timeout`.
-    pub finding: String,
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub finding: FindingKind,
     /// The class of the truth.
     pub class: String,
     /// How often.
@@ -33,7 +35,8 @@ pub struct FindingPart {
 pub struct CausesPart {
     /// By `convention`, `epsilon`, `rounding`, `range`, and `not-epsilon` of kernels that do not show their
     /// formula; with an interval if not all findings were examined.
-    pub by: BTreeMap<String, Rate>,
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, Rate>"))]
+    pub by: BTreeMap<Attribution, Rate>,
     /// Findings examined of kernels that cannot tell.
     pub untold: u64,
 }
@@ -66,7 +69,8 @@ pub struct Distribution {
     pub worst: Option<f64>,
     /// Counts by octave: `2^k` is from 2^k to 2^(k+1); `0` holds what is smaller than any normal
     /// number, `inf` the infinite.
-    pub octaves: BTreeMap<String, u64>,
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, u64>"))]
+    pub octaves: BTreeMap<Octave, u64>,
 }
 
 /// A case that shows a finding.
@@ -181,7 +185,8 @@ pub struct PolygonPart {
 #[serde(deny_unknown_fields)]
 pub struct PolygonFinding {
     /// `bad-value`, `wrong-value`, `panic`, `crash`, `timeout`.
-    pub finding: String,
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub finding: FindingKind,
     /// How often.
     pub rate: Rate,
     /// Of the set of all its polygons.

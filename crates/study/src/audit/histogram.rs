@@ -1,7 +1,8 @@
 //! Distributions in constant memory: counts in logarithmic bins, eight or more to the octave.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// Counts of numbers that are not negative, in 2^`BITS` bins to the octave. Merging is commutative, and
 /// the number of bins is bounded by the range of `f64`.
@@ -110,20 +111,59 @@ impl<const BITS: u32> Histogram<BITS> {
         self.largest
     }
 
-    /// The count of each octave that has one, by the power of two that it starts at; none for zero and
-    /// below the normal numbers, `i32::MAX` for infinity.
-    pub fn octaves(&self) -> BTreeMap<Option<i32>, u64> {
+    /// The count of each octave that has one.
+    pub fn octaves(&self) -> BTreeMap<Octave, u64> {
         let mut octaves = BTreeMap::new();
         for (bin, count) in self.bins() {
-            let exponent = (Self::start(bin).to_bits() >> 52) as i32;
-            let octave = match exponent {
-                0 => None,
-                0x7ff => Some(i32::MAX),
-                exponent => Some(exponent - 1023),
+            let octave = match (Self::start(bin).to_bits() >> 52) as i32 {
+                0 => Octave::Zero,
+                0x7ff => Octave::Infinite,
+                exponent => Octave::From(exponent - 1023),
             };
             *octaves.entry(octave).or_default() += count;
         }
         octaves
+    }
+}
+
+/// An octave of numbers that are not negative; in files `0`, `2^k`, `inf`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Octave {
+    /// Zero, and whatever is below the normal numbers.
+    Zero,
+    /// From 2^k to 2^(k+1).
+    From(i32),
+    /// Infinity.
+    Infinite,
+}
+
+impl fmt::Display for Octave {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Octave::Zero => f.write_str("0"),
+            Octave::From(exponent) => write!(f, "2^{exponent}"),
+            Octave::Infinite => f.write_str("inf"),
+        }
+    }
+}
+
+impl Serialize for Octave {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Octave {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Octave, D::Error> {
+        let text = String::deserialize(from)?;
+        let power = || text.strip_prefix("2^")?.parse().ok();
+        match text.as_str() {
+            "0" => Ok(Octave::Zero),
+            "inf" => Ok(Octave::Infinite),
+            _ => power()
+                .map(Octave::From)
+                .ok_or_else(|| de::Error::custom(format!("'{text}' is no octave: 0, 2^k or inf"))),
+        }
     }
 }
 
@@ -194,6 +234,6 @@ mod tests {
         assert_eq!((histogram.quantile(0.75), histogram.quantile(0.76)), (0.0, f64::INFINITY));
         histogram.add(3.0);
         let octaves: Vec<_> = histogram.octaves().into_iter().collect();
-        assert_eq!(octaves, [(None, 3), (Some(1), 1), (Some(i32::MAX), 1)]);
+        assert_eq!(octaves, [(Octave::Zero, 3), (Octave::From(1), 1), (Octave::Infinite, 1)]);
     }
 }

@@ -54,7 +54,7 @@ pub use digest::{Digest, Place};
 pub use epsilon_text::EpsilonText;
 pub use group_count::GroupCount;
 pub use group_count::Judged;
-pub use histogram::Histogram;
+pub use histogram::{Histogram, Octave};
 pub use interval::Interval;
 pub use judging::polygon_verdict;
 pub use plan::Plan;

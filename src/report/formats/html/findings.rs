@@ -85,11 +85,11 @@ pub(super) fn list(row: &Row, depth: Depth, room: &mut Room) -> Markup {
 
 /// One source in one scalar, and how many of its classes do not fit.
 fn source(row: &RowPart, result: &KernelResult, depth: Depth, room: &mut Room) -> (String, u64) {
-    let mut by_kind: Vec<(&str, u64)> = Vec::new();
+    let mut by_kind: Vec<(FindingKind, u64)> = Vec::new();
     for part in &result.findings {
         match by_kind.iter_mut().find(|(kind, _)| *kind == part.finding) {
             Some((_, count)) => *count += part.rate.count,
-            None => by_kind.push((&part.finding, part.rate.count)),
+            None => by_kind.push((part.finding, part.rate.count)),
         }
     }
     let groups: Vec<_> = grouped(result).collect();
@@ -116,7 +116,7 @@ fn source(row: &RowPart, result: &KernelResult, depth: Depth, room: &mut Room) -
 }
 
 fn class(result: &KernelResult, part: &FindingPart, depth: Depth) -> Markup {
-    let causes = causes_text(&[result], &part.finding, &part.class);
+    let causes = causes_text(&[result], part.finding, &part.class);
     html! {
         div.class {
             h5 { (part.finding) " of " (part.class) }
@@ -142,19 +142,25 @@ fn example(name: &str, example: &Example) -> Markup {
 }
 
 /// Cracks, doubles, folds and findings on whole polygons that occurred, with the ids of the first.
-fn grouped(result: &KernelResult) -> impl Iterator<Item = (&str, &Rate, &[String])> {
+fn grouped(result: &KernelResult) -> impl Iterator<Item = (FindingKind, &Rate, &[String])> {
     let across = result.across.iter().flat_map(|across| {
         [
-            ("crack", &across.cracks, across.first_cracks.as_slice()),
-            ("double", &across.doubles, across.first_doubles.as_slice()),
-            ("odd-fold", &across.odd_folds, across.first_odd_folds.as_slice()),
+            (FindingKind::Crack, &across.cracks, across.first_cracks.as_slice()),
+            (FindingKind::Double, &across.doubles, across.first_doubles.as_slice()),
+            (FindingKind::OddFold, &across.odd_folds, across.first_odd_folds.as_slice()),
         ]
     });
     let polygons = polygons(result).into_iter().map(|(kind, rate, _, first)| (kind, rate, first));
     across.chain(polygons).filter(|(_, rate, _)| 0 < rate.count)
 }
 
-fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[String]) -> Markup {
+fn group(
+    row: &RowPart,
+    result: &KernelResult,
+    kind: FindingKind,
+    rate: &Rate,
+    ids: &[String],
+) -> Markup {
     let promised = result.across.as_ref().map_or("nothing", |across| across.promised.as_str());
     html! {
         div.class {
@@ -162,8 +168,8 @@ fn group(row: &RowPart, result: &KernelResult, kind: &str, rate: &Rate, ids: &[S
             p {
                 (share(rate)) ", " (counts(rate))
                 @match kind {
-                    "crack" | "double" => { " crossings; across triangles the contract promises " (promised) }
-                    "odd-fold" => { " folds; across triangles the contract promises " (promised) }
+                    FindingKind::Crack | FindingKind::Double => { " crossings; across triangles the contract promises " (promised) }
+                    FindingKind::OddFold => { " folds; across triangles the contract promises " (promised) }
                     _ => " polygons"
                 }
             }

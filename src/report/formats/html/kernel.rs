@@ -285,7 +285,7 @@ fn bar(shares: &[CauseShare]) -> Markup {
 
 fn severities(row: &Row) -> Markup {
     let parts = row.scalars.iter().flat_map(|scalar| {
-        let of = |kind: Kind| scalar.total?.severity.get(kind.finding());
+        let of = |kind: Kind| scalar.total?.severity.get(&kind.finding());
         Kind::ALL.map(|kind| Some((scalar.scalar, kind, of(kind)?)))
     });
     let parts: Vec<_> = parts.flatten().collect();

@@ -42,7 +42,7 @@ fn example(text: &str) -> Example {
 
 fn finding(class: &str, first: Vec<Example>) -> FindingPart {
     FindingPart {
-        finding: "false-miss".to_owned(),
+        finding: FindingKind::FalseMiss,
         class: class.to_owned(),
         rate: rate(5, 50),
         causes: None,
@@ -107,7 +107,7 @@ pub fn deviation(text: &str, url: &str) -> Deviation {
         scalar: "f32".to_owned(),
         family: text.to_owned(),
         class: "group".to_owned(),
-        finding: "crack".to_owned(),
+        finding: FindingKind::Crack,
         expected: text.to_owned(),
         expected_count: Some(2),
         found: rate(1, 2),

@@ -40,10 +40,10 @@ impl Kind {
     pub const ALL: [Kind; 2] = [Kind::Miss, Kind::Hit];
 
     /// The name in records.
-    pub fn finding(self) -> &'static str {
+    pub fn finding(self) -> FindingKind {
         match self {
-            Kind::Miss => "false-miss",
-            Kind::Hit => "false-hit",
+            Kind::Miss => FindingKind::FalseMiss,
+            Kind::Hit => FindingKind::FalseHit,
         }
     }
 
