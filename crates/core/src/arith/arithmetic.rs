@@ -42,7 +42,7 @@ impl Arithmetic {
         }
     }
 
-    /// What it does, in a line.
+    /// A description in one line.
     pub const fn describe(self) -> &'static str {
         match (self.fused, self.flushed) {
             (false, false) => "IEEE 754, operation by operation (the default)",
