@@ -8,7 +8,7 @@ use crate::arith::{Bounded, Exact, Float};
 use std::cmp::Ordering;
 
 /// A scalar, with the arithmetic in which a search takes the exact numbers: right to far less than an ulp of
-/// the scalar. What a search finds is measured again in [`Exact`] numbers.
+/// the scalar. The result of a search is measured again in [`Exact`] numbers.
 pub trait Searched: Float + Number {
     /// That arithmetic.
     type Near: Number;

@@ -54,7 +54,7 @@ pub enum Acceptance {
     Clauses(Refuse, Vec<Vec<Place>>),
     /// It rounds with its epsilon: every way through its comparisons at an epsilon of 0.
     Rounded(Vec<Outcome>),
-    /// It takes no epsilon. What it makes of its comparisons is not known.
+    /// It takes no epsilon. How its comparisons decide is not known.
     Fixed,
 }
 

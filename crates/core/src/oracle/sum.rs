@@ -8,7 +8,7 @@ use std::ops::{Add, Neg};
 pub(super) struct Product {
     /// The four integers that are multiplied.
     pub factors: [i64; 4],
-    /// At least -2^19 and below 2^19. Of a product that is zero it need only be below that of any other.
+    /// At least -2^19 and below 2^19. The exponent of a zero need only be below that of any other.
     pub exponent: i32,
 }
 
