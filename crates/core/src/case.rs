@@ -147,7 +147,7 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Whether the parameters leave each case's truth alone (up to overflow and underflow).
+    /// True if the parameters leave each case's truth alone (up to overflow and underflow).
     pub fn keep_truth(&self) -> bool {
         self.offset == [0.0; 3] && !self.unit_direction
     }

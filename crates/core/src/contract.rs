@@ -14,9 +14,9 @@ pub struct Contract {
     pub extent: Extent,
     /// Which sides of a triangle can be hit.
     pub sides: Sides,
-    /// Whether edges and vertices are hits.
+    /// Edges and vertices: hits, misses or either.
     pub boundary: Boundary,
-    /// Whether t = 0 of a ray, and t_min and t_max of an interval, are hits.
+    /// The point t = 0 of a ray, and t_min and t_max of an interval: hits, misses or either.
     pub ends: Boundary,
     /// Lines in the plane of the triangle.
     pub coplanar: Demand,
@@ -26,7 +26,7 @@ pub struct Contract {
     pub invalid: Demand,
     /// The directions that the kernel promises anything for.
     pub direction: Direction,
-    /// What it promises about triangles that share an edge or a vertex.
+    /// The promise about triangles that share an edge or a vertex.
     pub across: Across,
     /// A ray that starts at a kernel's own hit point must not hit that triangle again.
     pub no_self_hit: bool,
@@ -43,7 +43,7 @@ pub struct Band {
     pub unit: BandUnit,
 }
 
-/// What a band is measured in.
+/// The unit of a band.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BandUnit {
     /// The triangle's longest edge.
@@ -104,7 +104,7 @@ named! {
 
 named! {
     pub names
-    /// What edges and vertices are, or the ends of a ray or an interval.
+    /// The right answer on edges and vertices, or at the ends of a ray or an interval.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Boundary {
         /// Hits.
@@ -118,7 +118,7 @@ named! {
 
 named! {
     pub names
-    /// What is demanded of a kernel in a situation.
+    /// A demand on a kernel in one situation.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Demand {
         /// A miss.
@@ -144,7 +144,7 @@ pub enum Direction {
 
 named! {
     pub names
-    /// What is promised across triangles that share an edge or a vertex.
+    /// A promise across triangles that share an edge or a vertex.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Across {
         /// Nothing.
@@ -248,7 +248,7 @@ pub struct NamedContract {
     pub name: &'static str,
     /// The promise.
     pub contract: Contract,
-    /// What it is for.
+    /// Its purpose, in a few words.
     pub about: &'static str,
 }
 

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[cfg(any(test, not(feature = "rayon")))]
 use std::{panic, thread};
 
-/// What a run tells while it goes on, and where it reads a clock.
+/// Follows the progress of a run, and has the clock that the run reads.
 pub trait Observer: Sync {
     /// This many more indices are done.
     fn advance(&self, indices: u64);
@@ -71,7 +71,7 @@ pub fn sum<S: Merge>(
     on_threads(threads, of_thread).into_iter().reduce(merged).unwrap_or_else(&empty)
 }
 
-/// What each item becomes, in their order.
+/// The results of a function for all items, in their order.
 pub fn map<T: Sync, U: Send>(items: &[T], become_of: impl Fn(&T) -> U + Sync) -> Vec<U> {
     struct Numbered<U>(Vec<(u64, U)>);
     impl<U: Send> Merge for Numbered<U> {
@@ -100,7 +100,7 @@ pub fn threads() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// What a function returns on each of some threads; one is this one, as some machines have no other.
+/// The results of a function on each of some threads; one of them is this one, as some machines have no other.
 fn on_threads<S: Send>(threads: usize, run: impl Fn() -> S + Sync) -> Vec<S> {
     if threads == 1 {
         return vec![run()];

@@ -1,5 +1,5 @@
-//! Whether a ray hits a triangle, exactly, for every finite `f32` and `f64`; and the published kernels that try to
-//! say so in floats.
+//! An exact answer to "does this ray hit this triangle?" for every finite `f32` and `f64`; and the published kernels
+//! that try to give it in floats.
 //!
 //! ```
 //! use hairline_core::{Case, Truth, truth};
@@ -12,7 +12,8 @@
 //! [`truth()`] answers for one case, [`truths`] and [`Batch`] for millions. A [`Kernel`] is written once for every
 //! arithmetic; [`find`] knows the published ones. The crate `hairline` compares the two.
 //!
-//! What is at the root is the interface. The modules hold what `hairline` and its prover share, and change with them.
+//! The root of this crate is the interface. The modules hold what `hairline` and its prover share, and change with
+//! them.
 
 #[doc(hidden)]
 pub use serde;

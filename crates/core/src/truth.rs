@@ -91,11 +91,11 @@ named! {
 /// How a line in the plane of a triangle, or any line and a triangle without area, meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Contact {
-    /// What the ray on its interval has in common with the closed triangle.
+    /// The points that the ray on its interval has in common with the closed triangle.
     pub kind: ContactKind,
-    /// Whether the ray on `[0, inf)` meets the closed triangle.
+    /// True if the ray on `[0, inf)` meets the closed triangle.
     pub meets_ray: bool,
-    /// Whether the whole line does.
+    /// True if the whole line meets the closed triangle.
     pub meets_line: bool,
 }
 
@@ -111,7 +111,7 @@ pub enum ContactKind {
 }
 
 impl Truth {
-    /// Whether the ray on `[t_min, t_max]` meets the closed triangle; none for invalid input.
+    /// True if the ray on `[t_min, t_max]` meets the closed triangle; none for invalid input.
     pub fn hits_closed(&self) -> Option<bool> {
         match self {
             Truth::Transversal(crossing) => Some(
@@ -163,12 +163,12 @@ impl Feature {
         FEATURES[a][b][c]
     }
 
-    /// Whether this is one of the open edges.
+    /// True if this is one of the open edges.
     pub fn is_edge(self) -> bool {
         matches!(self, Feature::EdgeAb | Feature::EdgeBc | Feature::EdgeCa)
     }
 
-    /// Whether this is one of the vertices.
+    /// True if this is one of the vertices.
     pub fn is_vertex(self) -> bool {
         matches!(self, Feature::VertexA | Feature::VertexB | Feature::VertexC)
     }

@@ -14,14 +14,14 @@ use std::collections::HashMap;
 /// Binary digits that the size of a lemma's number keeps: products of sizes stay short.
 pub const SIZE_DIGITS: u32 = 12;
 
-/// What holds for a number of a program, whatever the inputs in the domain.
+/// Bounds of a number of a program that hold for all inputs in the domain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bound {
-    /// Of the exact number.
+    /// The bound of the exact number.
     pub size: Dyadic,
-    /// Of the computed number.
+    /// The bound of the computed number.
     pub computed: Dyadic,
-    /// Of the difference of both.
+    /// The bound of the difference of both.
     pub error: Dyadic,
 }
 
@@ -30,15 +30,15 @@ pub struct Bound {
 pub struct Lemma {
     /// The number.
     pub place: Place,
-    /// What its bound is made from.
+    /// The rule that its bound is made from.
     pub rule: Rule,
     /// The formula whose errors were added up, with its variables.
     pub formula: Formula,
-    /// What its corners say.
+    /// The maximum over its corners.
     pub maximum: Maximum,
     /// Another formula, where the first one supposes one of two things of which one is true.
     pub or: Option<(Formula, Maximum)>,
-    /// What follows for the number.
+    /// The bound of the number that follows.
     pub bound: Bound,
 }
 
@@ -61,7 +61,7 @@ impl Lemma {
     }
 }
 
-/// What holds for the last step of a formula.
+/// The bound of the last step of a formula.
 fn bound_of_sum(formula: &Formula, maximum: &Maximum) -> Bound {
     let Bound { size, computed, .. } = formula.bounds[formula.bounds.len() - 1];
     let size = size.round_up(SIZE_DIGITS);
@@ -79,7 +79,7 @@ pub enum Rule {
     Quotient {
         /// By a reciprocal and a product.
         twice: bool,
-        /// What it is divided by.
+        /// The number that it is divided by.
         divisor: Place,
         /// The least size of the exact divisor.
         floor: Limit,
@@ -106,7 +106,7 @@ pub struct Prover<'a> {
     bounds: HashMap<Place, Result<Bound, String>>,
     /// In a scene, what says which numbers it knows.
     pub(super) samples: Option<(Samples, Measures)>,
-    /// Of each number, whether its conditions count; none if all do.
+    /// For each number, true if its conditions count; none if all do.
     counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.
     pub lemmas: Vec<Lemma>,
@@ -131,7 +131,7 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Whether proofs may suppose something of a number.
+    /// True if proofs may suppose something of a number.
     pub(super) fn counts(&self, place: usize) -> bool {
         self.counts.as_ref().is_none_or(|counts| counts[place])
     }
@@ -202,7 +202,7 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Whether a number is the coordinate of the direction that is largest in size.
+    /// True if a number is the coordinate of the direction that is largest in size.
     pub(super) fn is_largest_of_direction(&self, place: Place) -> bool {
         let Operation::Input(i @ 3..=5) = self.operation(place) else { return false };
         (3..=5).all(|other| is_at_most(self.path, other, i))
@@ -241,7 +241,7 @@ impl<'a> Prover<'a> {
         needs.into_iter().map(|place| unsigned(self.path, place)).collect()
     }
 
-    /// Whether |a| <= |b| follows from the decisions of the path. They say it of inputs only.
+    /// True if |a| <= |b| follows from the decisions of the path. They say it of inputs only.
     pub(super) fn is_at_most_in_size(&self, a: Place, b: Place) -> bool {
         match (self.operation(a), self.operation(b)) {
             (Operation::Input(a), Operation::Input(b)) => is_at_most(self.path, a, b),

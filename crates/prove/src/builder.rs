@@ -55,7 +55,7 @@ struct Builder<'p, 'a> {
     supports: Vec<u64>,
     steps: HashMap<Place, usize>,
     forms: Forms,
-    /// What it supposes of two edges, and whether it may.
+    /// The supposition about two edges, if there is one, and true if it may be made.
     same_sign: Option<SameSign>,
     may_suppose: bool,
 }

@@ -21,7 +21,7 @@ impl Display for Dyadic {
     }
 }
 
-/// What all proofs of a certificate share.
+/// The lines that all proofs of a certificate share.
 pub struct Heading<'a> {
     /// The kernel's name, its arithmetic included.
     pub kernel: &'a str,
@@ -31,18 +31,18 @@ pub struct Heading<'a> {
     pub format: Format,
 }
 
-/// What is claimed of a program: a gate's quantity, with its lemma's place and what is known of an edge's value.
+/// A claim about a program: a gate's quantity, with its lemma's place and what is known of an edge's value.
 pub struct Claim<'a> {
     /// The gate's name.
     pub gate: &'a str,
     /// The quantity.
     pub place: Place,
-    /// What is claimed of the two sides of an edge.
+    /// The claim about the two sides of an edge.
     pub symmetry: Symmetry,
 }
 
 impl<'a> Claim<'a> {
-    /// Of a quantity of this gate on a path.
+    /// The claim about a quantity of this gate on a path.
     pub fn new(gate: &'a Gate, path: &Path, place: Place) -> Claim<'a> {
         let is_edge = gate.role == Role::Edge;
         let symmetry = if is_edge { symmetry_of(path, place) } else { Symmetry::None };
@@ -103,7 +103,7 @@ pub fn program(path: &Path, lemmas: &[Lemma], claims: &[Claim]) -> String {
     text
 }
 
-/// What is supposed of divisors and quotients instead of the domain's limits.
+/// The limits of divisors and quotients that stand in place of the domain's.
 fn limits(lemmas: &[Lemma]) -> BTreeSet<String> {
     let line = |word: &str, place: Place, limit: Limit| match limit {
         Limit::Domain(_) => None,

@@ -107,7 +107,8 @@ impl<F: Searched> Search<'_, F> {
         inputs
     }
 
-    /// What half an ulp of every rounded number of the last run could add up to, in units of its unit roundoff.
+    /// The most that half an ulp of every rounded number of the last run could add up to, in units of its unit
+    /// roundoff.
     fn amplitude(&self) -> f64 {
         let values: Vec<f64> = self.computed.iter().map(|x| x.to_f64()).collect();
         let mut slopes = vec![0.0; values.len()];

@@ -134,7 +134,7 @@ impl Formula {
         Some(found)
     }
 
-    /// Whether every slope of a step with an error is of at most first degree in the narrow variables together.
+    /// True if every slope of a step with an error is of at most first degree in the narrow variables together.
     fn is_fit_to_narrow(&self) -> bool {
         let is_narrow = |v: usize| usize::from(self.narrow.iter().any(|(other, ..)| *other == v));
         let mut degrees: Vec<usize> = Vec::with_capacity(self.steps.len());
@@ -261,7 +261,7 @@ impl Formula {
         std::iter::successors(Some(0), next)
     }
 
-    /// Whether a step is a coordinate of the unit vector.
+    /// True if a step is a coordinate of the unit vector.
     fn is_part(&self, i: usize) -> bool {
         matches!(self.steps[i], Step::Variables(ref sum) if sum.iter().any(|(v, _)| self.unit.contains(v)))
     }

@@ -54,18 +54,18 @@ impl Format {
     }
 }
 
-/// What the inputs of a program may be. Every bound is of the absolute values of coordinates.
+/// The inputs that a program may have. Every bound is of the absolute values of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Domain {
-    /// Of the edge vectors b-a, c-a and c-b.
+    /// The bound of the edge vectors b-a, c-a and c-b.
     pub edge: Dyadic,
-    /// Of the vectors from the origin of the ray to the vertices.
+    /// The bound of the vectors from the origin of the ray to the vertices.
     pub reach: Dyadic,
-    /// Of origin and vertices themselves.
+    /// The bound of the origin and the vertices themselves.
     pub world: Dyadic,
-    /// Of the direction.
+    /// The bound of the direction.
     pub direction: Dyadic,
-    /// Of t_min and t_max.
+    /// The bound of t_min and t_max.
     pub extent: Dyadic,
     /// The largest coordinate of the direction is at least this, where a program divides by it.
     pub direction_floor: Dyadic,
@@ -73,7 +73,7 @@ pub struct Domain {
     pub floor: Dyadic,
     /// Every quotient is at most this, but those of one and a divisor.
     pub quotient: Dyadic,
-    /// What a scene says of divisors and quotients that it knows, instead of both.
+    /// The limits that a scene knows of divisors and quotients, instead of `floor` and `quotient`.
     pub measures: Option<Measures>,
 }
 

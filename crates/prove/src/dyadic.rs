@@ -51,12 +51,12 @@ impl Dyadic {
         Some(Dyadic::new(mantissa.into(), exponent as i32))
     }
 
-    /// Whether it is a number.
+    /// True if it is a number.
     pub fn is_number(self) -> bool {
         self != Dyadic::OVERFLOW
     }
 
-    /// Whether it is zero.
+    /// True if it is zero.
     pub fn is_zero(self) -> bool {
         self.mantissa == 0
     }

@@ -46,7 +46,7 @@ impl Leaf {
         }
     }
 
-    /// Whether it is rounded.
+    /// True if it is rounded.
     pub fn is_difference(self) -> bool {
         matches!(self, Leaf::Difference(..))
     }

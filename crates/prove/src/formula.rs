@@ -47,26 +47,26 @@ pub struct Formula {
     pub steps: Vec<Step>,
     /// Where each step stands in the program; none of those that only a proof needs.
     pub places: Vec<Option<Place>>,
-    /// What is known of a step from elsewhere: of inputs, numbers and variables with a lemma of their own.
+    /// The bounds that are known of a step from elsewhere: of inputs, numbers and variables with a lemma of their own.
     pub given: Vec<Option<Bound>>,
     /// Which steps round. Their errors may be bounded by u times their exact results.
     pub rounds: Vec<bool>,
-    /// Of which steps they are.
+    /// For each step, true if its error is bounded by u times its exact result.
     pub relative: Vec<bool>,
     /// The bound of each variable: m.
     pub variables: Vec<Dyadic>,
-    /// What each variable is.
+    /// The origin of each variable.
     pub sources: Vec<Source>,
     /// The variables that are coordinates of one unit vector in which the formula is linear, if it has one.
     pub unit: Vec<usize>,
     /// In the lemma of a quotient, the variables that the path divides by its divisor too: where, and the box that
     /// is enough for the effects of errors.
     pub narrow: Vec<(usize, Place, Dyadic)>,
-    /// What follows for each step: its exact size, its computed size, and h, its largest error of its own.
+    /// The bounds of each step: its exact size, its computed size, and h, its largest error of its own.
     pub bounds: Vec<Bound>,
 }
 
-/// What a variable of a formula is.
+/// The origin of a variable of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// An input, or a difference of inputs.
@@ -75,13 +75,14 @@ pub enum Source {
     Cut(Place),
     /// The same of a coordinate of a unit vector in which the formula is linear.
     Part(Place),
-    /// What is added to the first quotient, or its negative, to make the second one: a quotient of the third edge.
+    /// The term that is added to the first quotient, or its negative, to make the second one: a quotient of the third
+    /// edge.
     Third(Place, Place),
     /// The quotient that a lemma is about.
     Quotient,
 }
 
-/// What the corners say.
+/// The largest effect of all errors, and the corner that has it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Maximum {
     /// The largest Σ|c_k| h_k.
@@ -125,7 +126,7 @@ impl Step {
 pub const DIGITS: u32 = 24;
 
 impl Formula {
-    /// Whether no product has one variable in both factors.
+    /// True if no product has one variable in both factors.
     pub(super) fn is_multi_affine(&self) -> bool {
         let mut supports: Vec<u64> = Vec::with_capacity(self.steps.len());
         for step in &self.steps {

@@ -137,7 +137,7 @@ impl Script<'_> {
         Ok([small, large])
     }
 
-    /// What the prover knows of a quotient, and how it bounds its error: by what the computed numerator
+    /// Adds what the prover knows of a quotient, and how it bounds its error: by what the computed numerator
     /// lacks of the exact quotient times the computed divisor.
     fn quotient(
         &mut self,

@@ -9,12 +9,12 @@ use crate::arith::recorded::{Operation, Place};
 use crate::kernel::{Compared, Path};
 use std::collections::{BTreeSet, HashMap};
 
-/// What is proved of a kernel in a domain.
+/// The proof of a kernel in a domain.
 #[derive(Debug)]
 pub struct Proof {
     /// Its paths that some input takes.
     pub paths: Vec<Path>,
-    /// What its gates compare; the same program on several paths is there once.
+    /// The numbers that its gates compare; the same program on several paths is there once.
     pub quantities: Vec<Quantity>,
 }
 
@@ -25,7 +25,7 @@ pub struct Quantity {
     pub gate: usize,
     /// The path.
     pub path: usize,
-    /// Whether it is compared with the epsilon itself; else with zero, at an epsilon of 0.
+    /// True if it is compared with the epsilon itself; false if with zero, at an epsilon of 0.
     pub is_margin: bool,
     /// How many decisions of the path come before the comparison.
     pub decisions: usize,
@@ -39,7 +39,7 @@ pub struct Quantity {
     pub lemmas: Vec<Lemma>,
 }
 
-/// What a quantity's bound supposes of the inputs.
+/// The bounds of the inputs that a quantity's bound supposes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Uses {
     /// A bound of the edges.
@@ -57,7 +57,7 @@ pub struct Uses {
 /// A limit that a bound supposes in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Supposed {
-    /// Whether the size of the number is at most the limit; else it is at least that.
+    /// True if the size of the number is at most the limit; false if it is at least that.
     pub is_most: bool,
     /// The number.
     pub name: &'static str,
@@ -66,7 +66,7 @@ pub struct Supposed {
 }
 
 impl Uses {
-    /// Whether it supposes nothing but a bound of the edges, and of the direction.
+    /// True if it supposes nothing but a bound of the edges, and of the direction.
     pub fn is_of_edges_alone(self) -> bool {
         self == Uses { edge: true, ..Uses::default() }
     }
@@ -96,7 +96,7 @@ impl Quantity {
         self.lemmas.iter().flat_map(of_lemma).flatten().collect()
     }
 
-    /// What its bound supposes.
+    /// The suppositions of its bound.
     pub fn uses(&self) -> Uses {
         let mut uses = Uses::default();
         for lemma in &self.lemmas {

@@ -1,5 +1,5 @@
-//! What a ray–triangle kernel can never do wrong: bounds that hold for every float of a domain, beside the worst cases
-//! that are known in it, with certificates and a checker of its own.
+//! Bounds of a ray–triangle kernel's errors that hold for every float of a domain, next to the worst cases that are
+//! known in it, with certificates and a checker of its own.
 
 #![forbid(unsafe_code)]
 

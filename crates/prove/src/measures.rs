@@ -1,5 +1,5 @@
-//! What a scene says of numbers that kernels divide by, and of quotients: each is known by its value, in whatever
-//! order a program computes it.
+//! The limits that a scene gives to numbers that kernels divide by, and to quotients: each is known by its value, in
+//! whatever order a program computes it.
 
 use super::Dyadic;
 use super::order::largest_axes;
@@ -9,8 +9,8 @@ use crate::case::Draw;
 use crate::kernel::Path;
 use glam::DVec3;
 
-/// Of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate and N_i
-/// another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
+/// The measures of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate
+/// and N_i another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
 /// barycentric coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measures {
@@ -81,7 +81,7 @@ impl Samples {
         samples
     }
 
-    /// Whether a number is another one up to its sign, given that one's values.
+    /// True if a number is another one up to its sign, given that one's values.
     fn is_same(&self, place: Place, other: impl Fn(usize) -> f64) -> bool {
         self.values.iter().enumerate().all(|(i, (values, _))| {
             let (x, y) = (values[place as usize].abs(), other(i).abs());

@@ -1,4 +1,4 @@
-//! What the decisions of a path say about its numbers.
+//! The facts about a path's numbers that follow from its decisions.
 
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::kernel::Path;
@@ -28,8 +28,8 @@ fn facts<T: Copy>(path: &Path, name: impl Fn(Place) -> Option<T>) -> Vec<(T, T, 
     path.decisions.iter().filter_map(fact).filter_map(named).collect()
 }
 
-/// Those about inputs. Of computed numbers nothing follows: one of them may be NaN, and the path compares them, not
-/// the exact ones.
+/// The facts about inputs. Nothing follows about computed numbers: one of them may be NaN, and the path compares them,
+/// not the exact ones.
 fn facts_of_inputs(path: &Path) -> Vec<(u8, u8, bool)> {
     facts(path, |place| match path.operations[place as usize] {
         Operation::Input(i) => Some(i),
@@ -37,7 +37,7 @@ fn facts_of_inputs(path: &Path) -> Vec<(u8, u8, bool)> {
     })
 }
 
-/// Whether the size of an input is at most that of another, by the decisions of a path.
+/// True if the size of an input is at most that of another, by the decisions of a path.
 pub fn is_at_most(path: &Path, a: u8, b: u8) -> bool {
     follows(&facts_of_inputs(path), a, b)
 }
@@ -49,7 +49,7 @@ pub fn largest_axes(path: &Path, axis: impl Fn(Place) -> Option<usize>) -> Vec<u
     (0..3).filter(|k| (0..3).all(|other| follows(&facts, other, *k))).collect()
 }
 
-/// Whether a <= b follows from facts.
+/// True if a <= b follows from facts.
 fn follows<T: Copy + PartialEq>(facts: &[(T, T, bool)], a: T, b: T) -> bool {
     let mut seen = vec![a];
     let mut i = 0;
@@ -68,7 +68,7 @@ fn follows<T: Copy + PartialEq>(facts: &[(T, T, bool)], a: T, b: T) -> bool {
     false
 }
 
-/// Whether the decisions of a path contradict each other, so that no input takes it.
+/// True if the decisions of a path contradict each other, so that no input takes it.
 pub fn is_impossible(path: &Path) -> bool {
     let facts = facts_of_inputs(path);
     facts.iter().any(|(a, b, strict)| *strict && follows(&facts, *b, *a))

@@ -97,11 +97,11 @@ struct Node {
     roundings: Roundings,
     /// Those before its own rounding, if it is a sum.
     before: Option<Roundings>,
-    /// Whether it is computed with a relative error: it does not cancel, and does not underflow.
+    /// True if it is computed with a relative error: it does not cancel, and does not underflow.
     sharp: bool,
     /// The permanent, at most.
     permanent: Big,
-    /// What underflow adds to the error, at most.
+    /// The most that underflow adds to the error.
     underflow: Big,
 }
 

@@ -44,7 +44,7 @@ impl Prover<'_> {
         found.find(|place| is_ratio(&operations[*place])).map(|place| place as Place)
     }
 
-    /// Whether the path divides a coordinate of an edge.
+    /// True if the path divides a coordinate of an edge.
     pub(super) fn has_ratios(&self) -> bool {
         let is_ratio = |operation: &Operation| matches!(*operation, Operation::Div(n, _) if self.edge(n).is_some());
         self.path.operations.iter().any(is_ratio)
@@ -88,7 +88,7 @@ impl Prover<'_> {
         }
     }
 
-    /// Whether a number is u_i v_j - u_j v_i, or the negative.
+    /// True if a number is u_i v_j - u_j v_i, or the negative.
     fn is_area(&self, place: Place, [u, v]: [Edge; 2], axes: [usize; 2]) -> bool {
         // Of u_i v_j and of u_j v_i: how often a product is that.
         let count = |[a, b]: [Place; 2]| {

@@ -7,14 +7,14 @@ use crate::case::{self, DirectionLength};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
-/// What the triangles and rays of a scene are like, in one unit of length.
+/// The sizes of the triangles and rays of a scene, in one unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     /// Every coordinate of origins and vertices is at most this.
     pub coordinates: f64,
     /// The shortest and the longest edge.
     pub edge: [f64; 2],
-    /// Whether that is said of each triangle's longest edge only.
+    /// True if that is said of each triangle's longest edge only.
     pub is_of_longest: bool,
     /// From an origin to a vertex at most.
     pub distance: f64,

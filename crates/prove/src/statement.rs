@@ -14,7 +14,7 @@ pub type Published = (String, f64);
 pub struct Triangles<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Of its triangles the largest coordinate of the edges, and twice the area: of each triangle of a mesh, or
+    /// The largest coordinate of the edges of its triangles, and twice their area: for each triangle of a mesh, or for
     /// the largest and the smallest of each kind that the scene may have.
     pub shapes: &'a [Shape],
 }
@@ -295,7 +295,7 @@ fn edge<F>(
     }
 }
 
-/// What follows from the symmetry of the edge values.
+/// The statement that follows from the symmetry of the edge values.
 pub fn about_edges(symmetry: Symmetry) -> &'static str {
     match symmetry {
         Symmetry::None => {
@@ -319,8 +319,8 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
     }
 }
 
-/// What is proved of a gate's epsilons in the unit domain, in one sentence; none where the proof supposes more
-/// than sizes of differences and directions.
+/// The statement that is proved of a gate's epsilons in the unit domain, in one sentence; none where the proof
+/// supposes more than sizes of differences and directions.
 pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
     let paths = paths_of::<F>(entry).ok()?;
     let proof = Proof::new(paths, Some(gate), Domain::UNIT, format_of::<F>());

@@ -1,4 +1,4 @@
-//! What is proved of a kernel, and the worst that is known, gate by gate.
+//! Everything that is proved of a kernel, and the worst that is known, gate by gate.
 
 use super::gates::{Proof, Quantity, Supposed, Uses};
 use super::permanent::{Relative, relative};
@@ -21,7 +21,7 @@ pub struct Summary<F> {
     pub proof: Proof,
     /// Its gates that compare numbers, in the order of the kernel.
     pub gates: Vec<GateSummary<F>>,
-    /// What is known of its edges.
+    /// The symmetry of its edge values.
     pub symmetry: Symmetry,
     /// A witness above the bound of its quantity, if there is one: then the proof is wrong, or the search.
     pub contradiction: Option<String>,
@@ -32,17 +32,17 @@ pub struct Summary<F> {
 pub struct GateSummary<F> {
     /// Which gate.
     pub index: usize,
-    /// What it is.
+    /// The gate itself.
     pub gate: Gate,
     /// The bound of the error of what it compares, or why there is none.
     pub bound: Result<Dyadic, String>,
     /// The error relative to the permanent of what it compares, if it has one: the largest of its quantities.
     pub relative: Option<Relative>,
-    /// What the bound supposes.
+    /// The suppositions of the bound.
     pub uses: Uses,
     /// In a scene, the limits of divisors and of quotients that it supposes.
     pub limits: Vec<Supposed>,
-    /// Whether what it compares is compared with the epsilon itself; else with zero, at an epsilon of 0.
+    /// True if what it compares is compared with the epsilon itself; false if with zero, at an epsilon of 0.
     pub is_margin: bool,
     /// The worst inputs known for each goal, in the order of [`GOALS`].
     pub witnesses: [Option<Witness<F>>; 3],
@@ -57,7 +57,7 @@ pub struct Witness<F> {
     pub score: f64,
 }
 
-/// What is searched for, in the order of [`GateSummary::witnesses`].
+/// The goals of the search, in the order of [`GateSummary::witnesses`].
 pub const GOALS: [Goal; 3] = [Goal::Error, Goal::Zero, Goal::Lost];
 
 impl<F> GateSummary<F> {
@@ -94,7 +94,7 @@ pub fn bound_of_gate<F: Scalar>(entry: &Entry, gate: usize, domain: Domain) -> O
 pub struct Effort {
     /// Evaluations for each quantity and goal; the parts of a domain share them.
     pub evaluations: u64,
-    /// Of the random moves.
+    /// The seed of the random moves.
     pub seed: u64,
 }
 
@@ -173,7 +173,7 @@ impl<F: Searched + Scalar> Summary<F> {
     }
 }
 
-/// What else a gate's witnesses are searched for.
+/// The other goal that a gate's witnesses are searched for.
 fn goal_of(role: Role) -> Goal {
     if role == Role::Parallel { Goal::Zero } else { Goal::Lost }
 }
@@ -220,7 +220,7 @@ fn scaled<F: Float>(known: &[Inputs<F>], domain: &Domain) -> Vec<Inputs<F>> {
 }
 
 impl Uses {
-    /// What either supposes.
+    /// The suppositions of either.
     pub fn or(self, other: Uses) -> Uses {
         Uses {
             edge: self.edge | other.edge,

@@ -17,7 +17,7 @@ impl Prover<'_> {
         vector.contains(&numerator?).then_some((vector, length))
     }
 
-    /// What holds for each coordinate of a unit vector. The error is that of the whole vector, by Euclid. Its
+    /// The bounds of each coordinate of a unit vector. The error is that of the whole vector, by Euclid. Its
     /// length is at least the floor.
     pub(super) fn bound_of_unit(
         &mut self,

@@ -1,5 +1,5 @@
-//! Whether a kernel's value of an edge is, bit for bit, the negative of what it computes for the
-//! triangle on the other side, and what follows for rays there.
+//! Checks if a kernel's value of an edge is, bit for bit, the negative of the value that it computes for the triangle
+//! on the other side, and shows what follows for rays there.
 //!
 //! If the normal form of an edge's value with the edge's ends exchanged has the same formula and the other sign, the
 //! two values are exact negatives, or both 0.
@@ -10,7 +10,7 @@ use crate::kernel::{Acceptance, Compared, Path, Refuse};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What is known of a kernel's edges.
+/// The strongest statement that is known of a kernel's edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symmetry {
     /// Nothing: some edge's value is not made of the edge and the ray alone, or not the negative of the neighbour's, or
@@ -24,10 +24,11 @@ pub enum Symmetry {
 
 /// The symmetry of a kernel's edge values on all its paths; `is_edge` tells the gates that compare them.
 ///
-/// What a ray alone decides, before the first comparison that depends on anything else, is the same for both triangles
-/// of an edge. Wherever it is the same, all edges must be the same formula of their two vertices, or have the same
-/// images. On every path the gates, at an epsilon of 0, must accept whatever is not negative for all three edges, and
-/// whatever is not positive for all three; and nothing but gates may refuse.
+/// The decisions of the ray alone, before the first comparison that depends on anything else, are the same for both
+/// triangles of an edge. Wherever they are the same, all edges must be the same formula of their two vertices, or have
+/// the same images. On every path the gates, at an epsilon of 0, must accept all triples of edge values that are not
+/// negative, and all that are not positive; and nothing but gates may refuse. How the gates treat signs is tried, not
+/// recognised.
 pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     let mut forms = Forms::default();
     let mut met: HashMap<Vec<Decision>, Met> = HashMap::new();
@@ -48,7 +49,7 @@ pub fn symmetry(paths: &[Path], is_edge: impl Fn(usize) -> bool) -> Symmetry {
     met.values().map(Met::symmetry).min().unwrap_or(Symmetry::None)
 }
 
-/// What all edges have in common that one ray may meet.
+/// The common formula or images of all edges that one ray may meet.
 #[derive(Clone, Copy, Debug)]
 struct Met {
     /// The formula, as it is of an edge from a to b; none if there are several, or if it is not the negative of itself
@@ -92,8 +93,8 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
     Some([ab, bc, ca])
 }
 
-/// Whether a number does not depend on t_min or t_max, which differ from triangle to triangle as hits are found, and
-/// whether no vertex is in a divisor, where 0 divided by 0 would be refused on both sides of an edge, or under a root.
+/// True if a number does not depend on t_min or t_max, which differ from triangle to triangle as hits are found, and no
+/// vertex is in a divisor, where 0 divided by 0 would be refused on both sides of an edge, or under a root.
 fn is_sound(path: &Path, place: Place) -> bool {
     let depends = |place: Place, on: Range<u8>| {
         inputs(path, place).into_iter().any(|input| on.contains(&input))
@@ -105,7 +106,7 @@ fn is_sound(path: &Path, place: Place) -> bool {
     !depends(place, ENDS) && !parts(path, place).into_iter().any(is_critical)
 }
 
-/// Whether some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
+/// True if some gates accept surely, at an epsilon of 0, if the three edges' values are 0 or have the sign of `side`.
 fn accept_all(path: &Path, gates: &[&Compared], edges: &[Place; 3], side: i8) -> bool {
     (0..8).all(|which: u8| {
         let value = |place: Place| {
@@ -118,7 +119,7 @@ fn accept_all(path: &Path, gates: &[&Compared], edges: &[Place; 3], side: i8) ->
     })
 }
 
-/// Whether a gate accepts at an epsilon of 0, given of each number whether it is an edge's value (else it is 0), and its
+/// True if a gate accepts at an epsilon of 0, given for each number if it is an edge's value (else it is 0), and its
 /// sign.
 fn accepts_surely(acceptance: &Acceptance, value: impl Fn(Place) -> (bool, i8)) -> bool {
     let sign = |place: Place| value(place).1;
@@ -178,7 +179,7 @@ pub fn symmetry_of(path: &Path, place: Place) -> Symmetry {
     }
 }
 
-/// Whether a number of two vertices becomes its negative, bit for bit, when these are exchanged.
+/// True if a number of two vertices becomes its negative, bit for bit, when these are exchanged.
 fn is_opposite(path: &Path, place: Place) -> bool {
     let Some((p, q)) = ends(path, place) else { return false };
     let mut forms = Forms::default();
@@ -272,7 +273,7 @@ fn parts(path: &Path, place: Place) -> Vec<Place> {
     found
 }
 
-/// What a path compared, and the answer.
+/// The comparison of a path, and its answer.
 type Decision = (u8, Signed, Signed, bool);
 
 /// An edge's value as it is of the edge from a to b.
@@ -286,7 +287,7 @@ fn of_edge(forms: &mut Forms, path: &Path, place: Place) -> Signed {
     forms.of(path, place, &|i| renamed(i, name))
 }
 
-/// What a path decides before its first comparison that depends on more than the ray's line.
+/// The decisions of a path before its first comparison that depends on more than the ray's line.
 fn of_the_ray(forms: &mut Forms, path: &Path) -> Vec<Decision> {
     // t_max is no part of it: it shrinks from triangle to triangle as hits are found.
     let depends = |i: u8| 6 <= i;

@@ -8,7 +8,7 @@ use crate::arith::{Bounded, Exact, Float};
 use std::cmp::Ordering;
 
 /// A scalar, with the arithmetic in which a search takes the exact numbers: right to far less than an ulp of
-/// the scalar. What a search finds is measured again in [`Exact`] numbers.
+/// the scalar. The result of a search is measured again in [`Exact`] numbers.
 pub trait Searched: Float + Number {
     /// That arithmetic.
     type Near: Number;
@@ -38,7 +38,7 @@ impl Searched for f64 {
     }
 }
 
-/// What a search maximises.
+/// The number that a search maximises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Goal {
     /// The error of the computed number.
@@ -242,7 +242,7 @@ impl<'a, F: Searched> Search<'a, F> {
     }
 }
 
-/// Whether a coordinate is used otherwise than in a difference of points.
+/// True if a coordinate is used otherwise than in a difference of points.
 fn is_used_alone(path: &crate::kernel::Path, renamed: &[Option<Place>], place: usize) -> bool {
     path.operations.iter().enumerate().any(|(user, operation)| {
         renamed[user].is_some()

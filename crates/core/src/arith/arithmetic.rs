@@ -11,7 +11,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Arithmetic {
     /// A product that goes straight into a sum or a difference is not rounded: one fused multiply-add
-    /// (IEEE 754, 5.4.1) instead of two operations. Of two such products the left one is fused.
+    /// (IEEE 754, 5.4.1) instead of two operations. If both terms are such products, the left one is fused.
     pub fused: bool,
     /// Subnormal numbers are zeros of their sign, as operands and as results (on x86 DAZ and FTZ
     /// together). A result is flushed if it is subnormal after it was rounded to the format.
@@ -42,7 +42,7 @@ impl Arithmetic {
         }
     }
 
-    /// What it does, in a line.
+    /// A description in one line.
     pub const fn describe(self) -> &'static str {
         match (self.fused, self.flushed) {
             (false, false) => "IEEE 754, operation by operation (the default)",

@@ -12,7 +12,7 @@ use std::cell::Cell;
 use std::cmp::Ordering;
 
 thread_local! {
-    /// Whether a comparison of the run on this thread was not decided.
+    /// True if a comparison of the run on this thread was not decided.
     static DOUBT: Cell<bool> = const { Cell::new(false) };
 }
 

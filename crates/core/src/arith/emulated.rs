@@ -56,7 +56,7 @@ impl<F: Float> Emulated<F> {
         self.arithmetic
     }
 
-    /// Whether it is a product that may still be fused.
+    /// True if this is a product that may still be fused.
     pub(super) fn is_product(&self) -> bool {
         self.factors.is_some()
     }

@@ -54,7 +54,7 @@ impl FloatEnvironment {
         }
     }
 
-    /// Whether it is the one that IEEE 754 and every language start with.
+    /// True if this is the environment that IEEE 754 and every language start with.
     pub fn is_default(self) -> bool {
         self == FloatEnvironment::default()
     }
@@ -78,7 +78,7 @@ impl FloatEnvironment {
 }
 
 impl fmt::Display for FloatEnvironment {
-    /// What differs from the default, in words.
+    /// The differences from the default, in words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounding = match self.rounding {
             Rounding::Nearest => None,

@@ -109,9 +109,9 @@ pub trait Real:
     fn is_at_most(&self, other: &Self) -> bool;
     /// `self == 0`; false if NaN.
     fn is_zero(&self) -> bool;
-    /// Whether this is NaN.
+    /// True if this is NaN.
     fn is_nan(&self) -> bool;
-    /// Whether this is neither NaN nor infinite.
+    /// True if this is neither NaN nor infinite.
     fn is_finite(&self) -> bool;
     /// Positive infinity.
     fn infinity() -> Self;

@@ -42,7 +42,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// What stands for infinity. No program that uses it is analysed.
+    /// A stand-in for infinity. No program that uses it is analysed.
     pub const INFINITY: Operation = Operation::Number(i32::MAX);
 
     /// Its operands.
@@ -81,7 +81,7 @@ impl Comparison {
     }
 }
 
-/// What a run left behind.
+/// The operations and comparisons that a run wrote down.
 #[derive(Clone, Debug, Default)]
 pub struct Tape {
     /// The operations in order.
@@ -110,7 +110,7 @@ struct Tried {
 pub struct Outcome {
     /// The comparisons that are made, and the answers that they get.
     pub answers: Vec<(Comparison, bool)>,
-    /// What the test says then.
+    /// The answer of the test then.
     pub accepts: bool,
 }
 

@@ -24,7 +24,7 @@ pub struct Exceptions {
 }
 
 impl Exceptions {
-    /// Of a result of finite operands; `exact` says whether a finite one is not rounded.
+    /// The exceptions of a result of finite operands; `exact` is true if a finite one is not rounded.
     fn of<F: Float>(result: F, exact: impl FnOnce() -> bool) -> Exceptions {
         let overflow = !result.is_finite();
         let inexact = overflow || !exact();
@@ -44,7 +44,7 @@ impl BitOr for Exceptions {
 }
 
 thread_local! {
-    /// Of the numbers that the run on this thread has compared.
+    /// The exceptions of the numbers that the run on this thread has compared.
     static COMPARED: Cell<Exceptions> = const {
         Cell::new(Exceptions { inexact: false, overflow: false, underflow: false })
     };
@@ -62,7 +62,7 @@ pub fn tracked<T>(run: impl FnOnce() -> T) -> (T, Exceptions) {
 pub struct Tracked<F: Float> {
     number: Emulated<F>,
     raised: Exceptions,
-    /// Of a product that may still be fused: what happened on the way to its factors.
+    /// For a product that may still be fused, the exceptions on the way to its factors.
     before: Exceptions,
 }
 
@@ -85,7 +85,7 @@ impl<F: Float> Tracked<F> {
         self.number.value()
     }
 
-    /// What happened on the way to it.
+    /// The exceptions on the way to this number.
     pub fn raised(&self) -> Exceptions {
         self.raised
     }
@@ -163,7 +163,7 @@ impl<F: Float> Operation<F> {
         Exceptions::of(result, || self.is_exact(result))
     }
 
-    /// Whether the finite result of finite operands is not rounded.
+    /// True if the finite result of finite operands is not rounded.
     fn is_exact(self, result: F) -> bool {
         match self {
             Operation::Sum(a, b) => {
@@ -184,7 +184,7 @@ impl<F: Float> Operation<F> {
     }
 }
 
-/// Whether `product` is `a*b` without rounding; all finite.
+/// True if `product` is `a*b` without rounding; all three are finite.
 fn is_product<F: Float>(product: F, a: F, b: F) -> bool {
     let [(p, i), (a, j), (b, k)] = [product, a, b].map(|x| decompose(x.to_f64()));
     // Odd digits and exponents of a product are those of its factors multiplied and added.
@@ -285,7 +285,7 @@ mod tests {
         BigRational::from_float(x.to_f64())
     }
 
-    /// What an operation computes, and what it would without rounding.
+    /// The result of an operation, and the result that it would have without rounding.
     type Result<F> = (Tracked<F>, Option<BigRational>);
 
     fn exceptions_are_those_that_rationals_tell<F: Float>(arithmetic: Arithmetic) {

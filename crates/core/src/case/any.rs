@@ -21,7 +21,7 @@ impl<A, B> AnyScalar<A, B> {
         }
     }
 
-    /// Whether it is of `f32`, and whether of `f64`.
+    /// For `f32` and for `f64`, true if it is of that scalar.
     pub fn scalars(&self) -> [bool; 2] {
         [f32::NAME, f64::NAME].map(|name| name == self.scalar())
     }

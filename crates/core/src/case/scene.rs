@@ -6,7 +6,7 @@ use crate::suggest::nearest_name;
 pub use text::Number;
 use text::{Range, Sizes, extent_in, number, one_of, range, sizes};
 
-/// What the rays and triangles of a scene measure, in the scene's own unit of length.
+/// The sizes of a scene's rays and triangles, in the scene's own unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Every coordinate of a triangle is within ± this of the center.
@@ -25,7 +25,7 @@ pub struct Scene {
     /// The sines of the angles between almost parallel rays and planes, each halving equally likely; none for those
     /// from 1/8 down to below rounding.
     pub sine: Option<[f64; 2]>,
-    /// Whether all almost parallel rays are aimed inside their triangle; half of them are aimed beside it otherwise.
+    /// If true, all almost parallel rays are aimed inside their triangle; otherwise half of them are aimed beside it.
     pub aims_inside: bool,
     /// Where the direction of a ray comes from.
     pub ray: RayKind,
@@ -68,7 +68,7 @@ named! {
 }
 
 impl PlaneKind {
-    /// Whether the plane is at or near coordinate 0, so that the scene's center has to be 0.
+    /// True if the plane is at or near coordinate 0, so that the scene's center has to be 0.
     fn is_near_zero(self) -> bool {
         matches!(self, PlaneKind::AxisNearZero | PlaneKind::AxisAtZero)
     }
@@ -302,7 +302,7 @@ impl Scene {
         all.filter(can_have).map(|plane| Scene { plane, ..self.clone() }).collect()
     }
 
-    /// Whether the words of a scene name a kind of plane.
+    /// True if the words of a scene name a kind of plane.
     pub fn names_planes(text: &str) -> bool {
         text.split(',').any(|word| word.split('=').next().is_some_and(|key| key.trim() == "plane"))
     }

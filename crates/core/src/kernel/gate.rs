@@ -20,7 +20,7 @@ pub enum Refuse {
 }
 
 impl Refuse {
-    /// Whether `x` passes under `epsilon`, by the comparison of the source.
+    /// True if `x` passes under `epsilon`, by the comparison of the source.
     #[inline(always)]
     pub fn passes<R: Real>(self, x: &R, epsilon: &R) -> bool {
         match self {
@@ -31,7 +31,7 @@ impl Refuse {
         }
     }
 
-    /// Whether all quantities of at least one clause pass.
+    /// True if all quantities of at least one clause pass.
     #[inline(always)]
     fn passes_any<R: Real, const M: usize, const N: usize>(
         self,
@@ -75,7 +75,7 @@ impl Dimension {
         Dimension { length, direction }
     }
 
-    /// Whether a margin follows the size of anything.
+    /// True if a margin scales with a length or with the direction; false if it is a plain number.
     pub fn has_unit(self) -> bool {
         self != Dimension::new(0, 0)
     }
@@ -83,7 +83,7 @@ impl Dimension {
 
 named! {
     pub names
-    /// What a gate is there to refuse.
+    /// The cases that a gate is there to refuse.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Role {
         /// Rays parallel to the plane and triangles without area; with a sign, the culled side too.
@@ -114,22 +114,22 @@ impl Role {
     }
 }
 
-/// What one gate of a kernel is.
+/// One gate of a kernel: its name, its role, its comparison and its epsilons.
 #[derive(Clone, Copy, Debug)]
 pub struct Gate {
-    /// What `--epsilon NAME=…` calls it.
+    /// The name, as in `--epsilon NAME=…`.
     pub name: &'static str,
-    /// What it is there to refuse.
+    /// The cases that it is there to refuse.
     pub role: Role,
     /// The refusal in the source's notation, with `e` for the epsilon.
     pub refuses: &'static str,
     /// The margin's dimension.
     pub dimension: Dimension,
-    /// What epsilons it takes.
+    /// The epsilons that it takes.
     pub epsilon: Tunable,
 }
 
-/// What epsilons a gate takes.
+/// The epsilons that a gate takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tunable {
     /// None: the gate is a fixed test.

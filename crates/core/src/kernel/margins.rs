@@ -67,7 +67,7 @@ pub fn each_case<F: Float>(
     }
 }
 
-/// What a kernel would report of a hit.
+/// The values that a kernel would report of a hit.
 pub fn values_of<F: Float>(info: &KernelInfo, verdict: &Verdict<F>) -> Option<Hit<F>> {
     let &Verdict { hit, facing, t, u, v, .. } = verdict;
     let (t, uv) = (info.gives.t.then_some(t), info.gives.uv.then_some((u, v)));

@@ -10,7 +10,7 @@
 
 #![forbid(unsafe_code)]
 
-/// What most kernels compute ahead of any ray: nothing.
+/// The preparation of most kernels: nothing is computed ahead of a ray.
 macro_rules! stores_triangle {
     () => {
         type Prepared<V: Vector> = Triangle<V>;
@@ -67,12 +67,12 @@ use crate::truth::Facing;
 
 /// A ray–triangle kernel, written once for every arithmetic.
 pub trait Kernel: Sync + 'static {
-    /// What it is and what it promises.
+    /// The description of the kernel, with its promise.
     const INFO: KernelInfo;
-    /// What it stores for a triangle.
+    /// The data that it stores for a triangle.
     type Prepared<V: Vector>;
 
-    /// What the source computes for each triangle ahead of any ray.
+    /// Computes what the source computes for each triangle ahead of any ray.
     fn prepare<V: Vector>(triangle: &Triangle<V>) -> Self::Prepared<V>;
 
     /// The test of the source, in its order of operations and with its comparisons. A sink that does not
@@ -93,7 +93,7 @@ pub trait Kernel: Sync + 'static {
     }
 }
 
-/// What a kernel reports of a hit. The weights of a, b and c are 1-u-v, u and v.
+/// The values that a kernel reports of a hit. The weights of a, b and c are 1-u-v, u and v.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hit<R> {
     /// The ray's parameter, in units of the direction.
@@ -117,14 +117,14 @@ impl<R> Hit<R> {
     }
 }
 
-/// What a kernel is, where it comes from and what it promises.
+/// The description of a kernel: its name, its source, its promise and its gates.
 #[derive(Debug)]
 pub struct KernelInfo {
     /// The name on the command line.
     pub name: &'static str,
     /// Author, title, year and address of its source.
     pub source: &'static str,
-    /// What its source promises.
+    /// The promise of its source.
     pub contract: Contract,
     /// Its gates, in the order of the test.
     pub gates: &'static [Gate],
@@ -132,9 +132,9 @@ pub struct KernelInfo {
     pub epsilon_sets: &'static [EpsilonSet],
     /// Which values of a hit it reports.
     pub gives: Gives,
-    /// Whether it takes planar convex polygons too.
+    /// True if it takes planar convex polygons too.
     pub polygons: bool,
-    /// Whether it hits when every coordinate is NaN, as its comparisons are written.
+    /// True if it hits when every coordinate is NaN, as its comparisons are written.
     pub hits_nan: bool,
 }
 
@@ -159,7 +159,7 @@ impl KernelInfo {
 /// number: `EPSILON`, `16*EPSILON`. Fixed gates ignore theirs.
 #[derive(Clone, Copy, Debug)]
 pub struct EpsilonSet {
-    /// What the set is called in a report: `source`, `zero`, a value.
+    /// The name of the set in a report: `source`, `zero`, a value.
     pub name: &'static str,
     /// In the order of the gates.
     pub values: &'static [&'static str],

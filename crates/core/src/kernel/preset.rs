@@ -35,7 +35,7 @@ pub enum PresetValue {
 }
 
 impl PresetEntry {
-    /// Whether a kernel's gate can take this epsilon.
+    /// True if a kernel's gate can take this epsilon.
     pub fn fits(&self, gate: &Gate) -> bool {
         gate.name == self.gate && gate.dimension == self.dimension && gate.epsilon != Tunable::Fixed
     }

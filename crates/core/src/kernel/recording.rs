@@ -21,13 +21,13 @@ pub struct Path {
     pub operations: Vec<Operation>,
     /// The comparisons that chose the path, and their answers.
     pub decisions: Vec<(Comparison, bool)>,
-    /// What the gates compare, in order.
+    /// The quantities that the gates compare, in order.
     pub compared: Vec<Compared>,
-    /// Whether it is a hit if every gate accepts; else something refuses it that is no gate.
+    /// True if it is a hit when every gate accepts; false if something refuses it that is not a gate.
     pub hits: bool,
 }
 
-/// What a gate compares.
+/// The quantities that a gate compares, and how it decides.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Compared {
     /// Which gate.
@@ -41,7 +41,7 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Whether its quantities are compared with the epsilon itself; else with 0, or with each other.
+    /// True if its quantities are compared with the epsilon itself; false if with 0, or with each other.
     pub fn is_margin(&self) -> bool {
         matches!(self.accepts, Acceptance::Clauses(..))
     }
@@ -54,7 +54,7 @@ pub enum Acceptance {
     Clauses(Refuse, Vec<Vec<Place>>),
     /// It rounds with its epsilon: every way through its comparisons at an epsilon of 0.
     Rounded(Vec<Outcome>),
-    /// It takes no epsilon. What it makes of its comparisons is not known.
+    /// It takes no epsilon. How its comparisons decide is not known.
     Fixed,
 }
 
@@ -62,9 +62,9 @@ pub enum Acceptance {
 #[derive(Debug, Default)]
 struct Recording {
     compared: Vec<Compared>,
-    /// What was asked before this belongs to no fixed test that comes.
+    /// The comparisons before this place belong to no later fixed test.
     asked: usize,
-    /// Whether a gate compares in more ways than can be written down.
+    /// True if a gate compares in more ways than can be written down.
     is_too_wide: bool,
     /// Which of the comparisons is refused; else it never stops.
     refused: Option<usize>,
@@ -107,7 +107,7 @@ impl Sink<Recorded> for Recording {
         self.note(gate, Acceptance::Rounded(outcomes), quantities)
     }
 
-    /// What was asked since the fixed test before.
+    /// Notes all comparisons since the fixed test before.
     fn fixed(&mut self, gate: usize, _: bool) -> bool {
         let compared = asked_from(self.asked);
         self.asked = asked_so_far();
@@ -158,7 +158,7 @@ pub(super) fn paths<K: Kernel>(arithmetic: Arithmetic) -> Result<Vec<Path>, Stri
     }
 }
 
-/// What the gates compare, of which one may refuse, and whether it is a hit if they all accept.
+/// Records a run: the gates' comparisons, of which one may refuse, and true if the run is a hit.
 fn run<K: Kernel>(refused: Option<usize>) -> (Recording, bool) {
     let number = |i: u8| Recorded::input(i);
     let triple = |i: u8| Triple::from([number(i), number(i + 1), number(i + 2)]);

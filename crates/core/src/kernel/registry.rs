@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError, RwLock};
 /// A row: a kernel in one or both scalars.
 #[derive(Clone, Copy)]
 pub struct Entry {
-    /// What it is and what it promises.
+    /// The description of the kernel, with its promise.
     pub info: &'static KernelInfo,
     /// The flag that chooses it on a command line, if not `--kernel` with its name.
     flag: Option<&'static str>,
@@ -43,7 +43,7 @@ impl Entry {
         self.with_f64(Box::leak(Box::new(Own::new(test))))
     }
 
-    /// What should be known of it beside its verdicts; each in one line.
+    /// Notes on it, besides its verdicts; each in one line.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = self.f32.map_or(Vec::new(), |subject| subject.notes());
         let more = self.f64.map_or(Vec::new(), |subject| subject.notes());
@@ -72,31 +72,31 @@ impl Entry {
         Entry { flag: Some(flag), ..self }
     }
 
-    /// Whether it shows its gates: each one's margin on a case.
+    /// True if it shows its gates: each one's margin on a case.
     pub fn shows_gates(&self) -> bool {
         let f32 = self.f32.is_some_and(|subject| subject.gated().is_some());
         f32 || self.f64.is_some_and(|subject| subject.gated().is_some())
     }
 
-    /// Whether a study of epsilons can ask it for margins: see [`Subject::tells_margins`].
+    /// True if a study of epsilons can ask it for margins: see [`Subject::tells_margins`].
     pub fn tells_margins(&self) -> bool {
         self.f32.is_none_or(|subject| subject.tells_margins())
             && self.f64.is_none_or(|subject| subject.tells_margins())
     }
 
-    /// Whether it runs in `f32`, and in `f64`.
+    /// For `f32` and for `f64`, true if it runs in that scalar.
     pub const fn scalars(&self) -> [bool; 2] {
         [self.f32.is_some(), self.f64.is_some()]
     }
 
-    /// Whether a program has it without adding it, in whatever arithmetic.
+    /// True if a program has it without adding it, in whatever arithmetic.
     pub fn is_built_in(&self) -> bool {
         let name = self.info.name;
         let base = name_and_arithmetic(name).map_or(name, |(base, _)| base);
         KERNELS.iter().any(|entry| entry.info.name == base)
     }
 
-    /// Whether it is the same kernel with the same code.
+    /// True if it is the same kernel with the same code.
     fn is(&self, other: &Entry) -> bool {
         // Subjects without size share their address, so that their methods count too; methods that are
         // in two places make the same kernel two, which is no harm.
@@ -137,7 +137,7 @@ pub static KERNELS: &[Entry] = &[
     Entry::of::<super::havel_herout::HavelHerout>(),
 ];
 
-/// What programs added to the built-in kernels.
+/// The kernels that programs added to the built-in ones.
 static ADDED: RwLock<Vec<&'static Entry>> = RwLock::new(Vec::new());
 
 /// Every kernel: the added ones, then the built-in ones in the order of reports.

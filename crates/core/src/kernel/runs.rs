@@ -1,5 +1,4 @@
-//! What comes out of a run that shows more than a verdict: margins, a run without rounding, a run with its
-//! exceptions.
+//! The results of runs that show more than a verdict: margins, a run without rounding, a run with its exceptions.
 
 use super::{Deciding, Hit, Kernel, Verdict};
 use crate::arith::{Arithmetic, Exceptions, Float, Real, Tracked, Triple, tracked};
@@ -11,16 +10,16 @@ use crate::truth::Facing;
 pub struct Measured<R> {
     /// One margin a gate; +inf if the kernel never compared.
     pub margins: Vec<R>,
-    /// What a hit would report.
+    /// The values that a hit would report.
     pub values: Option<Hit<R>>,
 }
 
 /// A kernel's run without rounding, by the comparisons of its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactRun {
-    /// Whether each gate passes.
+    /// One flag a gate: true if the gate passes.
     pub passed: Vec<bool>,
-    /// Whether the values that a hit would report are numbers.
+    /// True if the values that a hit would report are numbers.
     pub finite: bool,
     /// The side that a hit would report.
     pub facing: Option<Facing>,
@@ -32,7 +31,7 @@ impl ExactRun {
         self.passed.iter().position(|passes| !passes)
     }
 
-    /// Whether it is a hit.
+    /// True if it is a hit.
     pub fn hit(&self) -> bool {
         self.passed.iter().all(|passes| *passes)
     }
@@ -50,9 +49,9 @@ impl ExactRun {
 pub struct TrackedRun<F> {
     /// The verdict.
     pub verdict: Verdict<F>,
-    /// Of the numbers behind its decisions.
+    /// The exceptions of the numbers behind its decisions.
     pub decision: Exceptions,
-    /// Of the values of a hit.
+    /// The exceptions of the values of a hit.
     pub values: Exceptions,
 }
 

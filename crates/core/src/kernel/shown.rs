@@ -1,5 +1,5 @@
-//! What kernels that are written once for every arithmetic show beside verdicts: their margins, and their runs without
-//! rounding and with exceptions. An audit without causes needs none of it.
+//! The margins of kernels that are written once for every arithmetic, and their runs without rounding
+//! and with exceptions. An audit without causes does not need them.
 
 use super::gate::Either;
 use super::recording::{Path, paths};

@@ -51,7 +51,7 @@ pub trait Subject<F: Float>: Sync {
         None
     }
 
-    /// Whether [`Subject::margins`] is quick enough to be asked.
+    /// True if [`Subject::margins`] is quick enough to be used.
     fn tells_margins(&self) -> bool {
         true
     }
@@ -77,7 +77,7 @@ pub trait Subject<F: Float>: Sync {
         None
     }
 
-    /// What should be known beside its verdicts, which stand; each in one line.
+    /// Notes on it, besides its verdicts, which stand; each in one line.
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
@@ -91,7 +91,7 @@ pub trait Subject<F: Float>: Sync {
     }
 }
 
-/// What [`Subject::margins`] are of a kernel that does not show its gates.
+/// [`Subject::margins`] of a kernel that does not show its gates: found by running it.
 pub(super) fn margins_by_running<F: Float, S: Subject<F> + ?Sized>(
     subject: &S,
     info: &KernelInfo,
@@ -147,7 +147,7 @@ pub fn verdicts_of<F: Float>(
 
 /// A kernel that shows its gates: each one's margin, and its formula without rounding.
 pub trait Gated<F: Float>: Sync {
-    /// What it is and what it promises.
+    /// The description of the kernel, with its promise.
     fn info(&self) -> &'static KernelInfo;
 
     /// Every gate's margin on a case, and the values of a hit.

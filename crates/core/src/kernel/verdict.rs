@@ -1,4 +1,4 @@
-//! What a kernel answers, and why it may not.
+//! A kernel's answer, and the reasons why there may be none.
 
 use super::Hit;
 use crate::arith::Float;
@@ -84,7 +84,7 @@ impl<F: Float> Verdict<F> {
         Verdict { failure: Some(failure), ..Verdict::miss(None) }
     }
 
-    /// What a kernel returned, and the gate at which it stopped.
+    /// The verdict that follows from a kernel's result and the gate at which it stopped.
     #[inline(always)]
     pub fn of(hit: Option<Hit<F>>, refused_by: Option<usize>) -> Self {
         match hit {

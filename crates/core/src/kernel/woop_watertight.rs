@@ -6,6 +6,8 @@
 //! at t_min = 0 the comparison is the same. The fallback computes in wider arithmetic: f32 in f64 as
 //! in the appendix, and f64 by exact products, which is an addition of this project. The appendix does
 //! not report which side was hit.
+//!
+//! The shear divides by d, so U, V and W have the dimension length², not length²·|d|.
 
 use super::{EpsilonSet, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role, Sink, end_times, gap};
 use crate::arith::{Real, Vector};
@@ -96,7 +98,8 @@ impl Kernel for WoopWatertight {
         } else {
             (t.clone(), det.clone())
         };
-        // The appendix compares with 0 where t_min stands here, and multiplies hit.t.
+        // The appendix compares with 0 where t_min stands here, and multiplies hit.t. So an end of 0 is not
+        // multiplied, and the comparison stays the appendix's.
         let (near, far) = (end_times(&ray.t_min, &abs_det), ray.t_max.clone() * &abs_det);
         if !sink.one(T, Refuse::Below, &gap(&signed_t, &near))
             || !sink.one(T, Refuse::Below, &gap(&far, &signed_t))

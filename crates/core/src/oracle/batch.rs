@@ -36,7 +36,7 @@ use std::ops::Deref;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Batch<C> {
-    /// Of o, d, a, b, c.
+    /// The columns of o, d, a, b and c.
     vectors: [[C; 3]; 5],
     /// t_min and t_max.
     interval: [C; 2],
@@ -115,7 +115,7 @@ impl<F: Float, C: Deref<Target = [F]>> Batch<C> {
         self.vectors[0][0].len()
     }
 
-    /// Whether there is no case.
+    /// True if there is no case.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -91,7 +91,7 @@ const MET: [Met; 27] = {
     all
 };
 
-/// What the ray has in common with the triangle (0: nothing, 1: the first point met, 2: the second, 3: a
+/// The points that the ray has in common with the triangle (0: nothing, 1: the first point met, 2: the second, 3: a
 /// segment), by the number of points and by the signs of their t as [`Met::contacts`] are.
 const COMMON: [[usize; 9]; 3] = [
     [0; 9],

@@ -44,7 +44,7 @@ pub(super) struct Computed {
     d_error: f64,
 }
 
-/// Of o, d, a, b, c. A straight line, of which a loop over cases makes vector instructions.
+/// The predicates of o, d, a, b and c. The code has no branch, so a loop over cases becomes vector instructions.
 #[inline(always)]
 pub(super) fn compute([o, direction, a, b, c]: [Vector; 5]) -> Computed {
     let from_origin = |p: Vector| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
@@ -69,8 +69,8 @@ pub(super) fn compute([o, direction, a, b, c]: [Vector; 5]) -> Computed {
     Computed { weights, weight_errors, t, t_error, d, d_error }
 }
 
-/// What is known of a case: the bits are that t > 0, that the line meets the triangle, that D < 0, that its interval
-/// is from 0 to infinity, and that all these signs are certain.
+/// The signs that are known of a case. The bits are that t > 0, that the line meets the triangle, that D < 0, that the
+/// case's interval is from 0 to infinity, and that all these signs are certain.
 #[derive(Clone, Copy)]
 pub(super) struct Code(u64);
 
@@ -126,7 +126,7 @@ impl Computed {
         (value.abs() > error).then(|| value.total_cmp(&0.0))
     }
 
-    /// Whether t lies past an end of the interval, if that or its opposite is certain.
+    /// True if t lies past an end of the interval; none if neither that nor its opposite is certain.
     pub fn is_past(&self, end: f64) -> Option<bool> {
         is_past(end, (self.t, self.t_error), (self.d, self.d_error))
     }
@@ -164,7 +164,7 @@ impl Computed {
     }
 }
 
-/// Whether T/D > end, if that or its opposite is certain.
+/// True if T/D > end; none if neither that nor its opposite is certain.
 ///
 /// In T - end·D the product and the difference round once more each, by less than 3u·(|T| + |end·D|) in
 /// all. The errors of T and D hold that already: they are 16u times permanents that are at least |T| and

@@ -13,7 +13,7 @@ pub trait Number {
     /// Less, equal or greater than zero.
     fn sign(&self) -> Ordering;
 
-    /// Whether it is zero.
+    /// True if it is zero.
     #[inline(always)]
     fn is_zero(&self) -> bool {
         self.sign() == Ordering::Equal
@@ -99,12 +99,12 @@ impl Interval {
         Interval { t_min: case.ray.t_min, t_max: case.ray.t_max, exponent }
     }
 
-    /// Whether the interval is `[0, +inf]`.
+    /// True if the interval is `[0, +inf]`.
     pub fn is_default(&self) -> bool {
         self.t_min == 0.0 && self.t_max == f64::INFINITY
     }
 
-    /// Whether the interval is one point.
+    /// True if the interval is one point.
     pub fn is_point(&self) -> bool {
         self.t_min == self.t_max
     }

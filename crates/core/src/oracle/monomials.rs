@@ -76,8 +76,8 @@ struct Extended {
     exponent: i32,
 }
 
-/// Of zero. A product of four factors with a zero among them lies far below any without: at most at -96931,
-/// against at least -4296.
+/// The exponent of zero. A product of four factors with a zero among them lies far below any without: at most at
+/// -96931, against at least -4296.
 const NO_EXPONENT: i32 = -100_000;
 
 impl Extended {
@@ -107,7 +107,7 @@ impl Extended {
 
 /// Products that lie more than this many binary places below the largest are left out.
 const REACH: i32 = 200;
-/// What leaving out and rounding add, relative to the sum of absolute values: 2^-47.
+/// The error that leaving out and rounding add, relative to the sum of absolute values: 2^-47.
 const ERROR: f64 = f64::from_bits((1023 - 47) << 52);
 
 /// The sign of a sum of up to 42 products, if floats are certain of it.

@@ -62,7 +62,7 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
     (Signs { d, weights, t, from_min, from_max }.truth(), deepest)
 }
 
-/// Whether scaling can be left out. Coordinates are zero or within 2^±150, so all differences are multiples of 2^-202,
+/// True if scaling can be left out. Coordinates are zero or within 2^±150, so all differences are multiples of 2^-202,
 /// and products of three are multiples of 2^-606: nothing underflows or overflows. All layers are right
 /// for other cases too, scaled or not; unscaled they would only hand on more.
 fn is_moderate(case: &Case<f64>) -> bool {

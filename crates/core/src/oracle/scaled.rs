@@ -17,12 +17,12 @@ pub(super) struct Scaled {
     origin: Triple<BigInt>,
     direction: Triple<BigInt>,
     vertices: [Triple<BigInt>; 3],
-    /// Of t = T/D.
+    /// The exponent that t = T/D carries.
     t_exponent: i64,
 }
 
 impl Scaled {
-    /// Of a valid case.
+    /// The numbers of a valid case.
     pub fn new(case: &Case<f64>) -> Scaled {
         let [o, d, a, b, c] = case.vectors();
         let ([origin, a, b, c], p) = align([o, a, b, c]);

@@ -5,15 +5,15 @@ use std::cmp::Ordering;
 
 /// The signs that decide a transversal case. D is not zero.
 pub(super) struct Signs {
-    /// Of D = d·N.
+    /// The sign of D = d·N.
     pub d: Ordering,
-    /// Of U, V, W, the scalar triple products that weigh a, b and c.
+    /// The signs of U, V, W, the scalar triple products that weigh a, b and c.
     pub weights: [Ordering; 3],
-    /// Of T = N·(a-o).
+    /// The sign of T = N·(a-o).
     pub t: Ordering,
-    /// Of t - t_min.
+    /// The sign of t - t_min.
     pub from_min: Ordering,
-    /// Of t - t_max.
+    /// The sign of t - t_max.
     pub from_max: Ordering,
 }
 

@@ -6,9 +6,9 @@ use std::ops::{Add, Neg};
 /// Four integers of up to 53 bits times 2^exponent.
 #[derive(Clone, Copy)]
 pub(super) struct Product {
-    /// What is multiplied.
+    /// The four integers that are multiplied.
     pub factors: [i64; 4],
-    /// At least -2^19 and below 2^19. Of a product that is zero it need only be below that of any other.
+    /// At least -2^19 and below 2^19. The exponent of a zero need only be below that of any other.
     pub exponent: i32,
 }
 
@@ -67,7 +67,7 @@ struct I256 {
 impl I256 {
     const ZERO: I256 = I256 { high: 0, low: 0 };
 
-    /// Of two numbers below 2^107.
+    /// The product of two numbers below 2^107.
     #[inline(always)]
     fn product(a: u128, b: u128) -> I256 {
         let halves = |x: u128| (x >> 64, x & u128::from(u64::MAX));

@@ -21,7 +21,7 @@ pub struct Row<T> {
 /// The weight of a step's error, and whether it is multiplied by the step.
 pub type Weight<T> = (T, bool);
 
-/// What is largest, and the first corner that has it: bit v is set where variable v is negative.
+/// The largest sum of effects, and the first corner that has it: bit v is set where variable v is negative.
 pub struct Found {
     /// The sum of the effects that do not depend on a unit vector; all of them if there is none.
     pub sum: BigInt,

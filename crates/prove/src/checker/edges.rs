@@ -6,7 +6,7 @@ use super::reader::Outcome;
 use num_traits::One;
 use std::collections::HashMap;
 
-/// What is supposed of two edges of the triangle: along an axis they have the same sign, one of them perhaps
+/// A supposition about two edges of the triangle: along an axis they have the same sign, one of them perhaps
 /// turned round.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct SameSign {
@@ -29,10 +29,10 @@ impl SameSign {
 pub struct Third {
     pub first: usize,
     pub second: usize,
-    /// Whether the first one's negative is a part of the second one.
+    /// True if the first one's negative is a part of the second one.
     pub minus: bool,
     pub same_sign: SameSign,
-    /// Of the second quotient.
+    /// The bound of the second quotient.
     pub bound: Bound,
     /// The largest size of a quotient of the third edge.
     pub size: Number,

@@ -21,12 +21,12 @@ pub struct Step<'a> {
     terms: Vec<Term>,
     /// The variables in it, as bits.
     support: usize,
-    /// What is known before the corners.
+    /// The bound that is known before the corners.
     given: Option<Bound>,
-    /// Whether its error is also at most u times its size before it is rounded, and a tiny number.
+    /// True if its error is also at most u times its size before it is rounded, and a tiny number.
     rounds: bool,
     relative: bool,
-    /// Whether its rounding is left out: its quotient's lemma takes it as a share of the quotient.
+    /// True if its rounding is left out, because its quotient's lemma takes it as a share of the quotient.
     left_out: bool,
 }
 
@@ -36,7 +36,7 @@ pub struct Formula<'a> {
     /// The variables that are coordinates of one unit vector in which the last step is linear.
     unit: Vec<usize>,
     pub steps: Vec<Step<'a>>,
-    /// What its variables of third edges suppose.
+    /// The supposition of its variables of third edges.
     pub same_sign: Option<SameSign>,
 }
 
@@ -190,7 +190,7 @@ impl<'a> Formula<'a> {
         Ok(step)
     }
 
-    /// Of numerator and divisor, in the last steps of a quotient's formula, each if no other step uses it.
+    /// Leaves out the last rounding of numerator and of divisor in a quotient's formula, each if no other step uses it.
     fn leave_out(&mut self) {
         let last = self.steps.iter().rev().take(2).flat_map(|step| step.terms.clone());
         let operands = |(_, a, b): Term| [Some(a), b].into_iter().flatten();
@@ -207,17 +207,17 @@ impl<'a> Formula<'a> {
         }
     }
 
-    /// Whether the last rounding of an operation is left out.
+    /// True if the last rounding of an operation is left out.
     pub fn leaves_out(&self, place: usize) -> bool {
         self.steps.iter().any(|step| step.left_out && step.place == Some(place))
     }
 
-    /// Whether a part is in a step.
+    /// True if a part is in a step.
     fn is_linear(&self, step: usize) -> bool {
         self.unit.iter().any(|v| self.steps[step].support >> v & 1 == 1)
     }
 
-    /// Whether the variables add up to a leaf, input by input.
+    /// True if the variables add up to a leaf, input by input.
     fn is_sum(&self, (i, j): Leaf, sum: &[(bool, usize)]) -> bool {
         let mut left = [0i64; 17];
         let mut add = |(i, j): Leaf, sign: i64| {
@@ -232,8 +232,7 @@ impl<'a> Formula<'a> {
         left == [0; 17]
     }
 
-    /// Whether the last step is n - quotient*d, n may be the number 1, and no other step is without an
-    /// operation.
+    /// True if the last step is n - quotient*d, where n may be the number 1, and no other step is without an operation.
     pub fn is_quotient_of(&self, n: Option<usize>, d: usize) -> bool {
         let Some((before, [q, product, last])) = self.steps.split_last_chunk() else {
             return false;

@@ -35,9 +35,9 @@ pub struct Proved {
     pub gate: String,
     /// The number's operation.
     pub place: usize,
-    /// What holds for it.
+    /// The bound of the number.
     pub bound: Bound,
-    /// Whether it is an edge's value that is the exact negative of the neighbour's and, if it is not zero, has the
+    /// True if it is an edge's value that is the exact negative of the neighbour's and, if it is not zero, has the
     /// sign of an exact determinant.
     pub has_signs: bool,
 }
@@ -47,7 +47,7 @@ pub struct Proved {
 pub struct Refusal {
     /// The line, counted from 1.
     pub line: usize,
-    /// What was found there, and what was expected.
+    /// The text that was found there, and what was expected.
     pub message: String,
 }
 
@@ -162,7 +162,7 @@ fn sum<'a>(
     Ok(Lemma { before: bound.error.clone(), bound, unit: None })
 }
 
-/// What a formula of a number shows, and what it supposes.
+/// The lemma that a formula of a number shows, and its supposition.
 fn formula<'a>(
     program: &Program,
     place: usize,

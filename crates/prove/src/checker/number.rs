@@ -84,7 +84,7 @@ pub fn root_up(x: &Number, digits: i64) -> Number {
     round_up(&shifted(&Number::from(root), e - digits), digits)
 }
 
-/// What holds for a number of a program.
+/// Bounds of a number of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bound {
     /// A bound of the exact number.
@@ -96,7 +96,7 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Of a number without an error.
+    /// The bounds of a number without an error.
     pub fn exactly(size: &Number) -> Bound {
         Bound { size: size.clone(), computed: size.clone(), error: Number::zero() }
     }

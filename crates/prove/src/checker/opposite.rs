@@ -1,12 +1,12 @@
-//! Whether an edge's value is, bit for bit, the negative of what the same program computes for the triangle on the
-//! other side, and has the sign of an exact determinant.
+//! Checks that an edge's value is, bit for bit, the negative of what the same program computes for the triangle on
+//! the other side, and has the sign of an exact determinant.
 
 use super::program::{Program, terms};
 use super::reader::{Outcome, ensure};
 use std::collections::HashMap;
 
-/// What an operation adds up: of each term whether it has the other sign than the first, and its factors by their
-/// forms. Sums and products commute, and rounding to nearest is odd.
+/// The terms that an operation adds up: for each term, true if it has the other sign than the first, and its factors
+/// by their forms. Sums and products commute, and rounding to nearest is odd.
 type Form<'a> = (&'a str, Vec<(bool, Vec<usize>)>);
 
 /// Checks that a number is made of two of the triangle's vertices, and has one form and opposite signs if they are
@@ -56,7 +56,7 @@ pub fn check(program: &Program, place: usize, claim: &str) -> Outcome<()> {
     ensure(is_picture, "x(p)*y(q) - x(q)*y(p) of two vertices")
 }
 
-/// Whether a number depends on a point.
+/// True if a number depends on a point.
 fn is_made_of(program: &Program, place: usize, point: usize) -> bool {
     let mut depends = Vec::new();
     for place in 0..=place {

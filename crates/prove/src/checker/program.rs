@@ -55,7 +55,7 @@ pub struct Operation<'a> {
 /// A signed product of two numbers, or a signed number.
 pub type Term = (bool, usize, Option<usize>);
 
-/// What an operation adds up; none of operations that are no sums.
+/// The terms that an operation adds up; none for operations that are not sums.
 pub fn terms(name: &str, operands: &[usize]) -> Option<Vec<Term>> {
     Some(match (name, operands) {
         ("neg", &[a]) => vec![(true, a, None)],
@@ -75,7 +75,7 @@ pub struct Program<'a> {
     pub operations: Vec<Operation<'a>>,
     /// Pairs of inputs: without their signs, the first is at most the second.
     pub at_most: HashSet<(usize, usize)>,
-    /// What is supposed of divisors and of quotients instead of the domain's limits.
+    /// The limits of divisors and of quotients that stand in place of the domain's.
     pub limits: [HashMap<usize, Number>; 2],
     pub lemmas: HashMap<usize, Lemma>,
 }
@@ -83,7 +83,7 @@ pub struct Program<'a> {
 /// A coordinate of a vector, and the vector's length; and whether its rounded reciprocal is multiplied.
 pub type Unit = (usize, (usize, bool));
 
-/// What is proved of a number.
+/// A lemma: the bound that is proved of a number.
 pub struct Lemma {
     pub bound: Bound,
     /// The error before the operation rounds, if it rounds once; else that of the number.
@@ -215,7 +215,7 @@ impl<'a> Program<'a> {
         Ok(&self.lemma(place)?.bound)
     }
 
-    /// What is said of a number, or of the number in its neg or abs.
+    /// The lemma of a number, or of the number in its neg or abs.
     pub fn lemma(&self, place: usize) -> Outcome<&Lemma> {
         let mut inner = place;
         while let Some(Operation { name: "neg" | "abs", operands, .. }) = self.operations.get(inner)

@@ -4,7 +4,7 @@ use super::number::{Number, number, show};
 use std::iter::Peekable;
 use std::str::Lines;
 
-/// What is read, or one sentence on what was found at the last line that was read, and what was expected.
+/// The value that was read, or one sentence on what was found at the last line that was read, and what was expected.
 pub type Outcome<T> = Result<T, String>;
 
 /// The lines that are left, and the number of the last one that was read.
@@ -31,7 +31,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Whether the next line begins with this word.
+    /// True if the next line begins with this word.
     pub fn is_next(&mut self, word: &str) -> bool {
         self.lines.peek().is_some_and(|line| line.split(' ').next() == Some(word))
     }

@@ -14,7 +14,7 @@ pub struct Variable {
     pub leaf: Option<Leaf>,
     pub cut: Option<usize>,
     pub bound: Bound,
-    /// Of what, if it is a coordinate of the unit vector in which the formula is linear.
+    /// The coordinate and the length, if it is a coordinate of the unit vector in which the formula is linear.
     pub part: Option<Unit>,
     pub third: Option<Third>,
     /// The box that is enough for the effects of errors, if the program divides it by the lemma's divisor too.
@@ -37,7 +37,7 @@ enum Kind {
     Quotient,
 }
 
-/// What a line says after its first word.
+/// The variable that a line describes after its first word.
 fn kind(words: &[&str], in_quotient: bool) -> Option<Kind> {
     let (words, over) = match words {
         [words @ .., "over", ratio] if in_quotient => {
@@ -141,7 +141,7 @@ pub fn read(
     Ok(variables)
 }
 
-/// Whether an operation is the quotient of a leaf, or of its negative, and a divisor.
+/// True if an operation is the quotient of a leaf, or of its negative, and a divisor.
 fn is_ratio(program: &Program, place: usize, (i, j): Leaf, divisor: usize) -> bool {
     let Some(Operation { name: "div", operands, .. }) = program.operations.get(place) else {
         return false;

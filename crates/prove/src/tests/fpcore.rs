@@ -36,7 +36,7 @@ fn parse(text: &str) -> Term {
     all.remove(0)
 }
 
-/// What a core computes: numbers are f64 that hold the number of their context exactly; truth is 1 or 0.
+/// The values of a core: numbers are f64 that hold the number of their context exactly; truth is 1 or 0.
 struct Scope {
     names: Vec<(String, f64)>,
 }
@@ -165,7 +165,7 @@ pub(super) fn run<F: Float>(path: &Path, inputs: &[F; 17]) -> Vec<F> {
     values
 }
 
-/// Whether inputs of these numbers take a path.
+/// True if inputs of these numbers take a path.
 pub(super) fn is_taken<F: Float>(path: &Path, values: &[F]) -> bool {
     let of = |place: Place| values[place as usize];
     path.decisions.iter().all(|(comparison, answer)| {

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 const BOX: Domain =
     Domain { edge: Dyadic::ONE, reach: Dyadic::ONE, world: Dyadic::ONE, ..Domain::UNIT };
 
-/// What Gappa answers to a script: whether it proved it, and what it wrote. None if there is no Gappa.
+/// Gappa's answer to a script: true if it proved it, and the text that it wrote. None if there is no Gappa.
 fn answer(script: &str) -> Option<(bool, String)> {
     let spawned = Command::new("gappa")
         .stdin(Stdio::piped())
@@ -53,7 +53,7 @@ fn quantity<F: Scalar>(kernel: &str, gate: &str, wanted: fn(&Path) -> bool) -> (
     (path, place)
 }
 
-/// What Gappa proves of a gate on the unit domain and what the prover does, in units of u. Gappa accepts
+/// The bounds that Gappa and the prover prove of a gate on the unit domain, in units of u. Gappa accepts
 /// its bound as a goal.
 fn both<F: Scalar>(kernel: &str, gate: &str, wanted: fn(&Path) -> bool) -> Option<[f64; 2]> {
     let format = if F::DIGITS == 24 { Format::F32 } else { Format::F64 };

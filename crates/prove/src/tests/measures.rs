@@ -1,4 +1,4 @@
-//! What a scene says of numbers that kernels divide by and get: true of its triangles, and known in the kernels.
+//! The limits of a scene for numbers that kernels divide by and get: true of its triangles, and known in the kernels.
 
 use super::super::measures::{Known, Sample};
 use super::super::{Domain, Scene, Supposed};

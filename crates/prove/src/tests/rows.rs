@@ -119,7 +119,7 @@ fn effects(formula: &Formula, variables: &[f64], values: &mut Vec<f64>) -> f64 {
         .sum()
 }
 
-/// Of an edge over the area no effects are a larger share of the divisor than those at the corners of the narrow
+/// No effects of an edge over the area are a larger share of the divisor than those at the corners of the narrow
 /// box, and some are nearly that.
 #[test]
 fn effects_as_a_share_of_the_divisor_are_largest_in_the_narrow_box() {
@@ -191,7 +191,7 @@ fn rules_of_rows_are_used_where_their_conditions_hold() {
     assert_eq!(thirds(no_area, DOMAIN).0, [0, 0]);
 }
 
-/// Of all triangles on a grid whose edges' coordinates are below n, and at most |D|·n/(n+1): in units of 1/(n+1).
+/// Tries all triangles on a grid whose edges' coordinates are below n, and at most |D|·n/(n+1): in units of 1/(n+1).
 #[test]
 fn two_edges_are_of_one_sign_along_one_axis_at_least() {
     const N: i64 = 9;

@@ -1,4 +1,4 @@
-//! What the last rounding cannot change: signs, and how large a number can be that is exactly zero.
+//! The properties that the last rounding cannot change: signs, and how large a number can be that is exactly zero.
 
 use crate::arith::recorded::{Operation, Place};
 use crate::dyadic::round_up;

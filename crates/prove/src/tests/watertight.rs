@@ -1,4 +1,4 @@
-//! What follows from the edge values of all paths together, and what kernels do that it does not follow of.
+//! The claims that follow from the edge values of all paths together, and kernels from which they do not follow.
 
 use crate::Symmetry;
 use crate::arith::{Real, Vector};
@@ -26,7 +26,7 @@ enum Decides {
     /// It refuses a 0, whatever a NaN does.
     WithoutZero,
     WithoutZeroOrNan,
-    /// Of the front by sign bits, of which a 0 may have either.
+    /// On the front by sign bits, of which a 0 may have either.
     BySignBits,
     /// By sizes too.
     AgainstEachOther,

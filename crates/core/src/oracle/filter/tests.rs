@@ -30,7 +30,7 @@ fn exact(determinant: Determinant, case: &Case<f64>) -> [BigInt; 3] {
     [value, permanent, length]
 }
 
-/// Of D the filter's permanent is the sum of the weights' permanents.
+/// The exact permanent of a determinant. The filter's permanent of D is the sum of the weights' permanents.
 fn permanent(determinant: Determinant, case: &Case<f64>) -> BigInt {
     match determinant {
         Determinant::D => (0..3).map(|k| permanent(Determinant::Weight(k), case)).sum(),

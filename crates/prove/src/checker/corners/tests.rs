@@ -87,7 +87,7 @@ fn sign(draw: &mut Draw) -> BigInt {
     BigInt::from(if draw.coin() { 1 } else { -1 })
 }
 
-/// Weights of the steps' errors. What is zero has none.
+/// Weights of the steps' errors. A step that is zero has none.
 fn random_weights(draw: &mut Draw, rows: &Rows, bits: usize) -> Vec<Weight<BigInt>> {
     let mut zeros: Vec<bool> = Vec::new();
     for row in rows {

@@ -1,4 +1,4 @@
-//! What the rounding errors of a formula's steps add up to.
+//! The sum of the effects of the rounding errors of a formula's steps.
 
 use super::super::corners::{Row, search, signs_to_try};
 use super::super::number::{
@@ -13,18 +13,18 @@ use num_traits::{One, Zero};
 /// Work is counted in corners times steps.
 const MOST_WORK: u64 = 1 << 31;
 
-/// What the corners of a formula show.
+/// The sizes and errors that the corners of a formula show.
 pub struct Shown {
-    /// Of the last step.
+    /// The size of the last step.
     pub size: Number,
     pub computed: Number,
-    /// Of the last step's error, not rounded up; and before it is rounded, if it is rounded once.
+    /// The error of the last step, not rounded up; and before it is rounded, if it is rounded once.
     pub error: Number,
     pub before: Number,
 }
 
 impl Formula<'_> {
-    /// What the corners show. Reads the corner and both parts of the error's bound.
+    /// The result of the corners. Reads the corner and both parts of the error's bound.
     pub fn maximum(&self, format: &Format, work: &mut u64, reader: &mut Reader) -> Outcome<Shown> {
         const LONG: &str = "found numbers that are too long";
         // Every value is an integer times a power of two that does not depend on the corner.
@@ -192,7 +192,7 @@ impl Formula<'_> {
 }
 
 impl Step<'_> {
-    /// What follows from the operands' bounds, the size at the corners, and the error before this step.
+    /// The bound that follows from the operands' bounds, the size at the corners, and the error before this step.
     fn bound(&self, format: &Format, bounds: &[Bound], corner: &Number, before: Number) -> Bound {
         let products = |part: fn(&Bound) -> &Number| -> Vec<Number> {
             let of = |i: usize| part(&bounds[i]).clone();

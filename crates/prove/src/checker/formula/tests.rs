@@ -5,7 +5,7 @@ use super::*;
 use crate::case::Draw;
 use num_traits::One;
 
-/// What the guide says of a step: its bound, its terms of first order, and all others.
+/// The guide's statements about a step: its bound, its terms of first order, and all others.
 #[derive(Clone)]
 struct Stated {
     bound: Bound,
@@ -18,7 +18,7 @@ fn one() -> Stated {
     Stated { bound: Bound::exactly(&Number::one()), first: Number::zero(), rest: Number::zero() }
 }
 
-/// What a step adds up.
+/// The products that a step adds up.
 fn products(step: &Step, above: &[Stated]) -> Vec<[Stated; 2]> {
     let of = |i: &usize| above[*i].clone();
     step.terms.iter().map(|(_, a, b)| [of(a), b.as_ref().map_or(one(), of)]).collect()
@@ -69,7 +69,7 @@ fn stated_bound(
     Bound { size, computed, error }
 }
 
-/// What the guide says of all steps. The bounds are known when relative steps count as such.
+/// The guide's statements about all steps. The bounds are known when relative steps count as such.
 fn stated(
     format: &Format,
     steps: &[Step],
