@@ -181,3 +181,14 @@ fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
         assert!(why.is_none_or(|why| text.contains(why)), "{settings}: {text}");
     }
 }
+
+#[test]
+fn values_are_free_where_the_contract_leaves_the_direction_out() {
+    let folder = scratch("claims-direction");
+    let case = ["explain", "sliver@2/f32/-/1/593", "--kernel", "half-space"];
+    let unit = ["--contract", "own,direction=unit:4"];
+    let screen = ends(&folder, &case, 0).0;
+    assert!(screen.contains("wrong-value") && screen.contains("wrong t: reported"), "{screen}");
+    let screen = ends(&folder, &[&case[..], &unit].concat(), 0).0;
+    assert!(!screen.contains("wrong"), "{screen}");
+}
