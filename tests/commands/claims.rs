@@ -159,6 +159,29 @@ fn what_prove_and_the_studies_of_gates_say_names_its_domain() {
     assert_eq!(hairline(&folder, &["prove", "--kernel", "plucker+ftz"]).status.code(), Some(4));
 }
 
+#[test]
+fn an_audit_of_a_scene_names_the_kinds_of_planes_that_it_does_not_draw() {
+    const AT_ZERO: &str = "plane=axis-0 (floors and walls at coordinate 0)";
+    const BOXES: &str = "plane=box (boxes along the axes)";
+    let squeezed = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let folder = scratch("claims-planes");
+    for (flags, parts) in [
+        (&["--scene", "room"][..], [true, true]),
+        (&["--scene", "room,center=100"], [false, true]),
+        (&["--scene", "room,plane=generic"], [false, false]),
+        (&["--scene", "room,plane=axis-0"], [false, false]),
+        (&["--family", "interior"], [false, false]),
+    ] {
+        let all = [&["audit", "-n", "20", "-q", "--kernel", "cramer"][..], flags].concat();
+        let screen = squeezed(ends(&folder, &all, 0).0);
+        assert_eq!(
+            [AT_ZERO, BOXES].map(|part| screen.contains(part)),
+            parts,
+            "{flags:?}\n{screen}"
+        );
+    }
+}
+
 /// `check` must not call a kernel proved that the plan runs in another way.
 #[test]
 fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
