@@ -29,8 +29,8 @@ pub use lattice::LATTICE_SIZE;
 pub use mesh::MeshFamily;
 pub use question::Question;
 pub(crate) use scene::{
-    Corners, Frame, Pair, Parallel, Ring, Triangles, along_axis, any_direction, circle, flat_along,
-    in_plane, rounded, wide,
+    Corners, Frame, Pair, Parallel, Ring, TRIES, Triangles, along_axis, any_direction, circle,
+    flat_along, in_plane, missed_sine, rounded, wide,
 };
 pub use scene::{STRATA, Stratum};
 

@@ -182,6 +182,24 @@ fn an_audit_of_a_scene_names_the_kinds_of_planes_that_it_does_not_draw() {
     }
 }
 
+#[test]
+fn angles_that_no_ray_has_are_counted_and_said() {
+    const FAR: &str = "extent=1000,center=500000,edge=10..50,distance=15..20,sine=1e-6..1e-5";
+    const NOTE: &str = "almost parallel rays in f32: none of 4096 tries has it";
+    let folder = scratch("claims-angles");
+    let flags = ["audit", "-n", "20", "--kernel", "cramer", "--scalar", "f32", "--scene"];
+    for (scene, more, is_said) in [
+        (FAR, &[][..], true),
+        (FAR, &["-q"], false),
+        (FAR, &["--family", "scene-edges"], false),
+        ("room,sine=1e-5..1e-4", &[], false),
+        ("room", &[], false),
+    ] {
+        let (_, notes) = ends(&folder, &[&flags[..], &[scene], more].concat(), 0);
+        assert_eq!(notes.contains(NOTE), is_said, "{scene} {more:?}\n{notes}");
+    }
+}
+
 /// `check` must not call a kernel proved that the plan runs in another way.
 #[test]
 fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
