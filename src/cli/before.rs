@@ -41,7 +41,7 @@ pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failu
             let name = rows[cell.row].entry.info.name;
             let message = format!(
                 "{name}: {wrong} of {of} plain hits in {} come with a wrong t, u, v or side, so no epsilon and no offset \
-                 can be advised; 'hairline audit {} --family interior' shows them",
+                 can be advised; `hairline audit {} --family interior` shows them",
                 cell.scalar,
                 rows[cell.row].entry.selector(),
             );

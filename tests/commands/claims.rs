@@ -42,7 +42,11 @@ fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
             // Epsilons: of the edges and of others, with and without a dimension.
             says(&["--epsilon", "edge=0.01"], INSIDE),
             says(&["--epsilon", "edge=-50"], "u, v and 1-u-v from -99 to 199"),
+            says(&["--epsilon", "edge=-50"], "the edge test lets no weight below -99 through"),
             withholds(&["--epsilon", "edge=-50"], INSIDE),
+            withholds(&[], "lets no other weights through"),
+            says(&[], "axis-0: floors and walls at coordinate 0;"),
+            withholds(&["--scene", "unit,plane=axis"], "floors and walls"),
             says(&["--epsilon", "parallel=0"], INSIDE),
             says(&["--kernel", "cramer", "--epsilon", "t=-1,edge=-0.5"], "from -0.5 to 2"),
             says(&["--kernel", "woop-watertight"], INSIDE),
@@ -157,6 +161,22 @@ fn what_prove_and_the_studies_of_gates_say_names_its_domain() {
     );
     let folder = scratch("claims-ftz");
     assert_eq!(hairline(&folder, &["prove", "--kernel", "plucker+ftz"]).status.code(), Some(4));
+}
+
+#[test]
+fn numbers_that_are_no_good_are_not_to_be_used() {
+    const FAR: &str = "extent=1000,center=500000,edge=1..50,distance=0..2000";
+    hold(
+        "claims-good",
+        &["epsilon", "--scalar", "f32", "-n", "2000", "-q", "--scene"],
+        &[
+            says(&[FAR, "--kernel", "baldwin-weber"], "  least bad:  --epsilon"),
+            says(&[FAR, "--kernel", "baldwin-weber"], "no numbers are good here"),
+            withholds(&[FAR, "--kernel", "baldwin-weber"], "  use  "),
+            withholds(&[FAR, "--kernel", "baldwin-weber"], "recommended,"),
+            says(&["room", "--kernel", "moller-trumbore"], "  use  --epsilon"),
+        ],
+    );
 }
 
 #[test]
