@@ -2,12 +2,14 @@
 //! strange about its stored rays.
 
 use super::exit::{Failure, Status};
+use crate::arith::Float;
 use crate::audit::{self, CorpusSet, Plan, Row, Source};
-use crate::case::Parameters;
+use crate::case::{Parameters, Scene};
 use crate::contract::Direction;
 use crate::engine::Unobserved;
-use crate::family;
+use crate::family::{self, TRIES, missed_sine};
 use crate::judge::Finding;
+use crate::mesh::SceneMesh;
 use crate::report::number_of;
 
 /// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no
@@ -39,7 +41,7 @@ pub fn refuse_wrong_values(rows: &[Row], scalars: [bool; 2]) -> Result<(), Failu
             let name = rows[cell.row].entry.info.name;
             let message = format!(
                 "{name}: {wrong} of {of} plain hits in {} come with a wrong t, u, v or side, so no epsilon and no offset \
-                 can be advised; 'hairline audit {} --family interior' shows them",
+                 can be advised; `hairline audit {} --family interior` shows them",
                 cell.scalar,
                 rows[cell.row].entry.selector(),
             );
@@ -84,6 +86,38 @@ pub fn note_secondary_rays(rows: &[Row], sources: &[Source]) {
                 set.file
             );
         }
+    }
+}
+
+/// How many almost parallel rays are looked at before a run.
+const LOOKED_AT: u64 = 1_000;
+
+/// Notes how many almost parallel rays of a scene do not have the angle that was drawn for them, and which they have.
+pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [bool; 2], seed: u64) {
+    fn note<F: Float>(scene: &Scene, mesh: Option<&SceneMesh>, seed: u64) {
+        let missed = (0..LOOKED_AT).filter_map(|index| match mesh {
+            Some(mesh) => mesh.missed_sine::<F>(scene, seed, index),
+            None => missed_sine::<F>(scene, scene, seed, index),
+        });
+        let missed: Vec<f64> = missed.collect();
+        let ends =
+            missed.iter().fold([1.0, 0.0], |[low, high], sine| [sine.min(low), sine.max(high)]);
+        if !missed.is_empty() {
+            eprintln!(
+                "note: the angle that was drawn is missed by {} of the first {LOOKED_AT} almost parallel rays in {}: none of \
+                 {TRIES} tries has it in rounded numbers; these rays have sines from {:.1e} to {:.1e}",
+                missed.len(),
+                F::NAME,
+                ends[0],
+                ends[1],
+            );
+        }
+    }
+    if scalars[0] {
+        note::<f32>(scene, mesh, seed);
+    }
+    if scalars[1] {
+        note::<f64>(scene, mesh, seed);
     }
 }
 

@@ -191,7 +191,8 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
             conformance = expect::compare(result, target, &expected, Some(file));
             if !arguments.run.report.quiet {
                 let was = known_file.map_or(String::new(), |_| format!(" ({change})"));
-                eprintln!("{file}: {} known disagreements{was}", conformance.known.len());
+                let (known, findings) = (conformance.known.len(), conformance.findings());
+                eprintln!("{file}: {known} known disagreements{was}{findings}");
             }
         }
     }

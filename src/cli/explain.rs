@@ -111,7 +111,8 @@ fn write_polygon<F: Scalar>(out: &mut dyn Write, cases: &[Case<F>], row: &Row) -
     let Some(subject) = F::subject(row.entry) else { return Ok(()) };
     let owed = polygon_obligation(cases, &truths, &row.contract);
     let verdict = polygon_verdict(subject, cases, &row.epsilons());
-    let finding = judge(owed, (&cases[0], &polygon_truth(&truths)), row.entry.info.gives, &verdict);
+    let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(&truths)));
+    let finding = judge(asked, union, row.entry.info.gives, &verdict);
     let corners = cases.len() + 2;
     let judged = judged(owed, &verdict, finding);
     writeln!(out, "{}: the polygon of {corners} corners as a whole: {judged}", row.label())
@@ -189,7 +190,7 @@ fn write_row<F: Scalar>(
     let [verdict] = verdict;
 
     let asked = asked(case, truth, &row.contract, secondary);
-    let finding = judge(asked, (case, truth), row.entry.info.gives, &verdict);
+    let finding = judge((&row.contract, asked), (case, truth), row.entry.info.gives, &verdict);
     writeln!(out, "{}: {}", row.label(), judged(asked, &verdict, finding))?;
     writeln!(out, "    contract: {}", row.contract.describe())?;
     if verdict.failure.is_some() {
@@ -201,9 +202,10 @@ fn write_row<F: Scalar>(
     }
     if let Some(finding) = finding.filter(|finding| !finding.is_failure()) {
         let why = match subject.gated() {
-            Some(_) => attribute(subject, case, &epsilons, truth, asked),
+            Some(_) => attribute(subject, case, &epsilons, truth, (&row.contract, asked)),
             None => {
                 let info = row.entry.info;
+                let asked = (&row.contract, asked);
                 attribute_by_running(subject, info, case, &epsilons, truth, asked)
             }
         };

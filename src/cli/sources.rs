@@ -1,5 +1,6 @@
 //! Which cases a command line names, and on how many threads they run.
 
+use super::before::note_missed_angles;
 use super::exit::Failure;
 use super::flags::{RUNNING, case_count, chosen_scalars, find_family, refuse_twice};
 use super::input::{corpus_files, corpus_sets, read_mesh};
@@ -128,12 +129,14 @@ impl SourceArguments {
     pub fn studied_scene(&self, quiet: bool) -> Result<StudiedScene, Failure> {
         if !self.mesh.is_empty() {
             let (scene, mesh) = self.mesh_scene(quiet)?;
+            self.note_missed_angles(&scene, Some(&mesh), quiet)?;
             return Ok(StudiedScene { scene, unit: "", mesh: Some(mesh), others: Vec::new() });
         }
         let (scene, unit) = self.scene()?.unwrap_or_default();
         if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
             note_left_out(&scene, text);
         }
+        self.note_missed_angles(&scene, None, quiet)?;
         let names_planes = self.scene.as_deref().is_some_and(Scene::names_planes);
         let others = if names_planes { Vec::new() } else { scene.of_all_planes().split_off(1) };
         Ok(StudiedScene { scene, unit, mesh: None, others })
@@ -216,6 +219,9 @@ impl SourceArguments {
             let message = "--corpus cases are run as they are stored: leave out --scale, --offset and --direction";
             return Err(Failure::usage(message));
         }
+        if let Some(scene) = &parameters.scene {
+            self.note_missed_angles(scene, None, quiet)?;
+        }
         let mut sources = Vec::new();
         let families = self.families(usual)?;
         if self.exhaustive && families.iter().all(|family| family.size.is_none()) {
@@ -260,10 +266,25 @@ impl SourceArguments {
         Ok(sources)
     }
 
+    /// Says, before a run of a scene's almost parallel rays, which angles they do not have.
+    fn note_missed_angles(
+        &self,
+        scene: &Scene,
+        mesh: Option<&SceneMesh>,
+        quiet: bool,
+    ) -> Result<(), Failure> {
+        let name = Stratum::Grazing.family().name;
+        if !quiet && (self.family.is_empty() || self.family.iter().any(|family| family == name)) {
+            note_missed_angles(scene, mesh, self.scalars()?, self.seed_and_count().0);
+        }
+        Ok(())
+    }
+
     /// The strata of the scene that the mesh is.
     fn strata_of_mesh(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
         self.refuse_other_families()?;
         let (scene, mesh) = self.mesh_scene(quiet)?;
+        self.note_missed_angles(&scene, Some(&mesh), quiet)?;
         let parameters = Parameters { scene: Some(scene), ..Parameters::default() };
         let strata = Stratum::ALL.into_iter().filter(|stratum| {
             let name = stratum.family().name;

@@ -1,18 +1,12 @@
 //! The scene that cases come from, by its numbers: counts of one scene say nothing about another.
 
 use super::Expectations;
-use crate::case::CaseId;
 use crate::corpus::InputError;
 use crate::report::{PlanPart, Record, apart};
 
 /// The numbers of a plan's scene, as case ids have them; none if it has no scene.
 pub(super) fn scene_of(plan: &PlanPart) -> Option<String> {
-    let ids = plan.sources.iter().filter_map(|source| {
-        let (family, rest) = source.set.split_once('/')?;
-        format!("{family}/f32/{rest}/0").parse::<CaseId>().ok()
-    });
-    let scene = ids.filter_map(|id| id.parameters.scene).next()?;
-    Some(scene.to_string())
+    plan.parameters().filter_map(|parameters| parameters.scene).next().map(|it| it.to_string())
 }
 
 impl Expectations {

@@ -256,6 +256,17 @@ impl Conformance {
         (self.known.len() + deviations) as u64
     }
 
+    /// How many findings the known disagreements have together, in brackets; empty where there are none.
+    pub fn findings(&self) -> String {
+        match self.known.iter().map(|known| known.found.count).sum() {
+            0 => String::new(),
+            count => format!(
+                ", each of a kernel, a family and a class ({} in all)",
+                number_of(count, "finding", "findings")
+            ),
+        }
+    }
+
     /// Adds demands on proofs that are not met.
     pub fn demand(&mut self, unproved: Vec<Unproved>) {
         if !unproved.is_empty() {
@@ -292,7 +303,7 @@ impl Conformance {
             n => format!("{n} proofs missing, "),
         };
         format!(
-            "{verdict}: {proofs}{}{how}, {}, {}",
+            "{verdict}: {proofs}{}{how}, {}, {}{}",
             count(&self.unexpected, "unexpected disagreement", "unexpected disagreements"),
             count(&self.stale, "stale expectation", "stale expectations"),
             match self.expected() {
@@ -304,7 +315,8 @@ impl Conformance {
                     group_digits(self.known.len() as u64),
                     number_of(all, "known disagreement", "known disagreements"),
                 ),
-            }
+            },
+            self.findings()
         )
     }
 }

@@ -126,8 +126,8 @@ fn attributions<F: Scalar>(
             }
             let asked = obligation(&truth, &contract, false);
             let verdict = run(subject, case, &epsilons);
-            let finding = judge(asked, (case, &truth), entry.info.gives, &verdict);
-            let why = attribute(subject, case, &epsilons, &truth, asked);
+            let finding = judge((&contract, asked), (case, &truth), entry.info.gives, &verdict);
+            let why = attribute(subject, case, &epsilons, &truth, (&contract, asked));
             assert_eq!(finding.is_some(), why.is_some());
             if let (Some(finding), Some(why)) = (finding, why) {
                 *counts.entry((finding, why)).or_insert(0) += 1;
@@ -183,9 +183,19 @@ fn where_nothing_rounds_a_hidden_formula_is_wrong_for_the_reason_that_the_shown_
         {
             let truth = truth(case);
             let asked = obligation(&truth, &contract, false);
-            let Some(why) = attribute(shown, case, &epsilons, &truth, asked) else { continue };
-            let by_running =
-                |info| attribute_by_running(&Hidden(shown), info, case, &epsilons, &truth, asked);
+            let Some(why) = attribute(shown, case, &epsilons, &truth, (&contract, asked)) else {
+                continue;
+            };
+            let by_running = |info| {
+                attribute_by_running(
+                    &Hidden(shown),
+                    info,
+                    case,
+                    &epsilons,
+                    &truth,
+                    (&contract, asked),
+                )
+            };
             assert_eq!(by_running(&without_epsilons), None);
             *counts.entry((why, by_running(info))).or_insert(0) += 1;
         }
@@ -272,9 +282,14 @@ fn a_hit_whose_values_alone_overflow_is_out_of_range() {
     let subject = f32::subject(entry).unwrap();
     let truth = truth(&case);
     let asked = obligation(&truth, &entry.info.contract, false);
-    let found = judge(asked, (&case, &truth), entry.info.gives, &run(subject, &case, &[0.0; 2]));
+    let found = judge(
+        (&entry.info.contract, asked),
+        (&case, &truth),
+        entry.info.gives,
+        &run(subject, &case, &[0.0; 2]),
+    );
     assert_eq!(found, Some(Finding::BadValue));
-    let why = attribute(subject, &case, &[0.0; 2], &truth, asked);
+    let why = attribute(subject, &case, &[0.0; 2], &truth, (&entry.info.contract, asked));
     assert_eq!(why, Some(Attribution::Range));
 }
 
@@ -307,7 +322,13 @@ fn a_decision_in_which_nothing_rounds_is_the_formulas_own_even_by_the_sign_of_a_
     let case = Case::<f32>::new([-0.0, 0.0, 0.0], [0.0, 0.0, 3.0], far);
     let subject = &Generic::<SignOfZero>::SUBJECT;
     assert!(run::<f32>(subject, &case, &[0.0]).hit);
-    let why = attribute(subject, &case, &[0.0], &truth(&case), Obligation::MustMiss);
+    let why = attribute(
+        subject,
+        &case,
+        &[0.0],
+        &truth(&case),
+        (&Contract::CLOSED_RAY, Obligation::MustMiss),
+    );
     assert_eq!(why, Some(Attribution::Convention));
 }
 
@@ -316,7 +337,13 @@ fn a_right_verdict_has_no_cause() {
     let triangle = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
     let case = Case::<f32>::new([0.5, 0.5, 1.0], [0.0, 0.0, -1.0], triangle);
     let subject = f32::subject(kernel::find("cramer").unwrap()).unwrap();
-    let why = attribute(subject, &case, &[0.0; 3], &truth(&case), Obligation::MustHit);
+    let why = attribute(
+        subject,
+        &case,
+        &[0.0; 3],
+        &truth(&case),
+        (&Contract::CLOSED_RAY, Obligation::MustHit),
+    );
     assert_eq!(why, None);
 }
 

@@ -300,6 +300,8 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
         said.contains("known disagreements (1 better, 0 worse, 2 new, 0 of other cases, "),
         "{said}"
     );
+    // Entries are no cases.
+    assert!(said.contains(", each of a kernel, a family and a class ("), "{said}");
     assert!(!fs::read_to_string(folder.join(FILE)).unwrap().contains("an old bug"));
 }
 

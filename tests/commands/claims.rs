@@ -42,7 +42,11 @@ fn an_offset_has_a_bound_only_where_the_flags_leave_the_weights_in_its_range() {
             // Epsilons: of the edges and of others, with and without a dimension.
             says(&["--epsilon", "edge=0.01"], INSIDE),
             says(&["--epsilon", "edge=-50"], "u, v and 1-u-v from -99 to 199"),
+            says(&["--epsilon", "edge=-50"], "the edge test lets no weight below -99 through"),
             withholds(&["--epsilon", "edge=-50"], INSIDE),
+            withholds(&[], "lets no other weights through"),
+            says(&[], "axis-0: floors and walls at coordinate 0;"),
+            withholds(&["--scene", "unit,plane=axis"], "floors and walls"),
             says(&["--epsilon", "parallel=0"], INSIDE),
             says(&["--kernel", "cramer", "--epsilon", "t=-1,edge=-0.5"], "from -0.5 to 2"),
             says(&["--kernel", "woop-watertight"], INSIDE),
@@ -159,6 +163,63 @@ fn what_prove_and_the_studies_of_gates_say_names_its_domain() {
     assert_eq!(hairline(&folder, &["prove", "--kernel", "plucker+ftz"]).status.code(), Some(4));
 }
 
+#[test]
+fn numbers_that_are_no_good_are_not_to_be_used() {
+    const FAR: &str = "extent=1000,center=500000,edge=1..50,distance=0..2000";
+    hold(
+        "claims-good",
+        &["epsilon", "--scalar", "f32", "-n", "2000", "-q", "--scene"],
+        &[
+            says(&[FAR, "--kernel", "baldwin-weber"], "  least bad:  --epsilon"),
+            says(&[FAR, "--kernel", "baldwin-weber"], "no numbers are good here"),
+            withholds(&[FAR, "--kernel", "baldwin-weber"], "  use  "),
+            withholds(&[FAR, "--kernel", "baldwin-weber"], "recommended,"),
+            says(&["room", "--kernel", "moller-trumbore"], "  use  --epsilon"),
+        ],
+    );
+}
+
+#[test]
+fn an_audit_of_a_scene_names_the_kinds_of_planes_that_it_does_not_draw() {
+    const AT_ZERO: &str = "plane=axis-0 (floors and walls at coordinate 0)";
+    const BOXES: &str = "plane=box (boxes along the axes)";
+    let squeezed = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let folder = scratch("claims-planes");
+    for (flags, parts) in [
+        (&["--scene", "room"][..], [true, true]),
+        (&["--scene", "room,center=100"], [false, true]),
+        (&["--scene", "room,plane=generic"], [false, false]),
+        (&["--scene", "room,plane=axis-0"], [false, false]),
+        (&["--family", "interior"], [false, false]),
+    ] {
+        let all = [&["audit", "-n", "20", "-q", "--kernel", "cramer"][..], flags].concat();
+        let screen = squeezed(ends(&folder, &all, 0).0);
+        assert_eq!(
+            [AT_ZERO, BOXES].map(|part| screen.contains(part)),
+            parts,
+            "{flags:?}\n{screen}"
+        );
+    }
+}
+
+#[test]
+fn angles_that_no_ray_has_are_counted_and_said() {
+    const FAR: &str = "extent=1000,center=500000,edge=10..50,distance=15..20,sine=1e-6..1e-5";
+    const NOTE: &str = "almost parallel rays in f32: none of 4096 tries has it";
+    let folder = scratch("claims-angles");
+    let flags = ["audit", "-n", "20", "--kernel", "cramer", "--scalar", "f32", "--scene"];
+    for (scene, more, is_said) in [
+        (FAR, &[][..], true),
+        (FAR, &["-q"], false),
+        (FAR, &["--family", "scene-edges"], false),
+        ("room,sine=1e-5..1e-4", &[], false),
+        ("room", &[], false),
+    ] {
+        let (_, notes) = ends(&folder, &[&flags[..], &[scene], more].concat(), 0);
+        assert_eq!(notes.contains(NOTE), is_said, "{scene} {more:?}\n{notes}");
+    }
+}
+
 /// `check` must not call a kernel proved that the plan runs in another way.
 #[test]
 fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
@@ -180,4 +241,15 @@ fn a_demand_is_not_met_by_a_proof_of_something_else_than_what_runs() {
         assert_eq!(is_missing, why.is_some(), "{settings}: {text}");
         assert!(why.is_none_or(|why| text.contains(why)), "{settings}: {text}");
     }
+}
+
+#[test]
+fn values_are_free_where_the_contract_leaves_the_direction_out() {
+    let folder = scratch("claims-direction");
+    let case = ["explain", "sliver@2/f32/-/1/593", "--kernel", "half-space"];
+    let unit = ["--contract", "own,direction=unit:4"];
+    let screen = ends(&folder, &case, 0).0;
+    assert!(screen.contains("wrong-value") && screen.contains("wrong t: reported"), "{screen}");
+    let screen = ends(&folder, &[&case[..], &unit].concat(), 0).0;
+    assert!(!screen.contains("wrong"), "{screen}");
 }

@@ -895,5 +895,12 @@ fn ten_ways_to_be_wrong_are_noticed_by_check() {
         let flags = [command, &["-n", "100", "--scalar", "f64", "--kernel-lib", &library]].concat();
         let error = refused(&flags, 1);
         assert!(error.contains("1024 of 1024 plain hits in f64"), "{error}");
+        assert!(error.contains("; `hairline audit --kernel-lib '"), "{error}");
     }
+    // A kernel that hits beside the triangle too: the scene's own rays do not show it.
+    let library = wrong(8).unwrap();
+    let flags =
+        ["spawn", "-n", "300", "--scalar", "f64", "--point", "uv", "--kernel-lib", &library];
+    let screen = text(&hairline(&flags).stdout);
+    assert!(screen.contains("if the kernel lets no other weights through"), "{screen}");
 }

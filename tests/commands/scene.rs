@@ -216,7 +216,8 @@ fn a_form_without_a_unit_is_the_answer_where_fixed_numbers_cost_twice_as_much() 
     let wide = screen("cad-mm");
     let used = wide.lines().find(|line| line.starts_with("  use  ")).unwrap();
     assert!(used.contains("edge = -") && used.ends_with(" * L^4"), "{wide}");
-    assert!(wide.contains("\n  or   --epsilon parallel="), "{wide}");
+    assert!(wide.contains("\n  not  --epsilon parallel="), "{wide}");
+    assert!(wide.contains("no fixed numbers are good here"), "{wide}");
     assert!(wide.contains("fixed     scale-free"), "{wide}");
     // Triangles of one size need none.
     assert!(!screen("extent=1,edge=0.5..0.5,distance=0..4").contains("scale-free"));

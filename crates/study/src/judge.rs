@@ -233,10 +233,11 @@ impl Answer {
     }
 }
 
-/// Compares a verdict on a case with the obligation. Values of hits on invalid input are not judged.
+/// Compares a verdict on a case with what a contract demands there. Values of hits on invalid input are not judged, and
+/// of hits along a direction for which the contract promises nothing only whether they are finite, and the facing.
 #[inline]
 pub fn judge<F: Float>(
-    obligation: Obligation,
+    (contract, obligation): (&Contract, Obligation),
     (case, truth): (&Case<F>, &Truth),
     gives: Gives,
     verdict: &Verdict<F>,
@@ -249,7 +250,12 @@ pub fn judge<F: Float>(
         (Obligation::MustHit, false) => Some(Finding::FalseMiss),
         (Obligation::MustMiss, true) => Some(Finding::FalseHit),
         (_, false) => None,
-        _ => judge_answer(obligation, truth, gives, Answer::of(case, truth, gives, verdict)),
+        _ => judge_answer(obligation, truth, gives, Answer::of(case, truth, gives, verdict))
+            .filter(|finding| {
+                let direction = || case.ray.direction.into();
+                *finding != Finding::WrongValue
+                    || promises_direction::<F>(contract.direction, direction())
+            }),
     }
 }
 

@@ -171,6 +171,6 @@ fn answer<F: Scalar>(entry: &'static Entry, case: &Case<F>) -> Option<[String; 3
         (true, false) => "hit".to_owned(),
         (false, _) => "miss".to_owned(),
     };
-    let finding = judge(asked, (case, &truth), entry.info.gives, &verdict);
+    let finding = judge((&row.contract, asked), (case, &truth), entry.info.gives, &verdict);
     Some([answer, demand.to_owned(), finding.map_or(String::new(), |f| f.name().to_owned())])
 }

@@ -3,7 +3,8 @@
 
 use super::choice::derived_name;
 use super::record::{DerivedPart, HeightsPart, PointsPart, SchemePart, SpawnRecord};
-use crate::case::Number;
+use crate::case::{Number, PlaneKind};
+use crate::kernel::{self, Role};
 use crate::report::{Rate, group_digits, interval_of, percent};
 use crate::spawn::describe;
 use std::io::{self, Write};
@@ -73,6 +74,12 @@ fn advice(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::R
                     "       derived bound: no wrong side on any ray of such a scene with {}",
                     weights(derived)
                 )?;
+                if !shows_edges(part) {
+                    writeln!(
+                        out,
+                        "       if the kernel lets no other weights through: it shows no test of them"
+                    )?;
+                }
             }
             writeln!(
                 out,
@@ -99,6 +106,12 @@ fn advice(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::R
 fn weights(derived: &DerivedPart) -> String {
     let DerivedPart { least_weight, largest_weight, .. } = derived;
     format!("u, v and 1-u-v from {} to {}", Number(*least_weight), Number(*largest_weight))
+}
+
+/// Whether the kernel shows a test that keeps the weights in a range; without one only the rays that were tried say so.
+fn shows_edges(part: &PointsPart) -> bool {
+    let entry = kernel::find(&part.kernel);
+    entry.is_some_and(|entry| entry.info.gates.iter().any(|gate| gate.role == Role::Edge))
 }
 
 /// Three digits at most: `0.0123`, `2.05`, `1.2e-7`.
@@ -215,6 +228,13 @@ fn least(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
             derived_name(derived.normal),
             weights(derived)
         )?;
+        if derived.least_weight < 0.0 {
+            writeln!(
+                out,
+                "  that range: at this epsilon the edge test lets no weight below {} through, and the three add up to 1",
+                Number(derived.least_weight)
+            )?;
+        }
     }
     let left_out = [
         (part.missed, "first rays that the kernel missed"),
@@ -242,8 +262,24 @@ height       of the start over the plane: in longest edges of the triangle, and 
 a wall       starts beyond a wall parallel to the triangle, {} of its longest edge in front of it
 a fold       starts behind a neighbour on the edge nearest to p, folded up to {} degrees with the triangle
 times least  the way along the normal over the shortest that is right, where p itself is wrong (median)
-Made for the scene: on seed {}; counted: on seed {}. `hairline list schemes` has the sources;
+{}Made for the scene: on seed {}; counted: on seed {}. `hairline list schemes` has the sources;
 --format json has a wrong start of each.",
-        record.wall, record.fold, record.pilot_seed, record.seed
+        record.wall,
+        record.fold,
+        kinds(record),
+        record.pilot_seed,
+        record.seed
     )
+}
+
+/// What the kinds of planes are, where there are several.
+fn kinds(record: &SpawnRecord) -> String {
+    let kinds =
+        PlaneKind::ALL.into_iter().filter(|kind| record.planes.iter().any(|it| it == kind.name()));
+    let words: Vec<_> = kinds.map(|kind| format!("{}: {}", kind.name(), kind.in_words())).collect();
+    if words.len() < 2 {
+        return String::new();
+    }
+    let lines = words.chunks(2).map(|chunk| chunk.join("; "));
+    format!("planes       {}\n", lines.collect::<Vec<_>>().join(";\n             "))
 }

@@ -2,6 +2,7 @@
 
 use crate::arith::Float;
 use crate::case::Case;
+use crate::contract::Contract;
 use crate::corpus::{json, number};
 use crate::judge::{Finding, Obligation, ValueErrors, judge};
 use crate::kernel::{Gives, Verdict};
@@ -88,7 +89,9 @@ impl<'a> Answer<'a> {
         let gives = Gives { t: t_given, uv: uv_given, facing: false };
         let verdict = Verdict { hit: true, t, u, v, ..Verdict::miss(None) };
         let truth = &test.triangles[0].truth;
-        let Some(finding) = judge(Obligation::Free, (case, truth), gives, &verdict) else {
+        let Some(finding) =
+            judge((&Contract::CLOSED_RAY, Obligation::Free), (case, truth), gives, &verdict)
+        else {
             return Ok(None);
         };
         if finding != Finding::WrongValue {

@@ -4,6 +4,7 @@ use super::disagreement::{family_of, is_shared_in_scene};
 use super::record::*;
 use super::row_view::RowView;
 use crate::audit::{Octave, Trials, is_of_mesh};
+use crate::case::PlaneKind;
 use crate::family::Question;
 use crate::vectors;
 
@@ -143,6 +144,26 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
         "At a scene's shared edges and vertices a ray is wrong if no triangle reports it (a crack); which of them does, \
          and whether two do, changes no nearest hit.",
     )
+}
+
+/// What is said of a scene whose kind of plane nobody chose: other kinds have other rates.
+pub(super) fn kinds_not_drawn(record: &Record) -> Option<String> {
+    let flags = record.provenance.plan_flags.as_ref();
+    if flags.is_some_and(|flags| flags.sources.contains("plane=")) {
+        return None;
+    }
+    let mut parameters = record.result.plan.parameters().filter(|it| it.mesh.is_none());
+    let scene = parameters.find_map(|it| it.scene)?;
+    if scene.plane != PlaneKind::Generic {
+        return None;
+    }
+    let others = scene.of_all_planes().into_iter().map(|scene| scene.plane).skip(1);
+    let others = others.map(|kind| format!("plane={} ({})", kind.name(), kind.in_words()));
+    Some(format!(
+        "All planes here are turned at random (plane=generic). Other kinds were not drawn, and kernels may be wrong more \
+         often there; one run shows one kind, for which --scene takes {}.",
+        others.collect::<Vec<_>>().join(", ")
+    ))
 }
 
 /// The findings of a kind that are off by [`FAR`] longest edges or more.

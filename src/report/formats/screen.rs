@@ -1,7 +1,7 @@
 //! What `hairline audit` prints: the answer, a table with a column for each question, the worst
 //! findings, and what to do next. Everything else is behind `--details`.
 
-use super::columns::{Across, Cell, Column, shared_in_scenes, short_percent};
+use super::columns::{Across, Cell, Column, kinds_not_drawn, shared_in_scenes, short_percent};
 use super::disagreement::{Key, disagreements, is_shared_in_scene};
 use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
@@ -24,6 +24,9 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     write_answer(record, &columns, &lines, out)?;
     if let Some(note) = shared_in_scenes(record) {
         write_wrapped(note, out)?;
+    }
+    if let Some(note) = kinds_not_drawn(record) {
+        write_wrapped(&note, out)?;
     }
     for scalar in &record.result.plan.scalars {
         let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);

@@ -2,6 +2,7 @@
 
 use super::KernelResult;
 use crate::audit::{RowSpec, flags};
+use crate::case::{CaseId, Parameters};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -18,6 +19,17 @@ pub struct PlanPart {
     pub sources: Vec<PlannedSource>,
     /// `f32`, `f64`.
     pub scalars: Vec<String>,
+}
+
+impl PlanPart {
+    /// The parameters of the sources whose cases have ids.
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = Parameters> {
+        self.sources.iter().filter_map(|source| {
+            let (family, rest) = source.set.split_once('/')?;
+            let id: CaseId = format!("{family}/f32/{rest}/0").parse().ok()?;
+            Some(id.parameters)
+        })
+    }
 }
 
 /// A kernel with its epsilons.

@@ -1,7 +1,7 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
 use super::commands::commands;
-use super::notes::{accuracy, is_coarse, no_good, notes};
+use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes};
 use super::record::*;
 use super::words::{
     bound, flag, human, interval, label, least_t, number, of_unit, share, short_error, unit_of,
@@ -17,6 +17,8 @@ pub(super) struct Answer {
     pub title: String,
     /// The scene's words.
     pub scene: String,
+    /// What the numbers that cost least are called.
+    pub name: &'static str,
     /// What to use; the best first.
     pub used: Vec<Use>,
     /// The names of what was tried.
@@ -35,6 +37,8 @@ pub(super) struct Answer {
 
 /// Epsilons to use.
 pub(super) struct Use {
+    /// `use`, `or`, `not`, or that even the best are no good.
+    pub lead: &'static str,
     /// As they are pasted.
     pub text: String,
     /// What they mean, a sentence each.
@@ -62,11 +66,16 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         }
         None => kernel,
     };
+    let name = if lead(record, part, &part.tried[0]) == USE { RECOMMENDED } else { "least bad" };
     Answer {
         title,
+        name,
         scene: format!("{}{}", record.scene, of_unit(&record.unit)),
         used: used(record, part),
-        columns: columns(part).map(|tried| column(part, &tried.name)).collect(),
+        columns: columns(part)
+            .map(|tried| column(part, &tried.name))
+            .map(|column| if column == RECOMMENDED { name.to_owned() } else { column })
+            .collect(),
         rows: rows(record, part),
         limits: limit_rows(record, part),
         conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
@@ -89,10 +98,31 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
 }
 
 fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
-    let fixed = Use { text: fixed(record, part), notes: notes(record, part) };
+    let fixed = Use {
+        lead: lead(record, part, &part.tried[0]),
+        text: fixed(record, part),
+        notes: notes(record, part),
+    };
     let Some(relative) = &part.relative else { return vec![fixed] };
     let followed = scale_free(record, part, relative);
-    if is_scale_free_better(record, part) { vec![followed, fixed] } else { vec![fixed, followed] }
+    let mut all = [fixed, followed];
+    if is_scale_free_better(record, part) {
+        all.reverse();
+    }
+    let second = match all.each_ref().map(|it| it.lead) {
+        [USE, LEAST_BAD] => "not",
+        _ => "or",
+    };
+    all[1].lead = second;
+    all.into()
+}
+
+const USE: &str = "use";
+const LEAST_BAD: &str = "least bad:";
+
+/// What stands before epsilons: that they are to be used, unless the notes say that no numbers are good.
+fn lead(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> &'static str {
+    if is_no_good(record, part, tried) { LEAST_BAD } else { USE }
 }
 
 /// Whether epsilons that follow each triangle's size come first.
@@ -198,7 +228,7 @@ fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart
         format!("they cost {least:.3}, the best fixed ones {most:.3}"),
     ]);
     notes.extend(accuracy(record));
-    Use { text: forms.collect::<Vec<_>>().join(", "), notes }
+    Use { lead: lead(record, part, relative), text: forms.collect::<Vec<_>>().join(", "), notes }
 }
 
 fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
@@ -290,8 +320,8 @@ fn conflict_lines(
         (_, _, "t") => {
             "start shadow rays off the surface, with no t_min for them (`hairline spawn` finds how far)".to_owned()
         }
-        _ if part.scalar == "f64" => "what is recommended costs least; no value meets both beside these other numbers".to_owned(),
-        _ => "what is recommended costs least; to meet both takes wider numbers (f64) or another kernel"
+        _ if part.scalar == "f64" => "these numbers cost least; no value meets both beside the others".to_owned(),
+        _ => "these numbers cost least; to meet both takes wider numbers (f64) or another kernel"
             .to_owned(),
     };
     [conflict_line, instead]

@@ -102,19 +102,13 @@ pub(super) fn no_good(
         "self-hit" => format!("let {share} of the shadow rays hit the triangle that they leave"),
         _ => format!("make false hits of {share} of the rays beside a triangle"),
     };
-    // With other weights, or a limit of errors, the user may have asked for it.
-    let default = Costs::default();
-    let is_default = |cost: &NamedNumber| {
-        let kinds = Kind::ALL.into_iter();
-        kinds.clone().any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
-    };
     if !record.max_error.is_empty() {
         return vec![
             format!("with errors as small as wanted even the best epsilons {what}"),
             "a larger --max-error may help".to_owned(),
         ];
     }
-    if !record.costs.iter().all(is_default) {
+    if !has_default_costs(record) {
         return vec![
             format!("with these costs even the best epsilons {what}"),
             "other weights (--cost) may help".to_owned(),
@@ -126,6 +120,21 @@ pub(super) fn no_good(
         return vec![format!("no fixed numbers are good here: even these {what}")];
     }
     vec![format!("no numbers are good here: even these {what}"), instead(record, part, &count.kind)]
+}
+
+fn has_default_costs(record: &SceneRecord) -> bool {
+    let default = Costs::default();
+    record.costs.iter().all(|cost| {
+        let mut kinds = Kind::ALL.into_iter();
+        kinds.any(|kind| kind.name() == cost.name && default.of(kind) == cost.number)
+    })
+}
+
+/// Whether nobody should use these epsilons. With other weights, or a limit of errors, the user may have asked for what
+/// they do.
+pub(super) fn is_no_good(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> bool {
+    let is_asked_for = !record.max_error.is_empty() || !has_default_costs(record);
+    !is_asked_for && !no_good(record, part, tried).is_empty()
 }
 
 /// From this cost of a single wrong answer on, chance decides what is chosen.

@@ -14,7 +14,7 @@ use std::io::{self, Write};
 /// What only this page has.
 const OWN_STYLE: &str = "
 svg.scene-plot { width: 100%; max-width: 34rem; height: auto; }
-.use { font-size: 1.05rem; } .use code { font-size: .9rem; }
+.use { font-size: 1.05rem; } .use::first-letter { text-transform: uppercase; } .use code { font-size: .9rem; }
 .scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
 ";
 
@@ -52,9 +52,9 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
     html! {
         section {
             h2 { (answer.title) }
-            @for (i, used) in answer.used.iter().enumerate() {
+            @for used in &answer.used {
                 p.use {
-                    b { (if i == 0 { "Use " } else { "Or " }) }
+                    b { (used.lead) } " "
                     @for (i, part) in used.text.split("  and  ").enumerate() {
                         @if 0 < i { " and " }
                         code { (part) }

@@ -36,9 +36,9 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
     for part in &record.kernels {
         let answer = answer(record, part);
         let mut heading = vec![(answer.title.clone(), "this"), (answer.scene.clone(), "soft")];
-        for (i, used) in answer.used.iter().enumerate() {
+        for used in &answer.used {
             let parts = used.text.split("  and  ").enumerate();
-            let words = [["use", "and"], ["or", "and"]][i.min(1)];
+            let words = [used.lead, "and"];
             heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
         }
         y += 8.0;

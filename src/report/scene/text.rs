@@ -22,12 +22,12 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             Some(_) => writeln!(out, "{}\n  {}", answer.title, answer.scene)?,
             None => writeln!(out, "{} in {}", answer.title, answer.scene)?,
         }
-        for (i, used) in answer.used.iter().enumerate() {
-            writeln!(out, "  {}  {}", if i == 0 { "use" } else { "or " }, used.text)?;
+        for used in &answer.used {
+            writeln!(out, "  {:<3}  {}", used.lead, used.text)?;
             used.notes.iter().try_for_each(|note| writeln!(out, "       {note}"))?;
         }
         effects(record, &answer, out)?;
-        elsewhere(part, out)?;
+        elsewhere(answer.name, part, out)?;
         limits(&answer, out)?;
         let (of, commands) = &answer.next;
         for (i, command) in commands.iter().enumerate() {
@@ -59,17 +59,17 @@ fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Re
 }
 
 /// Where the recommended epsilons are more often wrong on planes of other kinds.
-fn elsewhere(part: &SceneKernelPart, out: &mut dyn Write) -> io::Result<()> {
+fn elsewhere(name: &str, part: &SceneKernelPart, out: &mut dyn Write) -> io::Result<()> {
     let (planes, rows) = worse_elsewhere(part);
     if planes.is_empty() {
         return Ok(());
     }
     if rows.is_empty() {
         let planes = planes.join(", ");
-        return writeln!(out, "recommended, on other planes ({planes}): no more often wrong");
+        return writeln!(out, "{name}, on other planes ({planes}): no more often wrong");
     }
     const WIDTH: usize = 12;
-    write!(out, "{:<32}", "recommended, on other planes:")?;
+    write!(out, "{:<32}", format!("{name}, on other planes:"))?;
     planes.iter().try_for_each(|plane| write!(out, "{plane:>WIDTH$}"))?;
     writeln!(out)?;
     for (label, cells) in &rows {

@@ -68,6 +68,18 @@ named! {
 }
 
 impl PlaneKind {
+    /// The planes in a few words.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            PlaneKind::Generic => "turned at random",
+            PlaneKind::Axis => "floors and walls at any place",
+            PlaneKind::AxisNearZero => "floors and walls near coordinate 0",
+            PlaneKind::AxisAtZero => "floors and walls at coordinate 0",
+            PlaneKind::Terrain => "level ground",
+            PlaneKind::Box => "boxes along the axes",
+        }
+    }
+
     /// True if the plane is at or near coordinate 0, so that the scene's center has to be 0.
     fn is_near_zero(self) -> bool {
         matches!(self, PlaneKind::AxisNearZero | PlaneKind::AxisAtZero)

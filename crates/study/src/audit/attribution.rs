@@ -6,6 +6,7 @@
 
 use crate::arith::Float;
 use crate::case::Case;
+use crate::contract::Contract;
 use crate::judge::{Answer, Finding, Obligation, exact_values_are_near, judge, judge_answer};
 use crate::kernel::{
     ExactRun, Gives, KernelInfo, Subject, TrackedRun, Tunable, Verdict, verdicts_of,
@@ -61,10 +62,10 @@ pub fn attribute<F: Float>(
     case: &Case<F>,
     epsilons: &[F],
     truth: &Truth,
-    obligation: Obligation,
+    (contract, obligation): (&Contract, Obligation),
 ) -> Option<Attribution> {
     let exact = || subject.gated()?.run_exact(case, epsilons);
-    attribute_with(subject, case, epsilons, truth, obligation, exact)
+    attribute_with(subject, case, epsilons, truth, (contract, obligation), exact)
 }
 
 /// The same with the run without rounding from elsewhere, which is asked for where it is needed.
@@ -73,14 +74,14 @@ pub fn attribute_with<F: Float>(
     case: &Case<F>,
     epsilons: &[F],
     truth: &Truth,
-    obligation: Obligation,
+    (contract, obligation): (&Contract, Obligation),
     exact: impl FnOnce() -> Option<ExactRun>,
 ) -> Option<Attribution> {
     let subject = subject.gated()?;
     let gives = subject.info().gives;
     let right = |answer| judge_answer(obligation, truth, gives, answer).is_none();
     let given = subject.run_tracked(case, epsilons)?;
-    let finding = judge(obligation, (case, truth), gives, &given.verdict)?;
+    let finding = judge((contract, obligation), (case, truth), gives, &given.verdict)?;
     // Which values a formula gives does not depend on its epsilons. They are asked for where they were wrong.
     let near = finding != Finding::WrongValue || {
         let values = subject.measure_exact(case).values;
@@ -112,7 +113,7 @@ pub fn attribute_by_running<F: Float>(
     case: &Case<F>,
     epsilons: &[F],
     truth: &Truth,
-    obligation: Obligation,
+    (contract, obligation): (&Contract, Obligation),
 ) -> Option<Attribution> {
     if info.gates.iter().all(|gate| gate.epsilon == Tunable::Fixed) {
         return None;
@@ -120,7 +121,7 @@ pub fn attribute_by_running<F: Float>(
     let is_wrong = |epsilons: &[F]| {
         let mut verdict = [Verdict::miss(None)];
         verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
-        judge(obligation, (case, truth), info.gives, &verdict[0]).is_some()
+        judge((contract, obligation), (case, truth), info.gives, &verdict[0]).is_some()
     };
     let zeros = vec![F::zero(); epsilons.len()];
     Some(match epsilons != zeros && !is_wrong(&zeros) {

@@ -65,7 +65,7 @@ pub(super) fn causes<F: Scalar>(
         Causes::of_ray(places.iter().map(|place| {
             let case = &made.cases()[place.triangle as usize];
             let truth = oracle::truth(case);
-            let asked = asked(case, &truth, contract, secondary);
+            let asked = (contract, asked(case, &truth, contract, secondary));
             match row.subject.gated() {
                 Some(_) => attribute(row.subject, case, &row.epsilons, &truth, asked),
                 None => {

@@ -66,13 +66,8 @@ impl<F: Scalar> RowIn<F> {
                 Obligation::MustMiss => hits[number] += u64::from(verdict.hit),
                 Obligation::Free => {}
             }
-            // Nothing is promised of values for a direction that the contract leaves out.
-            let promised = |finding: &Finding| {
-                *finding != Finding::WrongValue
-                    || judge::promises_direction::<F>(contract.direction, case.ray.direction.into())
-            };
-            let found_here = judge::judge(obligation, (case, truth), gives, verdict);
-            if let Some(finding) = found_here.filter(promised) {
+            let asked = (contract, obligation);
+            if let Some(finding) = judge::judge(asked, (case, truth), gives, verdict) {
                 // Kernels tend to be wrong on the same cases.
                 let Known { distances, hash } = known[i].get_or_insert_with(|| Known::of(chunk, i));
                 let severity = distances.as_ref().map(|distances| {
@@ -130,8 +125,8 @@ impl<F: Scalar> RowIn<F> {
             let (cases, truths) = (&chunk.cases[range.clone()], &chunk.truths[range]);
             let owed = polygon_obligation(cases, truths, contract);
             let verdict = polygon_verdict(self.subject, cases, &self.epsilons);
-            let finding =
-                judge::judge(owed, (&cases[0], &polygon_truth(truths)), self.info.gives, &verdict);
+            let union = (&cases[0], &polygon_truth(truths));
+            let finding = judge::judge((contract, owed), union, self.info.gives, &verdict);
             tally.polygon(index, (owed, verdict.hit, finding));
         }
     }

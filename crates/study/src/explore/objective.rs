@@ -297,7 +297,7 @@ pub fn verdict_and_finding<F: Scalar>(
     let [verdict] = verdict;
     let truth = oracle::truth(case);
     let asked = asked(case, &truth, &row.contract, false);
-    (truth, verdict, judge(asked, (case, &truth), row.entry.info.gives, &verdict))
+    (truth, verdict, judge((&row.contract, asked), (case, &truth), row.entry.info.gives, &verdict))
 }
 
 /// Whether `f64` has digits and range to spare for products of a scalar's numbers.

@@ -59,7 +59,7 @@ impl Signature {
             gate: verdict.refused_by.map(usize::from).map(name),
             exactly: exact.as_ref().and_then(ExactRun::refused_by).map(name),
             attribution: subject.and_then(|subject| {
-                attribute_with(subject, case, epsilons, truth, asked, || exact)
+                attribute_with(subject, case, epsilons, truth, (&row.contract, asked), || exact)
             }),
         })
     }

@@ -216,8 +216,9 @@ fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
         v: 0.25,
         failure: None,
     };
-    let judged =
-        |obligation, verdict: Verdict<f64>| judge(obligation, (&case, &truth), gives, &verdict);
+    let judged = |obligation, verdict: Verdict<f64>| {
+        judge((&Contract::CLOSED_RAY, obligation), (&case, &truth), gives, &verdict)
+    };
     assert_eq!(judged(Obligation::MustHit, good), None);
     for finding in Finding::ALL {
         let is_failure = matches!(finding.name(), "panic" | "crash" | "timeout");
@@ -255,6 +256,25 @@ fn a_hit_with_a_value_that_is_no_number_is_bad_and_a_false_one_is_false() {
 }
 
 #[test]
+fn of_values_along_a_direction_without_a_promise_only_the_infinite_ones_are_findings() {
+    let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let gives = Gives { t: true, uv: false, facing: false };
+    let found = |length: f64, t: f64, contract: Contract| {
+        let case = Case::<f64>::new([1.0, 1.0, 2.0], [0.0, 0.0, -length], triangle);
+        let (truth, verdict) = (truth(&case), Verdict { hit: true, t, ..Verdict::miss(None) });
+        let asked = asked(&case, &truth, &contract, false);
+        judge((&contract, asked), (&case, &truth), gives, &verdict)
+    };
+    let unit = Contract { direction: Direction::Unit { ulps: 1 }, ..Contract::CLOSED_RAY };
+    // A kernel that takes every direction for a unit vector gives the distance.
+    assert_eq!(found(1.0, 2.0, unit), None);
+    assert_eq!(found(2.0, 2.0, unit), None);
+    assert_eq!(found(2.0, 2.0, Contract::CLOSED_RAY), Some(Finding::WrongValue));
+    assert_eq!(found(1.0, 3.0, unit), Some(Finding::WrongValue));
+    assert_eq!(found(2.0, f64::NAN, unit), Some(Finding::BadValue));
+}
+
+#[test]
 fn cases_that_are_all_free_are_all_listed() {
     let case = Case::<f64>::new([f64::NAN; 3], [1.0; 3], [[0.0; 3]; 3]);
     let (cases, truths) = ([case; 5], [Truth::Invalid; 5]);
@@ -267,7 +287,11 @@ fn cases_that_are_all_free_are_all_listed() {
 
 /// Cases that are not suspects met their obligation, whatever the verdict; without values, every suspect
 /// shows a finding.
-fn no_suspect_is_overlooked(cases: &[Case<f64>], truths: &[Truth], all: &Expectations) {
+fn no_suspect_is_overlooked(
+    cases: &[Case<f64>],
+    truths: &[Truth],
+    (contract, all): (&Contract, &Expectations),
+) {
     let of = |(case, truth)| Limits::of(case, truth);
     let limits: Vec<Limits<f64>> = cases.iter().zip(truths).map(of).collect();
     let (nan, facings) = (f64::NAN, [None, Some(Facing::Front), Some(Facing::Back)]);
@@ -283,7 +307,8 @@ fn no_suspect_is_overlooked(cases: &[Case<f64>], truths: &[Truth], all: &Expecta
         let verdict = Verdict { v: value(6), ..verdict };
         suspects((&all.of, &limits), gives, &vec![verdict; truths.len()], &mut found);
         let findings = (0..truths.len()).filter(|&i| {
-            judge(all.of[i].obligation(), (&cases[i], &truths[i]), gives, &verdict).is_some()
+            judge((contract, all.of[i].obligation()), (&cases[i], &truths[i]), gives, &verdict)
+                .is_some()
         });
         let findings: Vec<usize> = findings.collect();
         assert!(findings.iter().all(|i| found.binary_search(i).is_ok()), "{gives:?} {verdict:?}");
@@ -329,7 +354,7 @@ fn many_cases_are_asked_what_each_is_asked() {
                     counts[Class::of(truth).number()][*asked as usize] -= 1;
                 }
                 assert!(counts.iter().flatten().all(|count| *count == 0), "{contract:?}");
-                no_suspect_is_overlooked(&cases, &truths, &all);
+                no_suspect_is_overlooked(&cases, &truths, (&contract, &all));
             }
         }
     }

@@ -54,7 +54,12 @@ impl Witness {
         let [verdict] = verdict;
         let definition = oracle::define(case);
         let asked = asked(case, &definition.truth, &row.contract, false);
-        let finding = judge(asked, (case, &definition.truth), row.entry.info.gives, &verdict);
+        let finding = judge(
+            (&row.contract, asked),
+            (case, &definition.truth),
+            row.entry.info.gives,
+            &verdict,
+        );
         let judged = finding.map_or("as its contract asks", |finding| finding.name());
         let mut witness = Witness {
             title: format!("{} in {}: {judged}", row.label(), F::NAME),

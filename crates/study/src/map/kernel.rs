@@ -109,7 +109,7 @@ fn pixels<F: Float>(
             truth,
             asked,
             on_boundary: is_on_boundary(&truth, asked, &row.contract),
-            finding: judge(asked, (case, &truth), row.entry.info.gives, verdict),
+            finding: judge((&row.contract, asked), (case, &truth), row.entry.info.gives, verdict),
         }
     };
     cases.iter().zip(&verdicts).zip(truths).map(pixel).collect()

@@ -8,7 +8,7 @@ use crate::case::{DirectionLength, Draw, Parameters, Scene};
 use crate::corpus::is_without_area;
 use crate::family::{
     Corners, Frame, Made, Pair, Parallel, Ring, Stratum, Triangles, along_axis, circle, flat_along,
-    in_plane, rounded, wide,
+    in_plane, missed_sine, rounded, wide,
 };
 use crate::kernel::Scalar;
 use glam::DVec3;
@@ -97,10 +97,18 @@ impl SceneMesh {
         seed: u64,
         index: u64,
     ) -> Made<F> {
-        let topology = self.surface.topology::<F>().expect("a scalar of the run");
         let scene = parameters.scene.clone().unwrap_or_default();
-        let triangles = OfMesh { mesh: self, topology, scene: &scene };
-        stratum.make_at(&triangles, parameters, seed, index)
+        stratum.make_at(&self.triangles::<F>(&scene), parameters, seed, index)
+    }
+
+    /// The sine that an almost parallel ray has in place of the one that was drawn.
+    pub fn missed_sine<F: Float>(&self, scene: &Scene, seed: u64, index: u64) -> Option<f64> {
+        missed_sine::<F>(&self.triangles::<F>(scene), scene, seed, index)
+    }
+
+    fn triangles<'a, F: Float>(&'a self, scene: &'a Scene) -> OfMesh<'a> {
+        let topology = self.surface.topology::<F>().expect("a scalar of the run");
+        OfMesh { mesh: self, topology, scene }
     }
 }
 

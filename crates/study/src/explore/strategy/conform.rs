@@ -38,7 +38,7 @@ pub fn conforms<F: Float>(
     let (truth, t) = (oracle::truth(case), kernel(case));
     let asked = asked(case, &truth, contract, false);
     let gives = Gives { t: true, uv: false, facing: false };
-    let found = judge(asked, (case, &truth), gives, &verdict(t));
+    let found = judge((contract, asked), (case, &truth), gives, &verdict(t));
     let Some(finding) = found.map(Finding::name) else { return Ok(()) };
     let contract = contract.describe();
     let text = format!("contract {contract}\n{}", describe(case, &truth, t));

@@ -12,6 +12,11 @@ use crate::case::{Case, Draw, Scene};
 use glam::DVec3;
 
 pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
+    Made::One(grazing_ray(setup, draw).0)
+}
+
+/// The case, and the sine that it has instead if no ray has the one that was drawn.
+pub fn grazing_ray<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> (Case<F>, Option<f64>) {
     let (triangle, drawn) = setup.triangles.triangle(draw);
     // Rounding the vertices tilts the plane: the angle is that to the rounded triangle.
     let frame = Frame::of(triangle).unwrap_or(drawn);
@@ -23,27 +28,28 @@ pub fn grazing<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
         Some(range) => between_powers(draw, range) * if draw.coin() { 1.0 } else { -1.0 },
         None => grazing_sine::<F>(draw),
     };
-    let (start, direction) = at_an_angle(draw, setup.scene, target, &frame, sine);
-    Made::One(Case::new(start, direction, triangle))
+    let ((start, direction), missed) = at_an_angle(draw, setup.scene, target, &frame, sine);
+    (Case::new(start, direction, triangle), missed)
 }
 
 /// How many rays are tried for one at the angle that was drawn.
-const TRIES: usize = 4096;
+pub const TRIES: usize = 4096;
 
 /// Sines below this many ulps of 1 are left to the rounding of the direction, unless the scene asks for them.
 const LEAST_ULPS: f64 = 8.0;
 
 /// A ray toward a target in a plane, at an angle of a sine. Rounding the origin and the direction changes the angle, so
-/// rays are drawn until one has it within a tenth, from either side; if none of many has, the nearest is taken.
+/// rays are drawn until one has it within a tenth, from either side; if none of many has, the nearest is taken, and its
+/// sine is returned too.
 fn at_an_angle<F: Float>(
     draw: &mut Draw,
     scene: &Scene,
     target: DVec3,
     frame: &Frame,
     sine: f64,
-) -> ([F; 3], [F; 3]) {
+) -> (([F; 3], [F; 3]), Option<f64>) {
     let is_free = scene.sine.is_none() && sine.abs() < LEAST_ULPS * F::EPSILON.to_f64();
-    let mut nearest: Option<(f64, _)> = None;
+    let mut nearest: Option<(f64, _, f64)> = None;
     for _ in 0..TRIES {
         let flat = in_plane(draw, frame);
         let toward = flat * (1.0 - sine * sine).sqrt() + frame.normal * sine;
@@ -52,13 +58,14 @@ fn at_an_angle<F: Float>(
         // A ratio; infinite for a ray in the plane.
         let off = reached.max(sine.abs()) / reached.min(sine.abs());
         if is_free || off <= 1.1 {
-            return made;
+            return (made, None);
         }
-        if nearest.is_none_or(|(other, _)| off < other) {
-            nearest = Some((off, made));
+        if nearest.is_none_or(|(other, ..)| off < other) {
+            nearest = Some((off, made, reached));
         }
     }
-    nearest.expect("one try at least").1
+    let (_, made, reached) = nearest.expect("one try at least");
+    (made, Some(reached))
 }
 
 /// The sine of the angle between a direction and the plane of a frame.

@@ -13,6 +13,7 @@ mod shadow;
 mod triangles;
 
 pub(crate) use draw::{Frame, any_direction, circle, in_plane, rounded, wide};
+pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
 pub(super) use shadow::hit_point;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, Triangles, along_axis, flat_along};
@@ -23,7 +24,7 @@ use crate::case::{Draw, Parameters, Scene};
 use crate::kernel::Scalar;
 use crate::truth::Truth;
 use aimed::{edges, interior, outside, vertices};
-use flat::{grazing, parallel};
+use flat::{grazing, grazing_ray, parallel};
 use shadow::shadow;
 
 /// A part of a scene whose rates are reported by themselves.
@@ -101,6 +102,18 @@ impl Stratum {
             Stratum::Outside => outside,
         }
     }
+}
+
+/// The sine of the angle that an almost parallel ray has because none of [`TRIES`] has the one that was drawn; none if
+/// it has that.
+pub fn missed_sine<F: Float>(
+    triangles: &dyn Triangles<F>,
+    scene: &Scene,
+    seed: u64,
+    index: u64,
+) -> Option<f64> {
+    let mut draw = Draw::new(Stratum::Grazing.family().name, seed, index);
+    grazing_ray(&Setup { triangles, scene, kernel: None }, &mut draw).1
 }
 
 /// What a stratum's cases are made from.
