@@ -140,3 +140,7 @@ pub use kernel::{
     Dimension, Entry, EpsilonSet, Failure, Gate, Gives, Hit, Kernel, KernelInfo, Refuse, Role,
     Scalar, Sink, Subject, Test, Tunable, Verdict, find,
 };
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
