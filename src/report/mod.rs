@@ -5,6 +5,8 @@
 #[cfg(feature = "studies")]
 mod answered;
 mod build;
+#[cfg(feature = "studies")]
+mod chart;
 mod conformance;
 mod disagreement;
 mod distribution;

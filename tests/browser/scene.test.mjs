@@ -21,7 +21,7 @@ for (const theme of THEMES) {
 
 test("a scene's plots keep their texts apart, inside, and explain themselves", async (t) => {
   const page = await visit(t, SCENE, { scripts: false });
-  const plots = page.locator("svg.scene-plot");
+  const plots = page.locator("svg.chart");
   assert.equal(await plots.count(), 3);
   for (let i = 0; i < 3; i++) {
     const { outside, overlaps, text } = await plots.nth(i).evaluate((plot) => {

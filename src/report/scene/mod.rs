@@ -6,7 +6,6 @@ mod commands;
 mod csv;
 mod elsewhere;
 mod legend;
-mod marks;
 mod notes;
 #[cfg(feature = "cli")]
 mod page;

@@ -3,24 +3,23 @@
 
 use super::answer::{Answer, answer};
 use super::legend::legend;
-use super::marks::{self, WIDTH};
-use super::plot::{footer, panels};
+use super::plot::{WIDTH, footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
-use crate::report::Style;
 use crate::report::formats::html::{STYLE, head_of, style_policy};
+use crate::report::{Style, chart};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 
 /// What only this page has.
 const OWN_STYLE: &str = "
-svg.scene-plot { width: 100%; max-width: 34rem; height: auto; }
+svg.chart { width: 100%; max-width: 34rem; height: auto; }
 .use { font-size: 1.05rem; } .use::first-letter { text-transform: uppercase; } .use code { font-size: .9rem; }
 .scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
 ";
 
 /// Writes the record.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    let style = format!("{STYLE}{}{OWN_STYLE}", marks::STYLE);
+    let style = format!("{STYLE}{}{OWN_STYLE}", chart::STYLE);
     let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
     let title = answers.first().map_or("no kernel", |answer| answer.title.as_str());
     let page = html! {
@@ -65,7 +64,7 @@ fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Mar
             div.plots {
                 @for panel in panels(record, part, answer) {
                     figure {
-                        svg.scene-plot viewBox=(format!("0 0 {WIDTH} {}", panel.height)) role="img" aria-label=(panel.about) {
+                        svg.chart viewBox=(format!("0 0 {WIDTH} {}", panel.height)) role="img" aria-label=(panel.about) {
                             (PreEscaped(panel.drawing))
                         }
                     }

@@ -2,15 +2,12 @@
 //! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
 use super::answer::{Answer, LimitRow, RECOMMENDED, answer, column};
-use super::marks::{
-    CHARACTER, LEFT, LINE, PLOT, RIGHT, STYLE, WIDTH, ZERO, axes, centre, is_open, marker, text_at,
-    wrapped,
-};
 use super::record::*;
 use super::words::{human, label, unit_of};
 use crate::audit::Trials;
-use crate::plot::{Decades, EpsilonAxis, ShareAxis, decades_around, escaped, group_digits};
+use crate::plot::{Decades, decades_around, group_digits};
 use crate::report::Style;
+use crate::report::chart::{Chart, Frame, LINE, Mark, file, text_at, wrapped};
 use crate::report::rate::percent;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -19,6 +16,11 @@ use std::io::{self, Write};
 const NEGLIGIBLE: f64 = 2e-4;
 /// The most decades of shares that fit.
 const MOST_DECADES: i32 = 5;
+
+/// The width of a panel, and of a file.
+pub(super) const WIDTH: f64 = 460.0;
+const FRAME: Frame =
+    Frame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
 
 /// A panel.
 pub(super) struct Panel {
@@ -50,16 +52,13 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{}</g>", panel.drawing);
             y += panel.height;
         }
-        for text in footer(record, part).iter().flat_map(|text| wrapped(text)) {
+        for text in footer(record, part).iter().flat_map(|text| wrapped(text, WIDTH)) {
             y += LINE;
             drawing += &text_at(12.0, y, "soft", &text);
         }
         y += LINE;
     }
-    writeln!(
-        out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"scene-plot\" viewBox=\"0 0 {WIDTH} {y}\" width=\"{WIDTH}\" height=\"{y}\" role=\"img\">\n<title>Wrong answers by epsilon in a scene</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>"
-    )
+    out.write_all(file("Wrong answers by epsilon in a scene", WIDTH, y, &drawing).as_bytes())
 }
 
 /// What the shares are of.
@@ -216,8 +215,6 @@ impl<'a> Draft<'a> {
     }
 
     fn panel(&self) -> Panel {
-        let across =
-            EpsilonAxis::new(LEFT, WIDTH - RIGHT, ZERO, [self.decades(-1.0), self.decades(1.0)]);
         let unit = unit_of(self.record, self.knob);
         let name = match self.knob.is_gate {
             true => format!("{}: epsilon of this gate", self.knob.name),
@@ -229,98 +226,36 @@ impl<'a> Draft<'a> {
         let others: Vec<String> = others
             .map(|(_, (knob, epsilon))| format!("{}={}", knob.name, human(epsilon)))
             .collect();
-        let mut drawing = text_at(12.0, 26.0, "this", &title);
-        if !others.is_empty() {
-            drawing += &text_at(12.0, 42.0, "soft", &format!("with {}", others.join(", ")));
-        }
-        let (labels, rows) = self.labels(&across);
-        let top = 56.0 + LINE * rows as f64;
-        let bottom = top + PLOT;
+        let marks: Vec<Mark> = self.tried.iter().map(mark).collect();
         let most = self.lines.iter().map(|line| line.of).max().unwrap_or(1);
-        let down = ShareAxis::new(top, bottom, most, MOST_DECADES);
-        if let Some([low, high]) = self.within() {
-            let [from, to] = [low, high].map(|value| match value.is_finite() {
-                true => across.x(value),
-                false if value < 0.0 => LEFT,
-                false => WIDTH - RIGHT,
-            });
-            let width = (to - from).max(2.0);
-            let open = if is_open([low, high]) { " open" } else { "" };
-            let _ = writeln!(
-                drawing,
-                "<rect class=\"within{open}\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{PLOT}\"/>"
-            );
+        let decades = [self.decades(-1.0), self.decades(1.0)];
+        let mut chart = Chart::new(FRAME, decades, (most, MOST_DECADES), &marks);
+        chart.drawing += &text_at(12.0, 26.0, "this", &title);
+        if !others.is_empty() {
+            let with = format!("with {}", others.join(", "));
+            chart.drawing += &text_at(12.0, 42.0, "soft", &with);
         }
-        drawing += &axes(&across, &down, top, bottom);
-        for (x, y, text, is_this) in labels {
-            let class = if is_this { "this" } else { "" };
-            let _ = writeln!(
-                drawing,
-                "<path class=\"tried {class}\" d=\"M{x:.1} {:.1}V{bottom}\"/><text class=\"{class}\" x=\"{:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{}</text>",
-                y + 3.0,
-                centre(x, &text),
-                escaped(&text)
-            );
+        if let Some(ends) = self.within() {
+            chart.shade(if is_open(ends) { "within open" } else { "within" }, ends);
         }
         for line in &self.lines {
-            drawing += &self.drawn(line, &across, &down);
+            let point = |(value, wrong): (&f64, &u64)| {
+                let interval = Trials::independent(*wrong, line.of).interval();
+                let share = *wrong as f64 / line.of as f64;
+                (*value, share, Some([interval.low, interval.high]))
+            };
+            chart.line(&line.class(), self.values.iter().zip(&line.wrong).map(point));
         }
         for (_, value, is_lower, count, is_proved) in self.limits() {
             if let Some(value) = value {
-                drawing += &marker(across.x(value), bottom, is_lower, count, is_proved);
+                let at = chart.on_axis(value);
+                chart.drawing += &marker(at, is_lower, count, is_proved);
             }
         }
-        let mut y = bottom + 44.0;
-        let mut about = title.clone();
-        for (mark, text) in self.legend() {
-            let _ = writeln!(drawing, "<g transform=\"translate(12 {:.1})\">{mark}</g>", y - 4.0);
-            drawing += &text_at(50.0, y, "", &text);
-            let _ = write!(about, "; {text}");
-            y += LINE;
-        }
-        Panel { about, drawing, height: y + 6.0 }
-    }
-
-    /// The names above the plot in rows, so that none lies on another: place, height, text, and whether it is
-    /// what is recommended. Also how many rows there are.
-    fn labels(&self, across: &EpsilonAxis) -> (Vec<(f64, f64, String, bool)>, usize) {
-        let mut ends: Vec<f64> = Vec::new();
-        let mut placed = Vec::new();
-        for (value, names) in &self.tried {
-            let x = across.x(*value);
-            let value = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
-            let text = format!("{names}: {value}");
-            let half = CHARACTER * text.chars().count() as f64 / 2.0;
-            let start = centre(x, &text) - half;
-            let row = ends.iter().position(|end| *end + 6.0 <= start).unwrap_or(ends.len());
-            if row == ends.len() {
-                ends.push(0.0);
-            }
-            ends[row] = start + 2.0 * half;
-            placed.push((x, row, text, names.split(", ").any(|name| name == RECOMMENDED)));
-        }
-        let rows = ends.len();
-        // The first row is the lowest, next to the plot.
-        let height = |row: usize| 50.0 + LINE * (rows - row) as f64 - 4.0;
-        let placed = placed.into_iter().map(|(x, row, text, this)| (x, height(row), text, this));
-        (placed.collect(), rows)
-    }
-
-    /// A count's share by value, with the 95 % interval behind it.
-    fn drawn(&self, line: &Line<'_>, across: &EpsilonAxis, down: &ShareAxis) -> String {
-        let point = |(value, wrong): (&f64, &u64)| {
-            let interval = Trials::independent(*wrong, line.of).interval();
-            let share = *wrong as f64 / line.of as f64;
-            (across.x(*value), share, Some([interval.low, interval.high]))
-        };
-        // What lies beyond the axis is at its end: the last of those on the left, the first on the right.
-        let points: Vec<_> = self.values.iter().zip(&line.wrong).map(point).collect();
-        let first = points.iter().rposition(|(x, ..)| *x <= LEFT).unwrap_or(0);
-        let (path, band) = down.steps(points[first..].iter().copied(), WIDTH - RIGHT);
-        let class = line.class();
-        format!(
-            "<path class=\"band {class}\" d=\"{band}\"/><path class=\"line {class}\" d=\"{path}\"/>\n"
-        )
+        let legend = self.legend();
+        chart.legend(&legend);
+        let about = legend.iter().fold(title, |about, (_, text)| format!("{about}; {text}"));
+        Panel { about, drawing: chart.drawing, height: chart.height }
     }
 
     /// Marks with their texts: the lines, then the limits.
@@ -336,7 +271,7 @@ impl<'a> Draft<'a> {
             (mark, format!("{what} (n = {n}{others})"))
         });
         let limits = self.limits().map(|(row, _, is_lower, count, is_proved)| {
-            let mark = marker(15.0, 0.0, is_lower, count, is_proved);
+            let mark = marker([15.0, 0.0], is_lower, count, is_proved);
             let most = if is_proved { "proved".to_owned() } else { row.most.clone() };
             (mark, format!("{} {}: {most}", row.bound, row.what))
         });
@@ -362,4 +297,28 @@ impl<'a> Draft<'a> {
         }
         all
     }
+}
+
+/// A value that was tried.
+fn mark((value, names): &(f64, String)) -> Mark {
+    let text = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
+    let is_this = names.split(", ").any(|name| name == RECOMMENDED);
+    Mark { value: *value, text: format!("{names}: {text}"), is_this }
+}
+
+/// True if limits are on one side only.
+fn is_open(ends: [f64; 2]) -> bool {
+    ends.iter().any(|end| end.is_infinite())
+}
+
+/// A triangle on the axis that points to the side that a limit allows.
+fn marker([x, y]: [f64; 2], is_lower: bool, count: &CountPart, is_proved: bool) -> String {
+    let ahead = if is_lower { 9.0 } else { -9.0 };
+    let class = if is_proved { "limit proved" } else { "limit" };
+    let stratum = count.stratum.trim_start_matches("scene-");
+    format!(
+        "<path class=\"{class} {stratum}\" d=\"M{x:.1} {:.1}l{ahead} 5l{} 5z\"/>\n",
+        y - 5.0,
+        -ahead
+    )
 }

@@ -3,18 +3,13 @@
 use super::room::Room;
 use super::view::Row;
 use super::words::{interval, percent};
-use crate::plot::{Decades, EpsilonAxis, ShareAxis, decades_around};
+use crate::plot::{Decades, decades_around};
+use crate::report::chart::{Chart, Frame, Mark};
 use crate::report::{Record, ResponsePart, group_digits};
 use maud::{Markup, PreEscaped, html};
 
-const WIDTH: f64 = 340.0;
-const HEIGHT: f64 = 190.0;
-const LEFT: f64 = 46.0;
-const RIGHT: f64 = 10.0;
-const TOP: f64 = 22.0;
-const BOTTOM: f64 = 30.0;
-/// The width of the stretch around zero.
-const ZERO: f64 = 18.0;
+const FRAME: Frame =
+    Frame { width: 340.0, left: 46.0, right: 10.0, above: 8.0, plot: 140.0, zero: 18.0 };
 
 /// The lines, by question.
 const LINES: [(&str, &str); 3] = [
@@ -57,12 +52,14 @@ pub(super) fn figures(record: &Record, row: &Row, room: &mut Room) -> Markup {
 }
 
 fn figure(part: &ResponsePart) -> Markup {
-    let plot = Plot::new(part);
+    let chart = drawn(part);
     let name = format!("{} gate {}", part.scalar, part.gate);
     html! {
         figure {
             figcaption { b { (name) } " " (words(part)) }
-            (plot.draw(&name))
+            svg.chart.plot viewBox=(format!("0 0 {} {}", FRAME.width, chart.height)) role="img" aria-label={ "Shares of wrong answers by epsilon of " (name) "; the numbers stand in the caption" } {
+                (PreEscaped(chart.drawing))
+            }
         }
     }
 }
@@ -112,70 +109,25 @@ fn span(part: &ResponsePart, points: &[(f64, [u64; 3])], sign: f64) -> Option<De
     decades_around(changes.chain(own).filter(|e| e * sign > 0.0))
 }
 
-struct Plot<'a> {
-    part: &'a ResponsePart,
-    /// Epsilons with their counts, in order.
-    points: Vec<(f64, [u64; 3])>,
-    across: EpsilonAxis,
-    down: ShareAxis,
-}
-
-impl<'a> Plot<'a> {
-    fn new(part: &'a ResponsePart) -> Plot<'a> {
-        let points = part.points.iter();
-        let points = points.filter_map(|(epsilon, counts)| Some((epsilon.parse().ok()?, *counts)));
-        let points: Vec<(f64, [u64; 3])> = points.collect();
-        let asked = part.asked.iter().max().copied().unwrap_or(1);
-        let decades = [-1.0, 1.0].map(|sign| span(part, &points, sign));
-        let across = EpsilonAxis::new(LEFT, WIDTH - RIGHT, ZERO, decades);
-        Plot { part, points, across, down: ShareAxis::new(TOP, HEIGHT - BOTTOM, asked, 5) }
-    }
-
-    fn draw(&self, name: &str) -> Markup {
-        let own = self.part.epsilon.parse::<f64>().ok().map(|e| self.across.x(e));
-        html! {
-            svg.plot viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label={ "Shares of wrong answers by epsilon of " (name) "; the numbers stand in the caption" } {
-                (self.axes())
-                @for question in 0..3 {
-                    @if 0 < self.part.asked[question] { (self.line(question)) }
-                }
-                @if let Some(x) = own {
-                    path.own d=(format!("M{x:.1} {:.1}V{}", HEIGHT - BOTTOM, TOP - 4.0)) {}
-                    text.own x=(format!("{:.1}", x.clamp(LEFT + 24.0, WIDTH - RIGHT - 24.0))) y=(TOP - 9.0) text-anchor="middle" { "e = " (self.part.epsilon) }
-                }
-            }
+fn drawn(part: &ResponsePart) -> Chart {
+    let points = part.points.iter();
+    let points: Vec<(f64, [u64; 3])> =
+        points.filter_map(|(epsilon, counts)| Some((epsilon.parse().ok()?, *counts))).collect();
+    let asked = part.asked.iter().max().copied().unwrap_or(1);
+    let decades = [-1.0, 1.0].map(|sign| span(part, &points, sign));
+    let own = part.epsilon.parse::<f64>().ok();
+    let text = format!("e = {}", part.epsilon);
+    let own: Vec<Mark> = own.map(|value| Mark { value, text, is_this: true }).into_iter().collect();
+    let mut chart = Chart::new(FRAME, decades, (asked, 5), &own);
+    for (question, (class, _)) in LINES.into_iter().enumerate() {
+        if 0 < part.asked[question] {
+            let point = |(epsilon, counts): &(f64, [u64; 3])| {
+                let (share, interval) = part.share(question, *counts)?;
+                // The cracks' interval would hide the others.
+                Some((*epsilon, share, interval.filter(|_| question < 2)))
+            };
+            chart.line(class, points.iter().map_while(point));
         }
     }
-
-    fn axes(&self) -> Markup {
-        let bottom = HEIGHT - BOTTOM;
-        html! {
-            @for (y, label) in self.down.ticks() {
-                path.grid d=(format!("M{LEFT} {y:.1}H{}", WIDTH - RIGHT)) {}
-                text x=(LEFT - 5.0) y=(format!("{:.1}", y + 3.5)) text-anchor="end" { (label) }
-            }
-            path.axis d=(format!("M{LEFT} {bottom}H{}", WIDTH - RIGHT)) {}
-            text x=(LEFT - 5.0) y=(format!("{:.1}", bottom + 3.5)) text-anchor="end" { "none" }
-            @for (x, label) in self.across.ticks(44.0, WIDTH) {
-                path.axis d=(format!("M{x:.1} {bottom}v4")) {}
-                text x=(format!("{x:.1}")) y=(bottom + 16.0) text-anchor="middle" { (label) }
-            }
-        }
-    }
-
-    /// A question's share by epsilon, with its interval behind it.
-    fn line(&self, question: usize) -> Markup {
-        let drawn = self.points.iter().map(|(e, counts)| (self.across.x(*e), *counts));
-        let first = self.points.first().map(|(_, counts)| (LEFT, *counts));
-        let shares = first.into_iter().chain(drawn).map_while(|(x, counts)| {
-            let (share, interval) = self.part.share(question, counts)?;
-            Some((x, share, interval))
-        });
-        let (path, band) = self.down.steps(shares, WIDTH - RIGHT);
-        let class = LINES[question].0;
-        html! {
-            @if !band.is_empty() && question < 2 { path class={ "band " (class) } d=(band) {} }
-            path class={ "line " (class) } d=(path) {}
-        }
-    }
+    chart
 }

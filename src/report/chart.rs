@@ -1,0 +1,243 @@
+//! The one plot of curves: epsilons across, with zero between two logarithmic halves; shares upwards; names above,
+//! stepped lines with their intervals, a legend below. Elements of SVG; their classes are styled by [`STYLE`] in a file,
+//! and by a page's own rules.
+//!
+//! Drawn here, since no plotting library has such an axis.
+
+use crate::plot::{Decades, EpsilonAxis, ShareAxis, escaped};
+use std::fmt::Write as _;
+
+/// The height of a line of text, and about the width of a character.
+pub(super) const LINE: f64 = 17.0;
+const CHARACTER: f64 = 6.4;
+/// The width of a label on an axis.
+const LABEL: f64 = 46.0;
+
+/// Colours by kind of ray, dashes by kind of error; light and dark.
+pub(super) const STYLE: &str = "
+.chart { font: 12px system-ui, -apple-system, sans-serif; fill: #1d2125; }
+.chart .paper { fill: #fff; } .chart .soft { fill: #575e66; }
+.chart .grid { stroke: #dcdfe3; fill: none; } .chart .axis { stroke: #575e66; fill: none; }
+.chart .tried { stroke: #575e66; stroke-dasharray: 1 3; fill: none; }
+.chart .this { stroke: #1d2125; stroke-dasharray: none; } .chart text.this { stroke: none; font-weight: 700; }
+.chart .within { fill: #1a6b3a; fill-opacity: .14; } .chart .open { fill-opacity: .06; }
+.chart .line { stroke: currentColor; fill: none; stroke-width: 2; stroke-linejoin: round; }
+.chart .band { fill: currentColor; fill-opacity: .07; }
+.chart .limit { fill: currentColor; stroke: currentColor; } .chart .proved { fill: none; stroke-width: 1.5; }
+.chart .hit, .chart .self-hit { stroke-dasharray: 7 3; } .chart .crack { stroke-dasharray: 2 3; }
+.chart .interior { color: #b34700; } .chart .edges { color: #5f6670; }
+.chart .vertices { color: #7b3fa0; } .chart .grazing { color: #1d5fae; }
+.chart .parallel { color: #00707a; } .chart .shadow { color: #1a6b3a; } .chart .outside { color: #8a6d00; }
+@media (prefers-color-scheme: dark) {
+.chart { fill: #e6e8ea; }
+.chart .paper { fill: #14171a; } .chart .soft { fill: #a3abb3; }
+.chart .grid { stroke: #343a41; } .chart .axis, .chart .tried { stroke: #a3abb3; }
+.chart .this { stroke: #e6e8ea; } .chart text.this { stroke: none; } .chart .within { fill: #7ed09a; }
+.chart .interior { color: #f5a45d; } .chart .edges { color: #a3abb3; }
+.chart .vertices { color: #c79be6; } .chart .grazing { color: #86b9f7; }
+.chart .parallel { color: #5fc7d1; } .chart .shadow { color: #7ed09a; } .chart .outside { color: #e0c04f; }
+}
+";
+
+/// A file of drawings, one below the other.
+pub(super) fn file(title: &str, width: f64, height: f64, drawing: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{title}</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>\n"
+    )
+}
+
+/// A text at a place.
+pub(super) fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n", escaped(text))
+}
+
+/// A text in lines that fit into a width.
+pub(super) fn wrapped(text: &str, width: f64) -> Vec<String> {
+    let most = ((width - 24.0) / CHARACTER) as usize;
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let line = lines.last_mut().expect("there is one");
+        if line.is_empty() || line.len() + word.len() < most {
+            line.push_str(if line.is_empty() { "" } else { " " });
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
+/// Where things stand.
+#[derive(Clone, Copy)]
+pub(super) struct Frame {
+    /// The whole width.
+    pub width: f64,
+    /// The space to the left of the plot, for the labels of shares.
+    pub left: f64,
+    /// The space to the right of it.
+    pub right: f64,
+    /// The height of titles above the names.
+    pub above: f64,
+    /// The height of the plot itself.
+    pub plot: f64,
+    /// The width of the stretch around zero.
+    pub zero: f64,
+}
+
+/// A value that is marked by a line with its name above the plot.
+pub(super) struct Mark {
+    /// Its place on the axis.
+    pub value: f64,
+    /// Its name.
+    pub text: String,
+    /// True if it is the one that matters.
+    pub is_this: bool,
+}
+
+/// A plot while it is drawn.
+pub(super) struct Chart {
+    frame: Frame,
+    across: EpsilonAxis,
+    down: ShareAxis,
+    top: f64,
+    /// The elements so far.
+    pub drawing: String,
+    /// How far down it reaches.
+    pub height: f64,
+}
+
+impl Chart {
+    /// The axes and the marks. Shares are of so many, or take at most so many decades.
+    pub fn new(
+        frame: Frame,
+        decades: [Option<Decades>; 2],
+        (of, most_decades): (u64, i32),
+        marks: &[Mark],
+    ) -> Chart {
+        let across = EpsilonAxis::new(frame.left, frame.width - frame.right, frame.zero, decades);
+        let (placed, rows) = in_rows(frame, &across, marks);
+        let top = frame.above + LINE * rows as f64;
+        let bottom = top + frame.plot;
+        let down = ShareAxis::new(top, bottom, of, most_decades);
+        let mut chart = Chart { frame, across, down, top, drawing: String::new(), height: 0.0 };
+        chart.height = bottom + 24.0;
+        chart.axes();
+        for (mark, middle, row) in placed {
+            // The first row is the lowest, next to the plot.
+            let y = frame.above - 10.0 + LINE * (rows - row) as f64;
+            let class = if mark.is_this { "this" } else { "" };
+            let _ = writeln!(
+                chart.drawing,
+                "<path class=\"tried {class}\" d=\"M{:.1} {:.1}V{bottom}\"/><text class=\"{class}\" x=\"{middle:.1}\" y=\"{y:.1}\" text-anchor=\"middle\">{}</text>",
+                chart.across.x(mark.value),
+                y + 3.0,
+                escaped(&mark.text)
+            );
+        }
+        chart
+    }
+
+    /// The place of a value on the axis, and the axis itself.
+    pub fn on_axis(&self, value: f64) -> [f64; 2] {
+        [self.across.x(value), self.top + self.frame.plot]
+    }
+
+    /// Shades the values between two; an infinite one stands for the end of the axis.
+    pub fn shade(&mut self, class: &str, ends: [f64; 2]) {
+        let [from, to] = ends.map(|value| match value.is_finite() {
+            true => self.across.x(value),
+            false if value < 0.0 => self.frame.left,
+            false => self.frame.width - self.frame.right,
+        });
+        let (top, width, height) = (self.top, (to - from).max(2.0), self.frame.plot);
+        let _ = writeln!(
+            self.drawing,
+            "<rect class=\"{class}\" x=\"{from:.1}\" y=\"{top}\" width=\"{width:.1}\" height=\"{height}\"/>"
+        );
+    }
+
+    /// A share that changes at some values, each with its interval if it is of a sample. The values are in order; before
+    /// the first the share is as there.
+    pub fn line(
+        &mut self,
+        class: &str,
+        points: impl Iterator<Item = (f64, f64, Option<[f64; 2]>)>,
+    ) {
+        let (left, right) = (self.frame.left, self.frame.width - self.frame.right);
+        let mut shown: Vec<(f64, f64, Option<[f64; 2]>)> = Vec::new();
+        for (value, share, interval) in points {
+            let x = self.across.x(value);
+            match shown.last_mut() {
+                // What falls on one spot of the drawing is drawn once.
+                Some(last) if x - last.0 < 1.0 => *last = (last.0, share, interval),
+                None if left < x => shown.push((left, share, interval)),
+                _ => shown.push((x, share, interval)),
+            }
+        }
+        let (path, band) = self.down.steps(shown.into_iter(), right);
+        if !band.is_empty() {
+            let _ = writeln!(self.drawing, "<path class=\"band {class}\" d=\"{band}\"/>");
+        }
+        let _ = writeln!(self.drawing, "<path class=\"line {class}\" d=\"{path}\"/>");
+    }
+
+    /// Marks with their texts, one below the other.
+    pub fn legend(&mut self, lines: &[(String, String)]) {
+        self.height += 20.0;
+        for (mark, text) in lines {
+            let y = self.height;
+            let _ =
+                writeln!(self.drawing, "<g transform=\"translate(12 {:.1})\">{mark}</g>", y - 4.0);
+            self.drawing += &text_at(50.0, y, "", text);
+            self.height += LINE;
+        }
+        self.height += 6.0;
+    }
+
+    fn axes(&mut self) {
+        let Frame { width, left, right, .. } = self.frame;
+        let (right, bottom) = (width - right, self.top + self.frame.plot);
+        for (y, label) in self.down.ticks().into_iter().chain([(bottom, "none".to_owned())]) {
+            let _ = writeln!(
+                self.drawing,
+                "<path class=\"grid\" d=\"M{left} {y:.1}H{right}\"/><text class=\"soft\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
+                left - 6.0,
+                y + 4.0
+            );
+        }
+        let top = self.top;
+        let _ =
+            writeln!(self.drawing, "<path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/>");
+        for (x, label) in self.across.ticks(LABEL, width) {
+            let _ = writeln!(
+                self.drawing,
+                "<path class=\"axis\" d=\"M{x:.1} {bottom}v5\"/><text class=\"soft\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
+                bottom + 19.0
+            );
+        }
+    }
+}
+
+/// The marks in rows, so that no name lies on another: each with the middle of its name and its row. Also how many rows
+/// there are.
+fn in_rows<'a>(
+    frame: Frame,
+    across: &EpsilonAxis,
+    marks: &'a [Mark],
+) -> (Vec<(&'a Mark, f64, usize)>, usize) {
+    let mut ends: Vec<f64> = Vec::new();
+    let mut placed = Vec::new();
+    for mark in marks {
+        let half = CHARACTER * mark.text.chars().count() as f64 / 2.0;
+        // The name stays in the panel.
+        let most = (frame.width - 4.0 - half).max(frame.width / 2.0);
+        let middle = across.x(mark.value).clamp((4.0 + half).min(frame.width / 2.0), most);
+        let row = ends.iter().position(|end| *end + 6.0 <= middle - half).unwrap_or(ends.len());
+        if row == ends.len() {
+            ends.push(0.0);
+        }
+        ends[row] = middle + half;
+        placed.push((mark, middle, row));
+    }
+    (placed, ends.len())
+}
