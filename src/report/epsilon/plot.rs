@@ -19,7 +19,7 @@ const BOTTOM: f64 = 56.0;
 /// The width of the stretch around zero.
 const ZERO: f64 = 36.0;
 
-/// What is drawn: the question's place, its name and its stroke.
+/// The lines that are drawn: the question's place, its name and its stroke.
 const LINES: [(usize, &str, &str); 3] = [
     (0, "false misses", "stroke-width=\"2\""),
     (

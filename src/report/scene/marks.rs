@@ -1,4 +1,4 @@
-//! What the plots of a scene are drawn with: sizes, colours, axes, marks and texts.
+//! The parts of a scene's plots: sizes, colours, axes, marks and texts.
 
 use super::record::CountPart;
 use crate::plot::{EpsilonAxis, ShareAxis, escaped};
@@ -62,7 +62,7 @@ pub(super) fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
     format!("<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n", escaped(text))
 }
 
-/// Whether limits are on one side only.
+/// True if limits are on one side only.
 pub(super) fn is_open(ends: [f64; 2]) -> bool {
     ends.iter().any(|end| end.is_infinite())
 }

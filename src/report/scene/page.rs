@@ -11,7 +11,7 @@ use crate::report::formats::html::{STYLE, head_of, style_policy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 
-/// What only this page has.
+/// The style that only this page has.
 const OWN_STYLE: &str = "
 svg.scene-plot { width: 100%; max-width: 34rem; height: auto; }
 .use { font-size: 1.05rem; } .use::first-letter { text-transform: uppercase; } .use code { font-size: .9rem; }
