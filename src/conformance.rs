@@ -61,7 +61,7 @@ pub fn audit(kernel: &Entry) -> Request {
     }
 }
 
-/// What to run; see [`audit()`].
+/// The request for an audit; see [`audit()`].
 #[derive(Clone)]
 pub struct Request {
     entry: &'static Entry,
@@ -117,7 +117,7 @@ impl Request {
         self
     }
 
-    /// What the kernel promises of a ray that crosses a surface, such as [`Across::AtLeastOne`]: no crack.
+    /// Adds the kernel's promise for a ray that crosses a surface, such as [`Across::AtLeastOne`]: no crack.
     pub fn promise(mut self, across: Across) -> Request {
         self.promise = Some(across);
         self

@@ -35,7 +35,7 @@ extern "C" fn look() {
     }
 }
 
-/// What the loader calls before `main`.
+/// The function that the loader calls before `main`.
 // SAFETY: the section holds addresses of functions, and `look` needs nothing of Rust's runtime.
 #[cfg(target_os = "linux")]
 #[used]

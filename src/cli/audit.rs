@@ -5,7 +5,7 @@ use super::flags::JUDGING;
 use super::reporting::{RunArguments, self_check};
 use clap::Args;
 
-/// What to run, and how to report it.
+/// The flags of `audit`: the run, and how it is reported.
 #[derive(Args)]
 pub struct AuditArguments {
     #[command(flatten)]

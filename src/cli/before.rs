@@ -1,5 +1,5 @@
-//! What is decided, and said, before a run starts: its scalars, the number of its indices, its threads, and what is
-//! strange about its stored rays.
+//! The decisions and notes before a run starts: its scalars, the number of its indices, its threads, and strange
+//! stored rays.
 
 use super::exit::{Failure, Status};
 use crate::arith::Float;
@@ -12,8 +12,8 @@ use crate::judge::Finding;
 use crate::mesh::SceneMesh;
 use crate::report::number_of;
 
-/// Of the chosen scalars those that a kernel runs in; an error if there are none, or if an epsilon is no
-/// number of one of them.
+/// The chosen scalars that a kernel runs in; an error if there are none, or if an epsilon is not representable in
+/// one of them.
 pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Failure> {
     let used = [0, 1].map(|i| chosen[i] && rows.iter().any(|row| row.entry.scalars()[i]));
     if used == [false; 2] {

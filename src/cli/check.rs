@@ -21,7 +21,7 @@ use std::path::Path;
 /// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
 
-/// What to run, what to expect, and how to report.
+/// The flags of `check`: the run, the expectations, and how it is reported.
 #[derive(Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct CheckArguments {
@@ -68,7 +68,7 @@ struct CheckFlags {
     attribute: usize,
 }
 
-/// What the files that `check` reads and writes look like.
+/// The commands that show the form of the files which `check` reads and writes.
 #[derive(Subcommand)]
 pub enum CheckCommand {
     /// Print a commented hairline.toml with every setting at its default
@@ -98,7 +98,7 @@ fn words_command() -> clap::Command {
     CheckFlags::augment_args_for_update(clap::Command::new("check").no_binary_name(true))
 }
 
-/// What words of settings say, without the defaults of all other flags.
+/// The flags that words of settings give, without the defaults of all other flags.
 fn parsed(words: &[String]) -> Result<ArgMatches, String> {
     let mut matches = words_command().try_get_matches_from(words).map_err(|error| {
         let text = error.to_string();
@@ -219,7 +219,7 @@ fn read_expected(name: &str) -> Result<String, Failure> {
     }
 }
 
-/// What to do as long as there is no file of expectations.
+/// The advice as long as there is no file of expectations.
 fn first_steps(file: &str, disagreements: usize, has_settings: bool) -> String {
     let settings = match has_settings {
         true => String::new(),
@@ -313,7 +313,7 @@ impl CheckFlags {
         self.run.plan(self.attribute)
     }
 
-    /// What the environment and hairline.toml say of the flags that the command line leaves out.
+    /// The settings in the environment and hairline.toml for the flags that the command line leaves out.
     fn settings(&self, matches: Option<&ArgMatches>) -> Result<Vec<Given>, Failure> {
         let default = || Path::new(settings::FILE).exists().then_some(settings::FILE);
         let from_file = match self.config.as_deref().or_else(default) {

@@ -19,7 +19,7 @@ use std::fs;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
 
-/// What to do with stored cases.
+/// The arguments of `corpus`, which verifies or writes stored cases.
 #[derive(Args)]
 pub struct CorpusArguments {
     #[command(subcommand)]

@@ -7,7 +7,7 @@ use crate::expect::{Trend, difference};
 use crate::report::write_json;
 use clap::{Args, ValueEnum};
 
-/// What to compare, and how to report.
+/// The arguments of `diff`: the records to compare, and how to report.
 #[derive(Args)]
 pub struct DiffArguments {
     /// The earlier record, as `--format json` wrote it

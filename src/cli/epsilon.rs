@@ -53,7 +53,7 @@ pub struct EpsilonArguments {
     #[arg(long)]
     map: bool,
 
-    /// What a wrong answer costs in a scene; what is not named keeps crack=10,miss=1,hit=1,self-hit=1
+    /// The costs of wrong answers in a scene; costs that are not named keep crack=10,miss=1,hit=1,self-hit=1
     #[arg(long, value_name = "KIND=COST,...", allow_hyphen_values = true)]
     cost: Option<String>,
 
@@ -145,7 +145,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     Ok(Status::Success)
 }
 
-/// What a study of one row in one scalar adds to the record.
+/// The parts that a study of one row in one scalar adds to the record.
 type StudyParts = Result<(Vec<GatePart>, Option<MapPart>), Failure>;
 
 /// A study that is still to be run.
@@ -163,7 +163,7 @@ fn run_study<F: Studied>(
 }
 
 impl EpsilonArguments {
-    /// Whether single gates are studied, over families or stored cases, instead of a scene.
+    /// True if single gates are studied, over families or stored cases, instead of a scene.
     fn is_of_gates(&self) -> bool {
         let names_gates = !self.gate.is_empty() || !self.at.is_empty();
         let of_gates = self.exact || self.map || self.curves || names_gates;

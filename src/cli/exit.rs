@@ -47,7 +47,7 @@ impl Failure {
         Failure::Message(Status::Usage, message.into())
     }
 
-    /// What to tell the user.
+    /// The message for the user.
     pub fn message(&self) -> Option<&str> {
         match self {
             Failure::Message(_, message) => Some(message),

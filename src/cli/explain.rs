@@ -77,7 +77,7 @@ fn write_cases<F: Scalar>(
     Ok(())
 }
 
-/// What a contract asks of the triangles together, and what the kernel made of it.
+/// Writes the contract's demand on the triangles together, and the kernel's answer.
 fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> io::Result<()> {
     let cases = &group.cases;
     let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
@@ -105,7 +105,7 @@ fn write_group<F: Scalar>(out: &mut dyn Write, group: &Group<F>, row: &Row) -> i
     writeln!(out, "{}: {hits} of {} triangles hit; {judged}", row.label(), cases.len())
 }
 
-/// What a kernel makes of a polygon as a whole.
+/// Writes the kernel's answer on a polygon as a whole.
 fn write_polygon<F: Scalar>(out: &mut dyn Write, cases: &[Case<F>], row: &Row) -> io::Result<()> {
     let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
     let Some(subject) = F::subject(row.entry) else { return Ok(()) };
@@ -133,7 +133,7 @@ fn judged<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -
     format!("{said}; its contract asks {demand}: {judged}")
 }
 
-/// Whether a hit that a group lacks may be among the triangles around it, or these are too many.
+/// True if a hit that a group lacks may be among the triangles around it, or these are too many.
 fn is_elsewhere<F: Scalar>(truth: &Truth, group: &Group<F>, row: &Row) -> bool {
     let Some(crossing) = truth.crossing() else { return false };
     let Some(neighbours) = &group.neighbours else { return true };
@@ -321,7 +321,7 @@ fn write_gates<F: Scalar>(
     Ok(())
 }
 
-/// What a hit reports.
+/// Writes the values that a hit reports.
 fn write_values<F: Float>(
     out: &mut dyn Write,
     gives: Gives,

@@ -1,4 +1,4 @@
-//! What the flags of several commands share: headings of the help, names in tables, numbers.
+//! The parts that the flags of several commands share: headings of the help, names in tables, numbers.
 
 use super::exit::Failure;
 use crate::family::{self, FAMILIES, Family};
@@ -36,7 +36,7 @@ pub fn find_kernel(name: &str) -> Result<&'static Entry, Failure> {
     kernel::find(name).ok_or_else(|| unknown("kernel", name, names(), "hairline list kernels"))
 }
 
-/// Whether a name is that of `f32`; `place` says where it stands.
+/// True if a name is that of `f32`, false if that of `f64`; `place` says where it stands.
 pub fn is_f32(name: &str, place: &str) -> Result<bool, Failure> {
     match name {
         "f32" => Ok(true),
@@ -63,7 +63,7 @@ pub fn refuse_twice<T: PartialEq + Display>(flag: &str, named: &[T]) -> Result<(
     }
 }
 
-/// Whether `f32`, and whether `f64`, is named.
+/// True for each scalar that is named: `f32`, `f64`.
 pub fn chosen_scalars(names: &[String]) -> Result<[bool; 2], Failure> {
     let mut scalars = [false; 2];
     for name in names {

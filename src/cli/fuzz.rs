@@ -23,7 +23,7 @@ use summary::{Counters, write_summary};
 /// is killed early should not have been for nothing.
 const SAVE_EVERY: [f64; 2] = [0.5, 10.0];
 
-/// What is done with findings.
+/// The commands for findings.
 #[derive(Subcommand)]
 pub enum FuzzCommand {
     /// Keep one small finding of each kind, out of campaigns, corpora and cargo-fuzz artifacts
@@ -142,7 +142,7 @@ impl FuzzArguments {
         Begun::new(kernels, scalar, self.seed.unwrap_or(1))
     }
 
-    /// What the campaign was begun with; a new one is begun. Flags that are given must agree.
+    /// The plan that the campaign was begun with; a new one is begun. Flags that are given must agree.
     fn begun(&self, directory: &Directory, path: &str) -> Result<Begun, Failure> {
         let asked = self.asked();
         let Some(begun) = directory.begun()? else {

@@ -119,7 +119,7 @@ pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
     files.into_iter().map(name).collect()
 }
 
-/// What a folder and its subfolders hold but folders, each file once whatever links lead to it, in the
+/// The files in a folder and its subfolders, each file once whatever links lead to it, in the
 /// order of their names. A folder that is `whole` is taken as a file.
 pub fn files_under(root: &Path, whole: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, Failure> {
     let (mut files, mut seen) = (Vec::new(), HashSet::new());

@@ -19,10 +19,10 @@ use crate::report::{Context, build};
 use clap::Args;
 use std::io::{BufReader, Read};
 
-/// What to read, and how to report it.
+/// The arguments of `judge`: the verdicts to read, and how to report.
 #[derive(Args)]
 pub struct JudgeArguments {
-    /// What the kernel wrote; - is standard input
+    /// The kernel's output; - is standard input
     #[arg(value_name = "FILE", default_value = "-")]
     file: String,
 
@@ -124,7 +124,7 @@ struct Sets {
     examples: usize,
     sources: Vec<Source>,
     scalars: [bool; 2],
-    /// What stands before the index in the ids of each set.
+    /// The text before the index in the ids of each set.
     seen: Vec<String>,
     open: Option<Box<dyn Open>>,
     audit: Audit,

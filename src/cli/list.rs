@@ -12,14 +12,14 @@ use crate::spawn::{PUBLISHED, describe};
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 
-/// What to list.
+/// The arguments of `list`.
 #[derive(Args)]
 pub struct ListArguments {
     #[arg(value_enum)]
     what: What,
 
-    /// Of families: the share of the cases, in percent, that meet each corner, edge and side, each orientation of plane and
-    /// ray, each size, distance and place of t; of the strata in the scene room. '.' is none
+    /// For families: the share of the cases, in percent, that meet each corner, edge and side, each orientation of
+    /// plane and ray, each size, distance and place of t; of the strata in the scene room. '.' is none
     #[arg(long)]
     coverage: bool,
 
@@ -83,7 +83,7 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
     Ok(Status::Success)
 }
 
-/// What the cases of each family are like, in tables that fit 100 columns.
+/// Writes the kinds of cases in each family, in tables that fit 100 columns.
 fn write_coverage(out: &mut dyn Write) -> io::Result<()> {
     const INDICES: u64 = 500;
     const WIDTH: usize = 100;

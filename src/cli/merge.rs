@@ -15,7 +15,7 @@ use clap::Args;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What to merge, and how to report.
+/// The arguments of `merge`: the records, and how to report.
 #[derive(Args)]
 pub struct MergeArguments {
     /// The records that `--shard` with `--format json` wrote

@@ -252,7 +252,7 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
     }
 }
 
-/// Whether the command line says --quiet.
+/// True if the command line says --quiet.
 fn is_quiet(matches: &ArgMatches) -> bool {
     let has_flag = matches.try_get_one("quiet").is_ok_and(|quiet| quiet == Some(&true));
     has_flag || matches.subcommand().is_some_and(|(_, own)| is_quiet(own))

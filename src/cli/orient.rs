@@ -17,7 +17,7 @@ use crate::report::write_json;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-/// What to run, and how to report it.
+/// The flags of `orient`: the run, and how it is reported.
 #[derive(Args)]
 pub struct OrientArguments {
     /// Dimension of the points: 2, 3 or both

@@ -24,7 +24,7 @@ pub enum ColorChoice {
 }
 
 impl ColorChoice {
-    /// Whether to colour what goes to standard output (or to a file, which is no terminal).
+    /// True if standard output (or a file, which is no terminal) gets colours.
     pub fn enabled(self, to_stdout: bool) -> bool {
         let allowed = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
         match self {
@@ -175,12 +175,12 @@ fn linked(path: &Path) -> PathBuf {
     path
 }
 
-/// Whether a path, links followed, names standard output.
+/// True if a path, links followed, names standard output.
 fn is_standard_output(path: &Path) -> bool {
     ["-", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
-/// Whether a path names an open file, as that of `/dev/stdout` does.
+/// True if a path names an open file, as that of `/dev/stdout` does.
 fn is_descriptor(path: &Path) -> bool {
     path.starts_with("/proc") || path.starts_with("/dev/fd")
 }

@@ -45,7 +45,7 @@ pub struct PluginArguments {
     require_ieee: bool,
 }
 
-/// Whether nothing is said of a kernel while it runs.
+/// True if nothing is said of a kernel while it runs.
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Says nothing of kernels while they run.
@@ -80,7 +80,7 @@ impl PluginArguments {
         self.kernel_failures.get_or_insert(u64::MAX);
     }
 
-    /// Whether a flag names a kernel.
+    /// True if a flag names a kernel.
     pub fn names_kernels(&self) -> bool {
         !self.kernel_lib.is_empty() || !self.kernel_cmd.is_empty()
     }

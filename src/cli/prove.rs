@@ -24,7 +24,7 @@ use record::{DomainPart, GatePart, Record};
 use scenes::{degrees, mesh_scene, range};
 use witnesses::{KNOWN, merge, read_witnesses};
 
-/// What to prove, and how to report it.
+/// The flags of `prove`: the kernels, and how to report.
 #[derive(Args)]
 pub struct ProveArguments {
     /// A kernel, or several separated by commas; NAME+fma is NAME with fused products [default: all]
@@ -47,7 +47,7 @@ pub struct ProveArguments {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["certificate", "update"])]
     gate: Option<String>,
 
-    /// What is proved of these epsilons, as parallel=1e-7,edge=0, instead of the published ones
+    /// Epsilons to prove something about, as parallel=1e-7,edge=0, instead of the published ones
     #[arg(long, value_name = "GATE=VALUE,...", allow_hyphen_values = true)]
     epsilon: Option<String>,
 
@@ -128,7 +128,7 @@ enum OutputFormat {
     Gappa,
 }
 
-/// What is proved of the kernels of some rows, each once, with the witnesses that the program was built with.
+/// The proofs about the kernels of some rows, each once, with the witnesses that the program was built with.
 pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
     let stored =
         read_witnesses(KNOWN, "corpora/proofs/witnesses.ndjson").expect("tests read these");
@@ -269,7 +269,7 @@ impl ProveArguments {
         }
     }
 
-    /// Of which epsilons something is said.
+    /// The epsilons that something is proved about.
     fn epsilons(&self, entries: &[&'static Entry]) -> Result<Epsilons, Failure> {
         let Some(text) = &self.epsilon else {
             let one = self.kernel.len() == 1;

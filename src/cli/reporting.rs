@@ -1,4 +1,4 @@
-//! What `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
+//! The parts that `audit`, `check` and `merge` share: the flags of a run, its record, and where that goes.
 
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
@@ -79,7 +79,7 @@ impl ReportArguments {
 }
 
 impl Outputs<'_> {
-    /// Whether the record is to hold what pictures are drawn from.
+    /// True if the record is to hold the data for pictures.
     pub fn illustrate(&self) -> bool {
         self.illustrate
     }
@@ -201,7 +201,7 @@ impl RunArguments {
     }
 }
 
-/// What the pictures of a plan's report are drawn from, and what is proved of its kernels.
+/// The data for the pictures of a plan's report, and the proofs about its kernels.
 pub fn illustrated(plan: &Plan) -> Illustrations {
     let proofs = prove::proofs(&plan.rows, plan.scalars);
     Illustrations { proofs, ..illustrations(plan, &Unobserved) }

@@ -106,7 +106,7 @@ impl KernelArguments {
         Ok((rows, Some(value)))
     }
 
-    /// Whether one contract is given for all kernels.
+    /// True if one contract is given for all kernels.
     pub fn names_contract(&self) -> bool {
         self.contract.is_some()
     }
@@ -150,12 +150,12 @@ impl KernelArguments {
         flags.join(" ")
     }
 
-    /// Whether any kernel is named.
+    /// True if any kernel is named.
     pub fn names_kernels(&self) -> bool {
         !self.kernel.is_empty() || self.plugins.names_kernels()
     }
 
-    /// Whether the flags choose epsilons.
+    /// True if the flags choose epsilons.
     pub fn chooses_epsilons(&self) -> bool {
         self.epsilon.is_some() || self.epsilon_preset.is_some()
     }

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 /// Where settings are looked for by default.
 pub const FILE: &str = "hairline.toml";
 
-/// What a setting's value looks like.
+/// The form of a setting's value.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     /// A list of names, or one.

@@ -142,7 +142,7 @@ impl SourceArguments {
         Ok(StudiedScene { scene, unit, mesh: None, others })
     }
 
-    /// Whether a scene or a mesh is named.
+    /// True if a scene or a mesh is named.
     pub fn names_scene_or_mesh(&self) -> bool {
         self.scene.is_some() || !self.mesh.is_empty()
     }
@@ -176,7 +176,7 @@ impl SourceArguments {
         Ok((scene, Arc::new(mesh)))
     }
 
-    /// Whether all of a finite family is asked for.
+    /// True if all of a finite family is asked for.
     pub fn is_exhaustive(&self) -> bool {
         self.exhaustive
     }
@@ -186,19 +186,19 @@ impl SourceArguments {
         (self.seed, self.count)
     }
 
-    /// Whether cases are named that are no scene's, or changes to cases.
+    /// True if cases are named that do not belong to a scene, or changes to cases.
     pub fn names_other_cases(&self) -> bool {
         let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
         let other = !self.corpus.is_empty() || self.exhaustive || self.direction.is_some();
         sized || other || self.names_families()
     }
 
-    /// Whether families are named.
+    /// True if families are named.
     pub fn names_families(&self) -> bool {
         !self.family.is_empty()
     }
 
-    /// Whether in `f32`, and whether in `f64`.
+    /// True for each scalar of the run: `f32`, `f64`.
     pub fn scalars(&self) -> Result<[bool; 2], Failure> {
         chosen_scalars(&self.scalar)
     }

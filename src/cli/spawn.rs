@@ -23,7 +23,7 @@ use clap::Args;
 use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
 use std::io::{self, Write};
 
-/// What to run, and how to report it.
+/// The flags of `spawn`: the run, and how it is reported.
 #[derive(Args)]
 #[command(mut_arg("kernel", |kernel| {
     kernel.help("A kernel, or several separated by commas [default: moller-trumbore, or only your own if there are some]")
@@ -179,7 +179,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
 /// A study that is still to be run.
 type Study<'a> = Box<dyn Fn(&Progress) -> PointsPart + 'a>;
 
-/// Whether any scheme runs in a scalar.
+/// True if any scheme runs in a scalar.
 fn has<F: Scalar>(schemes: &[Scheme]) -> bool {
     schemes.iter().any(|scheme| scheme.offset::<F>().is_some())
 }
@@ -244,7 +244,7 @@ fn on_each<'a>(scenes: &'a [Scene], plan: &Plan<'a>) -> Vec<Plan<'a>> {
 }
 
 impl SpawnArguments {
-    /// Whether offsets are made for the scene beside the published ones.
+    /// True if offsets are made for the scene besides the published ones.
     fn makes_schemes(&self) -> bool {
         self.scheme.is_empty()
     }

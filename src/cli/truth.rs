@@ -86,7 +86,7 @@ struct Block {
 #[derive(Default)]
 struct Batch {
     blocks: Vec<Block>,
-    /// Whether nothing more is read: at the end, where reading fails, and where a line is too long.
+    /// True if nothing more is read: at the end, where reading fails, and where a line is too long.
     is_last: bool,
 }
 
@@ -116,14 +116,14 @@ impl Read for Failing {
     }
 }
 
-/// What became of a block.
+/// The results of a block.
 #[derive(Default)]
 struct Decided {
     lines: usize,
     cases: usize,
     /// One line a case.
     truths: Vec<u8>,
-    /// What ended it, with the line in the block.
+    /// The error that ended it, with the line in the block.
     error: Option<InputError>,
 }
 
@@ -155,7 +155,7 @@ fn decide(block: Block, file: &str, exact: bool) -> Decided {
     decided
 }
 
-/// What the command prints of a case, and an error if its stored truth is another.
+/// The line that the command prints for a case; an error if its stored truth is another.
 fn line(stored: &StoredCase, exact: bool) -> Result<TruthLine, String> {
     let is_stored_exactly = stored.truth.as_ref().is_some_and(StoredTruth::has_fractions);
     let mut line = stored.truth_line(exact || is_stored_exactly);

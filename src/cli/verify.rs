@@ -119,7 +119,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     Ok(if sheet.has_wrong() { Status::Disagreements } else { Status::Success })
 }
 
-/// What the answer to a test looks like.
+/// The expected form of the answer to a test.
 fn expected(test: &Test) -> &'static str {
     match test.group {
         None => "expected \"hit\" or \"miss\", because the test has one triangle",

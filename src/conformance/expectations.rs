@@ -8,7 +8,7 @@ use std::fs::File;
 use std::path::Path;
 use std::{env, fs, io, process};
 
-/// Whether a test writes its expectations.
+/// The environment variable that lets a test write its expectations.
 const VARIABLE: &str = "HAIRLINE_BLESS";
 
 /// Compares a record with a file, and says so in it. With the variable the file is written first, unless

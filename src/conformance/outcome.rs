@@ -1,4 +1,4 @@
-//! What an audit from a test found, and what its panic says.
+//! The outcome of an audit from a test, and the text of its panic.
 
 use crate::case::{Case, rust_case};
 use crate::kernel::KERNELS;
@@ -13,7 +13,7 @@ use std::fmt::{self, Write};
 pub(super) const ALLOWED: [&str; 7] =
     ["false-miss", "false-hit", "bad-value", "wrong-value", "crack", "double", "odd-fold"];
 
-/// What an audit found.
+/// The outcome of an audit.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The record, as `hairline audit --format json` writes it; its times are zero.
@@ -27,9 +27,9 @@ impl Outcome {
         self.record.result.results.iter().flat_map(|result| &result.findings)
     }
 
-    /// Whether the kernel kept its contract on every case, and what it promises across triangles, but for
-    /// the shares that [`Request::allow`](super::Request::allow) lets pass. With a file of expectations: whether
-    /// what was found is what it says.
+    /// True if the kernel kept its contract on every case, and what it promises across triangles, but for
+    /// the shares that [`Request::allow`](super::Request::allow) lets pass. With a file of expectations: true if
+    /// the findings are what it says.
     pub fn conforms(&self) -> bool {
         if let Some(conformance) = &self.record.conformance {
             return conformance.verdict == Verdict::Conforms;
@@ -37,7 +37,7 @@ impl Outcome {
         disagreements(&self.record.result).iter().all(|found| self.is_allowed(&found.key))
     }
 
-    /// Whether a kind of finding is rare enough in its family and scalar.
+    /// True if a kind of finding is rare enough in its family and scalar.
     fn is_allowed(&self, key: &Key) -> bool {
         let is_of = |part: &&KernelResult| {
             (&part.kernel, &part.set, &part.scalar, &part.family)
@@ -65,7 +65,7 @@ impl Outcome {
     }
 }
 
-/// Whether every kernel of a record kept its contract, on polygons and across triangles too.
+/// True if every kernel of a record kept its contract, on polygons and across triangles too.
 pub(crate) fn conforms(record: &Record) -> bool {
     disagreements(&record.result).is_empty()
 }
@@ -130,7 +130,7 @@ fn describe(at: &str, kernel: &str, part: &FindingPart) -> Result<String, fmt::E
     Ok(text)
 }
 
-/// What changed against a file of expectations, the worse first.
+/// Writes the changes against a file of expectations, the worse first.
 fn beside_expectations(conformance: &Conformance, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let file = conformance.expectations.as_deref().unwrap_or_default();
     writeln!(f, "{file}: {}", conformance.summary())?;

@@ -6,7 +6,7 @@ use crate::family;
 use crate::kernel::Scalar;
 use crate::report::{Example, Key, ResultPart};
 
-/// What changed about a case.
+/// The change of a case.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Change {
     /// It shows a finding, and did not.
@@ -15,7 +15,7 @@ pub enum Change {
     Right,
 }
 
-/// What is said of a case that is shown, if no digest tells whether it changed.
+/// The note on a case that is shown, if no digest tells whether it changed.
 pub const UNSURE: &str = "; the case shown may have failed before";
 
 impl Change {
@@ -28,7 +28,7 @@ impl Change {
         }
     }
 
-    /// What is said of a case that is shown.
+    /// The note on a case that is shown.
     pub fn note(self) -> &'static str {
         match self {
             Change::New => "; the case shown is new",

@@ -166,7 +166,7 @@ struct Judge {
 }
 
 impl Judge {
-    /// Whether a disagreement without an expectation is one too many.
+    /// True if a disagreement without an expectation is one too many.
     fn is_unexpected(&self, found: &Found, entries: &BTreeMap<Key, Entry>) -> bool {
         let trials = found.rate.trials();
         let row = |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone());
@@ -285,7 +285,7 @@ fn show(deviation: &mut Deviation, change: Change, changed: Option<Example>) {
     }
 }
 
-/// Whether as many of as many cases were found as expected.
+/// True if the expected number of cases was found, and among as many cases as expected.
 fn is_as_many(amount: &Amount, found: &Rate) -> bool {
     let Amount::Count { count, cases } = amount else { return false };
     *count == found.count && cases.as_ref().is_none_or(|(of, _)| *of == found.of)

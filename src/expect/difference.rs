@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
-/// What became of a class of disagreement.
+/// The trend of a class of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Trend {
@@ -28,9 +28,9 @@ pub enum Trend {
 /// A class of disagreement in two records.
 #[derive(Clone, Debug, Serialize)]
 pub struct Difference {
-    /// What it is: kernel, epsilons, scalar, family, finding and class in one line.
+    /// The class of disagreement: kernel, epsilons, scalar, family, finding and class in one line.
     pub what: String,
-    /// What became of it.
+    /// The trend of the class.
     pub change: Trend,
     /// How often it was.
     pub old: Rate,
@@ -39,7 +39,7 @@ pub struct Difference {
     /// Shows a case that is wrong in one of the records and not in the other, or the worst case of the record
     /// that has more of it.
     pub command: Option<String>,
-    /// Whether that case is wrong in one of them only, in words.
+    /// Says in words if that case is wrong in one of them only.
     pub shown: &'static str,
 }
 
@@ -54,10 +54,10 @@ pub struct ContractChange {
     pub new: String,
 }
 
-/// What two records have in common, and where they differ.
+/// The comparison of two records: what they have in common, and where they differ.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// Whether the cases of all families compared are the same, so that any difference counts.
+    /// True if the cases of all families compared are the same, so that any difference counts.
     pub same_cases: bool,
     /// Kernels, epsilons, scalars and families, taken together, that both records have.
     pub common: usize,
@@ -208,7 +208,7 @@ impl Judge {
         })
     }
 
-    /// Whether both records have the same cases of a family.
+    /// True if both records have the same cases of a family.
     fn same_cases(&self, key: &Key, old: &Side, new: &Side) -> bool {
         let family = key.family.as_str();
         self.same_parts && old.sources.get(family) == new.sources.get(family)

@@ -88,7 +88,7 @@ pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, 
     Ok(Expectations { cases, sources, scene, entries, lock: None })
 }
 
-/// What to do where a kernel was renamed.
+/// The advice for a kernel that was renamed.
 const RENAMED: &str = " (of a renamed kernel, replace the name here and in the lock file)";
 
 struct Reader<'a> {

@@ -95,7 +95,7 @@ impl Expectations {
     }
 }
 
-/// What a record is blessed to.
+/// The expectations that blessing a record writes.
 pub struct Written {
     /// As it will be read again.
     pub expectations: Expectations,
@@ -130,7 +130,7 @@ pub fn blessed(
 pub enum BlessError {
     /// Entries would be lost.
     Outside(Unblessable),
-    /// What was written cannot be read.
+    /// The written files cannot be read.
     Unread(InputError),
 }
 

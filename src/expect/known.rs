@@ -1,34 +1,34 @@
-//! What is known of a run on a target: of each class where the lock file has the cases, otherwise of all
+//! The expectations of a run on a target: for each class where the lock file has the cases, otherwise for all
 //! classes of a family together.
 
 use super::{Amount, Entry, Expectations, Lock, Target};
 use crate::report::{Disagreement, Example, Key, Rate, ResultPart, disagreements, rate_of};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is expected of a run.
+/// The expectations of a run.
 pub(super) struct Known<'a> {
     /// By class, or of all classes together.
     pub entries: BTreeMap<Key, Entry>,
-    /// What the lock file has of the target.
+    /// The target in the lock file.
     pub target: Option<&'a Target>,
-    /// What people should know of the comparison, in one line.
+    /// A note on the comparison for people, in one line.
     pub note: Option<String>,
 }
 
 /// A disagreement of a run, of one class or of all.
 pub(super) struct Found<'a> {
-    /// What it is.
+    /// The class of disagreement.
     pub key: Key,
     /// How often.
     pub rate: Rate,
-    /// Of the set of its cases; of one class only.
+    /// The digest of the set of its cases; only for a single class.
     pub digest: Option<&'a str>,
     /// A case.
     pub example: Option<Example>,
 }
 
 impl Known<'_> {
-    /// Of a run on a target, on the cases of the expectations or on others; `file` is their name.
+    /// The expectations of a run on a target, on the cases of the expectations or on others; `file` is their name.
     pub fn of<'a>(
         expectations: &'a Expectations,
         same_plan: bool,
@@ -73,7 +73,7 @@ impl Known<'_> {
         Known { entries, target: known, note }
     }
 
-    /// What a run found, of each class, or of all together where the expectation is.
+    /// The findings of a run, for each class, or for all together where the expectation is.
     pub fn found<'a>(&self, result: &'a ResultPart) -> Vec<Found<'a>> {
         let results = result.by_place();
         let mut together: BTreeSet<Key> = BTreeSet::new();

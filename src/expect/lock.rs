@@ -23,7 +23,7 @@ pub struct Lock {
     pub targets: BTreeMap<String, Target>,
 }
 
-/// What a run on a target found.
+/// The findings of a run on a target.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
     /// How its rows were set, by kernel and by what their epsilons are called.
@@ -35,7 +35,7 @@ pub struct Target {
     pub cases: BTreeMap<Key, Cases>,
 }
 
-/// What a row was set to.
+/// The settings of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// As `--epsilon` takes them.
@@ -53,7 +53,7 @@ impl Settings {
 }
 
 impl Target {
-    /// What a run found.
+    /// The findings of a run.
     pub fn of(result: &ResultPart) -> Target {
         let rows = result.plan.rows.iter();
         let failed_on_some = |part: &&KernelResult| {
@@ -84,9 +84,9 @@ impl Target {
 pub struct Cases {
     /// How many.
     pub count: u64,
-    /// Of how many.
+    /// The number of cases among which they were found.
     pub of: u64,
-    /// Of the set of them.
+    /// The digest of the set of them.
     pub digest: String,
 }
 

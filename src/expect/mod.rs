@@ -35,7 +35,7 @@ use std::collections::BTreeMap;
 /// The schema's name and version.
 pub const SCHEMA: &str = "hairline-expectations/2";
 
-/// What a project expects.
+/// The expectations of a project.
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
     /// The hash of what chooses the cases that are counted.
@@ -51,7 +51,7 @@ pub struct Expectations {
     pub lock: Option<Lock>,
 }
 
-/// What is expected of a disagreement.
+/// The expectation for a disagreement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// The line of the file, counted from 1.
@@ -71,7 +71,7 @@ pub enum Amount {
     Count {
         /// How many.
         count: u64,
-        /// Of how many, and of the set of cases: of one class, as the lock file has it.
+        /// The number of cases among which, and the digest of their set; for one class, as the lock file has it.
         cases: Option<(u64, String)>,
     },
     /// At most this share, but more than zero.

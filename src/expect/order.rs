@@ -6,14 +6,14 @@ use std::cmp::Ordering;
 
 /// How much harm a disagreement does beyond what is expected.
 pub(super) struct Harm {
-    /// Whether cases have no verdict at all.
+    /// True if cases have no verdict at all.
     is_failure: bool,
     /// How many more cases show it than expected, of as many.
     more: f64,
 }
 
 impl Harm {
-    /// Of a finding with so many cases, on the cases of the expectation or on others.
+    /// The harm of a finding with so many cases, on the cases of the expectation or on others.
     pub fn of(finding: FindingKind, entry: Option<&Entry>, found: &Rate, same_cases: bool) -> Harm {
         let (count, of) = (found.count as f64, found.of as f64);
         let expected = match entry.map(|entry| &entry.amount) {

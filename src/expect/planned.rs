@@ -1,9 +1,9 @@
-//! What a plan holds, by the names of expectations.
+//! The contents of a plan, by the names of expectations.
 
 use crate::report::{KernelResult, Key, ResultPart};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the plan holds.
+/// The contents of the plan.
 pub(super) struct Planned<'a> {
     results: BTreeMap<[&'a str; 4], &'a KernelResult>,
     sources: BTreeMap<[&'a str; 2], u64>,
@@ -37,7 +37,7 @@ impl<'a> Planned<'a> {
         self.sources.get(&source).copied().unwrap_or_default()
     }
 
-    /// Whether the plan leaves out the kernel, the scalar or the family: then the expectation is about
+    /// True if the plan leaves out the kernel, the scalar or the family: then the expectation is about
     /// something else. A kernel that runs with other epsilons only is another matter.
     pub fn leaves_out(&self, key: &Key) -> bool {
         !self.kernels.contains(key.kernel.as_str())

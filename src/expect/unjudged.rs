@@ -6,7 +6,7 @@ use crate::audit::Digest;
 use crate::report::{FindingKind, KernelResult, Key};
 use std::collections::BTreeMap;
 
-/// What the kernel did, if it gave no verdict.
+/// The verb for the kernel's failure, if it gave no verdict.
 fn verb(finding: FindingKind) -> Option<&'static str> {
     match finding {
         FindingKind::Crash => Some("crashed"),
@@ -16,7 +16,7 @@ fn verb(finding: FindingKind) -> Option<&'static str> {
     }
 }
 
-/// Whether a failure keeps cases of a class from being judged: one on a triangle also keeps its group.
+/// True if a failure keeps cases of a class from being judged: one on a triangle also keeps its group.
 fn keeps(failure: &Key, key: &Key) -> bool {
     let of_place =
         |key: &Key| (key.kernel.clone(), key.set.clone(), key.scalar.clone(), key.family.clone());
@@ -36,7 +36,7 @@ fn had(entries: &BTreeMap<Key, Entry>, key: &Key) -> Option<u64> {
     }
 }
 
-/// Whether a finding is on crossings (0) or folds (1) of groups, whatever class it is counted in.
+/// The kind of group that a finding is on: crossings (0) or folds (1), whatever class it is counted in.
 fn of_groups(finding: FindingKind) -> Option<usize> {
     match finding {
         FindingKind::Crack | FindingKind::Double => Some(0),
@@ -59,8 +59,8 @@ pub(super) fn newly_judged_groups(
     Some([across.cracks.of, across.odd_folds.of][kind].saturating_sub(before[kind]))
 }
 
-/// What is said of a class if all of its cases that are too many may be such that were not judged before; none
-/// if some are known to be others. Of the same cases only.
+/// The note on a class if all of its cases that are too many may be such that were not judged before; none
+/// if some are known to be others. Both runs have the same cases.
 ///
 /// They may be if no more of the class came in, its findings together, than failures of all kinds went. Several
 /// failures in one group hid one group, so of groups it is `groups` that counts: how many more are judged. The digests
@@ -136,7 +136,7 @@ mod tests {
         Key { kernel, set, scalar, family, class: class.to_owned(), finding }
     }
 
-    /// What a set of single triangles is written as.
+    /// The text form of a set of single triangles.
     fn written(indices: &[u64]) -> String {
         let mut digest = Digest::default();
         for &index in indices {
@@ -146,7 +146,7 @@ mod tests {
         digest.to_string()
     }
 
-    /// What excuses the first of the findings of now, by those of before: class, finding, cases.
+    /// The excuse for the first of the findings of now, by those of before: class, finding, cases.
     fn excuse(
         before: &[(&str, FindingKind, &[u64])],
         now: &[(&str, FindingKind, &[u64])],

@@ -73,7 +73,7 @@ pub(super) fn write_batch<F: Float>(
     }
 }
 
-/// What a process may say before its answer, or instead of it.
+/// A message of a process before its answer, or instead of it.
 #[derive(Debug, PartialEq)]
 pub(super) enum Before {
     /// Its arithmetic has changed to this.
@@ -100,7 +100,7 @@ impl Before {
     }
 }
 
-/// What a head says that is not the answer's.
+/// The message in a head that is not the answer's.
 pub(super) fn before_answer(head: &[u8]) -> Option<Before> {
     let (kind, number) = head.split_first_chunk()?;
     let number = u32::from_le_bytes(number.try_into().ok()?);

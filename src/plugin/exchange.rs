@@ -10,7 +10,7 @@ use crate::arith::{Float, FloatEnvironment};
 use crate::case::Case;
 use crate::kernel::Verdict;
 
-/// What a process says beside its verdicts.
+/// The remarks of a process besides its verdicts.
 #[derive(Default)]
 pub(super) struct Said {
     /// The nanoseconds that it took.

@@ -16,13 +16,13 @@ pub struct Hello {
     contract: Contract,
     gives: [bool; 3],
     epsilons: Vec<Epsilon>,
-    /// Whether it runs in `f32`, and in `f64`.
+    /// True for each scalar in which it runs: `f32`, `f64`.
     pub scalars: [bool; 2],
-    /// Whether cases and verdicts go in binary.
+    /// True if cases and verdicts go in binary.
     pub binary: bool,
     /// How its arithmetic rounds.
     pub floats: FloatEnvironment,
-    /// Whether it can be asked for margins.
+    /// True if it can be asked for margins.
     pub margins: bool,
 }
 
@@ -133,12 +133,12 @@ impl Start {
 }
 
 impl Hello {
-    /// Whether it takes epsilons.
+    /// True if it takes epsilons.
     pub fn has_epsilons(&self) -> bool {
         !self.epsilons.is_empty()
     }
 
-    /// What should be known of the announcement, each in one line.
+    /// Notes on the announcement, each in one line.
     pub fn notes(&self) -> Vec<String> {
         let unknown = self.epsilons.iter().filter(|epsilon| epsilon.role.is_none());
         let note = |epsilon: &Epsilon| {
@@ -157,7 +157,7 @@ impl Hello {
         &self.name
     }
 
-    /// What the table of kernels says of it; it lives as long as the process.
+    /// Its entry for the table of kernels, which lives as long as the process.
     pub fn info(&self) -> &'static KernelInfo {
         let [t, uv, facing] = self.gives;
         let gate = |epsilon: &Epsilon| Gate {

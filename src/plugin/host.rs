@@ -47,13 +47,13 @@ pub fn serve(path: &Path) -> u8 {
     job.code
 }
 
-/// What the thread of a library does.
+/// The job of a library's thread.
 struct Job<'a> {
     path: &'a Path,
     code: u8,
 }
 
-/// What a thread runs, as the C library has it, and the same with leave to unwind.
+/// The function that a thread runs, as the C library has it, and the same with leave to unwind.
 type Start = extern "C" fn(*mut c_void) -> *mut c_void;
 type UnwindingStart = extern "C-unwind" fn(*mut c_void) -> *mut c_void;
 
@@ -197,12 +197,12 @@ impl Room {
     }
 }
 
-/// What a library is asked.
+/// A request to a library.
 struct Batch {
     test: Test,
     /// Bytes of the scalar.
     size: usize,
-    /// Of cases.
+    /// The number of cases.
     count: usize,
     with_margins: bool,
 }
@@ -239,7 +239,7 @@ impl Batch {
         Ok(room.one_verdict.is_untouched_before().then_some(bytes))
     }
 
-    /// What the library says of one case of the batch at some epsilons: the first bytes of its verdict. These
+    /// The library's answer to one case of the batch at some epsilons: the first bytes of its verdict. These
     /// epsilons and the verdict have their own room.
     fn ask_one<F: Float>(
         &self,
@@ -264,9 +264,9 @@ impl Batch {
 
 /// The first bytes of a verdict that is none, as an unanswered one has them.
 const WRONG: [u8; 4] = [0xff; 4];
-/// Of a miss.
+/// The first bytes of a miss.
 const MISS: [u8; 4] = [0; 4];
-/// Of a hit.
+/// The first bytes of a hit.
 const HIT: [u8; 4] = 1i32.to_ne_bytes();
 
 /// No core files, and no life without the program that started this one: a kernel that hangs does not

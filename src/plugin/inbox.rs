@@ -1,5 +1,5 @@
-//! What came from a process and is not taken yet, in memory that is kept: new or cleared memory for each read costs as
-//! much as the read.
+//! Bytes that came from a process and are not taken yet, in memory that is kept: new or cleared memory for each read
+//! costs as much as the read.
 
 #![forbid(unsafe_code)]
 
@@ -17,7 +17,7 @@ pub(super) struct Inbox {
 }
 
 impl Inbox {
-    /// What is there.
+    /// The bytes that are not taken yet.
     pub fn unread(&self) -> &[u8] {
         &self.bytes[self.taken..self.came]
     }

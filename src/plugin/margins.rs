@@ -1,4 +1,4 @@
-//! What a process is asked for margins, and what comes of it if it fails.
+//! Requests to a process for margins, and the consequences if it fails.
 
 #![forbid(unsafe_code)]
 
@@ -30,7 +30,7 @@ impl MarginFailures {
         }
     }
 
-    /// What should be known of them, in one line; none if there are none.
+    /// A note on these cases, in one line; none if there are none.
     pub fn note(&self) -> Option<String> {
         let (count, first) = (self.count, self.first.as_ref()?);
         Some(format!(

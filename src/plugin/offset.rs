@@ -33,7 +33,7 @@ struct State {
 }
 
 impl OffsetCommand {
-    /// Of a program, which is not started yet.
+    /// The command of a program, which is not started yet.
     pub fn new(program: Program) -> OffsetCommand {
         OffsetCommand(Arc::new(Inner { program, state: Mutex::default() }))
     }

@@ -29,7 +29,7 @@ pub struct Limits {
     pub timeouts: u64,
     /// Is told of each silence, in one line.
     pub tell: fn(&str),
-    /// Whether the run ends if its arithmetic is not that which IEEE 754 starts with.
+    /// True if the run ends when its arithmetic is not that which IEEE 754 starts with.
     pub require_ieee: bool,
 }
 
@@ -110,7 +110,7 @@ struct Process {
 struct State {
     /// Processes that are idle at the moment.
     idle: Vec<Running>,
-    /// Whether any batch was answered.
+    /// True if any batch was answered.
     has_answered: bool,
     /// Cases that killed a process, or on which it was silent.
     failures: u64,

@@ -15,13 +15,13 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel}
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What to start: a program with its arguments.
+/// A program to start, with its arguments.
 #[derive(Clone, Debug)]
 pub struct Program {
     words: Vec<String>,
-    /// Whether it is this program as the host of a library.
+    /// True if it is this program as the host of a library.
     is_host: bool,
-    /// What came of it on standard error.
+    /// The lines that it wrote to standard error.
     pub(super) said: Lines,
 }
 
@@ -133,7 +133,7 @@ const LAST_WORDS: Duration = Duration::from_secs(1);
 pub(super) enum Lost {
     /// It died, or was silent for too long.
     Failed(Failure),
-    /// What it wrote is not a valid answer.
+    /// Its output is not a valid answer.
     Garbled(String),
 }
 
@@ -187,7 +187,7 @@ impl Running {
         Ok(self.inbox.take(count).unwrap_or_default())
     }
 
-    /// Whether unexpected output came.
+    /// True if unexpected output came.
     pub fn has_unread(&mut self) -> bool {
         match &mut self.link {
             Some(Link::Pipes { from, .. }) => {

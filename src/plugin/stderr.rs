@@ -1,4 +1,4 @@
-//! What a kernel's processes write to standard error: it is passed on, up to a number of lines, so that a kernel
+//! Passes on what a kernel's processes write to standard error, up to a number of lines, so that a kernel
 //! that prints on every case does not bury everything else.
 
 #![forbid(unsafe_code)]
@@ -21,7 +21,7 @@ const LONGEST: u64 = 4096;
 pub(super) struct Lines(Arc<AtomicU64>);
 
 impl Lines {
-    /// Whether some were left out.
+    /// True if some lines were left out.
     pub fn are_too_many(&self) -> bool {
         MOST_LINES < self.0.load(Ordering::Relaxed)
     }

@@ -22,13 +22,13 @@ const EXAMPLES: usize = 3;
 pub struct AnsweredTest<'a> {
     /// The topic of the test.
     pub topic: &'a str,
-    /// What was asked.
+    /// The test.
     pub test: &'a Test,
-    /// What is right.
+    /// The demand of the test.
     pub asked: Asked,
     /// How many of its triangles are hit, by the answer.
     pub hits: usize,
-    /// Of a hit whose values are wrong: how, and how far the point is off in longest edges.
+    /// The fault in a hit whose values are wrong, and how far the point is off in longest edges.
     pub values: Option<(Finding, f64)>,
 }
 
@@ -41,16 +41,16 @@ impl AnsweredTest<'_> {
     }
 }
 
-/// What is demanded of a test.
+/// The demand of a test.
 #[derive(Clone, Copy)]
 pub enum Asked {
-    /// Of a single triangle.
+    /// The demand on a single triangle.
     Single(Obligation),
-    /// Of triangles together.
+    /// The demand on triangles together.
     Group(GroupTruth),
 }
 
-/// What is demanded of the hits on a group, whatever it is.
+/// The demand on the hits on every group.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Promised {
     /// One at least.
@@ -71,7 +71,7 @@ impl Promised {
     }
 }
 
-/// What a product is, and what it was asked.
+/// A product, and the demand that it was asked to meet.
 pub struct Product<'a> {
     /// Its name.
     pub name: &'a str,
@@ -79,9 +79,9 @@ pub struct Product<'a> {
     pub judged_by: &'a str,
     /// The same in a sentence.
     pub contract: String,
-    /// What is demanded of every group.
+    /// The demand on every group.
     pub promised: Promised,
-    /// What should be known beside the answers.
+    /// A note besides the answers.
     pub note: Option<String>,
 }
 

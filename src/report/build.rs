@@ -17,7 +17,7 @@ use crate::kernel::{Gate, Role, Scalar};
 use hmac_sha256::Hash;
 use std::collections::BTreeMap;
 
-/// What a record says beside the sums.
+/// The data of a run besides its sums.
 pub struct Context {
     /// Wall-clock seconds of the run.
     pub seconds: f64,
@@ -86,7 +86,7 @@ impl PlanPart {
         self
     }
 
-    /// Of what chooses the cases, which are the same for any kernels, epsilons and contracts.
+    /// The hash of what chooses the cases, which are the same for any kernels, epsilons and contracts.
     pub fn hash_of_cases(&self) -> String {
         let text = serde_json::to_string(&self.sources).unwrap_or_default();
         hex(&Hash::hash(text.as_bytes())[..8])
@@ -105,7 +105,7 @@ pub(super) fn planned_source(source: &Source) -> PlannedSource {
     }
 }
 
-/// Of the stored cases and their names: another file of the same name is another plan.
+/// The digest of the stored cases and their names: another file of the same name is another plan.
 fn corpus_digest(set: &CorpusSet) -> String {
     let mut digest = Hash::new();
     let mut add = |name: &str, bits: [u64; 17]| {
@@ -243,7 +243,7 @@ pub(super) fn severity_part<F: Float>(case: &Case<F>, extent: Extent) -> Option<
     })
 }
 
-/// What groups did, of which the contract promises something, with the id of each.
+/// The outcomes of groups for which the contract promises something, with the id of each.
 pub(super) fn across_part(
     promised: &str,
     groups: &GroupCount,
@@ -317,7 +317,7 @@ pub(super) fn provenance_of(context: &Context) -> Provenance {
     }
 }
 
-/// What should be known of the rows' kernels beside their verdicts.
+/// Notes on the rows' kernels besides their verdicts.
 pub(super) fn kernel_notes(rows: &[Row]) -> BTreeMap<String, Vec<String>> {
     let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for row in rows {

@@ -10,19 +10,19 @@ use std::fmt;
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Conformance {
-    /// What came of it.
+    /// The verdict of the comparison.
     pub verdict: Verdict,
     /// How counts were compared.
     pub method: Method,
-    /// Whether the lock file says nothing of this run, so that families are compared and not classes.
+    /// True if the lock file says nothing of this run, so that families are compared and not classes.
     #[serde(default)]
     pub is_by_family: bool,
     /// The file of expectations; none if there is none, and nothing is expected.
     pub expectations: Option<String>,
-    /// What was not compared, and why.
+    /// A note on what was not compared, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// What changed.
+    /// The changes, added up.
     #[serde(default)]
     pub change: NetChange,
     /// Kernel rows that are set to something else than what the expectations are of.
@@ -43,7 +43,7 @@ pub struct Conformance {
     pub outside_the_plan: u64,
 }
 
-/// What came of a comparison.
+/// The verdict of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -78,7 +78,7 @@ pub struct NetChange {
 }
 
 impl NetChange {
-    /// Whether something got worse.
+    /// True if something got worse.
     pub fn is_worse(&self) -> bool {
         0 < self.worse + self.new
     }
@@ -152,16 +152,16 @@ pub struct Unproved {
     pub scalar: String,
     /// The gate, or `watertight`.
     pub gate: String,
-    /// What is demanded: a bound in units of u, or `true`.
+    /// The demand: a bound in units of u, or `true`.
     pub demanded: String,
-    /// What is there instead.
+    /// The reason why the demand is not met.
     pub why: String,
     /// Shows what is proved.
     pub command: String,
 }
 
 impl Unproved {
-    /// What it is about, beside disagreements.
+    /// A key for it, like the keys of disagreements.
     pub fn key(&self) -> Key {
         Key {
             kernel: self.kernel.clone(),
@@ -196,7 +196,7 @@ pub const WATERTIGHT: &str = "watertight";
 pub struct Deviation {
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// `f32` or `f64`.
     pub scalar: String,
@@ -207,7 +207,7 @@ pub struct Deviation {
     /// The kind of finding.
     #[cfg_attr(test, schemars(with = "String"))]
     pub finding: FindingKind,
-    /// What was expected, in words.
+    /// The expectation, in words.
     pub expected: String,
     /// How many cases were expected; absent where a share was, and where some cases were not judged before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -229,7 +229,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// What it is about.
+    /// The key of the class that deviates.
     pub fn key(&self) -> Key {
         Key {
             kernel: self.kernel.clone(),

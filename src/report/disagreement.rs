@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct Key {
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// `f32` or `f64`.
     pub scalar: String,
@@ -18,7 +18,7 @@ pub struct Key {
     pub family: String,
     /// The class of the truth; `group` for triangles together, `polygon` for whole polygons.
     pub class: String,
-    /// What it is.
+    /// The kind of finding.
     pub finding: FindingKind,
 }
 
@@ -59,18 +59,18 @@ impl std::fmt::Display for Key {
 /// One class of disagreement that occurred.
 #[derive(Clone, Debug)]
 pub struct Disagreement<'a> {
-    /// What it is.
+    /// The class of disagreement.
     pub key: Key,
     /// How often.
     pub rate: &'a Rate,
-    /// Of the set of its cases.
+    /// The digest of the set of its cases.
     pub digest: &'a str,
     /// The worst case, or the first where there is no worst.
     pub example: Option<Example>,
 }
 
 impl Disagreement<'_> {
-    /// Whether it is about single cases, not about groups or polygons.
+    /// True if it is about single cases, not about groups or polygons.
     pub fn is_of_cases(&self) -> bool {
         !matches!(self.key.class.as_str(), "group" | "polygon")
     }
@@ -105,13 +105,13 @@ pub fn disagreements(result: &ResultPart) -> Vec<Disagreement<'_>> {
 /// A finding on groups or polygons: its kind, how often, of the set of all, ids of the first.
 pub(super) type Together<'a> = (FindingKind, &'a Rate, &'a str, &'a [String]);
 
-/// Whether a finding of a result counts for single triangles. At the shared edges and vertices of a scene a neighbour
+/// True if a finding of a result counts for single triangles. At the shared edges and vertices of a scene a neighbour
 /// may take the ray: there only a ray that none of them takes is wrong.
 pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
     !(is_shared_in_scene(&part.family) && kind.is_wrong_verdict())
 }
 
-/// What the contract promises across triangles, and of a scene cracks in any case, with what came of it.
+/// The counts of all that the contract rules out across triangles; in a scene cracks count in any case.
 pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(across) = &part.across else { return Vec::new() };
     let cracks: Together =
@@ -133,10 +133,10 @@ pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
     }
 }
 
-/// What is promised across triangles where only an odd or an even number of hits is demanded.
+/// The promise across triangles where only an odd or an even number of hits is demanded.
 pub(super) const PARITY: &str = "parity";
 
-/// What was found of whole polygons.
+/// The findings on whole polygons.
 pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(part) = &part.polygons else { return Vec::new() };
     let others = part.others.iter();
@@ -197,7 +197,7 @@ fn group_example(row: &RowPart, result: &KernelResult, id: &str) -> Example {
     }
 }
 
-/// Whether a source aims at the shared edges or vertices of a scene.
+/// True if a source aims at the shared edges or vertices of a scene.
 pub(super) fn is_shared_in_scene(family: &str) -> bool {
     family_of(family).is_some_and(|family| {
         family.name.starts_with("scene-")

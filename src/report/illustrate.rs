@@ -149,7 +149,7 @@ fn thinned<F: Float>(curves: [&Curve<F>; 3], wrong: &impl Fn(F) -> [u64; 3]) -> 
     }
 }
 
-/// Whether one of the counts has changed by a share of itself.
+/// True if one of the counts has changed by a share of itself.
 fn differ(a: &[u64; 3], b: &[u64; 3], step: f64) -> bool {
     a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) as f64 > step * *a.max(b) as f64)
 }

@@ -1,11 +1,11 @@
-//! What a report's pictures are drawn from: computed beside a run, on few cases, and no part of its
+//! The data for a report's pictures: computed next to a run, on few cases, and no part of its
 //! result.
 
 use crate::audit::Trials;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What pictures are drawn from; only where they were asked for.
+/// The data for pictures; only where they were asked for.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -23,7 +23,7 @@ pub struct Illustrations {
     pub proofs: Vec<ProofPart>,
 }
 
-/// What is proved of a kernel for every float of the unit domain.
+/// The proof about a kernel, for every float of the unit domain.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -32,7 +32,7 @@ pub struct ProofPart {
     pub kernel: String,
     /// `f32` or `f64`.
     pub scalar: String,
-    /// Whether and how far it is watertight, in a sentence.
+    /// Says in a sentence if, and how far, it is watertight.
     pub edges: String,
     /// By gate that compares a number.
     pub gates: BTreeMap<String, ProvedGate>,
@@ -49,14 +49,14 @@ pub struct ProvedGate {
     pub known: Option<f64>,
 }
 
-/// What a kernel row says of the rays around one, float by float, as a picture.
+/// A picture of a kernel row's answers on the rays around one, float by float.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MapPart {
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// `f32` or `f64`.
     pub scalar: String,
@@ -64,11 +64,11 @@ pub struct MapPart {
     pub spot: String,
     /// Pixels of a panel, to the right and upwards.
     pub size: [u64; 2],
-    /// What varies to the right, and upwards.
+    /// The numbers that vary to the right, and upwards.
     pub axes: [String; 2],
     /// How many pixels are wrong.
     pub wrong: u64,
-    /// What the kernel says, with how many pixels it says so of.
+    /// The kernel's answers, each with its number of pixels.
     pub computed: Vec<(String, u64)>,
     /// The same of what is exactly true.
     pub exact: Vec<(String, u64)>,
@@ -83,7 +83,7 @@ pub struct MapPart {
 pub struct ResponsePart {
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// `f32` or `f64`.
     pub scalar: String,
@@ -91,7 +91,7 @@ pub struct ResponsePart {
     pub gate: String,
     /// The row's own epsilon, the shortest decimal of the scalar; `own` has its counts.
     pub epsilon: String,
-    /// What is wrong at the row's own epsilon.
+    /// The counts of wrong answers at the row's own epsilon.
     pub own: [u64; 3],
     /// How many could be wrong: false misses, false hits that this gate is there to refuse, cracks.
     pub asked: [u64; 3],
@@ -99,7 +99,7 @@ pub struct ResponsePart {
     /// one of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asked_squared: Option<[u64; 3]>,
-    /// Whether they are a random sample.
+    /// True if they are a random sample.
     pub sample: bool,
     /// Epsilons in order, each with how many are wrong; constant before the first and after the last.
     /// What lies between two points lies between their counts.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Rate {
     /// How many.
     pub count: u64,
-    /// Of how many.
+    /// The number of trials.
     pub of: u64,
     /// `count / of`; none of nothing.
     pub rate: Option<f64>,

@@ -29,27 +29,27 @@ pub const SCHEMA: &str = "hairline-record/1";
 pub struct Record {
     /// [`SCHEMA`].
     pub schema: String,
-    /// What was found.
+    /// The findings.
     pub result: ResultPart,
-    /// What `merge` needs; only of a part of a run.
+    /// The data that `merge` needs; only in a part of a run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<ShardPart>,
     /// How that compares with what was expected; only of `check`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conformance: Option<Conformance>,
-    /// What pictures are drawn from; only where they were asked for.
+    /// The data for pictures; only where they were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub illustrations: Option<Illustrations>,
     /// Where and how it was made.
     pub provenance: Provenance,
 }
 
-/// What was found.
+/// The findings of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ResultPart {
-    /// What was asked.
+    /// The plan of the run.
     pub plan: PlanPart,
     /// Which parts of it were run, if not all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -81,7 +81,7 @@ pub struct RowTotal {
     pub scalar: String,
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// By `false-miss` and `false-hit`: how far from where the verdict would be right; by `wrong-value`: how far
     /// the point is off.
@@ -91,7 +91,7 @@ pub struct RowTotal {
     pub accuracy: BTreeMap<String, Distribution>,
 }
 
-/// What a source gave in one scalar.
+/// The summary of a source in one scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -100,9 +100,9 @@ pub struct SourcePart {
     pub scalar: String,
     /// The name in tables.
     pub family: String,
-    /// Whether its rates are of a random sample.
+    /// True if its rates are of a random sample.
     pub sample: bool,
-    /// Whether its parameters leave its family's promise standing.
+    /// True if its parameters leave its family's promise standing.
     pub promises: bool,
     /// Indices made.
     pub indices: u64,
@@ -123,7 +123,7 @@ pub struct KernelResult {
     pub scalar: String,
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// The source's name in tables.
     pub family: String,
@@ -158,13 +158,14 @@ pub struct Counts {
     pub free: u64,
     /// Hits that the kernel reported.
     pub hits: u64,
-    /// Of the cases that must be hit, and have a verdict.
+    /// Among the cases that must be hit and have a verdict, the share that is missed.
     pub false_misses: Rate,
-    /// Of the cases that must be missed, and have a verdict.
+    /// Among the cases that must be missed and have a verdict, the share that is hit.
     pub false_hits: Rate,
-    /// Of the hits that are not false: values that are not finite, and wrong facings.
+    /// Among the hits that are not false, the share with values that are not finite, or with a wrong facing.
     pub bad_values: Rate,
-    /// Of the hits that are not false: t, u or v farther from its exact value than rounding could carry it.
+    /// Among the hits that are not false, the share with t, u or v farther from its exact value than rounding could
+    /// carry it.
     #[serde(default)]
     pub wrong_values: Rate,
     /// Cases at which the kernel panicked.

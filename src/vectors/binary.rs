@@ -15,7 +15,7 @@ const CLASSES: [&str; 4] = ["parallel", "coplanar", "degenerate", "invalid"];
 /// The reasons in the order of their bits.
 const REASONS: [&str; 5] = ["boundary", "ends", "coplanar", "degenerate", "invalid"];
 
-/// What stands before the records.
+/// The bytes before the records.
 pub fn head() -> Vec<u8> {
     let mut bytes = b"RAYTRIV1".to_vec();
     bytes.extend((RECORD as u32).to_le_bytes());

@@ -3,7 +3,7 @@
 use super::number::nearest;
 use super::{Test, word};
 
-/// What stands before the rows; `digest` is that of the core set, or a word for another set.
+/// The text before the rows; `digest` is that of the core set, or a word for another set.
 pub fn head(digest: &str) -> String {
     format!(
         "/* Ray-triangle test vectors. CC0-1.0. Every number is a bit pattern: memcpy it to a double, or its low
@@ -28,7 +28,7 @@ static const struct ray_triangle_vector ray_triangle_vectors[] = {{
     )
 }
 
-/// What stands behind the rows.
+/// The text behind the rows.
 pub const TAIL: &str = "};\n#endif\n";
 
 /// The rows of a test.

@@ -56,11 +56,11 @@ pub const DIGITS: usize = 16;
 pub struct Test {
     /// A name, and a digest of the numbers: an id never comes back with other numbers.
     pub id: String,
-    /// What the test is, in one line.
+    /// A description of the test, in one line.
     pub comment: String,
     /// Where a published case comes from.
     pub source: Option<String>,
-    /// What may go wrong, in words that each file explains.
+    /// The things that may go wrong, in words that each file explains.
     pub flags: Vec<&'static str>,
     /// `f32` or `f64`.
     pub scalar: &'static str,
@@ -72,7 +72,7 @@ pub struct Test {
     pub triangles: Vec<Triangle>,
     /// How they belong together.
     pub grouping: Grouping,
-    /// What is right of the triangles of a group together; none for a single triangle.
+    /// The right result for the triangles of a group together; none for a single triangle.
     pub group: Option<Group>,
 }
 
@@ -86,7 +86,7 @@ pub struct Triangle {
     values: Option<[BigRational; 4]>,
 }
 
-/// What is right of the triangles of a group together.
+/// The right result for the triangles of a group together.
 #[derive(Clone, Copy)]
 pub struct Group {
     /// How the triangles lie to each other and to the ray.
@@ -95,7 +95,7 @@ pub struct Group {
     pub counts: [usize; 2],
 }
 
-/// What a test is called, and what is known beside its numbers.
+/// The name of a test, and what is known besides its numbers.
 struct Label {
     /// The id without its digest.
     name: String,
@@ -106,7 +106,7 @@ struct Label {
 }
 
 impl Test {
-    /// Of a case, or of the cases of a group; none if nothing is demanded of the group.
+    /// The test of a case, or of the cases of a group; none if nothing is demanded of the group.
     fn new<F: Float>(label: Label, cases: &[Case<F>], grouping: Grouping) -> Option<Test> {
         let triangles: Vec<Triangle> = cases.iter().map(Triangle::new).collect();
         let truths: Vec<Truth> = triangles.iter().map(|triangle| triangle.truth).collect();
@@ -164,7 +164,7 @@ impl Triangle {
         obligation(&self.truth, &OPEN, false)
     }
 
-    /// What is demanded whatever the reading.
+    /// The demand of both readings; free if they differ.
     pub fn result(&self) -> Obligation {
         result(&self.truth)
     }
@@ -210,7 +210,7 @@ fn values(case: &Case<f64>) -> [BigRational; 4] {
     [BigRational::new(numerator, denominator), of_sum(u), of_sum(v), of_sum(least)]
 }
 
-/// What is demanded whatever the reading.
+/// The demand of both readings; free if they differ.
 fn result(truth: &Truth) -> Obligation {
     let [closed, open] = [CLOSED, OPEN].map(|reading| obligation(truth, &reading, false));
     if closed == open { closed } else { Obligation::Free }
@@ -240,7 +240,7 @@ impl Group {
         }
     }
 
-    /// Whether the line passes an odd or an even number of the triangles.
+    /// The parity of the number of triangles that the line passes: `odd` or `even`.
     pub fn parity(&self) -> &'static str {
         if self.truth == (GroupTruth::Fold { odd: false }) { "even" } else { "odd" }
     }

@@ -64,7 +64,7 @@ enum Single {
     Free,
 }
 
-/// What a specification demands of the hits on a group.
+/// A specification's demand on the hits on a group.
 #[derive(Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Groups {
@@ -78,7 +78,7 @@ pub enum Groups {
     Free,
 }
 
-/// What a product says of a test.
+/// A product's answer to a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answered {
     /// A hit or a miss.
@@ -157,12 +157,12 @@ impl Answers {
 }
 
 impl Profile {
-    /// What is demanded of groups on which readings differ.
+    /// The demand on groups on which readings differ.
     pub fn of_groups(&self) -> Groups {
         self.answers.groups.result
     }
 
-    /// What the specification says that decides a test; nothing if it is decided without.
+    /// The sentences of the specification that decide a test; none if it is decided without them.
     pub fn sayings(&self, test: &Test) -> Vec<Saying<'_>> {
         if test.group.is_some() {
             let decides = demanded(test, Some(self)) != demanded(test, None);
@@ -182,7 +182,7 @@ impl Profile {
     }
 }
 
-/// What is demanded of a test: a word of `result`, `odd` or `even`.
+/// The demand of a test: a word of `result`, `odd` or `even`.
 pub fn demanded(test: &Test, profile: Option<&Profile>) -> &'static str {
     match (&test.group, profile.map(|profile| profile.answers.groups.result)) {
         (None, _) => word(of_triangle(&test.triangles[0], profile)),
@@ -204,7 +204,7 @@ fn of_triangle(triangle: &Triangle, profile: Option<&Profile>) -> Obligation {
     }
 }
 
-/// Whether an answer is what is demanded; none if it is the answer to another kind of test.
+/// True if an answer meets the demand; none if it is the answer to another kind of test.
 pub fn is_right(demanded: &str, answered: Answered) -> Option<bool> {
     Some(match (demanded, answered) {
         ("free", _) => true,

@@ -15,7 +15,7 @@ use std::fmt::Write;
 pub struct Topic {
     /// The file's name, and the first word of its ids.
     pub name: &'static str,
-    /// What its tests are about.
+    /// The subject of its tests.
     pub about: &'static str,
     /// Families, and how many of their indices in f32.
     families: &'static [(&'static str, usize)],
@@ -98,7 +98,7 @@ const TOPICS: &[Topic] = &[
     },
 ];
 
-/// What a source is called whose cases are a topic's.
+/// The prefix of the name of a source whose cases are a topic's.
 pub const PREFIX: &str = "vectors:";
 
 /// The question of a topic by the name of such a source: that of its first family.
@@ -200,7 +200,7 @@ fn picked<F: Scalar>(topic: &Topic, family: &'static Family, count: usize) -> Ve
     tests.take(count).collect()
 }
 
-/// What two tests have in common if one of them could do.
+/// A text that is equal for two tests if one of them could do.
 fn kind<F: Scalar>(cases: &[Case<F>], grouping: Grouping) -> String {
     let truths: Vec<Truth> = cases.iter().map(truth).collect();
     if grouping.shares_a_ray() {

@@ -31,7 +31,7 @@ use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth
 use num_rational::BigRational;
 use std::cmp::Ordering;
 
-/// What a contract demands of a kernel on a case.
+/// A contract's demand on a kernel for a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obligation {
     /// A hit.
@@ -66,13 +66,13 @@ named! {
 }
 
 impl Finding {
-    /// Whether the kernel gave no verdict at all.
+    /// True if the kernel gave no verdict at all.
     pub fn is_failure(self) -> bool {
         matches!(self, Finding::Panic | Finding::Crash | Finding::Timeout)
     }
 }
 
-/// What the contract demands for this truth. `secondary` says that the ray starts at a kernel's own
+/// The contract's demand for this truth. `secondary` says that the ray starts at a kernel's own
 /// rounded hit point on the triangle, as a secondary ray does.
 pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obligation {
     if contract.no_self_hit && secondary && *truth != Truth::Invalid {
@@ -89,7 +89,7 @@ pub fn obligation(truth: &Truth, contract: &Contract, secondary: bool) -> Obliga
     }
 }
 
-/// What the contract demands on a case: nothing if it promises nothing for the direction, and nothing
+/// The contract's demand on a case: nothing if it promises nothing for the direction, and nothing
 /// within its band.
 pub fn asked<F: Float>(
     case: &Case<F>,
@@ -159,7 +159,7 @@ fn crossing_obligation(crossing: &Crossing, contract: &Contract) -> Obligation {
     }
 }
 
-/// What is demanded on a boundary.
+/// The demand on a boundary.
 fn at_rim(boundary: Boundary) -> Obligation {
     match boundary {
         Boundary::Closed => Obligation::MustHit,
@@ -168,7 +168,7 @@ fn at_rim(boundary: Boundary) -> Obligation {
     }
 }
 
-/// Whether a crossing lies exactly on an end of the part of the line that counts.
+/// True if a crossing lies exactly on an end of the part of the line that counts.
 fn is_at_end(crossing: &Crossing, extent: Extent) -> bool {
     match extent {
         Extent::Line => false,
@@ -177,7 +177,7 @@ fn is_at_end(crossing: &Crossing, extent: Extent) -> bool {
     }
 }
 
-/// Whether a crossing lies on the part of the line that counts.
+/// True if a crossing lies on the part of the line that counts.
 pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
     match extent {
         Extent::Line => true,
@@ -186,7 +186,7 @@ pub fn is_in_extent(crossing: &Crossing, extent: Extent) -> bool {
     }
 }
 
-/// Whether the contract promises anything for a direction.
+/// True if the contract promises anything for a direction.
 pub fn promises_direction<F: Float>(direction: Direction, d: [F; 3]) -> bool {
     let Direction::Unit { ulps } = direction else { return true };
     let Some([x, y, z]) = exact(d) else { return false };
@@ -209,16 +209,16 @@ fn exact<F: Float>(v: [F; 3]) -> Option<[BigRational; 3]> {
 pub struct Answer {
     /// Hit or miss.
     pub hit: bool,
-    /// Whether every value that the kernel gives is finite.
+    /// True if every value that the kernel gives is finite.
     pub finite: bool,
-    /// Whether every one is near its exact value, where it has one ([`ALLOWANCE`]).
+    /// True if every value is near its exact one, where it has one ([`ALLOWANCE`]).
     pub near: bool,
     /// The side hit.
     pub facing: Option<Facing>,
 }
 
 impl Answer {
-    /// Of a verdict on a case.
+    /// The answer in a verdict on a case.
     pub fn of<F: Float>(
         case: &Case<F>,
         truth: &Truth,

@@ -1,4 +1,4 @@
-//! What ray–triangle kernels do on hard cases. Families make the cases, the oracle of `hairline-core` says what is
+//! Tests ray–triangle kernels on hard cases. Families make the cases, the oracle of `hairline-core` says what is
 //! true, `judge` compares a kernel's verdicts with it, and studies count: audits, epsilons, meshes, new rays, maps,
 //! searches.
 //!

@@ -1,4 +1,4 @@
-//! What all plots share: axes with their ticks, stepped lines with their intervals, and text for XML.
+//! The parts that all plots share: axes with their ticks, stepped lines with their intervals, and text for XML.
 
 /// Each label of an axis with its place.
 pub type Ticks = Vec<(f64, String)>;

@@ -16,7 +16,7 @@ use integers::Integers;
 use num_traits::ToPrimitive;
 use std::ops::Range;
 
-/// What the oracle is held to.
+/// The reference with which the oracle is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
     /// Its definition in rationals: slow and obvious.
@@ -38,7 +38,7 @@ impl Reference {
     }
 }
 
-/// What one check found.
+/// The results of one check.
 #[derive(Clone, Debug, Default)]
 pub struct Check {
     /// Cases compared.

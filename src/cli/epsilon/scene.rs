@@ -25,7 +25,7 @@ const MOST_AT: usize = 5;
 /// rays, and the same for scale-free forms; and the curves. A coarse grid takes more.
 const PASSES: u64 = 11;
 
-/// What of a contract a scene does not ask.
+/// The note on the parts of a contract that a scene leaves out.
 const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where rays begin and end; at shared edges \
                            and vertices it counts cracks, whatever the contract says of them";
 
@@ -202,7 +202,7 @@ impl EpsilonArguments {
         }
     }
 
-    /// What is chosen of a kernel, or why it cannot be studied.
+    /// The knobs of a kernel that are chosen, or why it cannot be studied.
     fn knobs(&self, row: &Row) -> Result<Vec<Knob>, String> {
         let info = row.entry.info;
         let name = info.name;

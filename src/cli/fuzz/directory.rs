@@ -34,7 +34,7 @@ const STATE: &str = "state.json";
 /// Why neither a campaign nor triage takes a band.
 pub const NO_BAND: &str = "findings are kept and run again without one";
 
-/// What a campaign was begun with.
+/// The plan that a campaign was begun with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Begun {
@@ -94,7 +94,7 @@ impl Directory {
         Ok(Directory { path, finds, length: 0, _lock: lock })
     }
 
-    /// What the campaign was begun with; none of a new one.
+    /// The plan that the campaign was begun with; none for a new one.
     pub fn begun(&self) -> Result<Option<Begun>, Failure> {
         let begun = read_begun(&self.path)?;
         let finds = fs::metadata(self.path.join(FINDS)).map_or(0, |metadata| metadata.len());
@@ -181,7 +181,7 @@ impl Directory {
     }
 }
 
-/// What the campaign in a directory was begun with; none if none is there.
+/// The plan that the campaign in a directory was begun with; none if there is no campaign.
 pub fn read_begun(directory: &Path) -> Result<Option<Begun>, Failure> {
     let path = directory.join(CAMPAIGN);
     // The version first: of another one the other fields may be others.

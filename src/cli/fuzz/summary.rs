@@ -1,4 +1,4 @@
-//! What a campaign says when it stops.
+//! The report of a campaign when it stops.
 
 use crate::audit::quoted;
 use crate::explore::campaign::Find;

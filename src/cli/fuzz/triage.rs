@@ -21,7 +21,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// What to read, and where the finds go.
+/// The arguments of `triage`: the paths to read, and where the finds go.
 #[derive(Args)]
 #[command(mut_arg("band", |band| band.hide(true)))]
 pub struct TriageArguments {
@@ -59,7 +59,7 @@ enum OneEach {
     Cause,
 }
 
-/// Of which a find is kept once.
+/// The key of a find: one find is kept for each.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     Kind(String),

@@ -21,7 +21,7 @@ use std::io::{self, BufReader, Write};
 /// The goals that are searched together, between looks at the clock.
 const GOALS_AT_ONCE: usize = 16;
 
-/// What to search for, and how long.
+/// The arguments of `worst`: the goals of the search, and its length.
 #[derive(Args)]
 #[command(mut_arg("band", |band| band.hide(true)))]
 pub struct WorstArguments {

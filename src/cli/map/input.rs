@@ -1,4 +1,4 @@
-//! What a map is of: a case, points, or standard ones.
+//! The inputs of a map: a case, points, or standard ones.
 
 use super::MapArguments;
 use crate::case::Case;
@@ -13,7 +13,7 @@ use crate::map::{self, Spot};
 use crate::orientation::points_json::{self, AnyPoints};
 use crate::orientation::{Dimension, PointsId, find_known};
 
-/// What is mapped.
+/// The case or the points that are mapped.
 pub enum Input {
     Case(AnyCase),
     /// Points, and which of them is varied by default.

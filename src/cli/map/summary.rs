@@ -1,4 +1,4 @@
-//! What a map shows, in words: counts, and for each kind of finding a case to look at.
+//! A map in words: counts, and for each kind of finding a case to look at.
 
 use crate::arith::{Exact, Float};
 use crate::audit::{Row, exact_severity, quoted};
@@ -86,7 +86,7 @@ pub fn points<F: orientation::Scalar>(points: &Points<F>, row: &orientation::Row
     )
 }
 
-/// What a drawing shows, and the command that says all about its case.
+/// A drawing in words, and the command that says all about its case.
 pub fn of_drawing<F: Scalar>(case: &Case<F>, row: &Row) -> String {
     let definition = oracle::define(case);
     let mut out = format!("{} in {}\n    truth {}", row.label(), F::NAME, definition.truth);

@@ -104,7 +104,7 @@ fn largest_errors(proved: &[checker::Proved], is_wanted: impl Fn(usize) -> bool)
     gates.collect::<Vec<_>>().join(", ")
 }
 
-/// What a certificate has for one domain.
+/// The part of a certificate for one domain.
 #[derive(Default)]
 struct Section<'a> {
     domain: &'a str,
@@ -112,7 +112,7 @@ struct Section<'a> {
     numbers: Vec<usize>,
     /// The programs without their lemmas and limits, each with its line.
     programs: Vec<(usize, String)>,
-    /// Of each program the limits of its own.
+    /// The limits of each program's own.
     limits: Vec<Vec<(&'a str, f64)>>,
 }
 
@@ -173,7 +173,7 @@ fn number(word: &str) -> f64 {
     mantissa * exponent.parse().map_or(f64::NAN, |exponent: i32| 2f64.powi(exponent))
 }
 
-/// What a certificate has for each of its domains.
+/// The parts of a certificate, one for each of its domains.
 fn sections(certificate: &str) -> Vec<Section<'_>> {
     let mut sections: Vec<Section> = Vec::new();
     let (mut at, mut count) = (0, 0);

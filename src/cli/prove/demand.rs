@@ -1,4 +1,4 @@
-//! What `check` demands of proofs: `[proved]` in hairline.toml.
+//! The demands of `check` for proofs: `[proved]` in hairline.toml.
 
 use super::super::exit::Failure;
 use super::super::flags::{find_kernel, unknown};

@@ -12,7 +12,7 @@ use crate::prove::{
 use crate::report::{ProofPart, ProvedGate};
 use rayon::prelude::*;
 
-/// What is the same for all kernels.
+/// The settings that are the same for all kernels.
 pub struct Job<'a> {
     pub scene: Option<Scene>,
     /// The sizes and areas of its triangles.
@@ -21,16 +21,16 @@ pub struct Job<'a> {
     /// Its parts, if it has some.
     pub parts: Vec<Domain>,
     pub effort: Effort,
-    /// Of which epsilons to say how far they carry.
+    /// The epsilons of which to say how far they carry.
     pub epsilons: Epsilons,
     pub stored: &'a [StoredWitness],
-    /// Whether the stored witnesses of other kernels are tried too.
+    /// True if the stored witnesses of other kernels are tried too.
     pub shared: bool,
 }
 
-/// Of which epsilons to say how far they carry.
+/// The epsilons of which to say how far they carry.
 pub enum Epsilons {
-    /// Of none.
+    /// No epsilons.
     None,
     /// Those of the kernel's sets and of the presets.
     Published,
@@ -53,7 +53,7 @@ impl Epsilons {
     }
 }
 
-/// What comes out for a kernel in a scalar.
+/// The results for a kernel in a scalar.
 #[derive(Default)]
 pub struct Parts {
     pub gates: Vec<GatePart>,

@@ -41,7 +41,7 @@ pub struct GatePart {
     pub witness: Option<WitnessPart>,
     /// bound / witness
     pub factor: Option<f64>,
-    /// What the bound supposes beside |d| <= 1.
+    /// The assumptions of the bound besides |d| <= 1.
     pub supposes: Vec<&'static str>,
     /// The limits of exact divisors and quotients that it supposes.
     pub limits: Vec<LimitPart>,
@@ -69,7 +69,7 @@ pub struct WitnessPart {
     pub inputs: Vec<String>,
 }
 
-/// What is said of a kernel as a whole.
+/// The statements about a kernel as a whole.
 #[derive(Serialize)]
 pub struct KernelPart {
     pub kernel: String,

@@ -16,7 +16,7 @@ pub struct StoredWitness {
     pub kernel: String,
     pub scalar: String,
     pub gate: String,
-    /// What it is a witness of: see `GOALS`.
+    /// The goal that it is a witness for: see `GOALS`.
     pub goal: String,
     /// The seventeen numbers, as bits in hexadecimal.
     pub inputs: Vec<String>,

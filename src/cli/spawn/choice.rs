@@ -30,7 +30,7 @@ pub fn derived_name(derived: f64) -> String {
     format!("normal={}", Number(derived))
 }
 
-/// Of such schemes the first of each list without a failure on any kind of plane; the last if there is none.
+/// The first scheme of each list that never fails, on any kind of plane; the last of the list if all fail.
 pub fn least_without_failure(made: [Vec<Scheme>; 2], tried: &[Sums]) -> Vec<Scheme> {
     let mut places = 0..;
     let mut chosen = Vec::new();
@@ -82,7 +82,7 @@ pub fn best(
     Some(derived.iter().chain(preferred).find(is_as_good).copied().unwrap_or(lowest))
 }
 
-/// Whether half of a scheme's starts are more than a tenth of their triangle's longest edge above it, or one in a
+/// True if half of a scheme's starts are more than a tenth of their triangle's longest edge above it, or one in a
 /// hundred more than the whole.
 pub fn is_too_high(scheme: &OfScheme) -> bool {
     let is_above = |share, most| scheme.in_edges.quantile(share).is_some_and(|edges| most < edges);

@@ -51,7 +51,7 @@ pub struct SpawnRecord {
 pub struct PointsPart {
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// The flags that choose the kernel and its epsilons.
     pub flags: String,
@@ -73,7 +73,7 @@ pub struct PointsPart {
     pub derived: Option<DerivedPart>,
     /// A scheme with neither a wrong start nor a self-hit that is about as low as any of them.
     pub best: Option<BestPart>,
-    /// What each scheme does.
+    /// The results of each scheme.
     pub schemes: Vec<SchemePart>,
 }
 
@@ -118,7 +118,7 @@ pub struct LengthsPart {
     pub largest: f64,
 }
 
-/// What to use.
+/// The scheme to use.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, serde(deny_unknown_fields))]
@@ -127,16 +127,16 @@ pub struct BestPart {
     pub scheme: String,
     /// At most one new ray in this many fails, with a confidence of 95 %.
     pub one_in: u64,
-    /// Whether it is the derived bound.
+    /// True if it is the derived bound.
     pub is_derived: bool,
-    /// Whether half of its starts are more than a tenth of their triangle's longest edge above it, or one in a hundred
+    /// True if half of its starts are more than a tenth of their triangle's longest edge above it, or one in a hundred
     /// more than the whole: then it is no good, and all others that never fail are as bad.
     pub is_too_high: bool,
     /// Runs this scheme alone.
     pub command: String,
 }
 
-/// What a scheme does.
+/// The results of a scheme.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, serde(deny_unknown_fields))]
@@ -147,7 +147,7 @@ pub struct SchemePart {
     pub source: String,
     /// Starts on the plane, behind it, or nowhere.
     pub wrong: Rate,
-    /// Of these, starts that are not finite.
+    /// Wrong starts that are not finite.
     pub not_finite: u64,
     /// New rays that hit the triangle which they leave, says the kernel; of none if it cannot tell.
     pub self_hits: Rate,
@@ -163,11 +163,11 @@ pub struct SchemePart {
     pub over_least: Option<f64>,
     /// The first wrong start.
     pub first_wrong: Option<WrongPart>,
-    /// What it does on the other kinds of planes.
+    /// The results on the other kinds of planes.
     pub elsewhere: Vec<PlanePart>,
 }
 
-/// What a scheme does on planes of one kind.
+/// The results of a scheme on planes of one kind.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, serde(deny_unknown_fields))]
@@ -290,7 +290,7 @@ impl DerivedPart {
         Some(derived).filter(|derived| derived.covers(pilots))
     }
 
-    /// Whether every hit point of these runs has such weights, but for rounding.
+    /// True if every hit point of these runs has such weights, but for rounding.
     fn covers(&self, runs: &[Sums]) -> bool {
         runs.iter().all(|sums| self.least_weight - ROOM <= sums.least_weight)
     }
@@ -321,7 +321,7 @@ impl HeightsPart {
 }
 
 impl SchemePart {
-    /// Of the scheme at a place.
+    /// The results of the scheme at a place.
     fn new<F: Scalar>(plans: &[Plan<'_>], runs: &[Sums], place: usize) -> SchemePart
     where
         AnyCase: From<Case<F>>,

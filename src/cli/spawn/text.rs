@@ -108,7 +108,7 @@ fn weights(derived: &DerivedPart) -> String {
     format!("u, v and 1-u-v from {} to {}", Number(*least_weight), Number(*largest_weight))
 }
 
-/// Whether the kernel shows a test that keeps the weights in a range; without one only the rays that were tried say so.
+/// True if the kernel shows a test that keeps the weights in a range; without one only the rays that were tried say so.
 fn shows_edges(part: &PointsPart) -> bool {
     let entry = kernel::find(&part.kernel);
     entry.is_some_and(|entry| entry.info.gates.iter().any(|gate| gate.role == Role::Edge))
@@ -272,7 +272,7 @@ times least  the way along the normal over the shortest that is right, where p i
     )
 }
 
-/// What the kinds of planes are, where there are several.
+/// The kinds of planes in words, where there are several.
 fn kinds(record: &SpawnRecord) -> String {
     let kinds =
         PlaneKind::ALL.into_iter().filter(|kind| record.planes.iter().any(|it| it == kind.name()));

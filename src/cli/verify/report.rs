@@ -18,7 +18,7 @@ pub struct Judged<'a> {
     pub demanded: &'static str,
     pub answer: Answered,
     pub right: bool,
-    /// Of an answer that is right but for its values.
+    /// The wrong values of an answer that is otherwise right.
     pub wrong_values: Option<WrongValues>,
 }
 
@@ -37,7 +37,7 @@ struct Topic<'a> {
     missing: Vec<&'a str>,
 }
 
-/// What `--format json` writes.
+/// The report that `--format json` writes.
 #[derive(Serialize)]
 pub struct Report<'a> {
     product: &'a str,
@@ -47,7 +47,7 @@ pub struct Report<'a> {
     topics: Vec<(&'static str, Counts)>,
     wrong: Vec<Wrong<'a>>,
     missing: Vec<&'a str>,
-    /// What the profile's specification says that makes an answer wrong.
+    /// The sentences of the profile's specification that make an answer wrong.
     sayings: Vec<Saying<'a>>,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Sheet<'a> {
         self.topics.push(Topic { name, judged: Vec::new(), missing: Vec::new() });
     }
 
-    /// What is demanded of a test.
+    /// The demand of a test.
     pub fn demanded(&self, test: &Test) -> &'static str {
         demanded(test, self.profile)
     }
@@ -98,12 +98,12 @@ impl<'a> Sheet<'a> {
         self.topics.last_mut().expect("a topic was begun").missing.push(&test.id);
     }
 
-    /// Whether there is no answer.
+    /// True if there are no answers.
     pub fn is_empty(&self) -> bool {
         self.judged().next().is_none()
     }
 
-    /// Whether an answer is wrong.
+    /// True if an answer is wrong.
     pub fn has_wrong(&self) -> bool {
         self.judged().any(|judged| !judged.right)
     }
@@ -112,7 +112,7 @@ impl<'a> Sheet<'a> {
         self.topics.iter().flat_map(|topic| &topic.judged)
     }
 
-    /// What makes an answer wrong that is not wrong by every reading.
+    /// The sentences that make an answer wrong that is not wrong by every reading.
     fn sayings_of(&self, test: &Test, answer: Answered) -> Vec<Saying<'a>> {
         let profile = self.profile.filter(|_| is_right(demanded(test, None), answer) == Some(true));
         profile.map_or(Vec::new(), |profile| profile.sayings(test))

@@ -9,7 +9,7 @@ use crate::kernel::{Gives, Verdict};
 use crate::vectors::Test;
 use crate::vectors::profile::Answered;
 
-/// What a product answered to a test, in full.
+/// The full answer of a product to a test.
 pub struct Answer<'a> {
     /// Hit, miss, or how many triangles.
     pub answered: Answered,
@@ -23,7 +23,7 @@ pub struct Wrong {
     pub finding: Finding,
     /// How far the point is off in longest edges.
     pub edges: f64,
-    /// What is wrong, and what is exact.
+    /// The fault, and the exact values.
     pub text: String,
 }
 
@@ -69,7 +69,7 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// What is wrong with the values, whether the hit is demanded or free.
+    /// The fault in the values, whether the hit is demanded or free.
     pub fn wrong_values(&self, test: &Test) -> Result<Option<Wrong>, String> {
         either_scalar!(&test.cases[0], case => self.wrong(test, case))
     }

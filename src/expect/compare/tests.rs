@@ -1,4 +1,4 @@
-//! What counts as the same, as better and as worse, against values worked out by hand.
+//! Tests which results count as the same, as better and as worse, against values worked out by hand.
 
 use super::*;
 use crate::audit::Trials;

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
 
 /// Guard pages on each side of a buffer.
 const GUARD_PAGES: usize = 16;
-/// What stands between the guard in front of a buffer and the buffer.
+/// The byte between the guard in front of a buffer and the buffer.
 const SLACK: u8 = 0xa5;
 
 /// How many buffers there are.
@@ -102,7 +102,7 @@ impl Buffer {
         unsafe { std::slice::from_raw_parts_mut(self.start(), self.length) }
     }
 
-    /// What is in it.
+    /// The buffer's contents.
     pub fn as_bytes(&self) -> &[u8] {
         // SAFETY: `length` bytes before the guard, mapped, and borrowed from this buffer.
         unsafe { std::slice::from_raw_parts(self.start(), self.length) }
@@ -127,7 +127,7 @@ impl Drop for Buffer {
     }
 }
 
-/// What is known of an exception that is being handled: its type; null if there is none.
+/// The function that gives the type of the exception that is being handled; null if there is none.
 pub(super) type CurrentException = unsafe extern "C" fn() -> *const c_void;
 
 /// From now on a fault in or beside a buffer, and an abort because of an exception, are reported as such;

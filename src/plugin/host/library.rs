@@ -93,7 +93,7 @@ impl Library {
         symbol.ok().map(|symbol| *symbol)
     }
 
-    /// What the library says of itself, as the lines of a hello.
+    /// The library's description of itself, as the lines of a hello.
     pub fn hello(&self) -> Result<String, String> {
         // SAFETY: by include/hairline.h the symbol has this type, and what it returns stays valid.
         let kernel = unsafe {

@@ -166,7 +166,7 @@ fn price_parts<F: Scalar>(
     parts
 }
 
-/// What the prices of one gate are worked out from.
+/// The data from which the prices of one gate are computed.
 struct Pricing<'a, F> {
     duty: Duty,
     sources: &'a [Source],

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 const FRAME: Frame =
     Frame { width: 940.0, left: 76.0, right: 24.0, above: 62.0, plot: 240.0, zero: 36.0 };
 
-/// What is drawn: the question's place, its name and its class.
+/// The lines that are drawn: the question's place, its name and its class.
 const LINES: [(usize, &str, &str); 3] = [
     (0, "false misses", "miss"),
     (5, "false hits that this gate is there to refuse", "hit"),

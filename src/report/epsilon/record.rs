@@ -14,13 +14,13 @@ pub const EPSILON_SCHEMA: &str = "hairline-epsilon/1";
 pub struct EpsilonRecord {
     /// [`EPSILON_SCHEMA`].
     pub schema: String,
-    /// What was found: the same bytes whatever the number of threads.
+    /// The findings: the same bytes whatever the number of threads.
     pub result: EpsilonResult,
     /// Where and how it was made.
     pub provenance: EpsilonProvenance,
 }
 
-/// What was found.
+/// The findings of a study.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -67,17 +67,17 @@ pub struct GatePart {
     pub others: BTreeMap<String, String>,
     /// The contract, in words.
     pub contract: String,
-    /// Whether every margin was kept, so that the points are all that ever changes.
+    /// True if every margin was kept, so that the points are all that ever changes.
     pub exact: bool,
     /// Epsilons with names.
     pub marks: Vec<MarkPart>,
     /// All sources together, then each.
     pub curves: Vec<CurvePart>,
-    /// What an epsilon trades.
+    /// The false misses and the false hits between which an epsilon trades.
     pub trade: TradePart,
-    /// What epsilons cost, by running the kernel with them.
+    /// The prices of epsilons, found by running the kernel with them.
     pub prices: Vec<PricePart>,
-    /// What is proved of this gate's epsilons, whatever the cases.
+    /// The proof about this gate's epsilons, whatever the cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proved: Option<String>,
 }
@@ -100,7 +100,7 @@ pub struct MarkPart {
 pub struct CurvePart {
     /// The source's name in tables, or `all`.
     pub family: String,
-    /// Whether it is a random sample.
+    /// True if it is a random sample.
     pub sample: bool,
     /// How many could be wrong, by [`crate::epsilon::Question::ALL`]: false misses, false hits,
     /// cracks, doubles, self-hits, and of the false hits those that this gate is there to refuse.
@@ -112,7 +112,7 @@ pub struct CurvePart {
     pub points: Vec<(String, [u64; 6])>,
 }
 
-/// What an epsilon trades.
+/// The false misses and the false hits between which an epsilon trades.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -126,7 +126,7 @@ pub struct TradePart {
     pub hits: LimitPart,
     /// The epsilons that are best for both, from and to.
     pub settled: Option<[String; 2]>,
-    /// Of the cases that must be hit, those that another gate refuses whatever this epsilon.
+    /// The number of cases that must be hit and that another gate refuses, whatever this epsilon.
     pub refused_by_others: BTreeMap<String, u64>,
 }
 
@@ -145,7 +145,7 @@ pub struct LimitPart {
     pub command: Option<String>,
 }
 
-/// What one epsilon costs.
+/// The price of one epsilon.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -154,15 +154,15 @@ pub struct PricePart {
     pub epsilon: String,
     /// Who uses it.
     pub names: Vec<String>,
-    /// Whether no other listed epsilon loses and lets through as little, and less of one.
+    /// True if no other listed epsilon loses and lets through as little, and less of one.
     pub on_front: bool,
-    /// Of the cases that must be hit, those that this gate alone refuses.
+    /// Among the cases that must be hit, the share that this gate alone refuses.
     pub lost: Rate,
-    /// Of the cases that this gate is there to refuse, those that are hit.
+    /// Among the cases that this gate is there to refuse, the share that is hit.
     pub let_through: Rate,
-    /// Of the cases that must be hit.
+    /// Among the cases that must be hit, the share that is missed.
     pub false_misses: Rate,
-    /// Of the cases that must be missed.
+    /// Among the cases that must be missed, the share that is hit.
     pub false_hits: Rate,
     /// Groups without a hit.
     pub cracks: Rate,
@@ -174,16 +174,16 @@ pub struct PricePart {
     pub farthest: Option<FarthestPart>,
 }
 
-/// What one epsilon costs on one source.
+/// The price of one epsilon on one source.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FamilyPrice {
     /// The source's name in tables.
     pub family: String,
-    /// Of the cases that must be hit, those that this gate alone refuses.
+    /// Among the cases that must be hit, the share that this gate alone refuses.
     pub lost: Rate,
-    /// Of the cases that this gate is there to refuse, those that are hit.
+    /// Among the cases that this gate is there to refuse, the share that is hit.
     pub let_through: Rate,
 }
 

@@ -137,11 +137,11 @@ fn limits(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// What is to be said of a subnormal epsilon.
+/// The remark on a subnormal epsilon.
 pub(in crate::report) const FLUSHED: &str =
     "a subnormal number, which machines that flush to zero take for 0";
 
-/// Whether an epsilon is below the normal numbers of its scalar.
+/// True if an epsilon is below the normal numbers of its scalar.
 pub(in crate::report) fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
     epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
 }
@@ -187,7 +187,7 @@ fn prices(part: &GatePart, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// What one choice costs, in words.
+/// The price of one choice, in words.
 fn sentence(price: &PricePart) -> String {
     let worst = |pick: fn(&FamilyPrice) -> &Rate| {
         let mut families: Vec<&FamilyPrice> =

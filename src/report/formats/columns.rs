@@ -12,7 +12,7 @@ use crate::vectors;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Column {
     topic: Topic,
-    /// Whether its sources are whole sets, which have counts, and no interval.
+    /// True if its sources are whole sets, which have counts, and no interval.
     pub(super) complete: bool,
 }
 
@@ -59,7 +59,7 @@ impl Column {
         }
     }
 
-    /// What is in it, where its head does not say it.
+    /// The contents of the column, where its head does not say them.
     pub(super) fn about(self) -> &'static str {
         match self.topic {
             Topic::Families(Question::Grid) if self.complete => "every case of the lattice",
@@ -68,7 +68,7 @@ impl Column {
         }
     }
 
-    /// Whether its cases are of sizes that occur.
+    /// True if its cases are of sizes that occur.
     pub(super) fn is_ordinary(self) -> bool {
         !matches!(self.topic, Topic::Families(question) if !question.is_ordinary())
     }
@@ -80,7 +80,7 @@ impl Column {
     }
 }
 
-/// Whether a result's source is a whole set rather than a random sample.
+/// True if a result's source is a whole set rather than a random sample.
 fn is_complete(sources: &[SourcePart], part: &KernelResult) -> bool {
     let of = |source: &&SourcePart| source.scalar == part.scalar && source.family == part.family;
     sources.iter().find(of).is_some_and(|source| !source.sample)
@@ -99,7 +99,7 @@ pub(super) struct Cell {
 const FAR: i32 = -10;
 
 impl Cell {
-    /// Whether more than one verdict in a thousand is wrong and [`FAR`] off.
+    /// True if more than one verdict in a thousand is wrong and [`FAR`] off.
     pub(super) fn is_far(&self) -> bool {
         self.wrong.of < 1000 * self.far
     }
@@ -137,7 +137,7 @@ impl Cell {
     }
 }
 
-/// What is said where a record has such sources, in which a neighbour may take a ray that a triangle leaves.
+/// The note on a scene's shared edges and vertices, where a neighbour may take a ray that a triangle leaves.
 pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
     let sources = &record.result.plan.sources;
     sources.iter().any(|source| is_shared_in_scene(&source.family)).then_some(
@@ -146,7 +146,7 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
     )
 }
 
-/// What is said of a scene whose kind of plane nobody chose: other kinds have other rates.
+/// The note on a scene whose kind of plane nobody chose: other kinds have other rates.
 pub(super) fn kinds_not_drawn(record: &Record) -> Option<String> {
     let flags = record.provenance.plan_flags.as_ref();
     if flags.is_some_and(|flags| flags.sources.contains("plane=")) {
@@ -172,7 +172,7 @@ pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
     severity.edges.octaves.range(Octave::From(FAR)..).map(|(_, n)| n).sum()
 }
 
-/// What the triangles of groups did together, of one row.
+/// The outcomes of groups of triangles, for one row.
 #[derive(Clone, Debug)]
 pub(super) struct Across {
     /// `nothing`, `at-least-one`, `exactly-one`.
@@ -198,18 +198,18 @@ impl Across {
         (0 < cracks[1]).then_some(Across { promised, cracks, doubles, odd_folds })
     }
 
-    /// Whether the contract rules out cracks, and doubles.
+    /// True if the contract rules out cracks, and true if it rules out doubles.
     pub(super) fn rules_out(&self) -> [bool; 2] {
         [self.promised != "nothing", self.promised == "exactly-one"]
     }
 
-    /// Whether it happened nevertheless.
+    /// True if something happened that the contract rules out.
     pub(super) fn is_broken(&self) -> bool {
         let [no_crack, no_double] = self.rules_out();
         no_crack && 0 < self.cracks[0] || no_double && 0 < self.doubles[0] + self.odd_folds
     }
 
-    /// What is promised, and whether that was kept.
+    /// The promise, and the word `kept` or `BROKEN`.
     pub(super) fn words(&self) -> String {
         let promise = match self.promised.as_str() {
             "nothing" => return "nothing".to_owned(),

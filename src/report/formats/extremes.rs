@@ -51,7 +51,7 @@ pub(super) fn write(
     Ok(())
 }
 
-/// What a row did although it promises otherwise across triangles, and the command that shows the first.
+/// The promise across triangles that a row broke, and the command that shows the first case.
 fn broken_promise(line: &Line) -> Option<(String, String)> {
     let across = line.across.as_ref().filter(|across| across.is_broken())?;
     let first = |ids: fn(&AcrossPart) -> &[String]| {
@@ -91,7 +91,7 @@ fn all<'a>(columns: &[Column], lines: &'a [Line<'a>]) -> Vec<Extreme<'a>> {
     all
 }
 
-/// What most of a class's findings come from, as far as is known.
+/// The most frequent cause of a class's findings, as far as is known.
 fn main_cause(part: &FindingPart) -> Option<Attribution> {
     let by = &part.causes.as_ref()?.by;
     let share = |cause: &Attribution| by.get(cause).and_then(|rate| rate.rate).unwrap_or(0.0);
@@ -129,7 +129,7 @@ fn group(cause: Option<Attribution>) -> Option<Attribution> {
 }
 
 impl Extreme<'_> {
-    /// What is wrong, by how much, and why.
+    /// Describes the fault, its size and its cause.
     fn describe(&self) -> String {
         let is_hit = self.part.finding == FindingKind::FalseHit;
         let distance = match self.distance.0 {

@@ -1,7 +1,7 @@
 //! The record as JUnit XML, as CI servers read it: one suite a kernel row, one case per scalar, family
 //! and kind of finding.
 //!
-//! Of an audit every disagreement fails its case; of a check only what is unexpected or stale does.
+//! In an audit every disagreement fails its case; in a check only what is unexpected or stale does.
 
 use super::{Deviation, Key, Record, Style, disagreements, group_digits, kinds_of};
 use crate::plot::escaped;
@@ -13,7 +13,7 @@ use std::io::{self, Write};
 struct Case {
     /// Heading and text of what failed.
     failures: Vec<(String, String)>,
-    /// What is known to be wrong.
+    /// The faults that are known.
     notes: Vec<String>,
 }
 

@@ -40,7 +40,7 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>>
     record.result.plan.scalars.iter().flat_map(in_scalar).collect()
 }
 
-/// What the columns hold.
+/// The contents of the columns.
 pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     let told = columns.iter().filter(|column| !column.about().is_empty());
     let mut parts: Vec<String> =
@@ -52,7 +52,7 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     parts.join("; ")
 }
 
-/// What should be known of the kernels beside their verdicts, and whether their values are good for anything.
+/// Writes notes on the kernels besides their verdicts, and says if their values are good for anything.
 pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()> {
     for (kernel, notes) in &record.provenance.kernel_notes {
         for note in notes {

@@ -33,9 +33,9 @@ use std::io::{self, Write};
 /// How people-facing formats look.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Style {
-    /// Whether to use terminal colours.
+    /// True if terminal colours are used.
     pub color: bool,
-    /// Whether to print everything: the tables by scalar, and every class of finding of every kernel.
+    /// True if everything is printed: the tables by scalar, and every class of finding of every kernel.
     pub details: bool,
 }
 

@@ -1,9 +1,9 @@
-//! What changed between expectations and a run, in cases: by row and finding, so that a trade is seen as one.
+//! Changes between expectations and a run, in cases: by row and finding, so that a trade is seen as one.
 
 use super::{Conformance, Deviation, FindingKind, Method, group_digits};
 use std::collections::BTreeMap;
 
-/// What the lines are called.
+/// The title of the lines.
 pub(super) const NET_TITLE: &str = "What changed, in cases";
 
 /// The most families that a finding names.

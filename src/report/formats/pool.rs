@@ -18,19 +18,19 @@ impl Pool {
         Pool { sample: Rate::sum(sample), complete: Rate::sum(complete) }
     }
 
-    /// Of the samples; where there is none, of the complete sets.
+    /// The rate over the samples; where there is none, over the complete sets.
     pub(super) fn rate(&self) -> &Rate {
         if self.sample.of == 0 { &self.complete } else { &self.sample }
     }
 
-    /// What [`Pool::rate`] leaves out: `3 of 57`.
+    /// The counts that [`Pool::rate`] leaves out: `3 of 57`.
     pub(super) fn apart(&self) -> Option<String> {
         let Rate { count, of, .. } = self.complete;
         let both = 0 < of && 0 < self.sample.of;
         both.then(|| format!("{} of {}", group_digits(count), group_digits(of)))
     }
 
-    /// Of both, without an interval.
+    /// The counts over both, without an interval.
     pub(super) fn counts(&self) -> [u64; 2] {
         [self.sample.count + self.complete.count, self.sample.of + self.complete.of]
     }

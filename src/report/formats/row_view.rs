@@ -67,11 +67,11 @@ impl<'a> RowView<'a> {
     }
 }
 
-/// What is to be said of a scalar without a valid case.
+/// The remark on a scalar without a valid case.
 pub(super) const ALL_INVALID: &str =
     "All are invalid: a number is infinite or NaN, or the direction is zero.";
 
-/// Whether all cases of rows are invalid.
+/// True if all cases of rows are invalid.
 pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
     rows.first().is_some_and(|row| {
         let invalid = row.results.iter().filter_map(|result| result.classes.get("invalid"));

@@ -57,7 +57,7 @@ fn rules() -> Vec<Value> {
     all.map(|(id, text)| json!({ "id": id, "shortDescription": { "text": text } })).collect()
 }
 
-/// What is new comes first, and what is known is suppressed.
+/// The results of a check: new findings come first, and known ones are suppressed.
 fn of_check(conformance: &Conformance) -> Vec<Value> {
     let file = conformance.expectations.as_deref();
     let unproved = conformance.unproved.iter().map(|unproved| {

@@ -1,4 +1,4 @@
-//! What `hairline audit` prints: the answer, a table with a column for each question, the worst
+//! The screen of `hairline audit`: the answer, a table with a column for each question, the worst
 //! findings, and what to do next. Everything else is behind `--details`.
 
 use super::columns::{Across, Cell, Column, kinds_not_drawn, shared_in_scenes, short_percent};
@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
-/// Of no more rows than this the screen shows each by itself.
+/// The most rows that the screen shows each by itself.
 const MOST_CLOSE_UPS: usize = 2;
 
 /// Writes the screen.
@@ -51,7 +51,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     next::write(record, &lines, style, out)
 }
 
-/// What was run.
+/// Writes which kernels ran, and on how many cases.
 fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
     let (result, provenance) = (&record.result, &record.provenance);
     let cases = |scalar: &String| {
@@ -89,7 +89,7 @@ fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
     )
 }
 
-/// Whether there are so few kernels that each has a table of its own.
+/// True if there are so few kernels that each has a table of its own.
 fn is_close_up(record: &Record) -> bool {
     record.result.plan.rows.len() <= MOST_CLOSE_UPS
 }
@@ -103,7 +103,7 @@ struct Standing {
     /// Wrong verdicts that can be seen, and wrong values.
     far: u64,
     far_values: u64,
-    /// What else broke the contract, on any case: `crash`, `bad-value`, `crack`, ….
+    /// The other breaches of the contract, on any case: `crash`, `bad-value`, `crack`, ….
     others: BTreeMap<FindingKind, u64>,
 }
 
@@ -266,7 +266,7 @@ fn write_answer(
     Ok(())
 }
 
-/// What a cell is.
+/// Writes the legend of a cell.
 fn write_cell_legend(columns: &[Column], lines: &[Line], out: &mut dyn Write) -> io::Result<()> {
     let sampled = lines.iter().flat_map(|line| columns.iter().zip(&line.cells));
     let wide = sampled

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 /// The most deviations of a kind that the text lists without `--details`.
 const MOST_LISTED: usize = 10;
 
-/// What the words of a class are.
+/// The meaning of the words of a class.
 const CLASSES: &str = "of interior/back/within: where the line meets the triangle, which side it comes from, where on the \
                        ray (within, before its start, beyond its end)";
 

@@ -53,7 +53,7 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
     }
 }
 
-/// What every scalar adds to.
+/// The sums to which every scalar adds.
 #[derive(Default)]
 struct Parts {
     scalars: Vec<ScalarPart>,

@@ -1,4 +1,4 @@
-//! What a page draws: a small mesh whole, of a large one the triangles around the places where rows go wrong;
+//! The drawing in a page: a small mesh whole, of a large one the triangles around the places where rows go wrong;
 //! and those places, each with the ray that shows it.
 
 use crate::arith::Float;
@@ -22,12 +22,12 @@ pub fn places(mesh: &Mesh) -> usize {
     if mesh.triangles.len() <= WHOLE { usize::MAX } else { PLACES }
 }
 
-/// What is drawn.
+/// The drawing of a mesh.
 #[derive(Debug, Default)]
 pub struct Drawing {
-    /// Whether it is the whole mesh.
+    /// True if it is the whole mesh.
     pub whole: bool,
-    /// Whether faces have lines in the file; else they are counted.
+    /// True if faces have lines in the file; else they are counted.
     pub has_lines: bool,
     /// The numbers of its vertices in the file, from 1, and where they are drawn: the longest side of the box
     /// around all of them goes from -[`UNIT`] to `UNIT`.
@@ -53,7 +53,7 @@ pub struct DrawnRow {
 /// A place where a row goes wrong.
 #[derive(Debug)]
 pub struct Mark {
-    /// What is wrong.
+    /// The fault.
     pub wrong: Wrong,
     /// At an edge or a vertex.
     pub part: Part,
@@ -113,13 +113,13 @@ pub(super) fn row<F: Float>(
 }
 
 impl Drawing {
-    /// What stands before the numbers of faces.
+    /// The words before the numbers of faces.
     pub(super) fn faces(&self) -> &'static str {
         if self.has_lines { "faces at lines" } else { "faces" }
     }
 
-    /// Of the rows' places on a mesh. Places whose triangles would be too many are left out, the last of every
-    /// row first.
+    /// The drawing of the rows' places on a mesh. Places whose triangles would be too many are left out, the last of
+    /// every row first.
     pub(super) fn new(mesh: &Mesh, mut rows: Vec<DrawnRow>) -> Drawing {
         let whole = mesh.triangles.len() <= WHOLE;
         let faces: Vec<u32> = match whole {

@@ -11,7 +11,7 @@ use crate::report::{Rate, Style, group_digits, number_of};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 
-/// What only this page has.
+/// The style and the script that only this page has.
 const OWN_STYLE: &str = include_str!("view.css");
 const OWN_SCRIPT: &str = include_str!("view.js");
 

@@ -10,11 +10,11 @@ pub const MESH_SCHEMA: &str = "hairline-mesh/1";
 
 /// Everything that is written of a mesh audit.
 pub struct MeshReport {
-    /// What was found.
+    /// The record of the findings.
     pub record: MeshRecord,
     /// Every edge and vertex that some row's contract does not want so.
     pub offenders: Vec<Offender>,
-    /// What a page draws, if the plan keeps places.
+    /// The drawing in a page, if the plan keeps places.
     pub drawing: Option<Drawing>,
 }
 
@@ -23,13 +23,13 @@ pub struct MeshReport {
 pub struct MeshRecord {
     /// [`MESH_SCHEMA`].
     pub schema: &'static str,
-    /// What was found.
+    /// The findings.
     pub result: MeshResult,
     /// Where and how it was made; never compared.
     pub provenance: Provenance,
 }
 
-/// What was found.
+/// The findings on a mesh.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeshResult {
     /// The mesh.
@@ -40,9 +40,9 @@ pub struct MeshResult {
     pub directions: u64,
     /// Which random rays.
     pub seed: u64,
-    /// Whether directions are rounded unit vectors.
+    /// True if directions are rounded unit vectors.
     pub unit_directions: bool,
-    /// What was found in each scalar.
+    /// The findings in each scalar.
     pub scalars: Vec<ScalarPart>,
 }
 
@@ -57,7 +57,7 @@ pub struct MeshPart {
     pub triangles: u64,
     /// Vertices of the file.
     pub vertices: u64,
-    /// What the reader skipped, altered or found suspect.
+    /// Notes on what the reader skipped, altered or found suspect.
     pub notes: Vec<String>,
 }
 
@@ -66,7 +66,7 @@ pub struct MeshPart {
 pub struct ScalarPart {
     /// `f32` or `f64`.
     pub scalar: &'static str,
-    /// What the mesh is in this scalar.
+    /// The topology of the mesh in this scalar.
     pub topology: TopologyPart,
     /// Rays at edges and at vertices: how many of each are tested, times the directions.
     pub rays: [u64; 2],
@@ -78,10 +78,10 @@ pub struct ScalarPart {
     pub results: Vec<MeshRowResult>,
 }
 
-/// What a mesh is, exactly. Vertices with equal coordinates are one point.
+/// The exact topology of a mesh. Vertices with equal coordinates are one point.
 #[derive(Clone, Debug, Serialize)]
 pub struct TopologyPart {
-    /// Whether all faces are sound, all edges shared and all vertices inside one closed fan.
+    /// True if all faces are sound, all edges shared and all vertices inside one closed fan.
     pub closed_manifold: bool,
     /// Different points that faces use.
     pub points: u64,
@@ -109,14 +109,14 @@ pub struct NotedPart {
     pub first_points: Vec<[f64; 3]>,
 }
 
-/// What a row did in one scalar.
+/// The results of a row in one scalar.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeshRowResult {
     /// The kernel's name.
     pub kernel: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
-    /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
+    /// The contract's promise: `nothing`, `at-least-one`, `exactly-one`.
     pub promised: &'static str,
     /// At edges of two triangles.
     pub edges: MeshPartResult,
@@ -124,7 +124,7 @@ pub struct MeshRowResult {
     pub vertices: MeshPartResult,
 }
 
-/// What a row did at the edges, or at the vertices.
+/// The results of a row at the edges, or at the vertices.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeshPartResult {
     /// How many of them some ray found a crack at.
@@ -172,9 +172,9 @@ pub struct MeshClassResult {
     pub first_odd_folds: Vec<MeshExample>,
     /// The first crossings whose hit may be elsewhere.
     pub first_elsewhere: Vec<MeshExample>,
-    /// Of the set of all cracks.
+    /// The digest of all cracks.
     pub crack_digest: String,
-    /// Of the set of all doubles.
+    /// The digest of all doubles.
     pub double_digest: String,
 }
 

@@ -29,7 +29,7 @@ impl Shown<'_> {
         self.result.edges.failures + self.result.vertices.failures
     }
 
-    /// Of edges and vertices together.
+    /// The sum of a rate over edges and vertices.
     pub fn both(&self, rate: fn(&AcrossRates) -> &Rate) -> Rate {
         Rate::sum([&self.result.edges.total, &self.result.vertices.total].map(rate))
     }

@@ -12,7 +12,7 @@ use maud::{Markup, html};
 
 /// Places of a row that stand in its table.
 const LISTED: usize = 20;
-/// What is wrong, as [`crate::audit::mesh::Wrong`] counts.
+/// The words for a fault, in the order of [`crate::audit::mesh::Wrong`].
 const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
 
 /// The drawing: a canvas for the script, and a picture without it.

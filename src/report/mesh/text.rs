@@ -91,7 +91,7 @@ fn write_scalar(
     write_examples(part, style, out)
 }
 
-/// What the mesh is, and where it first is not what rays can be asked about: lines with their heads.
+/// The topology of the mesh, and where it first is not what rays can be asked about: lines with their heads.
 pub(super) fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
     let kinds = [
         ("faces", &topology.faces, FACE_WORDS),
@@ -125,7 +125,7 @@ pub(super) fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, Stri
     lines
 }
 
-/// What the shares in the table are shares of.
+/// The note on the shares in the table.
 const SHARES: &str = "\
 cracks: % of rays aimed at edges, and of rays aimed at vertices, that cross the surface there; doubles, and wrong at
 folds: of both together. Rays at the whole mesh rarely come so near an edge. edges, vertices: how many leak.";

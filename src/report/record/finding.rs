@@ -19,8 +19,8 @@ pub struct FindingPart {
     pub rate: Rate,
     /// Why; none where nothing was attributed.
     pub causes: Option<CausesPart>,
-    /// Of the set of all its cases, whatever their order: a sum, a colon, and a sketch, which shows cases that
-    /// only one of two sets has.
+    /// The digest of the set of all its cases, whatever their order: a sum, a colon, and a sketch, which shows
+    /// cases that only one of two sets has.
     pub digest: String,
     /// The one with the largest severity.
     pub worst: Example,
@@ -118,12 +118,12 @@ fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Er
     Ok(Option::deserialize(number)?.unwrap_or(f64::INFINITY))
 }
 
-/// What the triangles of groups did together.
+/// The outcomes of groups of triangles.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AcrossPart {
-    /// What the contract promises: `nothing`, `at-least-one`, `exactly-one`.
+    /// The contract's promise: `nothing`, `at-least-one`, `exactly-one`.
     pub promised: String,
     /// Crossings without a hit.
     pub cracks: Rate,
@@ -137,14 +137,14 @@ pub struct AcrossPart {
     pub first_cracks: Vec<String>,
     /// Ids of the first doubles.
     pub first_doubles: Vec<String>,
-    /// Of the set of all cracks.
+    /// The digest of all cracks.
     pub crack_digest: String,
     /// Ids of the first folds of wrong parity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub first_odd_folds: Vec<String>,
-    /// Of the set of all doubles.
+    /// The digest of all doubles.
     pub double_digest: String,
-    /// Of the set of all folds of wrong parity.
+    /// The digest of all folds of wrong parity.
     #[serde(default)]
     pub odd_fold_digest: String,
     /// Crossings on a mesh without a hit, which a neighbour may have: no cracks.
@@ -155,18 +155,18 @@ pub struct AcrossPart {
     pub file: Option<String>,
 }
 
-/// What a kernel that takes polygons did with whole ones.
+/// The results on whole polygons of a kernel that takes them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PolygonPart {
-    /// Of the polygons that must be hit, and have a verdict.
+    /// Among the polygons that must be hit and have a verdict, the share that is missed.
     pub false_misses: Rate,
-    /// Of the polygons that must be missed, and have a verdict.
+    /// Among the polygons that must be missed and have a verdict, the share that is hit.
     pub false_hits: Rate,
-    /// Of the set of all false misses.
+    /// The digest of all false misses.
     pub false_miss_digest: String,
-    /// Of the set of all false hits.
+    /// The digest of all false hits.
     pub false_hit_digest: String,
     /// Ids of the first false misses.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -189,7 +189,7 @@ pub struct PolygonFinding {
     pub finding: FindingKind,
     /// How often.
     pub rate: Rate,
-    /// Of the set of all its polygons.
+    /// The digest of all its polygons.
     pub digest: String,
     /// Ids of the first.
     pub first: Vec<String>,

@@ -1,4 +1,4 @@
-//! Of a run in parts: which parts a record is of, and what merging needs beside its result.
+//! Runs in parts: which parts a record is of, and what merging needs besides its result.
 
 use crate::audit::Shard;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub struct PartialPart {
     pub present: Vec<u64>,
 }
 
-/// What the record of a part holds beside its result, for `merge` of the same version alone.
+/// The data in the record of a part besides its result, for `merge` of the same version alone.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -1,4 +1,4 @@
-//! What was asked, and where and how it was run.
+//! The plan of a run, and where and how it was run.
 
 use super::KernelResult;
 use crate::audit::{RowSpec, flags};
@@ -6,7 +6,7 @@ use crate::case::{CaseId, Parameters};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What was asked.
+/// The plan of a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -41,7 +41,7 @@ pub struct RowPart {
     pub kernel: String,
     /// The flag that chooses it on a command line.
     pub selector: String,
-    /// What its epsilons are called.
+    /// The name of its epsilons.
     pub set: String,
     /// By gate; gates that take none are left out.
     pub epsilons: BTreeMap<String, String>,
@@ -132,7 +132,7 @@ pub struct Provenance {
     /// The flags of `hairline audit` that make the plan again, where a command line made it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan_flags: Option<PlanFlags>,
-    /// Of the parts that were merged.
+    /// The provenance of the parts that were merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Provenance>,
 }

@@ -17,13 +17,13 @@ pub(super) struct Answer {
     pub title: String,
     /// The scene's words.
     pub scene: String,
-    /// What the numbers that cost least are called.
+    /// The name of the numbers that cost least.
     pub name: &'static str,
-    /// What to use; the best first.
+    /// The epsilons to use; the best first.
     pub used: Vec<Use>,
     /// The names of what was tried.
     pub columns: Vec<String>,
-    /// What it did: a label, and a cell for each column.
+    /// The results of what was tried: a label, and a cell for each column.
     pub rows: Vec<(String, Vec<String>)>,
     /// How far each number may move.
     pub limits: Vec<LimitRow>,
@@ -31,7 +31,7 @@ pub(super) struct Answer {
     pub conflicts: Vec<[String; 2]>,
     /// Limits that cost much, a sentence each.
     pub prices: Vec<String>,
-    /// What the commands are of, and the commands that show more of it.
+    /// The subject of the commands, and the commands that show more of it.
     pub next: (&'static str, Vec<String>),
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Use {
     pub lead: &'static str,
     /// As they are pasted.
     pub text: String,
-    /// What they mean, a sentence each.
+    /// The meaning of the epsilons, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -52,11 +52,11 @@ pub(super) struct LimitRow {
     pub what: &'static str,
     pub most: String,
     pub fresh: String,
-    /// Whether the scene's sizes set it as much as rounding does.
+    /// True if the scene's sizes set it as much as rounding does.
     pub is_of_scene: bool,
 }
 
-/// What is said of a part of a record.
+/// The answer for a part of a record.
 pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
     let kernel = format!("{} {}", part.kernel, part.scalar);
     let title = match &record.mesh {
@@ -91,7 +91,7 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
 /// A form without a unit is the answer if it leaves less than this share of the cost.
 const DECISIVE: f64 = 0.5;
 
-/// What was tried: the recommended epsilons, the form without a unit, the others.
+/// The epsilons that were tried: the recommended ones, the form without a unit, the others.
 fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
     let (first, others) = part.tried.split_at(1);
     first.iter().chain(&part.relative).chain(others)
@@ -120,12 +120,12 @@ fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
 const USE: &str = "use";
 const LEAST_BAD: &str = "least bad:";
 
-/// What stands before epsilons: that they are to be used, unless the notes say that no numbers are good.
+/// The words before epsilons: that they are to be used, unless the notes say that no numbers are good.
 fn lead(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> &'static str {
     if is_no_good(record, part, tried) { LEAST_BAD } else { USE }
 }
 
-/// Whether epsilons that follow each triangle's size come first.
+/// True if epsilons that follow each triangle's size come first.
 fn is_scale_free_better(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     let best = &part.tried[0];
     let is_good = |tried| no_good(record, part, tried).is_empty();
@@ -151,7 +151,7 @@ fn fixed(record: &SceneRecord, part: &SceneKernelPart) -> String {
 /// The column of what is recommended, where there is no form without a unit.
 pub(super) const RECOMMENDED: &str = "recommended";
 
-/// What a column is called.
+/// The name of a column.
 pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
     match name {
         "recommended" if part.relative.is_some() => "fixed",
@@ -207,7 +207,7 @@ fn errors(error: &ErrorPart) -> String {
     [error.median, error.most, error.worst].map(short_error).join(" ")
 }
 
-/// Whether a value is the least that no machine flushes to zero: then every value above zero will do.
+/// True if a value is the least that no machine flushes to zero: then every value above zero will do.
 fn is_least(value: &str, scalar: &str) -> bool {
     let least = least_normal(scalar);
     value.parse::<f64>().is_ok_and(|value| 0.0 < value && value <= least * 1.1)
@@ -330,7 +330,7 @@ fn conflict_lines(
 /// From this share on, a limit's price is said.
 const DEAR: f64 = 0.01;
 
-/// What limits cost that nobody would pay unwarned; those that a conflict names are said there.
+/// The prices of limits that nobody would pay unwarned; those that a conflict names are said there.
 fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let is_told = |place: &usize| part.conflicts.iter().any(|conflict| conflict.lower == *place);
     let seen = part.limits.iter().enumerate();

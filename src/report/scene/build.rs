@@ -145,7 +145,7 @@ fn plane_part(found: &Elsewhere) -> PlanePart {
     PlanePart { plane: found.plane.name().to_owned(), wrong }
 }
 
-/// Of each knob the highest limit from below and the lowest from above, where they do not meet.
+/// For each knob the highest limit from below and the lowest from above, where they do not meet.
 fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
     let limits: Vec<&Limit<F>> = study.limits.iter().map(|found| &found.bound).collect();
     let strictest = |knob: usize, is_lower: bool| {

@@ -5,7 +5,7 @@ use super::record::*;
 use super::words::{RAYS, flatness};
 use crate::report::epsilon::{FLUSHED, is_subnormal};
 
-/// What the numbers of a limit mean, where there is one.
+/// The meaning of the numbers of a limit, where there is one.
 fn of_limits(record: &SceneRecord) -> Vec<String> {
     let limits = || record.kernels.iter().flat_map(|part| &part.limits);
     let mut lines = Vec::new();
@@ -28,7 +28,7 @@ fn has_parallel_gate(part: &SceneKernelPart) -> bool {
     part.knobs.iter().any(|knob| knob.role == "parallel")
 }
 
-/// What the words of the tables mean, a line each.
+/// The meaning of the words in the tables, a line each.
 pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
     let costs = record.costs.iter().map(|cost| format!("{} {}", cost.name, cost.number));
     let costs = costs.collect::<Vec<_>>().join(", ");

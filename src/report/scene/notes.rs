@@ -1,4 +1,4 @@
-//! What is said of recommended numbers: what they mean in the scene, and what no number can do.
+//! The notes on recommended numbers: what they mean in the scene, and what no number can do.
 
 use super::record::*;
 use super::words::{human, meaning, share, spaced};
@@ -15,7 +15,7 @@ const FEW: u64 = 10_000;
 /// From fewer they say nothing.
 const TOO_FEW: u64 = 1_000;
 
-/// What is said of the best fixed numbers, a sentence each.
+/// The notes on the best fixed numbers, a sentence each.
 pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
@@ -130,7 +130,7 @@ fn has_default_costs(record: &SceneRecord) -> bool {
     })
 }
 
-/// Whether nobody should use these epsilons. With other weights, or a limit of errors, the user may have asked for what
+/// True if nobody should use these epsilons. With other weights, or a limit of errors, the user may have asked for what
 /// they do.
 pub(super) fn is_no_good(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> bool {
     let is_asked_for = !record.max_error.is_empty() || !has_default_costs(record);
@@ -140,7 +140,7 @@ pub(super) fn is_no_good(record: &SceneRecord, part: &SceneKernelPart, tried: &T
 /// From this cost of a single wrong answer on, chance decides what is chosen.
 const HEAVY: f64 = 0.01;
 
-/// Of weights under which one wrong answer among so many rays decides: that they ask for more rays.
+/// A note if one wrong answer among so many rays decides under the given weights: they need more rays.
 fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
     let of_count = |(count, rate): (&CountPart, &Rate)| {
         let cost = record.costs.iter().find(|cost| cost.name == count.kind)?;
@@ -156,18 +156,18 @@ fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
     })
 }
 
-/// Whether the scalar's numbers are too far apart for the smallest triangles.
+/// True if the scalar's numbers are too far apart for the smallest triangles.
 pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     record.edge[0] < 32.0 * part.spacing
 }
 
-/// Whether products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
+/// True if products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.
 fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     let epsilon = if part.scalar == f32::NAME { f32::EPSILON.into() } else { f64::EPSILON };
     record.edge[0].powi(3) * epsilon < least_normal(&part.scalar)
 }
 
-/// What helps where no numbers are good.
+/// The advice where no numbers are good.
 fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
     let unit = spaced(&record.unit);
     let is_narrow = part.scalar == "f32";
@@ -217,7 +217,7 @@ fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
     })
 }
 
-/// Of a kernel whose cracks no number closes: that they are most of its cost, and what helps.
+/// A note if cracks that no number closes are most of a kernel's cost, with advice.
 fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0];
     let cracks = part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == "crack");
@@ -235,13 +235,13 @@ fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String
     Vec::new()
 }
 
-/// Whether what is recommended tolerates a little beside the edges.
+/// True if the recommended numbers tolerate a little beside the edges.
 pub(super) fn tolerates(part: &SceneKernelPart) -> bool {
     let mut pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     pairs.any(|(knob, epsilon)| knob.role == "edge" && epsilon.starts_with('-'))
 }
 
-/// What was wanted of the errors of epsilons that keep it; none if nothing was.
+/// The limit of errors for which the epsilons were chosen, in words; none if there is none.
 pub(super) fn accuracy(record: &SceneRecord) -> Option<String> {
     let wanted = || {
         let most = most_errors(record);

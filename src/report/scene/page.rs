@@ -10,7 +10,7 @@ use crate::report::{Style, chart};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 
-/// What only this page has.
+/// The style that only this page has.
 const OWN_STYLE: &str = "
 svg.chart { width: 100%; max-width: 34rem; height: auto; }
 .use { font-size: 1.05rem; } .use::first-letter { text-transform: uppercase; } .use code { font-size: .9rem; }

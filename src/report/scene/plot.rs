@@ -1,4 +1,4 @@
-//! What each value of a number does while the others stay: wrong answers over the value, what was tried as
+//! Plots of each value of a number while the others stay: wrong answers over the value, what was tried as
 //! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
 use super::answer::{Answer, LimitRow, RECOMMENDED, answer, column};
@@ -24,7 +24,7 @@ const FRAME: Frame =
 
 /// A panel.
 pub(super) struct Panel {
-    /// What it shows, for those who do not see it.
+    /// A description of the picture, for those who do not see it.
     pub about: String,
     /// The drawing, as elements of SVG.
     pub drawing: String,
@@ -61,7 +61,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
     out.write_all(file("Wrong answers by epsilon in a scene", WIDTH, y, &drawing).as_bytes())
 }
 
-/// What the shares are of.
+/// The footer: the rays and the contract behind the shares.
 pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2] {
     [
         format!(
@@ -98,7 +98,7 @@ fn class_of(count: &CountPart) -> String {
     format!("{} {}", count.stratum.trim_start_matches("scene-"), count.kind)
 }
 
-/// What a panel is drawn from.
+/// The data of a panel.
 struct Draft<'a> {
     record: &'a SceneRecord,
     part: &'a SceneKernelPart,
@@ -107,7 +107,7 @@ struct Draft<'a> {
     knob: &'a KnobPart,
     values: Vec<f64>,
     lines: Vec<Line<'a>>,
-    /// What was tried: values with their names, in order.
+    /// The values that were tried, with their names, in order.
     tried: Vec<(f64, String)>,
 }
 

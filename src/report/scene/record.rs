@@ -22,13 +22,13 @@ pub struct SceneRecord {
     pub reach: f64,
     /// The mesh that it is, if it is one.
     pub mesh: Option<MeshPart>,
-    /// Whether directions have unit length, so that t is a length.
+    /// True if directions have unit length, so that t is a length.
     pub unit_directions: bool,
     /// The shortest and the longest longest edge of a triangle.
     pub edge: [f64; 2],
     /// The sines of the angles of almost parallel rays; none for those from 1/8 down to below rounding.
     pub sine: Option<[f64; 2]>,
-    /// Whether all almost parallel rays are aimed inside their triangle.
+    /// True if all almost parallel rays are aimed inside their triangle.
     pub aims_inside: bool,
     /// The seed of the rays from which epsilons are chosen.
     pub seed: u64,
@@ -36,7 +36,7 @@ pub struct SceneRecord {
     pub fresh_seed: u64,
     /// How many indices of each stratum.
     pub count: u64,
-    /// What a wrong answer costs, by kind.
+    /// The costs of wrong answers, by kind.
     pub costs: Vec<NamedNumber>,
     /// The largest errors that were wanted: `t`, relative, and `point`, in the scene's unit of length.
     pub max_error: Vec<NamedNumber>,
@@ -49,7 +49,7 @@ pub struct SceneRecord {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct NamedNumber {
-    /// What it is of.
+    /// The name of the number.
     pub name: String,
     /// The number.
     pub number: f64,
@@ -79,29 +79,29 @@ pub struct SceneKernelPart {
     pub selector: String,
     /// `f32` or `f64`.
     pub scalar: String,
-    /// What it is judged by.
+    /// The contract that the kernel is judged by.
     pub contract: String,
     /// The contract in the words of `--contract`; absent if it is the kernel's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contract_flag: Option<String>,
-    /// Whether one of its gates at the edges takes an epsilon.
+    /// True if one of its gates at the edges takes an epsilon.
     pub has_edge_epsilon: bool,
     /// How far apart neighbouring numbers of the scalar are where rays start farthest from 0.
     pub spacing: f64,
     /// Twice the area of the smallest triangle, if the scene is a mesh.
     pub least_shape: Option<f64>,
-    /// Whether it takes an interval of t.
+    /// True if the kernel takes an interval of t.
     pub takes_interval: bool,
-    /// What can be chosen.
+    /// The knobs that can be set.
     pub knobs: Vec<KnobPart>,
     /// The epsilons of the gates that are not chosen.
     pub others: BTreeMap<String, String>,
-    /// What is counted.
+    /// The kinds of wrong answers that are counted.
     pub counts: Vec<CountPart>,
     /// If errors are limited: whether 99 % of the hits that remain keep the limit with the recommended
     /// epsilons, in each kind of ray and with a confidence of 95 %. If they do not, none do.
     pub is_accurate: Option<bool>,
-    /// What epsilons do on fresh rays; the cheapest first.
+    /// The results of epsilons on fresh rays; the cheapest first.
     pub tried: Vec<TriedPart>,
     /// How far each knob may move while the others stay.
     pub limits: Vec<LimitPart>,
@@ -114,12 +114,12 @@ pub struct SceneKernelPart {
     /// Epsilons that follow each case's size, if they are cheaper by a fifth, or if only they keep the errors
     /// as small as was wanted; counted, no kernel runs with them.
     pub relative: Option<TriedPart>,
-    /// What the recommended epsilons do in the same scene on planes of other kinds.
+    /// The results of the recommended epsilons in the same scene on planes of other kinds.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub elsewhere: Vec<PlanePart>,
 }
 
-/// What epsilons do on planes of one kind, on fresh rays.
+/// The results of epsilons on planes of one kind, on fresh rays.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -137,11 +137,11 @@ pub struct PlanePart {
 pub struct KnobPart {
     /// The gate's name, or `t_min`.
     pub name: String,
-    /// Whether it is a gate's epsilon, which `--epsilon` takes.
+    /// True if it is a gate's epsilon, which `--epsilon` takes.
     pub is_gate: bool,
-    /// What it is there to refuse: `parallel`, `t`, `edge` or `other`.
+    /// The role of the number: `parallel`, `t`, `edge` or `other`.
     pub role: String,
-    /// What the gate refuses, with the number as `e`; none of `t_min`.
+    /// The condition under which the gate refuses, with the number as `e`; none for `t_min`.
     pub refuses: Option<String>,
     /// The powers of length and of |d| in what is compared with it.
     pub dimension: [i8; 2],
@@ -149,7 +149,7 @@ pub struct KnobPart {
     pub form: Option<String>,
 }
 
-/// What is counted: a kind of wrong answer in a stratum.
+/// A kind of wrong answer in a stratum, which is counted.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -160,7 +160,7 @@ pub struct CountPart {
     pub kind: String,
 }
 
-/// What epsilons do on fresh rays.
+/// The results of epsilons on fresh rays.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -211,26 +211,26 @@ pub struct LimitPart {
     pub knob: usize,
     /// The count's place.
     pub count: usize,
-    /// Whether values must be at or above the limit.
+    /// True if values must be at or above the limit, false if at or below it.
     pub is_lower: bool,
     /// The limit; none if no value keeps the share.
     pub value: Option<String>,
     /// The other end of an interval: beyond it more than that share is wrong, with the same confidence; none if the rays
     /// show no such number.
     pub far: Option<String>,
-    /// Whether the rays show so little of where the limit is that its value is no number to act on.
+    /// True if the rays show so little of where the limit is that nobody should act on its value.
     pub is_unsure: bool,
     /// At most one in this many answers is wrong at the limit, with a confidence of 95 %.
     pub one_in: u64,
     /// The wrong answers on fresh rays at the limit.
     pub fresh: Option<Rate>,
-    /// What in the scene sets the limit, if not the kernel's rounding.
+    /// The property of the scene that sets the limit, if the kernel's rounding does not.
     pub set_by: Option<String>,
-    /// What the value costs, if it is one that loses plain hits or lets rays beside triangles hit.
+    /// The price of the value, if it is one that loses plain hits or lets rays beside triangles hit.
     pub price: Option<PricePart>,
 }
 
-/// What a value costs on fresh rays, while the other numbers stay.
+/// The price of a value on fresh rays, while the other numbers stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -250,17 +250,17 @@ pub struct ProvedPart {
     pub knob: usize,
     /// The place of the count of which nothing is wrong.
     pub count: usize,
-    /// Whether it holds for all values at and above, or for all at and below.
+    /// True if it holds for all values at and above, false if for all at and below.
     pub is_lower: bool,
     /// The value.
     pub value: String,
     /// The wrong answers on fresh rays at the value: none, or the proof is wrong.
     pub fresh: Rate,
-    /// What the value costs.
+    /// The price of the value.
     pub price: Option<PricePart>,
 }
 
-/// What the values of one knob do on fresh rays while the others stay.
+/// The results of the values of one knob on fresh rays while the others stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -1,4 +1,4 @@
-//! What people call the strata and kinds of a scene, its numbers and its units.
+//! The names that people use for the strata and kinds of a scene, its numbers and its units.
 
 use super::record::*;
 use crate::case::Number;
@@ -11,7 +11,7 @@ use crate::report::record::Rate;
 /// From where rays are aimed.
 pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
 
-/// What is counted, by its stratum's family and its kind.
+/// The name of a count, by its stratum's family and its kind.
 pub(super) fn label(stratum: &str, kind: &str) -> &'static str {
     match (stratum, kind) {
         ("scene-interior", "miss") => "at a triangle: hits lost",
@@ -34,7 +34,7 @@ pub(super) fn where_of(stratum: &str) -> &'static str {
     }
 }
 
-/// What in the scene, not in the kernel, sets a limit.
+/// The property of the scene, not of the kernel, that sets a limit.
 pub(super) fn set_by(role: Role, count: Count) -> Option<&'static str> {
     match (role, count.stratum, count.kind) {
         (Role::T, Stratum::Interior, Kind::Miss) => Some("the scene's distances"),
@@ -75,7 +75,7 @@ pub(super) fn of_unit(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" ({unit})") }
 }
 
-/// What an epsilon means for the scene's triangles.
+/// The meaning of an epsilon for the scene's triangles.
 pub(super) fn meaning(
     record: &SceneRecord,
     part: &SceneKernelPart,

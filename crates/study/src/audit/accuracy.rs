@@ -17,11 +17,11 @@ use std::cmp::Ordering;
 /// Errors of hits in ulps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// Of t.
+    /// The errors of t.
     pub t: Histogram,
-    /// Of u and v, the larger of the two.
+    /// The larger errors of u and v.
     pub uv: Histogram,
-    /// Of the point, its worst coordinate.
+    /// The errors of the point, in its worst coordinate.
     pub point: Histogram,
 }
 
@@ -49,16 +49,16 @@ impl Accuracy {
 /// finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Of t.
+    /// The error of t.
     pub t: Option<f64>,
-    /// Of u and v, the larger of the two.
+    /// The larger error of u and v.
     pub uv: Option<f64>,
-    /// Of the point, its worst coordinate.
+    /// The error of the point, in its worst coordinate.
     pub point: Option<f64>,
 }
 
 impl Errors {
-    /// Of a hit on a triangle that the line crosses inside or on its boundary.
+    /// The errors of a hit on a triangle that the line crosses inside or on its boundary.
     pub fn of<F: Float>(
         case: &Case<F>,
         crossing: &Crossing,
@@ -76,9 +76,9 @@ impl Errors {
 /// A case to measure hits on.
 struct Measure<'a, F: Float> {
     case: &'a Case<F>,
-    /// Whether t, u and v are exactly zero.
+    /// True for each of t, u and v that is exactly zero.
     zeros: [bool; 3],
-    /// What a t, u or v of zero is measured in.
+    /// The units in which errors of a t, u or v of zero are measured.
     units: [f64; 3],
 }
 

@@ -130,7 +130,7 @@ pub fn attribute_by_running<F: Float>(
     })
 }
 
-/// What the kernel answers where nothing rounds; what it says of the values is for the caller to add.
+/// The kernel's answer without rounding; the caller adds what it says of the values.
 fn without_rounding<F: Float>(
     (case, truth, gives): (&Case<F>, &Truth, Gives),
     float: &TrackedRun<F>,

@@ -3,7 +3,7 @@
 use crate::judge::{Class, Finding};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// What is kept by class and finding; most slots are empty.
+/// One value for each class and finding; most slots are empty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByFinding<T>(Vec<Option<Box<T>>>);
 
@@ -36,7 +36,7 @@ impl<T: Default> ByFinding<T> {
 }
 
 impl<T> ByFinding<T> {
-    /// What is kept of a class and finding.
+    /// The value for a class and finding.
     pub fn get(&self, class: Class, finding: Finding) -> Option<&T> {
         self.0[place(class, finding)].as_deref()
     }

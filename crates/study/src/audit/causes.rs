@@ -27,7 +27,7 @@ impl Causes {
         self.by[attribution as usize]
     }
 
-    /// Of the findings on one ray.
+    /// The causes of the findings on one ray.
     fn of_ray(attributions: impl Iterator<Item = Option<Attribution>>) -> Causes {
         let mut causes = Causes::default();
         let mut by = [0; Attribution::ALL.len()];

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What a source gave in one scalar.
+/// The summary of a source in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct SourceSummary {
     /// The source's place in the plan.
@@ -41,7 +41,7 @@ pub struct SourceSummary {
 }
 
 impl SourceSummary {
-    /// Of nothing yet.
+    /// A summary without cases.
     pub fn new(source: usize, scalar: &'static str) -> SourceSummary {
         SourceSummary {
             source,
@@ -126,13 +126,13 @@ impl<F: Scalar> Chunk<F> {
         self.starts.windows(2).zip(first..).map(|(ends, index)| (index, ends[0]..ends[1]))
     }
 
-    /// What a contract asks of each case.
+    /// The contract's demands on each case.
     pub fn expectations(&self, contract: &Contract) -> Expectations {
         let secondary = self.grouping == Grouping::SecondaryRay;
         judge::ask_all(&self.cases, &self.truths, &self.kinds, contract, secondary)
     }
 
-    /// What the values of a hit on each case may be.
+    /// The ranges in which the values of a hit on each case are surely right.
     pub fn limits(&self) -> Vec<Limits<F>> {
         self.cases.iter().zip(&self.truths).map(|(case, truth)| Limits::of(case, truth)).collect()
     }
@@ -147,7 +147,7 @@ impl<F: Scalar> Chunk<F> {
         self.kinds.of[case].class()
     }
 
-    /// What a contract asks of each group; empty if the source's cases stand alone.
+    /// The contract's demand on each group; empty if the source's cases stand alone.
     pub fn group_truths(&self, contract: &Contract) -> Vec<GroupTruth> {
         if !self.grouping.shares_a_ray() {
             return Vec::new();

@@ -1,5 +1,5 @@
-//! What the cases of each family are like: which corner, which side, which plane they try. What no case is like, no
-//! kernel is tried on.
+//! The kinds of cases in each family: which corner, which side, which plane they try. A kernel is never tried on a kind
+//! that has no case.
 
 use crate::arith::Float;
 use crate::case::{Case, Parameters, Ray, Scene};
@@ -13,12 +13,12 @@ use glam::DVec3;
 pub struct Aspect {
     /// The kind: `corner`, `plane`, ….
     pub kind: &'static str,
-    /// What the case is like: `a`, `along an axis`.
+    /// The name of the kind: `a`, `along an axis`.
     pub name: &'static str,
     is_met: fn(&Shape) -> bool,
 }
 
-/// What is asked of a case: the triangle, the ray and the exact truth, in numbers near enough to tell kinds apart.
+/// The data of a case that tell its kinds: the triangle, the ray and the exact truth, in numbers near enough for that.
 struct Shape {
     truth: Truth,
     /// Weights of a, b and c where the line meets the plane; NaN where it does not.

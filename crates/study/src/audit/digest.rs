@@ -30,7 +30,7 @@ pub struct Digest {
 const STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Digest {
-    /// What a place adds to the sum.
+    /// The number that a place adds to the sum.
     pub fn hash(place: Place) -> u128 {
         let triangle = mix(u64::from(place.triangle) ^ STREAM);
         let low = mix(place.index ^ triangle);
@@ -57,7 +57,7 @@ impl Digest {
         places.filter(move |place| place.index < indices)
     }
 
-    /// Whether a place may be in the set, whose source has so many indices; no, if the sketch shows that it is not.
+    /// True if a place may be in the set, whose source has so many indices; false if the sketch shows that it is not.
     pub fn may_have(&self, place: Place, indices: u64) -> bool {
         self.sketch.may_have((place.index, place.triangle), indices)
     }

@@ -29,7 +29,7 @@ impl EpsilonText {
         self.value().filter(|value: &F| !value.is_zero() || self.is_zero())
     }
 
-    /// Whether it is written as zero.
+    /// True if it is written as zero.
     fn is_zero(&self) -> bool {
         match self {
             EpsilonText::Decimal(text) => {

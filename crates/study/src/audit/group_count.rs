@@ -8,28 +8,28 @@ use serde::{Deserialize, Serialize};
 pub struct Judged {
     /// The index of the group in its source.
     pub index: u64,
-    /// What the contract asks of it.
+    /// The contract's demand on the group.
     pub truth: GroupTruth,
     /// How many of its triangles are hit.
     pub hits: usize,
-    /// Whether it has none, and rounding may have moved the hit to a neighbour.
+    /// True if no triangle is hit, and rounding may have moved the hit to a neighbour.
     pub elsewhere: bool,
 }
 
-/// What the triangles of groups did together.
+/// Counts of the outcomes of groups.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GroupCount {
     /// Groups in which one hit is right.
     pub crossings: u64,
-    /// Of these, those without a hit.
+    /// Crossings without a hit.
     pub cracks: u64,
-    /// Of these, those with two hits or more.
+    /// Crossings with two hits or more.
     pub doubles: u64,
     /// Pairs that fold over their edge.
     pub folds: u64,
-    /// Of these, those whose number of hits has the wrong parity.
+    /// Folds whose number of hits has the wrong parity.
     pub odd_folds: u64,
-    /// Of these, those without a hit where the exact line has two.
+    /// Folds without a hit where the exact line has two.
     pub missed_folds: u64,
     /// Crossings with an even number of hits: there the parity is wrong.
     pub even: u64,
@@ -43,15 +43,15 @@ pub struct GroupCount {
     pub first_odd_folds: Vec<u64>,
     /// The first crossings whose hit may be elsewhere, by index.
     pub first_elsewhere: Vec<u64>,
-    /// Of all cracks.
+    /// The digest of all cracks.
     pub crack_digest: Digest,
-    /// Of all doubles.
+    /// The digest of all doubles.
     pub double_digest: Digest,
-    /// Of all folds of wrong parity.
+    /// The digest of all folds of wrong parity.
     pub odd_fold_digest: Digest,
 }
 
-/// What a group of triangles shows.
+/// The outcome of a group of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
     /// The number of hits is right, or the contract asks nothing.

@@ -1,4 +1,4 @@
-//! What the verdicts of one row on the groups of a chunk come to.
+//! Judges the groups of a chunk by the verdicts of one row.
 
 use super::chunk::Chunk;
 use super::group_count::Judged;
@@ -39,7 +39,7 @@ impl<F: Scalar> RowIn<F> {
         })
     }
 
-    /// Of crossings without a hit, by index, those whose hit may be among the neighbours.
+    /// The indices of crossings without a hit whose hit may be among the neighbours.
     fn elsewhere(
         &self,
         source: &Source,

@@ -13,7 +13,7 @@ pub struct Histogram<const BITS: u32 = 3> {
     infinite: u64,
     /// The number of the first bin of `counts`.
     first: u32,
-    /// Of all bins between the lowest and the highest that are not empty, and some beside.
+    /// The counts of all bins from the lowest to the highest that is not empty, and of some more.
     counts: Vec<u64>,
     count: u64,
     largest: f64,

@@ -1,4 +1,4 @@
-//! What the verdicts of one row on a chunk come to.
+//! Judges the verdicts of one row on a chunk.
 
 use super::accuracy::Errors;
 use super::chunk::Chunk;
@@ -23,7 +23,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub(super) struct Known {
     /// None of invalid input.
     distances: Option<Distances>,
-    /// Of its place.
+    /// The hash of the case's place.
     hash: u128,
 }
 

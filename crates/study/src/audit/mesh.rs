@@ -19,7 +19,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
-/// What to run on a mesh.
+/// The plan of a run on a mesh.
 pub struct Plan {
     /// The kernels with their epsilons and contracts.
     pub rows: Vec<Row>,
@@ -27,7 +27,7 @@ pub struct Plan {
     pub directions: u64,
     /// Which random rays.
     pub seed: u64,
-    /// Whether directions are replaced by their rounded unit vectors.
+    /// True if directions are replaced by their rounded unit vectors.
     pub unit_direction: bool,
     /// How many examples of each class and kind to keep, by index.
     pub examples: usize,
@@ -36,7 +36,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What the cases are put through.
+    /// The parameters of the cases.
     pub fn parameters(&self) -> Parameters {
         Parameters { unit_direction: self.unit_direction, ..Parameters::default() }
     }
@@ -53,13 +53,13 @@ impl Plan {
     }
 }
 
-/// What a run in one scalar found.
+/// The results of a run in one scalar.
 pub struct Found {
     /// `f32` or `f64`.
     pub scalar: &'static str,
     /// The rows whose kernels run in this scalar.
     pub rows: Vec<RowFound>,
-    /// What some row did wrong, by part and target.
+    /// The wrong outcomes of the rows, by part and target.
     pub offences: Vec<Offence>,
     /// Cases that went through the oracle: a ray and a triangle each.
     pub cases: u64,
@@ -67,7 +67,7 @@ pub struct Found {
     pub layers: Layers,
 }
 
-/// What one row did.
+/// The results of one row.
 pub struct RowFound {
     /// The row's place in the plan.
     pub row: usize,
@@ -149,11 +149,11 @@ struct Run<'a, F: 'static> {
     observer: &'a dyn Observer,
 }
 
-/// What chunks add up to.
+/// The sums over chunks.
 struct Sums {
     summary: SourceSummary,
     rows: Vec<(Tally, u64)>,
-    /// Of examples, and of places.
+    /// The most examples, and the most places.
     limits: [usize; 2],
 }
 
@@ -226,7 +226,7 @@ impl<F: Scalar> Run<'_, F> {
     }
 }
 
-/// Whether the exact line meets the edge that the triangles share, or the centre of the fan.
+/// True if the exact line meets the edge that the triangles share, or the centre of the fan.
 fn is_on_target(part: Part, truths: &[Truth]) -> bool {
     truths.iter().all(|truth| {
         truth.crossing().is_some_and(|crossing| match part {
@@ -236,7 +236,7 @@ fn is_on_target(part: Part, truths: &[Truth]) -> bool {
     })
 }
 
-/// What is wrong with an outcome: a crack whatever the contract, the others where it promises exactly one hit.
+/// The fault in an outcome: a crack whatever the contract, the others where it promises exactly one hit.
 fn wrong_by(outcome: Outcome, across: Across) -> Option<Wrong> {
     match outcome {
         Outcome::Right | Outcome::Elsewhere => None,

@@ -3,7 +3,7 @@
 use crate::case::mix;
 use std::collections::BTreeMap;
 
-/// What is wrong at a place.
+/// A fault at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Wrong {
     /// A crossing without a hit.
@@ -57,7 +57,7 @@ impl Places {
         }
     }
 
-    /// What is wrong, at which target, and how often, with a number to merge several by.
+    /// Each fault with a number to merge several by, its target, and how often it was seen.
     pub fn iter(&self) -> impl Iterator<Item = ((Wrong, u64), u32, Seen)> + '_ {
         self.0.iter().map(|((wrong, order, target), seen)| ((*wrong, *order), *target, *seen))
     }

@@ -1,4 +1,4 @@
-//! What a run will do: rows of kernels with epsilons, and sources of cases.
+//! The plan of a run: rows of kernels with epsilons, and sources of cases.
 
 use super::row::Row;
 use super::source::Source;
@@ -9,7 +9,7 @@ pub struct Plan {
     pub rows: Vec<Row>,
     /// The sources of cases.
     pub sources: Vec<Source>,
-    /// Whether to run in `f32`, and in `f64`.
+    /// True for each scalar that runs: `f32`, `f64`.
     pub scalars: [bool; 2],
     /// How many examples of each class of finding to keep, by index.
     pub examples: usize,

@@ -25,7 +25,7 @@ impl std::error::Error for PlanError {}
 pub struct Row {
     /// The kernel.
     pub entry: &'static Entry,
-    /// What its epsilons are called: `source`, `zero`, `parallel=1e-6`.
+    /// The name of its epsilons: `source`, `zero`, `parallel=1e-6`.
     pub set: String,
     /// One a gate.
     pub epsilons: Vec<EpsilonText>,
@@ -39,7 +39,7 @@ pub struct Row {
 pub struct RowSpec {
     /// The kernel's name: `moller-trumbore+fma`.
     pub kernel: String,
-    /// What its epsilons are called; made from their values if it is not given.
+    /// The name of its epsilons; made from their values if it is not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
     /// As `--epsilon` takes them; as the source has them if none are given.

@@ -28,7 +28,7 @@ pub struct Cell {
     /// `f32` or `f64`.
     #[serde(with = "super::forms::scalar_name")]
     pub scalar: ScalarName,
-    /// What was found.
+    /// The counts and findings.
     pub tally: Tally,
     /// Why, by class and finding; once finished.
     #[serde(skip)]
@@ -38,7 +38,7 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Of a tally; its causes are not looked for yet.
+    /// A cell with a tally; its causes are not looked for yet.
     fn new(
         row: usize,
         source: usize,
@@ -131,7 +131,7 @@ impl Audit {
     }
 }
 
-/// What a source adds up to.
+/// The sums over a source.
 pub(super) struct Sums {
     summary: SourceSummary,
     rows: Vec<(Tally, u64)>,
@@ -156,10 +156,10 @@ pub(super) struct Runner<'a, F: Scalar> {
     observer: &'a dyn Observer,
 }
 
-/// What a contract asks on a chunk.
+/// A contract's demands on a chunk.
 pub(super) struct Asked {
     pub expectations: Expectations,
-    /// What was asked, by class.
+    /// The demands, counted by class.
     pub classes: Vec<ClassCount>,
     pub groups: Arc<[GroupTruth]>,
 }
@@ -209,7 +209,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         })
     }
 
-    /// What each contract asks on a chunk.
+    /// The demands of each contract on a chunk.
     fn ask(&self, chunk: &Chunk<F>) -> Vec<Asked> {
         let ask = |(contract, groups)| {
             let expectations = chunk.expectations(contract);

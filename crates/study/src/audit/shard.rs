@@ -23,7 +23,7 @@ impl Shard {
         self.index
     }
 
-    /// Of how many.
+    /// The number of shards.
     pub fn of(self) -> u64 {
         self.of
     }

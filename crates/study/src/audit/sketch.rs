@@ -64,7 +64,7 @@ impl Sketch {
         })
     }
 
-    /// Whether a place may be in the set, one of places below a number of indices; no, if its cell is empty or has
+    /// True if a place may be in the set, one of places below a number of indices; false if its cell is empty or has
     /// another place alone.
     pub fn may_have(&self, (index, triangle): (u64, u32), indices: u64) -> bool {
         let key = scrambled(u64::from(triangle) << INDEX_BITS | index);
@@ -118,7 +118,7 @@ fn restored(key: u64) -> u64 {
     fold(FACTORS.iter().rev().fold(key, undone)) ^ START
 }
 
-/// Of an odd number, modulo 2^64, by Newton's iteration: right bits double from three.
+/// The inverse of an odd number, modulo 2^64, by Newton's iteration: right bits double from three.
 fn inverse(odd: u64) -> u64 {
     (0..5).fold(odd, |x, _| x.wrapping_mul(2u64.wrapping_sub(odd.wrapping_mul(x))))
 }

@@ -19,7 +19,7 @@ pub enum Source {
     Family {
         /// The family.
         family: &'static Family,
-        /// What its cases are put through.
+        /// The parameters of its cases.
         parameters: Parameters,
         /// The seed of the set.
         seed: u64,
@@ -32,7 +32,7 @@ pub enum Source {
     Mesh {
         /// The mesh and its rays.
         family: Arc<MeshFamily>,
-        /// What the cases are put through.
+        /// The parameters of its cases.
         parameters: Parameters,
         /// The seed of the set.
         seed: u64,
@@ -45,7 +45,7 @@ pub enum Source {
         surface: Arc<Surface>,
         /// Edges or vertices.
         part: Part,
-        /// What the cases are put through.
+        /// The parameters of its cases.
         parameters: Parameters,
         /// The seed of the set.
         seed: u64,
@@ -69,7 +69,7 @@ pub enum Source {
     Corpus(CorpusSet),
 }
 
-/// Whether a source of this name in tables makes its cases from a mesh.
+/// True if a source of this name in tables makes its cases from a mesh.
 pub fn is_of_mesh(name: &str) -> bool {
     let kind = name.split_once(':').map(|(kind, _)| kind);
     kind.is_some_and(|kind| {
@@ -82,7 +82,7 @@ pub fn is_of_mesh(name: &str) -> bool {
 pub struct CorpusSet {
     /// The file's name.
     pub file: String,
-    /// Whether each ray starts at a computed hit point on its triangle.
+    /// True if each ray starts at a computed hit point on its triangle.
     pub is_secondary: bool,
     /// Names and cases in `f32`.
     pub f32: Vec<(String, Case<f32>)>,
@@ -204,7 +204,7 @@ impl Source {
         surface.targets::<F>(parameters, *seed)
     }
 
-    /// Whether there are triangles around those of a group, which may have the hit that it lacks.
+    /// True if there are triangles around those of a group, which may have the hit that it lacks.
     pub fn has_neighbours(&self) -> bool {
         matches!(self, Source::MeshPart { .. })
     }
@@ -222,12 +222,12 @@ impl Source {
         targets.is_some_and(|targets| targets.add_neighbours((*part, index), ray, cases))
     }
 
-    /// Whether a case's id alone makes the case again.
+    /// True if a case's id alone makes the case again.
     pub fn is_remade_from_id(&self) -> bool {
         matches!(self, Source::Family { exhaustive: false, .. })
     }
 
-    /// Whether its rates are of a random sample, which has an interval, or of a whole set.
+    /// True if its rates are those of a random sample, which has an interval; false if those of a whole set.
     pub fn is_sample(&self) -> bool {
         match self {
             Source::Family { exhaustive, family, count, .. } => {
@@ -283,8 +283,7 @@ impl Source {
         }
     }
 
-    /// Whether the truths of an index keep the family's promise, where the parameters leave it
-    /// standing.
+    /// True if the truths of an index keep the family's promise; it counts only if [`Source::promises`].
     pub fn keeps_promise(&self, truths: &[Truth]) -> bool {
         match self {
             Source::Family { family, .. } => family.keeps(truths),
@@ -292,7 +291,7 @@ impl Source {
         }
     }
 
-    /// Whether the parameters leave the promise standing.
+    /// True if the parameters leave the promise standing.
     pub fn promises(&self) -> bool {
         match self {
             // Scaling can leave the range at either end.
@@ -301,7 +300,7 @@ impl Source {
         }
     }
 
-    /// Whether the parameters leave truths alone, but for the ends of the range.
+    /// True if the parameters do not change truths, except at the ends of the range.
     pub fn keeps_truth(&self) -> bool {
         match self {
             Source::Family { parameters, .. }

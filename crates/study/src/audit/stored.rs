@@ -67,7 +67,7 @@ pub enum StoredSource {
         path: String,
         /// The stratum's family.
         stratum: String,
-        /// What rays there are.
+        /// The parameters of the rays.
         parameters: String,
         /// The seed of the set.
         seed: u64,
@@ -78,14 +78,14 @@ pub enum StoredSource {
     Corpus {
         /// Their file.
         file: String,
-        /// Whether they are those that start on their triangle, or the others.
+        /// True for the cases that start on their triangle, false for the others.
         #[serde(default)]
         is_secondary: bool,
     },
 }
 
 impl StoredPlan {
-    /// Of a plan.
+    /// The stored form of a plan.
     pub fn of(plan: &Plan) -> StoredPlan {
         StoredPlan {
             rows: plan.rows.iter().map(Row::spec).collect(),

@@ -16,18 +16,18 @@ use std::collections::BTreeMap;
 pub struct ClassCount {
     /// Cases of the class.
     pub cases: u64,
-    /// Of these, those that must be hit.
+    /// Cases that must be hit.
     pub must_hit: u64,
-    /// Of these, those that must be missed.
+    /// Cases that must be missed.
     pub must_miss: u64,
-    /// Of those that must be hit, and of those that must be missed, those without a verdict: the kernel
-    /// failed.
+    /// Cases without a verdict, as the kernel failed: those that must be hit, and those that must be
+    /// missed.
     pub without_verdict: [u64; 2],
     /// Hits that the kernel reported.
     pub hits: u64,
-    /// Of these, those whose values are judged: all but those on invalid input.
+    /// Hits whose values are judged: all but those on invalid input.
     pub valued_hits: u64,
-    /// Of those, the false ones.
+    /// False hits whose values are judged.
     pub false_valued_hits: u64,
     /// By [`Finding::ALL`].
     pub findings: [u64; Finding::ALL.len()],
@@ -98,7 +98,7 @@ pub struct Examples {
     /// The one with the largest approximate severity, the first of equals.
     #[serde(with = "super::forms::scored")]
     pub worst: Option<(f64, Place)>,
-    /// Of all places with the finding.
+    /// The digest of all places with the finding.
     pub digest: Digest,
 }
 
@@ -133,7 +133,7 @@ impl Examples {
     }
 }
 
-/// What a kernel that takes polygons did with whole ones.
+/// The results on whole polygons of a kernel that takes them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PolygonCount {
     /// The polygons, what the contract asks of them, and what was found.
@@ -172,7 +172,7 @@ impl PolygonCount {
 pub struct SelfHits {
     /// Rays that start at a kernel's own hit point.
     pub rays: u64,
-    /// Of these, those that hit that triangle again.
+    /// Those rays that hit that triangle again.
     pub hits: u64,
 }
 
@@ -210,7 +210,7 @@ pub struct Tally {
     pub severities: BTreeMap<Finding, Severities>,
     /// How accurate the values of right hits are, of a sample.
     pub accuracy: Accuracy,
-    /// What groups did together.
+    /// The outcomes of groups.
     pub groups: GroupCount,
     /// Whole polygons.
     pub polygons: PolygonCount,

@@ -17,7 +17,7 @@ pub struct RayProducts {
 }
 
 impl RayProducts {
-    /// Of rays with one trial each.
+    /// The sums for rays with one trial each.
     pub fn of_single(count: u64, of: u64) -> RayProducts {
         RayProducts { count_squared: count, count_times_of: count, of_squared: of }
     }

@@ -35,7 +35,7 @@ const FIELDS: [&str; 15] = [
 /// The fields of `bits`.
 const BITS: [&str; 7] = ["origin", "direction", "a", "b", "c", "t_min", "t_max"];
 
-/// What the field `starts` says of a ray that starts at a computed hit point on its triangle.
+/// The value of the field `starts` for a ray that starts at a computed hit point on its triangle.
 const ON_TRIANGLE: &str = "on-triangle";
 
 /// The case that stands in a line, and what stands beside it.

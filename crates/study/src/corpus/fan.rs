@@ -15,12 +15,12 @@ macro_rules! decide {
     };
 }
 
-/// Whether the corners of a triangle lie on one line, or on one point. Coordinates are finite.
+/// True if the corners of a triangle lie on one line, or on one point. Coordinates are finite.
 pub fn is_without_area(corners: [[f64; 3]; 3]) -> bool {
     decide!(normal_is_zero(&corners))
 }
 
-/// Whether the fan of triangles from a polygon's first corner folds over; at least three corners,
+/// True if the fan of triangles from a polygon's first corner folds over; at least three corners,
 /// with finite coordinates.
 ///
 /// A sound fan bends by less than a right angle from each triangle to the next. And seen along the
@@ -33,7 +33,7 @@ pub(super) fn folds(corners: &[[f64; 3]]) -> bool {
     decide!(fan_folds(corners))
 }
 
-/// Whether a closed fan goes once around its centre, as seen along a direction from which all its
+/// True if a closed fan goes once around its centre, as seen along a direction from which all its
 /// triangles face alike. `ring` holds the points around the centre in their order; all finite.
 pub fn winds_once(direction: [f64; 3], centre: [f64; 3], ring: &[[f64; 3]]) -> bool {
     let in_floats = turns_once(ring.len(), |i| side_in_floats(direction, centre, ring[0], ring[i]));
@@ -52,8 +52,8 @@ fn fan_turns_once<R: Real>(
     turns_once(arms.len(), side).expect("every side is known")
 }
 
-/// Whether points turn once around a centre, given of each but the first on which side of the first it lies; none
-/// where a side is not known.
+/// True if points turn once around a centre. `side` gives for each point but the first on which side of the first it
+/// lies; the result is none where a side is not known.
 ///
 /// Each step turns the same way, by less than half a turn, so that on which half the points lie,
 /// counted from the first, tells how often they go around.
@@ -135,7 +135,7 @@ fn is_zero<R: Real>(vector: &Triple<R>) -> bool {
     (0..3).all(|axis| vector.at(axis).is_zero())
 }
 
-/// Of a number that is not NaN.
+/// The sign of a number that is not NaN.
 fn sign<R: Real>(number: &R) -> Ordering {
     match number.is_sign_negative() {
         true => Ordering::Less,

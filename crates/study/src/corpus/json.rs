@@ -44,7 +44,7 @@ impl<'a> Object<'a> {
         self.get(field).ok_or_else(|| format!("missing field '{field}'"))
     }
 
-    /// What a field says, if it is there. An error names it.
+    /// The value of a field, if it is there. An error names the field.
     pub fn read<T>(
         &self,
         field: &str,
@@ -59,7 +59,7 @@ impl<'a> Object<'a> {
         string(self.required(field)?).map_err(|message| format!("{field}: {message}"))
     }
 
-    /// Whether the field `scalar`, which must be there, says `f32`; otherwise it says `f64`.
+    /// True if the field `scalar`, which must be there, says `f32`; otherwise it says `f64`.
     pub fn is_f32(&self) -> Result<bool, String> {
         match self.required_string("scalar")?.as_str() {
             "f32" => Ok(true),

@@ -41,7 +41,7 @@ pub struct Mesh {
     /// For each triangle the number of its face's line in the file, counted from 1; that of the face itself
     /// if the file has no lines.
     pub places: Vec<u32>,
-    /// Whether `places` are lines.
+    /// True if `places` are lines.
     pub has_lines: bool,
     /// The number of different names of groups and objects (`g`, `o`) that hold triangles in an OBJ file, of
     /// nodes that do in a glTF file; 0 in a PLY file.

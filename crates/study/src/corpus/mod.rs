@@ -33,16 +33,16 @@ pub use found_by::FoundBy;
 
 use std::{fmt, io};
 
-/// What is wrong with an input, and where.
+/// An error in an input, and its place.
 #[derive(Debug)]
 pub struct InputError {
     /// The file's name as the user gave it; `-` for standard input.
     pub file: String,
     /// Counted from 1.
     pub line: Option<usize>,
-    /// What was found and what was expected, in one line.
+    /// The message, in one line: what was found and what was expected.
     pub message: String,
-    /// Whether reading failed, whatever the data are.
+    /// True if reading failed, whatever the data are.
     pub unreadable: bool,
 }
 

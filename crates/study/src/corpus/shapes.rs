@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 pub struct Shape {
     /// Lower-case letters: the name of its object and of its file.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// A description in one line.
     pub about: &'static str,
     /// Positions, of any unit; every coordinate is an `f32` value.
     pub vertices: Vec<[f64; 3]>,
@@ -233,7 +233,7 @@ fn heightfield() -> Shape {
     shape("heightfield", about, vertices, triangles)
 }
 
-/// Whether the vertices of a column lie half a row further up: two columns in four.
+/// True if the vertices of a column lie half a row further up: two columns in four.
 fn is_shifted(column: u32) -> bool {
     column & 2 != 0
 }

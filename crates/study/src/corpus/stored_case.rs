@@ -13,10 +13,10 @@ pub struct StoredCase {
     pub name: Option<String>,
     /// The ray and the triangle.
     pub case: AnyCase,
-    /// Whether the ray starts at a computed hit point on the triangle, as a shadow ray does: a hit there is a
+    /// True if the ray starts at a computed hit point on the triangle, as a shadow ray does: a hit there is a
     /// self-hit.
     pub is_secondary: bool,
-    /// What the file says about it; not compared with anything yet.
+    /// The truth as the file states it; not compared with anything yet.
     pub truth: Option<StoredTruth>,
     /// Counted from 1.
     pub line: usize,

@@ -34,7 +34,7 @@ const CONTACT_FIELDS: [&str; 3] = ["kind", "feature", "t"];
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StoredTruth(Vec<(&'static str, Stored)>);
 
-/// What a field says.
+/// The value of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Stored {
     Null,
@@ -136,7 +136,7 @@ impl StoredTruth {
         Ok(())
     }
 
-    /// Whether a fraction is stored, or null for one.
+    /// True if a fraction is stored, or null for one.
     pub fn has_fractions(&self) -> bool {
         let has_t = |stored: &Stored| matches!(stored, Stored::Contact(c) if c.get("t").is_some());
         self.0.iter().any(|(field, stored)| field.ends_with("_exact") || has_t(stored))

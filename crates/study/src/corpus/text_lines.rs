@@ -13,13 +13,13 @@ pub struct TextLines<R> {
     file: String,
     longest: usize,
     number: usize,
-    /// Whether the rest of a line that is too long is still to be skipped.
+    /// True if the rest of a line that is too long is still to be skipped.
     inside: bool,
     ended: bool,
 }
 
 impl<R: BufRead> TextLines<R> {
-    /// Of a reader; `file` is the name in errors, `longest` the most bytes of a line.
+    /// The lines of a reader; `file` is the name in errors, `longest` the most bytes of a line.
     pub fn new(reader: R, file: &str, longest: usize) -> TextLines<R> {
         TextLines { reader, file: file.to_owned(), longest, number: 0, inside: false, ended: false }
     }

@@ -18,9 +18,9 @@ pub struct TruthLine {
     pub t: Option<&'static str>,
     /// `interior`, `edge_ab` and so on.
     pub feature: Option<&'static str>,
-    /// Of a coplanar or degenerate case.
+    /// The contact in a coplanar or degenerate case.
     pub contact: Option<ContactLine>,
-    /// Whether the ray on its interval meets the closed triangle; null for invalid input.
+    /// True if the ray on its interval meets the closed triangle; null for invalid input.
     pub hits_closed: Option<bool>,
     /// t of a transversal case. The fractions are left out where nobody asked for them.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,4 +1,4 @@
-//! What follows from a response: which epsilons are right, and what the others cost.
+//! Advice from a response: which epsilons are right, and what the others cost.
 
 use super::axis::largest;
 use super::curve::{Bracket, Curve, Question};
@@ -19,9 +19,9 @@ use std::ops::RangeInclusive;
 pub struct Trade<F> {
     /// The lowest epsilon that the gate takes.
     pub floor: F,
-    /// What a lower epsilon repairs.
+    /// The false misses, which a lower epsilon repairs.
     pub misses: Side<F>,
-    /// What a higher epsilon repairs.
+    /// The false hits, which a higher epsilon repairs.
     pub hits: Side<F>,
 }
 
@@ -40,7 +40,7 @@ pub struct Side<F> {
 }
 
 impl<F: Scalar> Trade<F> {
-    /// Of one gate (the n-th of the request), over the sources of a run.
+    /// The trade of one gate (the n-th of the request), over the sources of a run.
     pub fn new(
         gate: &Gate,
         duty: &Duty,

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use crate::arith::Float;
 use crate::audit::Place;
 
-/// What is counted against an epsilon. Raising it can only make a kernel refuse more.
+/// A kind of wrong answer that is counted against an epsilon. Raising it can only make a kernel refuse more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
     /// Cases that must be hit: wrong where refused.
@@ -17,7 +17,7 @@ pub enum Question {
     Double,
     /// Rays that start at a kernel's own hit point: a second hit on that triangle.
     SelfHit,
-    /// Of the false hits, those that this gate is there to refuse; for a gate on t every second hit
+    /// The false hits that this gate is there to refuse; for a gate on t every second hit
     /// on the triangle that a ray starts on is one.
     OwnFalseHit,
 }
@@ -45,7 +45,7 @@ impl Question {
         }
     }
 
-    /// Whether a refusal is what is wrong.
+    /// True if it is the refusal that is wrong.
     pub fn is_wrong_if_refused(self) -> bool {
         matches!(self, Question::FalseMiss | Question::Crack)
     }
@@ -81,15 +81,15 @@ pub struct Cell<F> {
 /// One question's answer at every epsilon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve<F> {
-    /// What is counted.
+    /// The kind of wrong answer that is counted.
     pub question: Question,
     /// How many cases or groups the question is about.
     pub total: u64,
     /// The sum over the rays of the square of how many were asked on each.
     pub squared: u64,
-    /// Of these, refused at every epsilon.
+    /// Cases or groups refused at every epsilon.
     pub never: u64,
-    /// Of these, accepted at every epsilon.
+    /// Cases or groups accepted at every epsilon.
     pub always: u64,
     /// The others, by margin, in order; no empty cells.
     pub cells: Vec<Cell<F>>,
@@ -103,7 +103,7 @@ pub struct Curve<F> {
 }
 
 impl<F: Float> Curve<F> {
-    /// Of nothing.
+    /// A curve without cases.
     pub fn new(question: Question, floor: F) -> Curve<F> {
         let (cells, below) = (Vec::new(), vec![0]);
         let (total, squared, never, always) = (0, 0, 0, 0);

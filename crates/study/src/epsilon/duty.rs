@@ -17,7 +17,7 @@ pub struct Duty {
 }
 
 impl Duty {
-    /// Of one of a kernel's gates under a contract.
+    /// The task of one of a kernel's gates under a contract.
     pub fn of(gates: &[Gate], gate: usize, contract: &Contract) -> Duty {
         let has = |role: Role| gates.iter().any(|gate| gate.role == role);
         let is_culling =
@@ -47,12 +47,12 @@ impl Duty {
         Duty { classes, guards_start: role == Role::T && contract.extent != Extent::Line }
     }
 
-    /// Whether the gate guards a class.
+    /// True if the gate guards a class.
     pub fn guards(&self, class: Class) -> bool {
         self.classes[class.number()]
     }
 
-    /// Whether it is there to keep a ray from hitting the triangle that it starts on.
+    /// True if the gate is there to keep a ray from hitting the triangle that it starts on.
     pub fn guards_start(&self) -> bool {
         self.guards_start
     }
@@ -70,7 +70,7 @@ mod tests {
         Class::all().filter(|class| duty.guards(*class)).map(Class::name).collect()
     }
 
-    /// Whether one of some patterns with `*` for any word fits a class.
+    /// True if a class fits one of some patterns, which have `*` for any word.
     fn fits(patterns: &[&str], class: &str) -> bool {
         let word = |(pattern, word): (&str, &str)| pattern == "*" || pattern == word;
         let has_all = |pattern: &str| {

@@ -26,14 +26,14 @@ pub struct Request<'a, F: 'static> {
     pub exact: bool,
 }
 
-/// What a kernel does on one source as one of its epsilons varies.
+/// The response of a kernel on one source as one of its epsilons varies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response<F> {
     /// The gate's place in the kernel's chain.
     pub gate: usize,
     /// By [`Question::ALL`].
     pub curves: Vec<Curve<F>>,
-    /// Of the cases that must be hit, those that each other gate refuses, whatever this epsilon.
+    /// The number of cases that must be hit and that each other gate refuses, whatever this epsilon.
     pub refused_by_others: Vec<u64>,
 }
 
@@ -92,7 +92,7 @@ struct Pass<'a, F: Scalar> {
     observer: &'a dyn Observer,
 }
 
-/// What one thread has counted.
+/// The counts of one thread.
 struct Sums<F> {
     gates: Vec<GateSums<F>>,
     margins: Vec<F>,

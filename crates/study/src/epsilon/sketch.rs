@@ -12,13 +12,13 @@ use crate::kernel::{Scalar, Subject};
 pub const SPANNING: [&str; 6] =
     ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
 
-/// What a kernel does as one of its epsilons varies, on few cases.
+/// A kernel's response on few cases as one of its epsilons varies.
 pub struct Sketch<F> {
     /// The gate's place in the kernel's chain.
     pub gate: usize,
     /// All sources together, exact at every epsilon.
     pub total: Response<F>,
-    /// What an epsilon trades.
+    /// The false misses and the false hits between which an epsilon trades.
     pub trade: Trade<F>,
 }
 

@@ -12,7 +12,7 @@ use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_s
 use crate::judge::{Class, Finding};
 use crate::kernel::{Gate, PRESETS, Preset, Scalar, Subject};
 
-/// What to study.
+/// The plan of a study.
 pub struct StudyPlan<'a, F: 'static> {
     /// The kernel, its contract, and the epsilons of the gates that are not varied.
     pub row: &'a Row,
@@ -44,15 +44,15 @@ pub struct GateStudy<F> {
     pub gate: usize,
     /// All sources together.
     pub total: Response<F>,
-    /// What an epsilon trades.
+    /// The false misses and the false hits between which an epsilon trades.
     pub trade: Trade<F>,
     /// Epsilons with names: the row's own, presets.
     pub marks: Vec<(String, F)>,
-    /// What epsilons cost, in order.
+    /// The prices of epsilons, in order.
     pub prices: Vec<Price<F>>,
 }
 
-/// What the audit found with one epsilon.
+/// The audit's findings with one epsilon.
 pub struct Price<F> {
     /// The epsilon.
     pub epsilon: F,
@@ -62,7 +62,7 @@ pub struct Price<F> {
     pub tallies: Vec<Tally>,
 }
 
-/// What the epsilon with the least sum of both shares is called.
+/// The name of the epsilon with the least sum of both shares.
 pub const LEAST_SUM: &str = "least sum of both";
 
 /// Powers of ten to weigh, beside the limits, presets and given epsilons.

@@ -27,7 +27,7 @@ impl Domain {
         Domain::ALL.into_iter().find(|domain| domain.name() == name)
     }
 
-    /// Whether a case is in the domain, decided exactly.
+    /// True if a case is in the domain, decided exactly.
     pub fn holds<F: Float>(self, case: &Case<F>) -> bool {
         self.allows_numbers(case)
             && (self == Domain::Any || {
@@ -69,7 +69,7 @@ const FAR: f64 = 1.0 / 1024.0;
 /// The least of height, sine and distance, as shares of what they stand against.
 const SHARE: f64 = 1.0 / 64.0;
 
-/// Whether the longest edge is at least `far` of the largest coordinate, and height, sine and distance
+/// True if the longest edge is at least `far` of the largest coordinate, and height, sine and distance
 /// at least `share`. All comparisons are of squares: no root is taken.
 fn is_healthy<V: Vector>(
     Ray { origin: o, direction: d, .. }: &Ray<V>,

@@ -1,4 +1,4 @@
-//! What a search maximises: errors of margins and values, and the severity of findings.
+//! The objectives that a search maximises: errors of margins and values, and the severity of findings.
 //!
 //! | objective | what is scored | unit |
 //! |---|---|---|
@@ -19,7 +19,7 @@
 //! absolute coordinates, and quotients of small numbers, do not. Of a margin larger than its scale,
 //! as u where the line passes far away, an ulp is 2^-23 (2^-52) of the exact margin.
 //!
-//! What counts: a margin, if no gate before it rejected and both margins are finite; t, u and v of a hit
+//! These count: a margin, if no gate before it rejected and both margins are finite; t, u and v of a hit
 //! that is not a false one, if they are finite; a false miss at the gate that rejected; a false hit at the
 //! first gate that rejects when the same formula runs without rounding. A false hit of the formula itself
 //! is convention, not error, and has no score. A false hit before or beyond the extent has a score only at
@@ -37,7 +37,7 @@ use crate::truth::Truth;
 
 named! {
     pub names
-    /// What a search maximises.
+    /// A quantity that a search maximises.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum Objective {
         /// The error of what a gate compares with its epsilon.
@@ -54,7 +54,7 @@ named! {
 }
 
 impl Objective {
-    /// What a score is counted in.
+    /// The unit of a score.
     pub fn unit(self) -> &'static str {
         match self {
             Objective::Margin => "ulps of the gate's scale",
@@ -69,7 +69,7 @@ impl Objective {
 /// An objective, at a gate where it has one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Target {
-    /// What is scored.
+    /// The quantity that is scored.
     pub objective: Objective,
     /// The gate's place in the kernel's order; none for t, u and v.
     pub gate: Option<usize>,
@@ -116,8 +116,8 @@ pub struct Scorer<'a, F> {
     domain: Domain,
 }
 
-/// What a search climbs on: below every score, and lower the farther the line passes from the
-/// triangle's boundary, where findings are.
+/// A substitute that a search climbs on where there is no score: below every score, and lower the farther
+/// the line passes from the triangle's boundary, where findings are.
 fn no_score_yet(in_space: f64) -> f64 {
     if in_space.is_finite() { -1.0 - in_space } else { f64::MIN }
 }
@@ -194,7 +194,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         error.is_finite().then_some(error)
     }
 
-    /// What the error of a gate's margin is counted in on a case, at least.
+    /// The least unit in which the error of a gate's margin is counted on a case.
     pub fn unit_of_margin(&self, case: &Case<F>, gate: usize) -> f64 {
         let wide = case.widen();
         let dimension = self.row.entry.info.gates[gate].dimension;
@@ -258,7 +258,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         }
     }
 
-    /// Whether a finding is of the target's kind, by the target's gate.
+    /// True if a finding is of the target's kind, by the target's gate.
     fn wants(&self, finding: Finding, truth: &Truth, verdict: &Verdict<F>, case: &Case<F>) -> bool {
         match (self.target.objective, finding) {
             (Objective::FalseMiss, Finding::FalseMiss) => {
@@ -300,7 +300,7 @@ pub fn verdict_and_finding<F: Scalar>(
     (truth, verdict, judge((&row.contract, asked), (case, &truth), row.entry.info.gives, &verdict))
 }
 
-/// Whether `f64` has digits and range to spare for products of a scalar's numbers.
+/// True if `f64` has digits and range to spare for products of a scalar's numbers.
 fn is_narrow<F: Float>() -> bool {
     2 * F::DIGITS <= f64::DIGITS
 }

@@ -1,4 +1,4 @@
-//! What makes two findings the same kind.
+//! The signature of a finding: two findings with the same signature are of the same kind.
 
 use super::objective::verdict_and_finding;
 use crate::audit::{Attribution, Row, attribute_with};
@@ -31,7 +31,7 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// What a row shows on a case; none if its verdict is right.
+    /// The signature of a row's finding on a case; none if its verdict is right.
     pub fn of<F: Scalar>(row: &Row, case: &Case<F>) -> Option<Signature> {
         let epsilons: Vec<F> = row.epsilons();
         let seen = verdict_and_finding(row, &epsilons, case);
@@ -64,7 +64,7 @@ impl Signature {
         })
     }
 
-    /// Whether a row shows this signature on a case. Cheap checks without exact arithmetic exclude most
+    /// True if a row shows this signature on a case. Cheap checks without exact arithmetic exclude most
     /// other cases.
     pub fn is_shown<F: Scalar>(&self, row: &Row, case: &Case<F>) -> bool {
         let epsilons: Vec<F> = row.epsilons();

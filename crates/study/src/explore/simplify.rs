@@ -23,7 +23,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// Of a case.
+    /// The size of a case.
     pub fn of<F: Float>(case: &Case<F>) -> Size {
         let coordinates = case.vectors();
         let ends = [case.ray.t_min, case.ray.t_max];
@@ -39,7 +39,7 @@ impl Size {
         }
     }
 
-    /// Of a case that is simpler than another.
+    /// The size of a case that is simpler than another; none if it is not.
     pub fn below<F: Float>(case: &Case<F>, other: &Size) -> Option<Size> {
         // The bits decide most, and are the quickest to count.
         (bits(case) <= other.bits).then(|| Size::of(case)).filter(|size| size < other)

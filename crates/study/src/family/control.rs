@@ -95,7 +95,7 @@ pub(super) fn well_shaped<F: Float>(draw: &mut Draw) -> [[F; 3]; 3] {
     }
 }
 
-/// Whether a direction is at least 1/4 long and makes a sine of at least 1/8 with the plane.
+/// True if a direction is at least 1/4 long and makes a sine of at least 1/8 with the plane.
 pub(super) fn is_steep<F: Float>(direction: [F; 3], triangle: [[F; 3]; 3]) -> bool {
     let d = wide(direction);
     let n = wide_normal(triangle);

@@ -1,4 +1,4 @@
-//! What the exact families share: small integer vectors, on which every sum and product is exact.
+//! Small integer vectors, which the exact families share: every sum and product of them is exact.
 
 use super::Made;
 use crate::arith::Float;

@@ -33,7 +33,7 @@ pub struct SetLine {
     pub version: u32,
     /// `f32` or `f64`.
     pub scalar: String,
-    /// What the cases are put through, as in case ids.
+    /// The parameters of the cases, as in case ids.
     pub parameters: String,
     /// The seed.
     pub seed: u64,
@@ -49,7 +49,7 @@ pub struct SetLine {
 pub struct MeshLine {
     /// The file's name.
     pub mesh: String,
-    /// What is hard about it.
+    /// A description of what is hard about it.
     pub about: String,
     /// SHA-256 of the file's bytes.
     pub digest: String,

@@ -17,7 +17,7 @@ pub struct MeshFamily {
 }
 
 impl MeshFamily {
-    /// Of a mesh read from a path. The mesh has triangles.
+    /// The family of a mesh read from a path. The mesh has triangles.
     pub fn new(mesh: Mesh, path: &str) -> MeshFamily {
         MeshFamily { mesh, path: path.to_owned() }
     }

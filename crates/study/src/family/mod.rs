@@ -83,7 +83,7 @@ pub enum Grouping {
 }
 
 impl Grouping {
-    /// Whether the triangles of one index share a ray.
+    /// True if the triangles of one index share a ray.
     pub fn shares_a_ray(self) -> bool {
         !matches!(self, Grouping::Single | Grouping::SecondaryRay)
     }
@@ -99,9 +99,9 @@ trait Recipe {
     const GROUPING: Grouping = Grouping::Single;
     /// Case `index` of the set; `draw` is its own stream.
     fn make<F: Scalar>(draw: &mut Draw, index: u64) -> Made<F>;
-    /// What is left to do once the parameters are applied.
+    /// Finishes a case after the parameters are applied.
     fn finish<F: Scalar>(_draw: &mut Draw, _parameters: &Parameters, _made: &mut Made<F>) {}
-    /// Whether the truths of one index keep the promise.
+    /// True if the truths of one index keep the promise.
     fn keeps(truths: &[Truth]) -> bool;
 }
 
@@ -208,7 +208,7 @@ impl Family {
         *found.expect("a scalar is f32 or f64")
     }
 
-    /// Whether the truths of one index keep the promise.
+    /// True if the truths of one index keep the promise.
     pub fn keeps(&self, truths: &[Truth]) -> bool {
         (self.keeps)(truths)
     }

@@ -1,4 +1,4 @@
-//! What a family asks of a kernel: the columns of the audit's screen.
+//! The questions that families put to a kernel: the columns of the audit's screen.
 
 /// One question, which several families put together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,7 +39,7 @@ impl Question {
         }
     }
 
-    /// What is in the column, where its head does not say it.
+    /// The contents of the column, where its head does not say them.
     pub fn about(self) -> &'static str {
         match self {
             Question::Inside | Question::Edges | Question::Vertices => "",
@@ -52,7 +52,7 @@ impl Question {
         }
     }
 
-    /// Whether its cases are of sizes that occur: magnitudes from 2^-60 to 2^60, not mixed at random.
+    /// True if its cases are of ordinary sizes: magnitudes from 2^-60 to 2^60, not mixed at random.
     pub fn is_ordinary(self) -> bool {
         !matches!(self, Question::Range | Question::Invalid)
     }

@@ -59,7 +59,7 @@ pub fn exact_to_change<F: Float>(
     Some((to_change(truth, contract, in_space, along) / unit).sqrt())
 }
 
-/// Whether a valid case is nearer than a band to where its obligation would be another; exactly.
+/// True if a valid case is nearer than a band to where its obligation would change; decided exactly.
 pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: &Contract) -> bool {
     let distances = Distances::of(case, truth);
     let unit = match band.unit {
@@ -75,7 +75,7 @@ pub fn is_within<F: Float>(band: Band, case: &Case<F>, truth: &Truth, contract: 
     )
 }
 
-/// Whether one number is less than another, if a difference of 1/256 tells: distances are right to a
+/// True if one number is less than another; none if they differ by less than 1/256, as distances are right to a
 /// thousandth.
 fn is_clearly_less(one: f64, other: f64) -> Option<bool> {
     let relative = one / other;
@@ -113,7 +113,7 @@ pub fn is_polygon_within<F: Float>(
 }
 
 impl Squares<Exact> {
-    /// Whether they are within a band of where the obligation would be another.
+    /// True if they are within a band of where the obligation would change.
     fn are_within(self, band: Band, ulp: impl Float, truth: &Truth, contract: &Contract) -> bool {
         let Squares { longest, in_space, along } = self;
         let unit = match band.unit {

@@ -121,22 +121,22 @@ impl Class {
             .unwrap_or_else(|| FLAT[self.number() - PARTS.len() * per_part])
     }
 
-    /// Whether the input has no meaning: no value of a hit is judged then.
+    /// True if the input has no meaning: no value of a hit is judged then.
     pub fn is_invalid(self) -> bool {
         self.number() == Class::COUNT - 1
     }
 
-    /// Whether the line is parallel to the plane, or the triangle has no area.
+    /// True if the line is parallel to the plane, or the triangle has no area.
     pub fn is_flat(self) -> bool {
         matches!(self.part(), "parallel" | "coplanar" | "degenerate")
     }
 
-    /// Whether the line crosses the plane from behind.
+    /// True if the line crosses the plane from behind.
     pub fn is_back(self) -> bool {
         self.name().contains("/back/")
     }
 
-    /// Whether the line crosses the plane before or beyond the interval.
+    /// True if the line crosses the plane before or beyond the interval.
     pub fn is_off_the_interval(self) -> bool {
         let name = self.name();
         name.ends_with("/before") || name.ends_with("/beyond")

@@ -29,11 +29,11 @@ pub struct Distances {
     pub edge_in_ulps: f64,
 }
 
-/// What found distances.
+/// The arithmetic that found distances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
     Floats,
-    /// Of the case moved near 1.
+    /// Floats, after the case was moved near 1.
     FloatsNearOne,
     DoubleDoubles,
     Integers,
@@ -41,7 +41,7 @@ enum Step {
 
 /// Squares of lengths of a case.
 pub struct Squares<R> {
-    /// Of the longest edge.
+    /// The square of the longest edge.
     pub longest: R,
     /// From the line to the boundary.
     pub in_space: R,
@@ -51,7 +51,7 @@ pub struct Squares<R> {
 }
 
 impl<R: Real> Squares<R> {
-    /// Of a valid case, in an arithmetic that does not round. `crosses` says whether the line crosses
+    /// The squares of a valid case, in an arithmetic that does not round. `crosses` says whether the line crosses
     /// the plane at one point.
     pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>, crosses: bool) -> Squares<R> {
         let (o, d) = (&ray.origin, &ray.direction);
@@ -108,7 +108,7 @@ pub fn ulp_of_points<F: Float>(case: &Case<F>) -> F {
 }
 
 impl Distances {
-    /// Of a valid case with its truth.
+    /// The distances of a valid case with its truth.
     pub fn of<F: Float>(case: &Case<F>, truth: &Truth) -> Distances {
         Distances::and_step(case, truth).0
     }
@@ -145,10 +145,10 @@ impl Distances {
     }
 }
 
-/// What a truth knows to be zero, or not to be.
+/// The distances that a truth knows to be zero, or not to be.
 struct Zeros {
     in_space: bool,
-    /// Whether t is at 0, t_min, t_max; none where the line does not cross the plane.
+    /// True for each of 0, t_min and t_max that t equals; none where the line does not cross the plane.
     along: Option<[bool; 3]>,
 }
 
@@ -189,7 +189,7 @@ impl NearOne {
         NearOne { case: near, size }
     }
 
-    /// Whether every number is that of the case but for the powers of two: none underflowed.
+    /// True if every number equals the case's but for the powers of two: none underflowed.
     fn is_exact(&self, case: &Case<f64>) -> bool {
         let back = |x: f64, exponent: i32, was: f64| scaled(x, exponent) == was;
         let length = exponent_of(&case.vectors()[1]);
@@ -205,7 +205,7 @@ impl NearOne {
     }
 }
 
-/// What distances are divided by: the longest edge, or a length of 1 if that is zero; lengths were
+/// The divisor of distances: the longest edge, or a length of 1 if that is zero; lengths were
 /// divided by 2^size.
 fn unit_of(longest: f64, size: i32) -> f64 {
     if longest > 0.0 { longest } else { scaled(1.0, -size) }
@@ -217,11 +217,11 @@ fn exponent_of(numbers: &[f64]) -> i32 {
     (largest.to_bits() >> 52) as i32 - 1023
 }
 
-/// What floats find, and what they leave in doubt.
+/// The distances that floats find, and those that they leave in doubt.
 #[derive(Clone, Copy)]
 struct Quick {
     distances: Distances,
-    /// What lengths are divided by.
+    /// The divisor of lengths.
     unit: f64,
     /// Edges so near to the line that rounding could matter; none if the distance is certain.
     edges_in_doubt: [bool; 3],
@@ -293,7 +293,7 @@ fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> 
     Some(Quick { distances, unit, edges_in_doubt, along_in_doubt })
 }
 
-/// What floats left in doubt, in double-doubles with bounds; none where they do not decide.
+/// Decides in double-doubles with bounds what floats left in doubt; none where the bounds do not decide.
 fn by_bounds(near: &NearOne, found: &Quick, zeros: &Zeros) -> Option<Distances> {
     let (ray, triangle) = near.case.lift(Bounded::new);
     let mut distances = found.distances;

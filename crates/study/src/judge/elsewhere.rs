@@ -1,4 +1,4 @@
-//! Whether the missing hit of a group on a mesh may be a hit of a triangle around it.
+//! Decides if the missing hit of a group on a mesh may be a hit of a triangle around it.
 
 use super::{Distances, is_in_extent};
 use crate::arith::Float;
@@ -11,7 +11,7 @@ use crate::truth::{Facing, Feature, Truth};
 /// the longest edge, in space.
 const NEAR: f64 = 1.0 / 1024.0;
 
-/// Whether a hit that a group lacks may have been moved by rounding, as its neighbours' verdicts show:
+/// True if rounding may have moved the hit that a group lacks, as its neighbours' verdicts show:
 ///
 /// - one reports a hit though the exact line does not meet it, or gives no verdict;
 /// - or hits near their boundary are lost, at least one of them from the other side, and with the group's

@@ -32,7 +32,7 @@ impl Kinds {
     }
 }
 
-/// What a contract demands of many cases.
+/// A contract's demands on many cases.
 pub struct Expectations {
     /// One a case.
     pub of: Vec<Expected>,
@@ -42,7 +42,7 @@ pub struct Expectations {
     pub counts: Vec<(Class, Obligation, u64)>,
 }
 
-/// What a contract demands of many cases with their truths, whose kinds are known.
+/// The contract's demands on many cases with their truths, whose kinds are known.
 pub fn ask_all<F: Float>(
     cases: &[Case<F>],
     truths: &[Truth],
@@ -73,7 +73,7 @@ pub fn ask_all<F: Float>(
     Expectations { of, free, counts }
 }
 
-/// What is demanded of a case, as flags.
+/// The demand on a case, as flags.
 #[derive(Clone, Copy, Debug)]
 pub struct Expected {
     may_hit: bool,
@@ -86,7 +86,7 @@ impl Expected {
     /// Nothing.
     const FREE: Expected = Expected { may_hit: true, may_miss: true, facing: None };
 
-    /// Of a case with its obligation and the kind of its truth.
+    /// The demand on a case with its obligation and the kind of its truth.
     pub fn new(obligation: Obligation, kind: Kind) -> Expected {
         Expected {
             may_hit: obligation != Obligation::MustMiss,
@@ -104,7 +104,7 @@ impl Expected {
         }
     }
 
-    /// Whether [`super::judge()`] surely finds nothing, without a branch.
+    /// True if [`super::judge()`] surely finds nothing; computed without a branch.
     #[inline(always)]
     fn is_met<F: Float, const T: bool, const UV: bool, const FACING: bool>(
         &self,

@@ -1,4 +1,4 @@
-//! What a contract demands of the triangles of a group together, and of a polygon as a whole.
+//! A contract's demands on the triangles of a group together, and on a polygon as a whole.
 
 use super::change::{is_polygon_within, is_within};
 use super::{Obligation, obligation, promises_direction};
@@ -10,7 +10,7 @@ use crate::family::Grouping;
 use crate::truth::{Crossing, Facing, Feature, Place, Truth};
 use std::cmp::Ordering;
 
-/// What a contract demands of the triangles of a group together.
+/// A contract's demand on the triangles of a group together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroupTruth {
     /// All triangles face the ray alike, and the exact line passes through the inside of their union
@@ -19,7 +19,7 @@ pub enum GroupTruth {
     /// Two triangles on one edge that do not face alike: as many hits are right, up to an even
     /// number, as the exact line has.
     Fold {
-        /// Whether the exact line meets an odd number of the two.
+        /// True if the exact line meets an odd number of the two.
         odd: bool,
     },
     /// Nothing: a triangle is not transversal, the hit is at an end of the extent or on the rim of
@@ -27,7 +27,7 @@ pub enum GroupTruth {
     Free,
 }
 
-/// What a contract demands of the triangles of a group together: nothing if it promises nothing for the
+/// The contract's demand on the triangles of a group together: nothing if it promises nothing for the
 /// direction, and nothing within its band.
 ///
 /// How many triangles of a group report the ray follows from the verdict on each of them. So a band frees
@@ -56,14 +56,14 @@ pub fn group_obligation<F: Float>(
     }
 }
 
-/// Whether a contract promises anything for the direction of the ray that all cases of a group share.
+/// True if a contract promises anything for the direction of the ray that all cases of a group share.
 fn is_promised<F: Float>(cases: &[Case<F>], contract: &Contract) -> bool {
     let promises =
         |case: &Case<F>| promises_direction::<F>(contract.direction, case.ray.direction.into());
     cases.first().is_some_and(promises)
 }
 
-/// Whether the triangles of a fan go once around the centre, as seen along a line through it; true if the
+/// True if the triangles of a fan go once around the centre, as seen along a line through it; true if the
 /// line does not pass through the centre.
 fn goes_around_once<F: Float>(cases: &[Case<F>], truths: &[Truth]) -> bool {
     // The centre, and the vertex after it in the triangle's winding.
@@ -84,7 +84,7 @@ fn goes_around_once<F: Float>(cases: &[Case<F>], truths: &[Truth]) -> bool {
     spokes.first().is_some_and(winds)
 }
 
-/// What the truths of a group demand together, under a contract's extent and sides.
+/// The demand that the truths of a group lead to, under a contract's extent and sides.
 pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) -> GroupTruth {
     let crossings = truths.iter().filter_map(Truth::crossing);
     let Some(first) = truths.first().and_then(Truth::crossing) else { return GroupTruth::Free };
@@ -122,14 +122,14 @@ pub fn group_truth(truths: &[Truth], contract: &Contract, grouping: Grouping) ->
     GroupTruth::Free
 }
 
-/// Whether two contracts demand the same of every group.
+/// True if two contracts demand the same of every group.
 pub fn owes_groups_alike(one: &Contract, other: &Contract) -> bool {
     let all =
         |contract: &Contract| (contract.extent, contract.sides, contract.direction, contract.band);
     all(one) == all(other)
 }
 
-/// Whether the line passes through the inside of the triangles' union: inside a triangle, on an edge
+/// True if the line passes through the inside of the triangles' union: inside a triangle, on an edge
 /// of two, or at the centre of a closed fan.
 fn is_off_the_rim<'a>(
     mut met: impl Iterator<Item = &'a Crossing> + Clone,
@@ -142,7 +142,7 @@ fn is_off_the_rim<'a>(
         || (grouping == Grouping::Fan && hits == triangles)
 }
 
-/// What a contract demands on a planar convex polygon as a whole, given as its fan: nothing if it
+/// The contract's demand on a planar convex polygon as a whole, given as its fan: nothing if it
 /// promises nothing for the direction, and nothing within its band.
 ///
 /// A band frees a polygon by the polygon's own distances, as it frees a triangle: from the line to the

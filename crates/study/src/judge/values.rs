@@ -23,7 +23,7 @@ use std::array;
 /// by more than nine times.
 pub const ALLOWANCE: f64 = 16.0;
 
-/// Whether the values of a hit are compared: the line meets the triangle at one point.
+/// True if the values of a hit are compared, because the line meets the triangle at one point.
 pub(super) fn has_values(truth: &Truth) -> bool {
     truth.crossing().is_some_and(|crossing| crossing.feature != Feature::Outside)
 }
@@ -86,8 +86,8 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
-/// Whether each value that the kernel gives is as near to its exact one as rounding may leave it, of a hit with
-/// finite values on a line that crosses the plane.
+/// True if each value that the kernel gives is as near to its exact one as rounding may leave it. The hit has finite
+/// values, and its line crosses the plane.
 pub(super) fn are_near<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> bool {
     fn near<F: Float, R: Real>(
         case: &Case<F>,
@@ -125,7 +125,7 @@ pub struct ValueErrors {
 }
 
 impl ValueErrors {
-    /// Of a hit with finite values.
+    /// The errors of a hit with finite values.
     pub fn of<F: Float>(case: &Case<F>, truth: &Truth, gives: Gives, verdict: &Verdict<F>) -> Self {
         let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
         let measured = measure(case, values, Bounded::new, Bounded::approximate);
@@ -142,7 +142,7 @@ impl ValueErrors {
         ValueErrors { exact, times, edges: worst }
     }
 
-    /// Whether t, u or v (0, 1 or 2) is farther off than is allowed.
+    /// True if t, u or v (0, 1 or 2) is farther off than allowed.
     pub fn is_wrong(&self, which: usize) -> bool {
         self.times[which].is_some_and(|times| ALLOWANCE < times)
     }
@@ -179,12 +179,12 @@ fn length(v: [f64; 3]) -> f64 {
     largest * v.into_iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }
 
-/// What t, u and v of a hit surely may be. Beyond these numbers [`are_near`] decides.
+/// Ranges in which t, u and v of a hit are surely right. Beyond these numbers [`are_near`] decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<F> {
-    /// Of t, u and v.
+    /// The least t, u and v.
     pub low: [F; 3],
-    /// Of t, u and v.
+    /// The largest t, u and v.
     pub high: [F; 3],
 }
 
@@ -200,7 +200,7 @@ impl<F: Float> Limits<F> {
         Limits { low: [F::infinity(); 3], high: [-F::infinity(); 3] }
     }
 
-    /// Of a case with its truth.
+    /// The ranges for a case with its truth.
     pub fn of(case: &Case<F>, truth: &Truth) -> Self {
         if !has_values(truth) {
             return Limits::any();

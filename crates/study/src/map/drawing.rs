@@ -36,7 +36,7 @@ pub fn drawing_document<F: Scalar>(case: &Case<F>, row: &Row) -> Result<String, 
     Ok(Witness::new(case, row)?.finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND))
 }
 
-/// What is drawn, and what has been so far.
+/// The texts of the drawing, and its body so far.
 struct Witness {
     title: String,
     lines: Vec<String>,
@@ -236,7 +236,7 @@ impl Witness {
         );
     }
 
-    /// What the marks mean.
+    /// Draws the key to the marks.
     fn keys(&mut self, scene: &Scene) {
         let mut keys = vec![(Mark::Origin, "the ray's origin")];
         if scene.exact.is_some() {

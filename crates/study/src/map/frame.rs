@@ -37,7 +37,7 @@ pub(super) struct Flat([Exact; 2]);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub foot: [f64; 2],
-    /// Of length 1.
+    /// The direction, of length 1.
     pub way: [f64; 2],
     pub from: f64,
     pub to: f64,

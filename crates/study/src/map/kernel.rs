@@ -115,7 +115,7 @@ fn pixels<F: Float>(
     cases.iter().zip(&verdicts).zip(truths).map(pixel).collect()
 }
 
-/// Whether the ray crosses the boundary where it would have to hit the inside.
+/// True if the ray crosses the boundary where it would have to hit the inside.
 fn is_on_boundary(truth: &Truth, asked: Obligation, contract: &Contract) -> bool {
     let Some(crossing) = truth.crossing() else { return false };
     if !(crossing.feature.is_edge() || crossing.feature.is_vertex()) {

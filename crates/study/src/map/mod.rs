@@ -65,14 +65,14 @@ impl fmt::Display for MapError {
 
 impl std::error::Error for MapError {}
 
-/// What is known at each pixel of a grid.
+/// The results at each pixel of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What was run: `moller-trumbore (source)`.
+    /// The kernel or predicate that was run: `moller-trumbore (source)`.
     pub subject: String,
     /// `f32` or `f64`.
     pub scalar: &'static str,
-    /// What is right: the contract, or the exact sign.
+    /// The measure of what is right: the contract, or the exact sign.
     pub measure: String,
     /// To the right, and upwards.
     pub axes: [AxisText; 2],
@@ -110,40 +110,40 @@ impl AxisText {
 /// The pixels of a kernel's map or of a predicate's.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pixels {
-    /// Of a ray-triangle kernel.
+    /// The pixels of a ray-triangle kernel.
     Rays(Vec<RayPixel>),
-    /// Of an orientation predicate.
+    /// The pixels of an orientation predicate.
     Signs(Vec<SignPixel>),
 }
 
 /// A kernel on the case of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RayPixel {
-    /// Whether the kernel hits; none if it failed.
+    /// True if the kernel hits; none if it failed.
     pub hit: Option<bool>,
     /// The exact truth.
     pub truth: Truth,
-    /// What the contract demands.
+    /// The contract's demand.
     pub asked: Obligation,
-    /// Whether the ray meets the boundary exactly, so that the contract demands a hit or leaves it free
+    /// True if the ray meets the boundary exactly, so that the contract demands a hit or leaves it free
     /// only because of what it says of edges and vertices.
     pub on_boundary: bool,
-    /// What is wrong.
+    /// The kind of wrong answer; none if the kernel is right.
     pub finding: Option<Finding>,
 }
 
 /// A predicate on the points of one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SignPixel {
-    /// What the predicate says.
+    /// The predicate's answer.
     pub answer: points::Answer,
     /// The exact sign; none of points that are not finite.
     pub exact: Option<Ordering>,
-    /// What is wrong.
+    /// The kind of wrong answer; none if the predicate is right.
     pub finding: Option<points::Finding>,
 }
 
-/// What a pixel looks like. Right is pale and wrong is dark, so that wrong pixels are seen without
+/// The look of a pixel. Right is pale and wrong is dark, so that wrong pixels are seen without
 /// telling colours apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Ink {
@@ -205,8 +205,8 @@ impl Map {
         [self.axes[0].count, self.axes[1].count]
     }
 
-    /// What the kernel or the predicate makes of a pixel, row by row from the top: what it says where
-    /// that is right, and how it is wrong where not.
+    /// The result of the kernel or the predicate at a pixel, row by row from the top: its answer where
+    /// that is right, and the kind of error where it is wrong.
     pub fn computed(&self, pixel: usize) -> Ink {
         match &self.pixels {
             Pixels::Rays(pixels) => pixels[pixel].computed(),
@@ -214,7 +214,7 @@ impl Map {
         }
     }
 
-    /// What is exactly true at a pixel.
+    /// The exact truth at a pixel.
     pub fn exact(&self, pixel: usize) -> Ink {
         match &self.pixels {
             Pixels::Rays(pixels) => pixels[pixel].exact(),

@@ -9,7 +9,7 @@ pub(super) struct Panel {
     pub left: f64,
     pub top: f64,
     pub side: f64,
-    /// What lies in its middle, and half of what fits into it, in units.
+    /// The point in its middle; `half` is half of what fits into it, in units.
     pub centre: [f64; 2],
     pub half: f64,
 }
@@ -50,7 +50,7 @@ impl Panel {
         (from <= to && from.is_finite() && to.is_finite()).then(|| [at(from), at(to)])
     }
 
-    /// What is seen of the points to the left of some stretches (all of them), as the data of a path;
+    /// The visible part of the points to the left of some stretches (all of them), as the data of a path;
     /// empty if nothing is.
     pub fn left_of(&self, stretches: &[Stretch]) -> String {
         let mut corners = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];

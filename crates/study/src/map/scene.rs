@@ -21,7 +21,7 @@ pub(super) struct Scene {
 
 /// A scene in floats, in units, counted from a point.
 pub(super) struct Layer {
-    /// Whether the triangle has an area, which then lies to the left of its edges.
+    /// True if the triangle has an area, which then lies to the left of its edges.
     pub has_area: bool,
     pub vertices: [[f64; 2]; 3],
     pub edges: [Option<Stretch>; 3],

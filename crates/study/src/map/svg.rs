@@ -13,9 +13,9 @@ const LEFT: f64 = 68.0;
 const GAP: f64 = 40.0;
 const RIGHT: f64 = 16.0;
 const WIDTH: f64 = LEFT + PANEL + GAP + PANEL + RIGHT;
-/// Of a line of text.
+/// The height of a line of text.
 const LINE: f64 = 18.0;
-/// Of a letter, on average: wide enough for most.
+/// The width of a letter, on average: wide enough for most.
 const LETTER: f64 = 7.0;
 
 /// The drawing, to be put into a page.
@@ -28,7 +28,7 @@ pub fn svg_document(map: &Map) -> String {
     Drawing::new(map).finish(DOCUMENT_STYLE, DOCUMENT_BACKGROUND)
 }
 
-/// Of files of their own.
+/// The style of drawings in files of their own.
 pub(super) const DOCUMENT_STYLE: &str = "<style>svg{color:#1b1b1b;--paper:#fff}@media(prefers-color-scheme:dark){svg{color:#e6e6e6;--paper:#14171a}}</style>\n";
 pub(super) const DOCUMENT_BACKGROUND: &str =
     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\" style=\"fill:var(--paper,#fff)\"/>\n";
@@ -155,7 +155,7 @@ fn title(map: &Map) -> String {
     format!("{} in {}, one pixel one input", map.subject, map.scalar)
 }
 
-/// What a reader hears who does not see the picture.
+/// A description for a reader who does not see the picture.
 fn description(map: &Map) -> String {
     let [width, height] = map.size();
     let list = |legend: Vec<(Ink, &str, usize)>| {

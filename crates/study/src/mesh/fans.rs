@@ -28,7 +28,7 @@ impl Fans {
         self.centres.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no fans.
     pub fn is_empty(&self) -> bool {
         self.centres.is_empty()
     }
@@ -54,7 +54,7 @@ pub(super) struct Arc {
     pub face: u32,
 }
 
-/// What the sound faces around a point are together. For one closed fan `arcs` is left in the order
+/// The kind of vertex that the sound faces around a point make. For one closed fan `arcs` is left in the order
 /// around the point, from the first face on.
 pub(super) fn fan_of(
     point: u32,

@@ -9,7 +9,7 @@ pub struct Incidence {
 }
 
 impl Incidence {
-    /// Of faces by their points; those that take no part are left out.
+    /// The incidence of faces by their points; faces that take no part are left out.
     pub(super) fn of(
         points: usize,
         corners: &[[u32; 3]],

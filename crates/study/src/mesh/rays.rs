@@ -13,7 +13,7 @@ const VERSION: u32 = 1;
 
 named! {
     pub names
-    /// What rays are aimed at.
+    /// The part of a mesh that rays are aimed at.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
     pub enum Part {
         /// The edges of two faces that are wound consistently.
@@ -60,14 +60,14 @@ impl Part {
 /// How a ray is aimed: which of them follows from its number at the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Aim {
-    /// Whether the target is to lie on its line exactly.
+    /// True if the target is to lie on its line exactly.
     pub exact: bool,
-    /// Whether it is nearly in the plane of one of the triangles; else it has any direction.
+    /// True if the ray is nearly in the plane of one of the triangles; else it has any direction.
     pub grazing: bool,
 }
 
 impl Aim {
-    /// Of the ray of a number: any four in a row have all kinds.
+    /// The aim of the ray with a number: any four in a row have all kinds.
     pub fn of(number: u64) -> Aim {
         Aim { exact: matches!(number % 4, 0 | 3), grazing: number % 4 >= 2 }
     }
@@ -82,7 +82,7 @@ pub struct Targets<'m> {
 }
 
 impl<'m> Targets<'m> {
-    /// Of a mesh and its topology in a scalar.
+    /// The targets of a mesh and its topology in a scalar.
     pub fn new(
         mesh: &'m Mesh,
         topology: &'m Topology,
@@ -106,7 +106,7 @@ impl<'m> Targets<'m> {
         ((index % count) as usize, index / count)
     }
 
-    /// Whether an id is of the version that [`Targets::make`] makes.
+    /// True if an id is of the version that [`Targets::make`] makes.
     pub fn makes(id: &CaseId) -> bool {
         id.version == VERSION
     }

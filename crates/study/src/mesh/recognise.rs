@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 
 impl Topology {
-    /// Of a mesh's positions in a scalar.
+    /// The topology of a mesh's positions in a scalar.
     pub fn of<F: Float>(mesh: &Mesh) -> Topology {
         let points = welded::<F>(mesh);
         let corners: Vec<[u32; 3]> = mesh
@@ -89,7 +89,7 @@ fn welded<F: Float>(mesh: &Mesh) -> Vec<u32> {
         .collect()
 }
 
-/// What a face is without a look at the others.
+/// The kind of a face without a look at the others.
 fn kind_alone<F: Float>(mesh: &Mesh, face: [u32; 3]) -> FaceKind {
     let [a, b, c] = face;
     if a == b || b == c || c == a {

@@ -39,7 +39,7 @@ impl Surface {
         self.family.file_name()
     }
 
-    /// What the mesh is in a scalar; none if the scalar was not chosen.
+    /// The topology of the mesh in a scalar; none if the scalar was not chosen.
     pub fn topology<F: Float>(&self) -> Option<&Topology> {
         self.topologies[usize::from(F::NAME == f64::NAME)].as_ref()
     }

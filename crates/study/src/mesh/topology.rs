@@ -1,4 +1,4 @@
-//! What a mesh is, exactly: which faces, edges and vertices can be tested with rays, and which are open,
+//! The exact topology of a mesh: which faces, edges and vertices can be tested with rays, and which are open,
 //! non-manifold, inconsistently wound, duplicated or without area.
 //!
 //! Vertices are one point where their coordinates are equal in the scalar (-0 = +0), whatever their
@@ -103,7 +103,7 @@ impl Topology {
         self.vertices[kind as usize].count
     }
 
-    /// Whether it is a closed surface, wound consistently: every face is sound, every edge shared,
+    /// True if the mesh is a closed surface, wound consistently: every face is sound, every edge shared,
     /// every vertex the centre of one closed fan.
     pub fn is_closed_manifold(&self) -> bool {
         let regular = |kinds: &[Noted]| kinds[1..].iter().all(|noted| noted.count == 0);

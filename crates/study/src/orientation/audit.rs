@@ -6,13 +6,13 @@ use crate::engine::{self, Merge, Observer};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// What to run: every family of each dimension, in each scalar.
+/// The plan of a run: every family of each dimension, in each scalar.
 pub struct Plan {
     /// The predicates with their epsilons.
     pub rows: Vec<Row>,
     /// The dimensions.
     pub dimensions: Vec<Dimension>,
-    /// Whether to run in `f32`, and in `f64`.
+    /// True for each scalar that runs: `f32`, `f64`.
     pub scalars: [bool; 2],
     /// Cases of each family.
     pub count: u64,
@@ -56,7 +56,7 @@ impl Counts {
     }
 }
 
-/// What one set of points is: a family of a dimension in a scalar.
+/// A set of points: a family of a dimension in a scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SetSummary {
     /// The dimension.
@@ -67,7 +67,7 @@ pub struct SetSummary {
     pub family: usize,
     /// Cases made.
     pub cases: u64,
-    /// Of these, those whose determinant is exactly 0.
+    /// Cases whose determinant is exactly 0.
     pub zeros: u64,
     /// Cases that do not keep the family's promise.
     pub promise_broken: u64,
@@ -94,7 +94,7 @@ pub struct Cell {
     pub row: usize,
     /// The set's place in [`Sums::sets`].
     pub set: usize,
-    /// What was found.
+    /// The counts of answers.
     pub counts: Counts,
     /// Time spent in the predicate, over all threads.
     pub nanoseconds: u64,
@@ -161,7 +161,7 @@ fn run_scalar<F: Scalar>(
     }
 }
 
-/// What some chunks of a set add up to.
+/// The sums over some chunks of a set.
 struct Part {
     set: SetSummary,
     rows: Vec<(Counts, u64)>,

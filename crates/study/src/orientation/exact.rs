@@ -147,7 +147,7 @@ impl ScaledPoints {
         (bits > 0).then(|| bits - 1 + self.grid)
     }
 
-    /// Whether `abs(determinant) <= 2^power * m^n` of the largest `abs(coordinate)` m and n
+    /// True if `abs(determinant) <= 2^power * m^n`, where m is the largest `abs(coordinate)` and n the number of
     /// dimensions.
     pub(super) fn is_within(&self, determinant: &BigDyadic, power: i64) -> bool {
         let n = self.points[0].len();
@@ -158,7 +158,7 @@ impl ScaledPoints {
         align(determinant) <= align(&bound)
     }
 
-    /// Whether on some axis the points' extent is at most 2^-`bits` of their distance from 0.
+    /// True if on some axis the points' extent is at most 2^-`bits` of their distance from 0.
     pub(super) fn is_far(&self, bits: u64) -> bool {
         (0..self.points[0].len()).any(|axis| {
             let values = || self.points.iter().map(|point| &point[axis]);

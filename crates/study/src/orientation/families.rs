@@ -14,7 +14,7 @@ trait Recipe {
     const VERSION: u32 = 1;
     /// One case; `draw` is its own stream.
     fn make<F: Float>(draw: &mut Draw, dimension: Dimension) -> Points<F>;
-    /// Whether a case keeps the promise.
+    /// True if a case keeps the promise.
     fn keeps<F: Float>(
         dimension: Dimension,
         points: &ScaledPoints,
@@ -85,7 +85,7 @@ impl Family {
         (self.recipe::<F>().make)(&mut Draw::new(&stream, seed, index), dimension)
     }
 
-    /// Whether a case keeps the promise.
+    /// True if a case keeps the promise.
     pub fn keeps<F: Scalar>(
         &self,
         dimension: Dimension,

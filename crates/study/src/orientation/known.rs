@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 /// A curated case in `f64`.
 pub struct Known {
-    /// What `--case` takes.
+    /// The name that `--case` takes.
     pub name: &'static str,
     /// The points' coordinates before scaling; the plane uses the first three points and two axes.
     integers: [[i8; 3]; 4],
@@ -15,7 +15,7 @@ pub struct Known {
     pub exponent: i32,
     /// The exact sign, worked out by hand.
     pub sign: Ordering,
-    /// What goes wrong.
+    /// An explanation of what goes wrong.
     pub why: &'static str,
 }
 

@@ -66,7 +66,7 @@ impl Dimension {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Points<F> {
     dimension: Dimension,
-    /// What the dimension does not use is 0.
+    /// The points' coordinates; those that the dimension does not use are 0.
     coordinates: [[F; 3]; 4],
 }
 
@@ -127,7 +127,7 @@ impl<F: Float> Points<F> {
         self
     }
 
-    /// Whether no coordinate is NaN or infinite.
+    /// True if every coordinate is finite.
     pub fn is_finite(&self) -> bool {
         self.coordinates.as_flattened().iter().all(|x| x.is_finite())
     }
@@ -141,7 +141,7 @@ impl<F: Float> Points<F> {
     }
 }
 
-/// What a predicate says about the sign of a determinant.
+/// A predicate's answer about the sign of a determinant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// Below 0.
@@ -155,7 +155,7 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// Of a computed determinant: 0 where `abs(det) <= epsilon`, which a NaN never is.
+    /// The answer for a computed determinant: 0 where `abs(det) <= epsilon`, which a NaN never is.
     #[inline]
     pub fn of<F: Float>(determinant: F, epsilon: F) -> Answer {
         if determinant.abs() <= epsilon {

@@ -19,7 +19,7 @@ pub fn parse(text: &str) -> Result<AnyPoints, String> {
     }
 }
 
-/// Whether an object has a field `points`, as no case has.
+/// True if an object has a field `points`, which no case has.
 pub fn is_points(text: &str) -> bool {
     json::pairs(text).is_ok_and(|fields| fields.iter().any(|(name, _)| name == "points"))
 }

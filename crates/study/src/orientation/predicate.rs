@@ -84,7 +84,7 @@ pub struct Predicate {
     pub name: &'static str,
     /// Points of the plane or of space.
     pub dimension: Dimension,
-    /// Whether an epsilon goes with it; without one it is exact where it keeps its promise.
+    /// True if the predicate takes an epsilon; without one it is exact where it keeps its promise.
     pub takes_epsilon: bool,
     batch_f32: Option<Batch<f32>>,
     batch_f64: Batch<f64>,
@@ -151,7 +151,7 @@ impl Row {
         }
     }
 
-    /// Whether the predicate runs in a scalar on points of a dimension.
+    /// True if the predicate runs in a scalar on points of a dimension.
     pub fn runs<F: Scalar>(&self, dimension: Dimension) -> bool {
         self.predicate.dimension == dimension && F::batch(self.predicate).is_some()
     }

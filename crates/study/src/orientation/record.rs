@@ -14,13 +14,13 @@ pub const SCHEMA: &str = "hairline-orientation/1";
 pub struct Record {
     /// [`SCHEMA`].
     pub schema: &'static str,
-    /// What was found.
+    /// The findings.
     pub result: ResultPart,
     /// How it was made.
     pub provenance: Provenance,
 }
 
-/// What was found.
+/// The findings of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct ResultPart {
     /// Which random cases.
@@ -48,7 +48,7 @@ pub struct SetPart {
     pub version: u32,
     /// Cases made.
     pub cases: u64,
-    /// Of these, those whose determinant is exactly 0.
+    /// Cases whose determinant is exactly 0.
     pub zeros: u64,
     /// Cases that do not keep the family's promise.
     pub promise_broken: u64,
@@ -71,9 +71,9 @@ pub struct RowResult {
     pub family: &'static str,
     /// Opposite signs and NaN, of all cases.
     pub wrong_sign: Rate,
-    /// Of the cases whose determinant is not 0.
+    /// The false zeros among the cases whose determinant is not 0.
     pub false_zero: Rate,
-    /// Of the cases whose determinant is 0.
+    /// The missed zeros among the cases whose determinant is 0.
     pub missed_zero: Rate,
 }
 
@@ -82,7 +82,7 @@ pub struct RowResult {
 pub struct Rate {
     /// How many.
     pub count: u64,
-    /// Of how many.
+    /// The number of trials.
     pub of: u64,
     /// Their quotient; none without a trial.
     pub rate: Option<f64>,
@@ -122,11 +122,11 @@ pub struct CasePart {
     pub sign: &'static str,
     /// The determinant as a fraction in lowest terms, its power of two unexpanded.
     pub determinant: String,
-    /// What each predicate says.
+    /// The answer of each predicate.
     pub answers: Vec<AnswerPart>,
 }
 
-/// What a predicate says.
+/// A predicate's answer.
 #[derive(Clone, Debug, Serialize)]
 pub struct AnswerPart {
     /// The predicate's name.
@@ -137,7 +137,7 @@ pub struct AnswerPart {
     pub answer: &'static str,
     /// The determinant that it computed, as text: it need not be finite.
     pub determinant: String,
-    /// What is wrong, if anything.
+    /// The kind of wrong answer, if it is wrong.
     pub finding: Option<&'static str>,
 }
 

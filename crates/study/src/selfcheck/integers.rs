@@ -176,8 +176,8 @@ where
         (Truth::Coplanar(contact), range.and_then(|range| range[1].near()))
     }
 
-    /// Of each edge ab, bc, ca, seen along an axis, the constant and the slope in t of twice the area
-    /// that it spans with the line's point, positive inside.
+    /// For each edge ab, bc, ca, seen along an axis: the constant and the slope in t of twice the area
+    /// that the edge spans with the line's point, positive inside.
     fn edges(&self, axis: usize, clockwise: bool) -> [(I, I); 3] {
         let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
         [(0, 1), (1, 2), (2, 0)].map(|(from, to)| {

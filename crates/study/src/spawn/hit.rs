@@ -1,4 +1,4 @@
-//! What an offset scheme knows of a hit, and what it returns.
+//! The data of a hit that an offset scheme may use, and the result that it returns.
 
 use crate::arith::Float;
 

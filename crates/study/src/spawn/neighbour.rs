@@ -9,7 +9,7 @@ pub struct Neighbour {
     /// A point of the edge, and the unit vector in the triangle's plane from the edge inwards.
     edge: DVec3,
     inward: DVec3,
-    /// Of the angle between the two triangles, on the side to which rays leave.
+    /// The sine of the angle between the two triangles, on the side to which rays leave.
     sine: f64,
     cosine: f64,
 }
@@ -33,7 +33,7 @@ impl Neighbour {
         Neighbour { edge, inward, sine, cosine }
     }
 
-    /// Whether a start at a height over the triangle, in units of length, is behind the neighbour's plane.
+    /// True if a start at a height over the triangle, in units of length, is behind the neighbour's plane.
     pub fn is_passed(&self, start: [f64; 3], height: f64) -> bool {
         let inside = (DVec3::from(start) - self.edge).dot(self.inward);
         // At the edge, seen from inside the triangle, the start is at a larger angle than the neighbour.

@@ -50,7 +50,7 @@ enum What {
 }
 
 impl Plane {
-    /// Of a triangle with an area.
+    /// The plane of a triangle with an area.
     pub fn new<F: Float>(vertices: [[F; 3]; 3]) -> Plane {
         let vertices = vertices.map(|vertex| vertex.map(F::to_f64));
         Plane { vertices, near: Measures::new(vertices, Bounded::new) }

@@ -7,7 +7,7 @@ use crate::arith::Float;
 pub struct Published {
     /// The name on the command line.
     pub name: &'static str,
-    /// What it does with the hit point p and the normal n, with # for its number.
+    /// The formula of the start in the hit point p and the normal n, with # for the scheme's number.
     pub(super) start: &'static str,
     /// Author, title, year and address.
     pub source: &'static str,
@@ -15,7 +15,7 @@ pub struct Published {
     pub parameter: Option<Parameter>,
     /// The values with which it runs if nobody names a scheme; none stands for its default.
     pub(super) usual: &'static [Option<&'static str>],
-    /// Whether it has no constants for `f64`.
+    /// True if the scheme has no constants for `f64`.
     pub(super) only_f32: bool,
     pub(super) formula: Formula,
 }
@@ -23,7 +23,7 @@ pub struct Published {
 /// A scheme's number.
 #[derive(Clone, Copy)]
 pub struct Parameter {
-    /// What it is.
+    /// The meaning of the number.
     pub what: &'static str,
     /// Its value in the source.
     pub default: &'static str,

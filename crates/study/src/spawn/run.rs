@@ -18,7 +18,7 @@ use crate::oracle::{self, Layers};
 use crate::truth::{Place, Truth};
 use std::ops::Range;
 
-/// What to run.
+/// The plan of a run.
 pub struct Plan<'a> {
     /// The kernel and its epsilons.
     pub row: &'a Row,
@@ -32,7 +32,7 @@ pub struct Plan<'a> {
     pub wall: f64,
     /// The angle in degrees at which a neighbour is folded up.
     pub fold: f64,
-    /// Whether the smallest safe offset of each hit point is looked for.
+    /// True if the smallest safe offset of each hit point is looked for.
     pub with_least: bool,
     /// Which random rays.
     pub seed: u64,
@@ -62,7 +62,7 @@ pub fn new_ray<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Optio
 }
 
 impl Plan<'_> {
-    /// Whether the kernel can tell a self-hit: one that takes whole lines and reports no t cannot.
+    /// True if the kernel can tell a self-hit: one that takes whole lines and reports no t cannot.
     pub fn tells_self_hits(&self) -> bool {
         self.row.entry.info.gives.t || self.row.contract.extent != Extent::Line
     }
@@ -73,12 +73,12 @@ impl Plan<'_> {
     }
 }
 
-/// Whether a new ray starts on the side to which it leaves: its line meets the plane at a t before t_min.
+/// True if a new ray starts on the side to which it leaves: its line meets the plane at a t before t_min.
 fn starts_right(truth: &Truth) -> bool {
     truth.crossing().is_some_and(|crossing| crossing.place == Place::Before)
 }
 
-/// What is known of a trial beside any scheme.
+/// The data of a trial that do not depend on a scheme.
 struct Measured<F: Float> {
     plane: Plane,
     neighbour: Neighbour,

@@ -113,7 +113,7 @@ pub fn all() -> Vec<Scheme> {
     published.chain(added()).collect()
 }
 
-/// What runs if nobody names a scheme: the published ones, some with two values, and a program's own.
+/// The schemes that run if nobody names one: the published ones, some with two values, and a program's own.
 pub fn default_schemes() -> Vec<Scheme> {
     let of = |published: &'static Published| {
         let values = published.usual.iter().map(|value| Scheme::published(published, *value));
@@ -122,7 +122,7 @@ pub fn default_schemes() -> Vec<Scheme> {
     PUBLISHED.iter().flat_map(of).chain(added()).collect()
 }
 
-/// Whether a scheme of this name needs the hit's t.
+/// True if a scheme of this name needs the hit's t.
 pub fn needs_t(name: &str) -> bool {
     name.split('=').next() == Some("t-relative")
 }

@@ -1,4 +1,4 @@
-//! What is counted of each scheme; sums that come out the same however they are split.
+//! The counts for each scheme; sums that come out the same however they are split.
 
 use crate::audit::{Histogram, Trials};
 use crate::engine::Merge;
@@ -9,7 +9,7 @@ pub type Lengths = Histogram<8>;
 /// How high some starts lie over the plane, in one unit; those on the plane or behind it apart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Heights {
-    /// Of the starts on the right side.
+    /// The heights of the starts on the right side.
     pub above: Lengths,
     /// How deep the others lie.
     pub behind: Lengths,
@@ -34,14 +34,14 @@ impl Heights {
     }
 }
 
-/// What one scheme does at the hit points of one kind.
+/// The results of one scheme at the hit points of one kind.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OfScheme {
     /// How many new rays.
     pub rays: u64,
     /// Starts on the plane, behind it, or nowhere.
     pub wrong: u64,
-    /// Of these, starts that are not finite.
+    /// Wrong starts that are not finite.
     pub not_finite: u64,
     /// The lowest index with a wrong start.
     pub first_wrong: Option<u64>,

@@ -30,7 +30,7 @@ impl PointKind {
         }
     }
 
-    /// Whether a kernel's hits have such points.
+    /// True if a kernel's hits have such points.
     pub fn is_given_by(self, entry: &Entry) -> bool {
         match self {
             PointKind::Weights => entry.info.gives.uv,
@@ -44,9 +44,9 @@ impl PointKind {
 pub struct Trial<F: Float> {
     /// The index of the first ray in its family.
     pub index: u64,
-    /// What a scheme may know.
+    /// The data of the hit that a scheme may know.
     pub hit: HitPoint<F>,
-    /// Whether the new ray leaves to the side that (b - a) × (c - a) points to.
+    /// True if the new ray leaves to the side that (b - a) × (c - a) points to.
     pub is_front: bool,
 }
 
@@ -80,7 +80,7 @@ fn parameters(scene: &Scene) -> Parameters {
 }
 
 impl<F: Scalar> Trials<F> {
-    /// Of a kernel at some epsilons in a scene.
+    /// The trials of a kernel at some epsilons in a scene.
     pub fn in_scene(
         entry: &Entry,
         epsilons: &[F],
@@ -97,7 +97,7 @@ impl<F: Scalar> Trials<F> {
         Trials::of(entry, epsilons, kind, seed, &made.collect::<Vec<_>>())
     }
 
-    /// Of a kernel on given first rays.
+    /// The trials of a kernel on given first rays.
     pub fn of(
         entry: &Entry,
         epsilons: &[F],

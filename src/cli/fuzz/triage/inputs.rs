@@ -1,4 +1,4 @@
-//! What triage reads: campaign directories, corpora, cargo-fuzz artifacts.
+//! The inputs of triage: campaign directories, corpora, cargo-fuzz artifacts.
 
 use crate::audit::Row;
 use crate::cli::exit::{Failure, Status};

@@ -1,4 +1,4 @@
-//! What a check found that was not expected, and what was expected and not found.
+//! The deviations that a check found: what was not expected, and what was expected and not found.
 
 use super::room::Room;
 use super::words::{code, counts, link, shortened};

@@ -97,7 +97,7 @@ fn share_of(column: Column, cell: &Cell) -> Markup {
     }
 }
 
-/// Whether the promise was kept, cracks, and doubles, which are shaded where they are ruled out.
+/// The cells for a promise, kept or not, and for cracks and doubles, which are shaded where they are ruled out.
 fn across(across: Option<&Across>) -> Markup {
     let Some(across) = across else { return html! { td.text { "–" } td { "–" } td { "–" } } };
     let rate = |[count, of]: [u64; 2], hue: &str| {
@@ -113,7 +113,7 @@ fn across(across: Option<&Across>) -> Markup {
     }
 }
 
-/// Whether a promise was kept, as a colour.
+/// The colour of a promise: kept, broken, or not made.
 fn promise_class(across: &Across) -> &'static str {
     match (across.rules_out()[0], across.is_broken()) {
         (false, _) => "set",

@@ -3,12 +3,12 @@
 /// A number of bytes that is left.
 pub(in crate::report) struct Room {
     left: usize,
-    /// What did not fit.
+    /// The number of things that did not fit.
     pub left_out: u64,
 }
 
 impl Room {
-    /// Of so many bytes.
+    /// Room for so many bytes.
     pub fn new(left: usize) -> Room {
         Room { left, left_out: 0 }
     }

@@ -7,7 +7,7 @@ use crate::report::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a person with bad intentions calls things.
+/// A name that a person with bad intentions gives to things.
 const HOSTILE: &str = "<script>alert('1')</script>\"><img src=x onerror=alert(2)>&amp;";
 
 fn rate(count: u64, of: u64) -> Rate {

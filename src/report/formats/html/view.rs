@@ -91,7 +91,7 @@ impl<'a> View<'a> {
 }
 
 impl View<'_> {
-    /// What the triangles of groups did together, of a row in a scalar.
+    /// The outcomes of groups of triangles, for a row in a scalar.
     pub fn across(&self, row: &Row, scalar: &str) -> Option<&Across> {
         let is_of =
             |line: &&Line| line.row.scalar == scalar && std::ptr::eq(line.row.part, row.part);

@@ -1,11 +1,11 @@
-//! What every reader of meshes fills: vertices, then faces as fans of triangles, and notes.
+//! The builder that every reader of meshes fills: vertices, then faces as fans of triangles, and notes.
 
 use super::{InputError, Mesh};
 use crate::corpus::fan;
 use hmac_sha256::Hash;
 use std::fmt;
 
-/// What is counted, from 1, to say where in a file something is.
+/// A place in a file, as a number counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line of a text.
@@ -33,7 +33,7 @@ pub struct Note {
     pub first: Option<Place>,
     /// How often it was found.
     pub count: usize,
-    /// What was found and what was done with it, without the count.
+    /// The finding and what was done about it, without the count.
     pub message: String,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Builder {
     triangles: Vec<[u32; 3]>,
     places: Vec<u32>,
     notes: Vec<Note>,
-    /// Whether faces are counted instead of lines.
+    /// True if faces are counted instead of lines.
     without_lines: bool,
 }
 

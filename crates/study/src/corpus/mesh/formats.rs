@@ -12,7 +12,7 @@ pub type Beside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
 /// has in files of their own. `name` is for messages and for [`Mesh::name`]; `progress` is called about every MiB
 /// with the number of bytes read so far, and once at the end.
 ///
-/// What [`read_obj`](super::read_obj) says of polygons, areas, numbers and limits holds for all formats. It is
+/// The rules of [`read_obj`](super::read_obj) for polygons, areas, numbers and limits hold for all formats. It is
 /// also an error if a file ends early, if it names a file outside its folder or on the network, and if it
 /// needs a glTF extension that changes geometry (compressed or quantised meshes, instances).
 pub fn read<R: BufRead>(

@@ -67,7 +67,7 @@ fn parse(bytes: &[u8], name: &str) -> Result<(json::Root, Option<Vec<u8>>), Inpu
     Ok((root, binary))
 }
 
-/// Whether a GLB file is as long as it says.
+/// Checks that a GLB file is as long as it says.
 fn check_length(bytes: &[u8]) -> Result<(), String> {
     let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
     match length {

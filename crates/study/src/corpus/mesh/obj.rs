@@ -31,7 +31,7 @@ pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<M
     mesh.finish(name, groups.len())
 }
 
-/// What tobj calls faces that no `o` or `g` line names.
+/// The name that tobj gives to faces that no `o` or `g` line names.
 const UNNAMED: &str = "unnamed_object";
 
 /// The vertices of each face, as indices into the file's vertices.
@@ -47,7 +47,7 @@ fn faces(mesh: &tobj::Mesh) -> impl Iterator<Item = Vec<u32>> {
     })
 }
 
-/// What a file's lines hold.
+/// The contents of a file's lines.
 #[derive(Default)]
 pub(super) struct Source {
     /// The vertices.

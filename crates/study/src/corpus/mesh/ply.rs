@@ -40,7 +40,7 @@ pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<M
 /// The names that writers give to a face's indices.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// Whether the file has vertices with x, y and z, and faces with indices, and not too many.
+/// Checks that the file has vertices with x, y and z, and faces with indices, and not too many.
 fn check_header(header: &Header, limits: Limits) -> Result<(), String> {
     let element = |name: &str| match header.elements.get(name) {
         Some(element) if element.count > 0 => Ok(element),
@@ -67,7 +67,7 @@ fn check_header(header: &Header, limits: Limits) -> Result<(), String> {
     Ok(())
 }
 
-/// What the crate refuses: bad data, or a reader that fails.
+/// The error for an input that the crate refuses: bad data, or a reader that fails.
 fn refused(name: &str, line: Option<usize>, what: &str, error: &ParseError) -> InputError {
     match error.kind() {
         ErrorKind::InvalidInput | ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {

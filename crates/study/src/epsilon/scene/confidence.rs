@@ -1,4 +1,4 @@
-//! What so many trials show, with a confidence: binomial probabilities.
+//! Binomial probabilities: what a number of trials shows, with a confidence.
 
 use libm::{exp, lgamma, log, log1p};
 
@@ -58,7 +58,7 @@ pub fn kept(n: u64) -> usize {
     ranks(n).map_or(0, |ranks| ranks.far as usize).clamp(64, KEPT)
 }
 
-/// Whether so many among n trials show that at most one in so many is.
+/// True if `found` among n trials show that the share of all trials is at most one in `one_in`.
 pub fn is_shown(found: u64, n: u64, one_in: u64) -> bool {
     // Above the share itself nothing is shown; the sum is long.
     found * one_in <= n && CONFIDENCE <= at_least(found + 1, n, one_in)

@@ -1,4 +1,4 @@
-//! What every value of one knob does while the others stay.
+//! The wrong answers at every value of one knob while the others stay.
 
 use super::candidates::round_values;
 use super::limits::{Limit, alone};

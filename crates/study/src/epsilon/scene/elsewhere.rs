@@ -1,4 +1,4 @@
-//! What a study's recommendation does in the same scene on planes of other kinds.
+//! Tries a study's recommendation in the same scene on planes of other kinds.
 
 use super::measure::{Attempt, count_at};
 use super::study::{Elsewhere, SceneStudy, fresh_seed};

@@ -7,7 +7,7 @@ use crate::audit::{Histogram, values};
 use crate::case::Case;
 use crate::kernel::Hit;
 
-/// What of a hit can be off.
+/// A value of a hit that can be off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// |t - t'| / |t'|, t' being exact.
@@ -71,13 +71,13 @@ impl MaxError {
         self.of[value as usize]
     }
 
-    /// Whether an error is larger; never of what the kernel does not report.
+    /// True if an error is larger; never for a value that the kernel does not report.
     pub fn is_exceeded(&self, errors: &HitErrors) -> bool {
         let mut pairs = self.of.iter().zip(errors);
         pairs.any(|(most, error)| most.zip(*error).is_some_and(|(most, error)| most < error))
     }
 
-    /// Whether so many larger errors among so many hits show that at most one in a hundred is larger.
+    /// True if so many larger errors among so many hits show that at most one in a hundred is larger.
     pub fn is_kept(exceeded: u64, hits: u64) -> bool {
         is_shown(exceeded, hits, ERRORS_ONE_IN)
     }

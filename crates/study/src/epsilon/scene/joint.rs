@@ -9,7 +9,7 @@ use crate::engine::{Merge, Observer};
 use crate::kernel::Scalar;
 use crate::suggest::nearest_name;
 
-/// What a wrong answer of each kind costs.
+/// The costs of wrong answers, by kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Costs {
     of: [f64; Kind::ALL.len()],
@@ -51,7 +51,7 @@ impl Costs {
         }
     }
 
-    /// What one wrong answer costs.
+    /// The cost of one wrong answer.
     pub fn of(&self, kind: Kind) -> f64 {
         self.of[kind as usize]
     }
@@ -70,7 +70,7 @@ impl Costs {
 /// So many steps of equal cost are a plateau, and no accident of the sample.
 const PLATEAU: usize = 3;
 
-/// What costs at most this share more is as good: another seed may make it the cheapest.
+/// A point that costs at most this share more is as good: another seed may make it the cheapest.
 const NEGLIGIBLE: f64 = 0.01;
 
 /// The values that are weighed for each knob, in order.
@@ -183,7 +183,7 @@ impl<F: Scalar> Joint<F> {
         self.grid.cell(&above)
     }
 
-    /// Whether the hits that remain at a point have errors as small as is wanted, in each stratum.
+    /// True if the hits that remain at a point have errors as small as is wanted, in each stratum.
     fn is_accurate(&self, counts: &[Count], places: &[usize]) -> bool {
         let Some(exceeded) = &self.exceeded else { return true };
         let cell = self.cell_of(places);
@@ -284,7 +284,7 @@ impl<F: Scalar> Joint<F> {
         Some(self.grid.point(&places))
     }
 
-    /// Whether wrong answers cost more at a point than some shares of them do, by more than two standard deviations
+    /// True if wrong answers cost more at a point than some shares of them do, by more than two standard deviations
     /// of their difference. The same rays are wrong at both points but for those that make the difference.
     fn is_surely_dearer(
         &self,

@@ -1,4 +1,4 @@
-//! What of a kernel can be set: its gates' epsilons, and the least t that counts.
+//! The knobs of a kernel, which can be set: its gates' epsilons, and the least t that counts.
 
 use crate::audit::Row;
 use crate::contract::{Contract, Extent};
@@ -52,7 +52,7 @@ impl Knob {
         }
     }
 
-    /// What it is there to refuse.
+    /// The role of the gate; a least t has that of a gate on t.
     pub fn role(self, gates: &[Gate]) -> Role {
         match self {
             Knob::Gate(gate) => gates[gate].role,
@@ -68,7 +68,7 @@ impl Knob {
         }
     }
 
-    /// Whether values below zero mean anything. A negative least t only adds hits behind the origin.
+    /// True if values below zero mean anything. A negative least t only adds hits behind the origin.
     pub fn takes_negative(self, gates: &[Gate]) -> bool {
         match self {
             Knob::Gate(gate) => {

@@ -1,7 +1,7 @@
 //! How far a knob may move while the others stay: limits by order statistics, with a confidence. From below
 //! they are about all that must be refused; from above, about the hits that the other knobs leave.
 //!
-//! Of n trials let m be the k-th smallest margin. The share of all trials with a margin below m is at most p
+//! Let m be the k-th smallest margin of n trials. The share of all trials with a margin below m is at most p
 //! with confidence P(at least k of n trials are among the lowest share p), which is a binomial
 //! probability, whatever the distribution of margins is (Wilks 1941). With a larger rank the share is at least p in
 //! the same way. So between two ranks lies the value at which just the share p is wrong.
@@ -21,7 +21,7 @@ pub struct Limit<F> {
     pub knob: usize,
     /// The count's place in the setting.
     pub count: usize,
-    /// Whether values must be at or above the limit, or at or below it.
+    /// True if values must be at or above the limit, false if at or below it.
     pub is_lower: bool,
     /// The value; none if no value of the knob keeps the share.
     pub value: Option<F>,
@@ -35,7 +35,7 @@ pub struct Limit<F> {
 const UNSURE: f64 = 30.0;
 
 impl<F: Float> Limit<F> {
-    /// Whether these rays show so little of where the limit is that its value is no number to act on.
+    /// True if these rays show so little of where the limit is that nobody should act on its value.
     pub fn is_unsure(&self) -> bool {
         let Some(value) = self.value else { return false };
         let Some(far) = self.far else { return true };
@@ -46,7 +46,7 @@ impl<F: Float> Limit<F> {
     }
 }
 
-/// Of one knob and count: how many trials, and the margins at the end that decides.
+/// The trials of one knob and count: how many there are, and the margins at the end that decides.
 struct Tail<F> {
     of: u64,
     /// How many margins may decide.
@@ -78,14 +78,13 @@ impl<F: Float> Merge for Tails<F> {
     }
 }
 
-/// Whether a limit is by the rays beside a triangle. Such a limit is how near they pass, so it is not printed; but the
+/// True if a limit comes from the rays beside a triangle. It shows how near they pass, so it is not printed; but the
 /// middle between it and the cracks is a good value for an edge.
 fn is_beside(count: Count) -> bool {
     count.stratum == Stratum::Outside
 }
 
-/// Whether a count limits a knob from below (true) or from above (false), if what it counts is what such a
-/// knob is chosen by.
+/// True if a count limits a knob from below, false if from above; none if such a knob is not chosen by what it counts.
 fn side(role: Role, count: Count) -> Option<bool> {
     match (role, count.stratum, count.kind) {
         (Role::Parallel, Stratum::Grazing | Stratum::Parallel, Kind::Hit) => Some(true),
@@ -108,7 +107,7 @@ pub fn limits<F: Scalar>(
     printed(setting, all_limits(setting, epsilons, seed, count, observer))
 }
 
-/// Of limits those that say something of the kernel, which are printed.
+/// The limits that say something of the kernel, which are printed.
 pub fn printed<F: Scalar>(setting: &Setting<'_, F>, mut limits: Vec<Limit<F>>) -> Vec<Limit<F>> {
     limits.retain(|limit| !is_beside(setting.counts[limit.count]));
     limits
@@ -209,7 +208,7 @@ pub fn alone<F: Float>(trial: &Trial<'_, F>, knob: usize, epsilons: &[F]) -> F {
     most
 }
 
-/// Whether losing a trial at the largest value of a knob at which it is a hit would be the knob's doing: not where
+/// True if losing a trial at the largest value of a knob at which it is a hit would be the knob's doing: not where
 /// the others refuse each of its triangles, or the one that this knob keeps longest, as a least t does at an edge
 /// that is too near.
 pub(super) fn is_own<F: Float>(trial: &Trial<'_, F>, knob: usize, largest: F) -> bool {
@@ -339,7 +338,7 @@ mod tests {
         }
     }
 
-    /// Of a distribution whose quantiles are known: the uniform one.
+    /// Tests a distribution whose quantiles are known: the uniform one.
     #[test]
     fn limits_are_violated_no_more_often_than_stated() {
         let (runs, n) = (4000, 700);

@@ -1,4 +1,4 @@
-//! What epsilons do on some rays: wrong answers by their margins, the errors of the hits that remain, and
+//! Measures epsilons on some rays: wrong answers by their margins, the errors of the hits that remain, and
 //! whether the kernel's own runs agree.
 
 use super::errors::{ErrorSums, MaxError, errors_of};
@@ -41,7 +41,7 @@ impl<F: Float> Attempt<F> {
 pub(super) struct Wrong {
     /// By attempt, by count.
     pub trials: Vec<Vec<Trials>>,
-    /// Of the first attempts.
+    /// The errors of the hits that remain, for the first attempts.
     pub of_hits: Vec<OfHits>,
     /// A disagreement between margins and the kernel's run.
     pub fault: Option<String>,

@@ -16,11 +16,11 @@ const MOST_KEPT: usize = 600_000;
 pub(super) struct Prepared<F: Float> {
     /// The cases.
     pub cases: Vec<Case<F>>,
-    /// Of each case.
+    /// The margins of each case.
     pub margins: Vec<Margins<F>>,
     /// The same as multiples of each case's own size, once they were asked for.
     pub relative: OnceLock<Vec<Margins<F>>>,
-    /// What a hit of each case would report.
+    /// The values that a hit of each case would report.
     pub values: Vec<Option<Hit<F>>>,
     /// Which count each trial is for, and its cases.
     pub trials: Vec<(usize, Range<usize>)>,

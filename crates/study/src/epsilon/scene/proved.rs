@@ -1,5 +1,4 @@
-//! What `prove` says of the knobs in a scene: epsilons at which, for every ray of it, none of some wrong
-//! answers is given.
+//! The proofs of `prove` for the knobs in a scene: epsilons at which some wrong answers occur on no ray of the scene.
 
 use super::knob::Knob;
 use super::trials::{Count, Kind, Setting};
@@ -16,14 +15,14 @@ pub struct Proved<F> {
     pub knob: usize,
     /// The count's place in the setting.
     pub count: usize,
-    /// Whether it holds for the values at and above, or for those at and below.
+    /// True if it holds for the values at and above, false if for those at and below.
     pub is_lower: bool,
     /// The value.
     pub value: F,
 }
 
-/// What is proved of each knob; nothing in scenes whose directions have any length, nor where a proof
-/// supposes more than the sizes of triangles and distances.
+/// The values that are proved for each knob; none in scenes whose directions have any length, nor where a proof
+/// assumes more than the sizes of triangles and distances.
 pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
     let is_unit = setting.scene.direction == DirectionLength::Unit;
     // Else rounding moves vertices and starts by more than the room that the domain has for it.

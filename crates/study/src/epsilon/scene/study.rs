@@ -22,9 +22,9 @@ use crate::kernel::{Role, Scalar};
 pub struct SceneStudy<F> {
     /// By knob: the cheapest epsilons together.
     pub best: Vec<F>,
-    /// Whether the errors of the hits that remain are as small as was wanted.
+    /// True if the errors of the hits that remain are as small as was wanted.
     pub is_accurate: bool,
-    /// What epsilons do on fresh rays: the cheapest, and the named ones, without those that are equal to
+    /// The epsilons that were tried on fresh rays: the cheapest, and the named ones, without those that are equal to
     /// one before.
     pub tried: Vec<Tried<F>>,
     /// How far each knob may move.
@@ -38,11 +38,11 @@ pub struct SceneStudy<F> {
     pub relative: Option<Tried<F>>,
     /// How far such epsilons may move.
     pub relative_limits: Vec<Limit<F>>,
-    /// What the cheapest epsilons do on planes of other kinds, once that is tried.
+    /// The results of the cheapest epsilons on planes of other kinds, once they are tried.
     pub elsewhere: Vec<Elsewhere>,
 }
 
-/// What the recommended epsilons do on planes of one kind, on fresh rays.
+/// The results of the recommended epsilons on planes of one kind, on fresh rays.
 pub struct Elsewhere {
     /// The kind.
     pub plane: PlaneKind,
@@ -56,13 +56,13 @@ pub struct OnFresh<B> {
     pub bound: B,
     /// The wrong answers that it is about.
     pub wrong: Trials,
-    /// What is lost by it: the place of the count that the other side of the knob is for, and its wrong answers.
+    /// The price of the value: the place of the count that the other side of the knob is for, and its wrong answers.
     pub price: Option<(usize, Trials)>,
 }
 
-/// What epsilons do on fresh rays.
+/// The results of epsilons on fresh rays.
 pub struct Tried<F> {
-    /// What they are called.
+    /// The name of the epsilons.
     pub name: String,
     /// By knob.
     pub epsilons: Vec<F>,
@@ -83,7 +83,7 @@ pub fn fresh_seed(seed: u64) -> u64 {
     seed.wrapping_add(1)
 }
 
-/// What epsilons are called that follow each case's size.
+/// The name of epsilons that follow each case's size.
 pub const SCALE_FREE: &str = "scale-free";
 
 /// A scale-free form is worth saying if it leaves less than this share of the cost.
@@ -239,12 +239,12 @@ fn refuted<F: Float>(proofs: &[OnFresh<Proved<F>>]) -> Option<String> {
     Some(format!("{value:e} is proved to be never wrong, and was {} times", wrong.count))
 }
 
-/// Whether a form is cheaper than fixed epsilons by enough, and by more than chance explains.
+/// True if a form is cheaper than fixed epsilons by enough, and by more than chance explains.
 fn is_worth_saying<F>(counts: &[Count], costs: &Costs, form: &Tried<F>, fixed: &Tried<F>) -> bool {
     form.cost < WORTH_SAYING * fixed.cost && is_beyond_chance(counts, costs, [form, fixed])
 }
 
-/// Whether the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
+/// True if the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
 /// they are of the same, so chance explains even less.
 fn is_beyond_chance<F>(counts: &[Count], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
     let variance =

@@ -79,7 +79,7 @@ impl Tuned {
         self.counts[count].kind == Kind::Miss
     }
 
-    /// Whether what is counted is wrong if it is refused.
+    /// True if a refusal is wrong for this count.
     fn is_lost(&self, count: usize) -> bool {
         matches!(self.counts[count].kind, Kind::Miss | Kind::Crack)
     }
@@ -90,7 +90,7 @@ impl Kept {
         self.margins.iter().any(|m| epsilons.iter().zip(m).all(|(e, m)| e <= m))
     }
 
-    /// Whether it is a hit with one of the epsilons replaced.
+    /// True if it is a hit after one of the epsilons is replaced.
     fn is_hit_with(&self, epsilons: &[f32], knob: usize, value: f32) -> bool {
         let mut moved = epsilons.to_vec();
         moved[knob] = value;

@@ -1,4 +1,4 @@
-//! What a kernel is tried on in a scene, and one pass over it.
+//! The trials of a kernel in a scene, and one pass over them.
 
 use super::super::relative::Scales;
 use super::knob::{Knob, MOST_KNOBS, Margins};
@@ -15,7 +15,7 @@ use crate::mesh::SceneMesh;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// What can go wrong.
+/// A kind of wrong answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A ray slips through between triangles that share an edge or a vertex.
@@ -42,13 +42,13 @@ impl Kind {
         }
     }
 
-    /// Whether refusing is what is wrong.
+    /// True if it is the refusal that is wrong.
     pub fn is_wrong_if_refused(self) -> bool {
         matches!(self, Kind::Crack | Kind::Miss)
     }
 }
 
-/// What is counted: one kind in one stratum.
+/// A number that is counted: the wrong answers of one kind in one stratum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
     /// Where.
@@ -57,7 +57,7 @@ pub struct Count {
     pub kind: Kind,
 }
 
-/// What is counted of a kernel with these knobs under a contract, in the order of reports. Without a
+/// The counts of a kernel with these knobs under a contract, in the order of reports. Without a
 /// least t nothing can keep a ray from hitting the triangle that it starts on.
 pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
     use Stratum::*;
@@ -90,7 +90,7 @@ pub struct StudiedScene {
     pub others: Vec<Scene>,
 }
 
-/// What a pass runs: a kernel, its knobs and a scene.
+/// The setting of a pass: a kernel, its knobs and a scene.
 pub struct Setting<'a, F: Float> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.
     pub row: &'a Row,
@@ -98,7 +98,7 @@ pub struct Setting<'a, F: Float> {
     pub subject: &'static dyn Subject<F>,
     /// At most [`MOST_KNOBS`].
     pub knobs: &'a [Knob],
-    /// What is counted.
+    /// The kinds and strata whose wrong answers are counted.
     pub counts: &'a [Count],
     /// The scene.
     pub scene: &'a Scene,
@@ -108,35 +108,35 @@ pub struct Setting<'a, F: Float> {
     pub relative: bool,
     /// Curves are counted at every number of two digits.
     pub fine_curves: bool,
-    /// What keeps the rays of this kernel, its knobs and its scene between passes.
+    /// The store that keeps the rays of this kernel, its knobs and its scene between passes.
     pub store: Option<&'a Store<F>>,
 }
 
-/// What happens once on each ray that counts for something.
+/// A trial: the answers on a ray that counts for something.
 pub struct Trial<'a, F: Float> {
     /// Which of the setting's counts it is for.
     pub count: usize,
-    /// Of each triangle; a hit is reported if one is accepted.
+    /// The margins of each triangle; a hit is reported if one is accepted.
     pub margins: &'a [Margins<F>],
     /// The triangles with their ray.
     pub cases: &'a [Case<F>],
-    /// What a hit of each would report.
+    /// The values that a hit of each triangle would report.
     pub values: &'a [Option<Hit<F>>],
 }
 
 impl<F: Float> Trial<'_, F> {
-    /// Whether a hit is reported with these epsilons.
+    /// True if a hit is reported with these epsilons.
     pub fn is_hit(&self, epsilons: &[F]) -> bool {
         self.margins.iter().any(|margins| accepts(margins, epsilons))
     }
 }
 
-/// Whether the kernel failed where margins were looked for.
+/// True if the kernel failed while its margins were looked for.
 pub fn is_unknown<F: Float>(margins: &Margins<F>) -> bool {
     margins[0].is_nan()
 }
 
-/// Whether margins accept epsilons.
+/// True if margins accept epsilons.
 pub fn accepts<F: Float>(margins: &Margins<F>, epsilons: &[F]) -> bool {
     epsilons.iter().zip(margins).all(|(epsilon, margin)| epsilon <= margin)
 }

@@ -12,7 +12,7 @@ pub struct Epsilons {
 }
 
 impl Epsilons {
-    /// Of a kernel's rows, of which there is at least one. If they may vary, then also the published
+    /// The epsilons of a kernel's rows, of which there is at least one. If they may vary, then also the published
     /// epsilons that fit, zero, and numbers between.
     pub fn new(rows: &[&Row], varies: bool) -> Epsilons {
         let mut all: Vec<Row> = rows.iter().map(|row| (*row).clone()).collect();

@@ -13,7 +13,7 @@ pub struct Find {
     pub case: AnyCase,
     /// The kernel with its epsilons and its contract.
     pub row: Row,
-    /// What the row shows on the case.
+    /// The signature of the row's finding on the case.
     pub signature: Signature,
     /// The version of hairline that found it.
     pub version: String,
@@ -46,7 +46,7 @@ impl fmt::Display for FindError {
 }
 
 impl Find {
-    /// What a row shows on a case; none if its verdict is right.
+    /// A row's finding on a case; none if its verdict is right.
     pub fn of(row: &Row, case: AnyCase) -> Option<Find> {
         row.check_in(case.scalars()).ok()?;
         let signature = either_scalar!(&case, case => Signature::of(row, case))?;

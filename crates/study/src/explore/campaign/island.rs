@@ -28,7 +28,7 @@ pub struct Newcomer<F: Float> {
     kind: Signature,
 }
 
-/// What a lane proposes, the best of each niche.
+/// The proposals of a lane: the best of each niche.
 pub type Proposals<F> = BTreeMap<Niche, (f64, Individual<F>)>;
 
 /// A kernel in a scalar.
@@ -40,7 +40,7 @@ pub struct Island<F: Float> {
 }
 
 impl<F: Scalar> Island<F> {
-    /// Of a kernel's rows.
+    /// The island of a kernel's rows.
     pub fn new(rows: &[&Row], varies: bool) -> Island<F> {
         Island {
             name: format!("fuzz:{}/{}", rows[0].entry.info.name, F::NAME),
@@ -130,7 +130,7 @@ impl<F: Scalar> Island<F> {
         self.known.insert(kind);
     }
 
-    /// Whether it is the island of a kernel.
+    /// True if this is the island of a kernel.
     pub fn is_of(&self, kernel: &str) -> bool {
         self.name == format!("fuzz:{kernel}/{}", F::NAME)
     }

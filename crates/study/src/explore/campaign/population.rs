@@ -22,7 +22,7 @@ pub struct Individual<F: Float> {
     pub row: Arc<Row>,
 }
 
-/// What can be seen without exact arithmetic.
+/// The features of a verdict that can be seen without exact arithmetic.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Glance {
     /// The finding.
@@ -33,7 +33,7 @@ pub struct Glance {
     pub gate: Option<&'static str>,
 }
 
-/// What individuals compete for: a kind of finding, or a class and a gate without one.
+/// A niche in which individuals compete: a kind of finding, or a class and a gate without one.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Niche {
     /// No finding yet.
@@ -54,7 +54,7 @@ impl Niche {
 }
 
 impl<F: Scalar> Individual<F> {
-    /// What it shows at a glance, and its score: of a finding its severity; else minus the distance
+    /// Its features at a glance, and its score: the severity of a finding, or else minus the distance
     /// from the nearest change of the verdict.
     pub fn look(&self) -> (Glance, f64) {
         let epsilons: Vec<F> = self.row.epsilons();

@@ -16,14 +16,14 @@ const LANES: u64 = 4;
 const STEPS: u64 = 256;
 const FIRST_STEPS: u64 = 8;
 
-/// What a campaign looks at.
+/// The plan of a campaign.
 #[derive(Clone)]
 pub struct Plan {
     /// Kernels with epsilons and contracts.
     pub rows: Vec<Row>,
-    /// Whether other epsilons are tried too: published ones, zero, and numbers between.
+    /// True if other epsilons are tried too: published ones, zero, and numbers between.
     pub varies: bool,
-    /// Whether in `f32`, and in `f64`.
+    /// True for each scalar that is searched: `f32`, `f64`.
     pub scalars: [bool; 2],
     /// Which random cases.
     pub seed: u64,

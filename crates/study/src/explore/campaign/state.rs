@@ -1,4 +1,4 @@
-//! What a campaign saves now and then: counters and population. It reads the known kinds from its finds.
+//! The state that a campaign saves now and then: counters and population. It reads the known kinds from its finds.
 
 use serde::{Deserialize, Serialize};
 

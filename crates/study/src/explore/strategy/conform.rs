@@ -11,7 +11,7 @@ use crate::oracle;
 use crate::truth::Truth;
 use std::fmt;
 
-/// What a kernel got wrong, with all that is needed to see it again.
+/// A wrong answer of a kernel, with all that is needed to see it again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Disagreement {
     /// `false-miss`, `false-hit`, `bad-value`, `wrong-value`, `crack` or `double`.
@@ -28,8 +28,8 @@ impl fmt::Display for Disagreement {
 
 impl std::error::Error for Disagreement {}
 
-/// Whether a kernel, which gives t of a hit, does on a case what a contract demands. Of the
-/// values only t is judged.
+/// Checks that a kernel does on a case what a contract demands. The kernel gives t of a hit, which is the only
+/// value that is judged.
 pub fn conforms<F: Float>(
     kernel: impl Fn(&Case<F>) -> Option<F>,
     contract: &Contract,

@@ -1,4 +1,4 @@
-//! What a strategy promises about its cases, decided on the cases alone, so that shrinking can keep it.
+//! The promise of a strategy about its cases, decided on the cases alone, so that shrinking can keep it.
 
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Ray, Triangle};
@@ -14,7 +14,7 @@ pub struct Promise {
     shape: Shape,
 }
 
-/// What a strategy promises about the numbers of a case beside its truth.
+/// The promise of a strategy about the numbers of a case besides its truth.
 #[derive(Clone, Copy)]
 enum Shape {
     Any,
@@ -70,12 +70,12 @@ impl Promise {
         find(self.family).expect("a family of the table")
     }
 
-    /// Whether a ray has one triangle.
+    /// True if a ray has one triangle.
     pub(super) fn is_single(&self) -> bool {
         self.family().grouping == Grouping::Single
     }
 
-    /// Whether the triangles of one ray keep the promise.
+    /// True if the triangles of one ray keep the promise.
     pub fn keeps<F: Scalar>(&self, cases: &[Case<F>]) -> bool {
         let truths: Vec<_> = cases.iter().map(oracle::truth).collect();
         self.family().keeps(&truths) && self.shape.holds(cases)
@@ -119,7 +119,7 @@ impl Shape {
     }
 }
 
-/// Whether the smallest weights are at most 2^13 ulps of 1, exactly. The families `edge-near` and
+/// True if the smallest weights are at most 2^13 ulps of 1, exactly. The families `edge-near` and
 /// `vertex-near` aim within √3·18 ulps of their point, at a sine of at least 1/8, at triangles at least
 /// 0.058 high: 4,300 ulps.
 fn is_near<F: Float>(case: &Case<F>, count: usize) -> bool {
@@ -130,7 +130,7 @@ fn is_near<F: Float>(case: &Case<F>, count: usize) -> bool {
     weights.iter().filter(|weight| weight.abs() <= most).count() == count
 }
 
-/// Whether both triangles have one ray and two vertices in common.
+/// True if both triangles have one ray and two vertices in common.
 fn share_an_edge<F: Float>(cases: &[Case<F>]) -> bool {
     let [first, second] = cases else { return false };
     let of = |case: &Case<F>| case.triangle.vertices().map(|vertex| -> [F; 3] { vertex.into() });

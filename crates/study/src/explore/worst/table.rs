@@ -19,13 +19,13 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 
-/// What the names of the table's cases begin with.
+/// The prefix of the names of the table's cases.
 const PREFIX: &str = "worst:";
 
 /// A row of the table.
 #[derive(Clone)]
 pub struct Entry {
-    /// What it is the worst of.
+    /// The goal for which this is the worst case.
     pub goal: Goal,
     /// The witness.
     pub case: AnyCase,
@@ -39,7 +39,7 @@ pub struct Entry {
     pub evaluations: u64,
 }
 
-/// What became of a proposed entry.
+/// The result of proposing an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Update {
     /// Nothing was known before.
@@ -114,7 +114,7 @@ impl Entry {
         Some(entry)
     }
 
-    /// Whether this entry takes the place of a known one.
+    /// True if this entry takes the place of a known one.
     fn replaces(&self, known: &Entry) -> bool {
         let size = |case: &AnyCase| either_scalar!(case, case => Size::of(case));
         match self.score.cmp(&known.score) {

@@ -1,4 +1,4 @@
-//! What the strata share: sizes, places, orientations, and the ray toward a target.
+//! The tools that the strata share: sizes, places, orientations, and the ray toward a target.
 
 use super::super::integer::turned;
 use super::super::unit;
@@ -97,7 +97,7 @@ impl Frame {
         Frame { along: across.cross(normal), across, normal }
     }
 
-    /// Of a triangle's plane, along its first edge; none if `f64` finds no normal.
+    /// The frame of a triangle's plane, along its first edge; none if `f64` finds no normal.
     pub fn of<F: Float>(triangle: [[F; 3]; 3]) -> Option<Frame> {
         let [a, b, c] = triangle.map(wide);
         let (e, f) = (b - a, c - a);

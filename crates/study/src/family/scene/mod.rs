@@ -116,7 +116,7 @@ pub fn missed_sine<F: Float>(
     grazing_ray(&Setup { triangles, scene, kernel: None }, &mut draw).1
 }
 
-/// What a stratum's cases are made from.
+/// The data from which a stratum's cases are made.
 struct Setup<'a, F: Float> {
     triangles: &'a dyn Triangles<F>,
     scene: &'a Scene,

@@ -90,7 +90,7 @@ impl WideVector {
     }
 }
 
-/// Of a valid case; `crosses` says whether the line crosses the plane. What is zero comes out as zero.
+/// The distances of a valid case; `crosses` says whether the line crosses the plane. A zero distance comes out as zero.
 pub(super) fn distances(case: &Case<f64>, ulp: f64, crosses: bool) -> Distances {
     let [o, d, a, b, c] = case.vectors();
     let ([o, a, b, c], grid) = align([o, a, b, c]);

@@ -1,4 +1,4 @@
-//! What contracts demand of groups and polygons, worked out by hand.
+//! The demands of contracts on groups and polygons, worked out by hand.
 
 use super::*;
 use crate::contract::{Boundary, Demand, Direction};

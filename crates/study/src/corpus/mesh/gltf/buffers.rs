@@ -28,7 +28,7 @@ pub(super) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Of a file of so many bytes.
+    /// The buffers of a file of so many bytes.
     pub fn new(
         name: &'a str,
         binary: Option<Vec<u8>>,

@@ -10,7 +10,7 @@ impl Transform {
     pub const IDENTITY: Transform =
         Transform([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
 
-    /// Of a node; none if its matrix is not affine.
+    /// The transform of a node; none if its matrix is not affine.
     pub fn of(node: &scene::Transform) -> Option<Transform> {
         match node {
             scene::Transform::Matrix { matrix } => {
@@ -54,7 +54,7 @@ impl Transform {
         self.0.map(|[a, b, c, d]| a * x + b * y + c * z + d)
     }
 
-    /// Whether it turns a right hand into a left one; glTF then counts corners the other way round.
+    /// True if it turns a right hand into a left one; glTF then counts corners the other way round.
     pub fn mirrors(&self) -> bool {
         let [[a, b, c, _], [d, e, f, _], [g, h, i, _]] = self.0;
         a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0

@@ -164,7 +164,7 @@ fn all_places(values: &[Vec<f32>]) -> Vec<Vec<usize>> {
     all
 }
 
-/// What [`Joint::best`] promises, step by step at points that are counted one by one.
+/// The point that [`Joint::best`] promises, found step by step at points that are counted one by one.
 fn expected(
     values: &[Vec<f32>],
     cost: &dyn Fn(&[usize]) -> f64,

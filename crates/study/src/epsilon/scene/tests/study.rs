@@ -5,7 +5,7 @@ use super::*;
 use crate::case::Case;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// What a histogram of some errors says.
+/// The number, the largest and the median of the errors in a histogram.
 fn told(errors: &Histogram) -> (u64, f64, f64) {
     (errors.count(), errors.largest(), errors.quantile(0.5))
 }
