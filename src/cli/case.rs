@@ -146,11 +146,11 @@ fn from_id<F: Scalar>(id: &CaseId, mesh: Option<&str>) -> Result<Group<F>, Failu
                 format!("{path}: its digest is {}, the case's mesh has {digest}", mesh.digest);
             return Err(Failure::Message(Status::BadInput, message));
         }
-        if let Some(part) = Part::of_family(&id.family) {
+        if let Some(part) = Part::named(&id.family) {
             return around_target(id, &mesh, part);
         }
         let family = MeshFamily::new(mesh, path);
-        if let Some(stratum) = Stratum::of_family(&id.family) {
+        if let Some(stratum) = Stratum::named(&id.family) {
             return of_scene_mesh(id, family, stratum);
         }
         let case = family.make(&id.parameters, id.seed, id.index);

@@ -95,7 +95,7 @@ fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source
             let unknown = || format!("unknown part of a mesh '{part}'");
             Ok(Source::MeshPart {
                 surface: Arc::new(Surface::new(family, scalars)),
-                part: Part::of_family(part).ok_or_else(unknown)?,
+                part: Part::named(part).ok_or_else(unknown)?,
                 parameters: parameters.parse()?,
                 seed: *seed,
                 directions: *directions,
@@ -106,7 +106,7 @@ fn open(source: &StoredSource, scalars: [bool; 2], quiet: bool) -> Result<Source
             let unknown = || format!("unknown part of a scene '{stratum}'");
             Ok(Source::SceneMesh {
                 mesh: Arc::new(SceneMesh::new(Surface::new(family, scalars))),
-                stratum: Stratum::of_family(stratum).ok_or_else(unknown)?,
+                stratum: Stratum::named(stratum).ok_or_else(unknown)?,
                 parameters: parameters.parse()?,
                 seed: *seed,
                 count: *count,

@@ -350,7 +350,7 @@ impl SourceArguments {
     }
 
     fn refuse_other_families(&self) -> Result<(), Failure> {
-        match self.family.iter().find(|name| Stratum::of_family(name).is_none()) {
+        match self.family.iter().find(|name| Stratum::named(name).is_none()) {
             Some(other) => Err(about_scene(format!("'{other}' is no part of a scene"))),
             None => Ok(()),
         }

@@ -272,7 +272,7 @@ impl SpawnArguments {
 
     fn kinds(&self) -> Result<Vec<PointKind>, Failure> {
         let chosen = |name: &String| {
-            let found = PointKind::ALL.into_iter().find(|kind| kind.name() == name);
+            let found = PointKind::named(name);
             found.ok_or_else(|| {
                 Failure::usage(format!("--point: unknown point '{name}': there are uv and ray"))
             })

@@ -56,7 +56,7 @@ impl Origin<'_> {
     fn of(family: &str) -> Origin<'_> {
         match family {
             _ if FAMILIES.iter().any(|known| known.name == family) => Origin::Families,
-            _ if Stratum::of_family(family).is_some() => Origin::Scene,
+            _ if Stratum::named(family).is_some() => Origin::Scene,
             name => Origin::File(name),
         }
     }

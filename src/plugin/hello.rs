@@ -252,7 +252,7 @@ fn epsilon(text: &str) -> Result<Epsilon, String> {
     let mut words = words.peekable();
     let role = match words.next_if(|word| word.starts_with("role=")) {
         None => Role::of_gate(name),
-        Some(word) => Some(Role::find(&word["role=".len()..]).ok_or_else(|| {
+        Some(word) => Some(Role::named(&word["role=".len()..]).ok_or_else(|| {
             let known = Role::ALL.map(Role::name).join(", ");
             format!("epsilon {name}: '{}' is none of {known}", shown(word))
         })?),

@@ -234,7 +234,7 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     };
     let error = |record: &SceneRecord, value: &str| {
         let part = &record.kernels[0];
-        let is_grazing = |count: usize| part.counts[count].stratum == "scene-grazing";
+        let is_grazing = |count: usize| part.counts[count].stratum.name() == "scene-grazing";
         let errors = part.tried[0].errors.iter().find(|e| is_grazing(e.count) && e.value == value);
         errors.unwrap().clone()
     };
@@ -332,7 +332,7 @@ fn every_format_holds_the_same_answer() {
             let place =
                 curve.values.iter().position(|value| *value == tried.epsilons[knob]).unwrap();
             for (count, points) in curve.counts.iter().enumerate() {
-                let is_lost = ["crack", "miss"].contains(&part.counts[count].kind.as_str());
+                let is_lost = ["crack", "miss"].contains(&part.counts[count].kind.name());
                 let hits = points.hits[place];
                 let wrong = if is_lost { points.of - hits } else { hits };
                 assert_eq!((wrong, points.of), (tried.wrong[count].count, tried.wrong[count].of));

@@ -29,7 +29,7 @@ fn a_scene_says_how_flat_its_rays_are() {
         let part = &record.kernels[0];
         let is_lost = |i: &usize| {
             let count = &part.counts[*i];
-            count.stratum == "scene-grazing" && count.kind == "miss"
+            count.stratum.name() == "scene-grazing" && count.kind.name() == "miss"
         };
         let place = (0..part.counts.len()).find(is_lost).unwrap();
         let published = part.tried.iter().find(|tried| tried.name == "source").unwrap();
@@ -54,8 +54,9 @@ fn rays_aimed_inside_show_the_false_hits_of_rounding_alone() {
     let more = ["--gate", "parallel", "--at", "1e-12,1.1920929e-7", "-n", "20000"];
     let record = record(&folder, "moller-trumbore", scene, &more);
     let part = &record.kernels[0];
-    let is_false_hit =
-        |i: &usize| part.counts[*i].stratum == "scene-grazing" && part.counts[*i].kind == "hit";
+    let is_false_hit = |i: &usize| {
+        part.counts[*i].stratum.name() == "scene-grazing" && part.counts[*i].kind.name() == "hit"
+    };
     let place = (0..part.counts.len()).find(is_false_hit).unwrap();
     let share = |name: &str| {
         let tried = part.tried.iter().find(|tried| tried.name == name).unwrap();

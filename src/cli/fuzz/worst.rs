@@ -132,7 +132,7 @@ impl WorstArguments {
         }
         let domains = self.domain.iter().map(|name| {
             let names = Domain::ALL.map(Domain::name);
-            Domain::find(name)
+            Domain::named(name)
                 .ok_or_else(|| unknown("domain", name, names, "hairline fuzz worst --help"))
         });
         let domains: Vec<Domain> = domains.collect::<Result<_, _>>()?;

@@ -66,7 +66,7 @@ impl MapArguments {
     fn standard(&self) -> Result<Input, Failure> {
         let name = self.at.as_deref().unwrap_or(Spot::Edge.name());
         let scalar = |default| is_f32(self.scalar.as_deref().unwrap_or(default), "");
-        if let Some(spot) = Spot::ALL.into_iter().find(|spot| spot.name() == name) {
+        if let Some(spot) = Spot::named(name) {
             return Ok(match scalar("f32")? {
                 true => Input::Case(AnyCase::F32(spot.case())),
                 false => Input::Case(AnyCase::F64(spot.case())),

@@ -167,10 +167,10 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for (i, count) in part.counts.iter().enumerate() {
         let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
-        rows.push((label(&count.stratum, &count.kind).to_owned(), cells));
-        let several = match count.stratum.as_str() {
-            "scene-edges" => "at a shared edge: both hit",
-            "scene-vertices" => "at a shared vertex: several hit",
+        rows.push((label(count).to_owned(), cells));
+        let several = match count.stratum {
+            Stratum::Edges => "at a shared edge: both hit",
+            Stratum::Vertices => "at a shared vertex: several hit",
             _ => continue,
         };
         let cells = columns(part).map(|tried| share(&tried.doubles[i])).collect();
@@ -181,7 +181,7 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             columns(part).map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of)).collect();
         if found.iter().any(Option::is_some) {
             let cells = found.into_iter().map(|rate| rate.map_or("-".to_owned(), share));
-            rows.push((format!("too far off, {}", where_of(&count.stratum)), cells.collect()));
+            rows.push((format!("too far off, {}", where_of(count.stratum)), cells.collect()));
         }
     }
     for value in ["t", "point"] {
@@ -192,7 +192,7 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                let name = format!("error of {value}{unit}, {}", where_of(&count.stratum));
+                let name = format!("error of {value}{unit}, {}", where_of(count.stratum));
                 rows.push((name, cells.collect()));
             }
         }
@@ -234,7 +234,7 @@ fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart
 fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {
     let what = |count: usize| {
         let count = &part.counts[count];
-        label(&count.stratum, &count.kind)
+        label(count)
     };
     let limits = part.limits.iter().map(|limit| {
         let knob = &part.knobs[limit.knob];
@@ -282,10 +282,7 @@ fn conflict_lines(
     let what = |limit: &LimitPart| {
         let count = &part.counts[limit.count];
         let most = group_digits(limit.one_in);
-        format!(
-            "no value of {name} keeps this below 1 in {most}: {}",
-            label(&count.stratum, &count.kind)
-        )
+        format!("no value of {name} keeps this below 1 in {most}: {}", label(count))
     };
     let conflict_line = match (&lower.value, &upper.value) {
         (None, _) => what(lower),
@@ -344,12 +341,12 @@ fn prices(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
             let PricePart { count, wrong } = price.as_ref()?;
             let knob = &part.knobs[knob];
             let bound = bound(Some(value?), is_lower, &unit_of(record, knob));
-            let does = match part.counts[*count].kind.as_str() {
-                "miss" => "loses",
+            let does = match part.counts[*count].kind {
+                Kind::Miss => "loses",
                 _ => "makes false hits of",
             };
-            let whom = match part.counts[*count].kind.as_str() {
-                "miss" => "of the hits at a triangle",
+            let whom = match part.counts[*count].kind {
+                Kind::Miss => "of the hits at a triangle",
                 _ => "of the rays beside a triangle",
             };
             // What is wrong at the recommended numbers too is no price of the limit.

@@ -121,14 +121,7 @@ pub fn kernel_part<F: Scalar>(
             })
             .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
             .collect(),
-        counts: setting
-            .counts
-            .iter()
-            .map(|count| CountPart {
-                stratum: count.stratum.family().name.to_owned(),
-                kind: count.kind.name().to_owned(),
-            })
-            .collect(),
+        counts: setting.counts.to_vec(),
         is_accurate: max_error.map(|_| study.is_accurate),
         tried,
         limits: limits.collect(),

@@ -21,7 +21,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             )
         };
         let count = |place: usize, one_in: Option<u64>| {
-            let CountPart { stratum, kind } = &part.counts[place];
+            let Count { stratum, kind } = &part.counts[place];
             let one_in = one_in.map_or(String::new(), |n| n.to_string());
             format!("{stratum},{kind},{one_in}")
         };

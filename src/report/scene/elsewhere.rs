@@ -17,7 +17,7 @@ pub(super) fn worse_elsewhere(
     let row = |count: usize| {
         let others = part.elsewhere.iter().map(|plane| share(&plane.wrong[count]));
         let words = &part.counts[count];
-        (label(&words.stratum, &words.kind), others.collect())
+        (label(words), others.collect())
     };
     let planes = part.elsewhere.iter().map(|plane| plane.plane.as_str()).collect();
     (planes, (0..own.len()).filter(is_worse).map(row).collect())

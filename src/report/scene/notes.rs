@@ -59,13 +59,13 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
 
 /// The share of wrong answers from which on no scene can live with them, by what is counted; none where a scene may
 /// have to.
-fn too_many(part: &SceneKernelPart, count: &CountPart) -> Option<f64> {
-    match (count.stratum.as_str(), count.kind.as_str()) {
-        ("scene-interior", "miss") | (_, "self-hit") => Some(0.01),
+fn too_many(part: &SceneKernelPart, count: &Count) -> Option<f64> {
+    match (count.stratum, count.kind) {
+        (Stratum::Interior, Kind::Miss) | (_, Kind::SelfHit) => Some(0.01),
         // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
-        (_, "crack") => part.has_edge_epsilon.then_some(0.01),
+        (_, Kind::Crack) => part.has_edge_epsilon.then_some(0.01),
         // About as many as the triangles are made larger.
-        ("scene-outside", _) => Some(0.1),
+        (Stratum::Outside, _) => Some(0.1),
         _ => None,
     }
 }
@@ -89,17 +89,17 @@ pub(super) fn no_good(
     let excess = |(count, rate)| Some((surely(rate) / too_many(part, count)?, count, rate));
     let found = all.filter_map(excess).filter(|(excess, ..)| 1.0 < *excess);
     // Self-hits have a remedy of their own, so they are named where nothing else is wrong.
-    let is_own = |count: &CountPart| count.kind != "self-hit";
+    let is_own = |count: &Count| count.kind != Kind::SelfHit;
     let worst = found
         .max_by(|(a, one, _), (b, other, _)| is_own(one).cmp(&is_own(other)).then(a.total_cmp(b)));
     let Some((_, count, rate)) = worst else {
         return Vec::new();
     };
     let share = share(rate);
-    let what = match count.kind.as_str() {
-        "miss" => format!("lose {share} of the hits at a triangle"),
-        "crack" => format!("let {share} of the rays at shared edges or vertices through"),
-        "self-hit" => format!("let {share} of the shadow rays hit the triangle that they leave"),
+    let what = match count.kind {
+        Kind::Miss => format!("lose {share} of the hits at a triangle"),
+        Kind::Crack => format!("let {share} of the rays at shared edges or vertices through"),
+        Kind::SelfHit => format!("let {share} of the shadow rays hit the triangle that they leave"),
         _ => format!("make false hits of {share} of the rays beside a triangle"),
     };
     if !record.max_error.is_empty() {
@@ -119,7 +119,7 @@ pub(super) fn no_good(
     if followed.is_some_and(|followed| no_good(record, part, followed).is_empty()) {
         return vec![format!("no fixed numbers are good here: even these {what}")];
     }
-    vec![format!("no numbers are good here: even these {what}"), instead(record, part, &count.kind)]
+    vec![format!("no numbers are good here: even these {what}"), instead(record, part, count.kind)]
 }
 
 fn has_default_costs(record: &SceneRecord) -> bool {
@@ -142,8 +142,8 @@ const HEAVY: f64 = 0.01;
 
 /// A note if one wrong answer among so many rays decides under the given weights: they need more rays.
 fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
-    let of_count = |(count, rate): (&CountPart, &Rate)| {
-        let cost = record.costs.iter().find(|cost| cost.name == count.kind)?;
+    let of_count = |(count, rate): (&Count, &Rate)| {
+        let cost = record.costs.iter().find(|cost| cost.name == count.kind.name())?;
         (0 < rate.of).then(|| (cost.number / rate.of as f64, &cost.name))
     };
     let all = part.counts.iter().zip(&part.tried[0].wrong).filter_map(of_count);
@@ -168,7 +168,7 @@ fn is_tiny(record: &SceneRecord, part: &SceneKernelPart) -> bool {
 }
 
 /// The advice where no numbers are good.
-fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
+fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: Kind) -> String {
     let unit = spaced(&record.unit);
     let is_narrow = part.scalar == "f32";
     if is_coarse(record, part) {
@@ -188,7 +188,7 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: &str) -> String {
             if is_narrow { "f64 or " } else { "" }
         );
     }
-    if kind == "self-hit" {
+    if kind == Kind::SelfHit {
         return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
     }
     (if is_narrow { "use f64 or another kernel" } else { "use another kernel" }).to_owned()
@@ -220,8 +220,9 @@ fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
 /// A note if cracks that no number closes are most of a kernel's cost, with advice.
 fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0];
-    let cracks = part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == "crack");
-    let weight = record.costs.iter().find(|cost| cost.name == "crack").map_or(0.0, |c| c.number);
+    let cracks = part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == Kind::Crack);
+    let weight =
+        record.costs.iter().find(|cost| cost.name == Kind::Crack.name()).map_or(0.0, |c| c.number);
     let cost: f64 = cracks.map(|(_, rate)| weight * rate.rate.unwrap_or(0.0)).sum();
     if !part.has_edge_epsilon && 0.5 * best.cost < cost {
         return vec![

@@ -80,7 +80,7 @@ pub(super) fn panels(record: &SceneRecord, part: &SceneKernelPart, answer: &Answ
 
 /// A count as a line: the wrong answers at each value that this number is to blame for.
 struct Line<'a> {
-    count: &'a CountPart,
+    count: &'a Count,
     of: u64,
     /// Hits that other numbers refuse, whatever this one is.
     by_others: u64,
@@ -94,8 +94,8 @@ impl Line<'_> {
 }
 
 /// `grazing hit`.
-fn class_of(count: &CountPart) -> String {
-    format!("{} {}", count.stratum.trim_start_matches("scene-"), count.kind)
+fn class_of(count: &Count) -> String {
+    format!("{} {}", count.stratum.name().trim_start_matches("scene-"), count.kind)
 }
 
 /// The data of a panel.
@@ -124,7 +124,7 @@ impl<'a> Draft<'a> {
     ) -> Draft<'a> {
         let curve = &part.curves[place];
         let lines = part.counts.iter().zip(&curve.counts).map(|(count, points)| {
-            let is_lost = matches!(count.kind.as_str(), "crack" | "miss");
+            let is_lost = matches!(count.kind, Kind::Crack | Kind::Miss);
             let left = points.of - points.refused_by_others;
             let wrong = points.hits.iter().map(|hits| if is_lost { left - hits } else { *hits });
             let by_others = if is_lost { points.refused_by_others } else { 0 };
@@ -159,9 +159,7 @@ impl<'a> Draft<'a> {
     }
 
     /// The limits of this number with their rows; the proved ones come last.
-    fn limits(
-        &self,
-    ) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a CountPart, bool)> {
+    fn limits(&self) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a Count, bool)> {
         let part = self.part;
         let place = self.place;
         let seen = part
@@ -261,7 +259,7 @@ impl<'a> Draft<'a> {
     /// Marks with their texts: the lines, then the limits.
     fn legend(&self) -> Vec<(String, String)> {
         let lines = self.lines.iter().map(|line| {
-            let what = label(&line.count.stratum, &line.count.kind);
+            let what = label(line.count);
             let n = group_digits(line.of);
             let others = match line.by_others as f64 / line.of as f64 {
                 0.0 => String::new(),
@@ -312,10 +310,10 @@ fn is_open(ends: [f64; 2]) -> bool {
 }
 
 /// A triangle on the axis that points to the side that a limit allows.
-fn marker([x, y]: [f64; 2], is_lower: bool, count: &CountPart, is_proved: bool) -> String {
+fn marker([x, y]: [f64; 2], is_lower: bool, count: &Count, is_proved: bool) -> String {
     let ahead = if is_lower { 9.0 } else { -9.0 };
     let class = if is_proved { "limit proved" } else { "limit" };
-    let stratum = count.stratum.trim_start_matches("scene-");
+    let stratum = count.stratum.name().trim_start_matches("scene-");
     format!(
         "<path class=\"{class} {stratum}\" d=\"M{x:.1} {:.1}l{ahead} 5l{} 5z\"/>\n",
         y - 5.0,

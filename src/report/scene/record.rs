@@ -1,5 +1,7 @@
 //! The versioned record of a study of a scene.
 
+pub(super) use crate::epsilon::scene::{Count, Kind};
+pub(super) use crate::family::Stratum;
 use crate::report::record::Rate;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -97,7 +99,7 @@ pub struct SceneKernelPart {
     /// The epsilons of the gates that are not chosen.
     pub others: BTreeMap<String, String>,
     /// The kinds of wrong answers that are counted.
-    pub counts: Vec<CountPart>,
+    pub counts: Vec<Count>,
     /// If errors are limited: whether 99 % of the hits that remain keep the limit with the recommended
     /// epsilons, in each kind of ray and with a confidence of 95 %. If they do not, none do.
     pub is_accurate: Option<bool>,
@@ -147,17 +149,6 @@ pub struct KnobPart {
     pub dimension: [i8; 2],
     /// The form without a unit, if it has one: `e * L^2 * |d|`.
     pub form: Option<String>,
-}
-
-/// A kind of wrong answer in a stratum, which is counted.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct CountPart {
-    /// The stratum's family.
-    pub stratum: String,
-    /// `crack`, `miss`, `hit` or `self-hit`.
-    pub kind: String,
 }
 
 /// The results of epsilons on fresh rays.

@@ -11,25 +11,25 @@ use crate::report::record::Rate;
 /// From where rays are aimed.
 pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
 
-/// The name of a count, by its stratum's family and its kind.
-pub(super) fn label(stratum: &str, kind: &str) -> &'static str {
-    match (stratum, kind) {
-        ("scene-interior", "miss") => "at a triangle: hits lost",
-        ("scene-interior", _) => "at its back: false hits",
-        ("scene-edges", _) => "at a shared edge: cracks",
-        ("scene-vertices", _) => "at a shared vertex: cracks",
-        ("scene-grazing", "miss") => "almost parallel: hits lost",
-        ("scene-grazing", _) => "almost parallel: false hits",
-        ("scene-parallel", _) => "exactly parallel: false hits",
-        ("scene-shadow", _) => "shadow rays: self-hits",
-        _ => "beside a triangle: false hits",
+/// The name of a count.
+pub(super) fn label(count: &Count) -> &'static str {
+    match (count.stratum, count.kind) {
+        (Stratum::Interior, Kind::Miss) => "at a triangle: hits lost",
+        (Stratum::Interior, _) => "at its back: false hits",
+        (Stratum::Edges, _) => "at a shared edge: cracks",
+        (Stratum::Vertices, _) => "at a shared vertex: cracks",
+        (Stratum::Grazing, Kind::Miss) => "almost parallel: hits lost",
+        (Stratum::Grazing, _) => "almost parallel: false hits",
+        (Stratum::Parallel, _) => "exactly parallel: false hits",
+        (Stratum::Shadow, _) => "shadow rays: self-hits",
+        (Stratum::Outside, _) => "beside a triangle: false hits",
     }
 }
 
-/// Where the rays of a stratum's family go.
-pub(super) fn where_of(stratum: &str) -> &'static str {
+/// Where the rays of a stratum go.
+pub(super) fn where_of(stratum: Stratum) -> &'static str {
     match stratum {
-        "scene-grazing" => "almost parallel",
+        Stratum::Grazing => "almost parallel",
         _ => "at a triangle",
     }
 }

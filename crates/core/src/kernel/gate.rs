@@ -98,18 +98,13 @@ named! {
 }
 
 impl Role {
-    /// The role of a name.
-    pub fn find(name: &str) -> Option<Role> {
-        Role::ALL.into_iter().find(|role| role.name() == name)
-    }
-
     /// The role of a gate that has the name of its role, or of what is usually compared there.
     pub fn of_gate(name: &str) -> Option<Role> {
         match name.to_ascii_lowercase().as_str() {
             "det" | "determinant" | "a" | "den" | "denominator" | "area" => Some(Role::Parallel),
             "tmin" | "t_near" | "near" | "dist" | "distance" => Some(Role::T),
             "u" | "v" | "w" | "uv" | "uvw" | "bary" | "barycentric" | "inside" => Some(Role::Edge),
-            name => Role::find(name),
+            name => Role::named(name),
         }
     }
 }

@@ -73,7 +73,7 @@ pub enum Source {
 pub fn is_of_mesh(name: &str) -> bool {
     let kind = name.split_once(':').map(|(kind, _)| kind);
     kind.is_some_and(|kind| {
-        kind == "mesh" || Part::of_family(kind).is_some() || Stratum::of_family(kind).is_some()
+        kind == "mesh" || Part::named(kind).is_some() || Stratum::named(kind).is_some()
     })
 }
 

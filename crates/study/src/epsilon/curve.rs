@@ -4,47 +4,28 @@ use super::axis::Axis;
 use crate::arith::Float;
 use crate::audit::Place;
 
-/// A kind of wrong answer that is counted against an epsilon. Raising it can only make a kernel refuse more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Question {
-    /// Cases that must be hit: wrong where refused.
-    FalseMiss,
-    /// Cases that must be missed: wrong where accepted.
-    FalseHit,
-    /// Groups of which one triangle must report a hit: wrong where all refuse.
-    Crack,
-    /// The same groups: wrong where two accept.
-    Double,
-    /// Rays that start at a kernel's own hit point: a second hit on that triangle.
-    SelfHit,
-    /// The false hits that this gate is there to refuse; for a gate on t every second hit
-    /// on the triangle that a ray starts on is one.
-    OwnFalseHit,
+named! {
+    pub names
+    /// A kind of wrong answer that is counted against an epsilon. Raising it can only make a kernel refuse more.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Question {
+        /// Cases that must be hit: wrong where refused.
+        FalseMiss = "false misses",
+        /// Cases that must be missed: wrong where accepted.
+        FalseHit = "false hits",
+        /// Groups of which one triangle must report a hit: wrong where all refuse.
+        Crack = "cracks",
+        /// The same groups: wrong where two accept.
+        Double = "doubles",
+        /// Rays that start at a kernel's own hit point: a second hit on that triangle.
+        SelfHit = "self-hits",
+        /// The false hits that this gate is there to refuse; for a gate on t every second hit
+        /// on the triangle that a ray starts on is one.
+        OwnFalseHit = "own false hits",
+    }
 }
 
 impl Question {
-    /// In the order of reports.
-    pub const ALL: [Question; 6] = [
-        Question::FalseMiss,
-        Question::FalseHit,
-        Question::Crack,
-        Question::Double,
-        Question::SelfHit,
-        Question::OwnFalseHit,
-    ];
-
-    /// The name in tables and records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Question::FalseMiss => "false misses",
-            Question::FalseHit => "false hits",
-            Question::Crack => "cracks",
-            Question::Double => "doubles",
-            Question::SelfHit => "self-hits",
-            Question::OwnFalseHit => "own false hits",
-        }
-    }
-
     /// True if it is the refusal that is wrong.
     pub fn is_wrong_if_refused(self) -> bool {
         matches!(self, Question::FalseMiss | Question::Crack)

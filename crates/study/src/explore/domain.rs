@@ -22,11 +22,6 @@ named! {
 }
 
 impl Domain {
-    /// The domain of a name.
-    pub fn find(name: &str) -> Option<Domain> {
-        Domain::ALL.into_iter().find(|domain| domain.name() == name)
-    }
-
     /// True if a case is in the domain, decided exactly.
     pub fn holds<F: Float>(self, case: &Case<F>) -> bool {
         self.allows_numbers(case)

@@ -24,11 +24,6 @@ named! {
 }
 
 impl Part {
-    /// The part of a case id's family.
-    pub fn of_family(name: &str) -> Option<Part> {
-        Part::ALL.into_iter().find(|part| part.name() == name)
-    }
-
     /// The id of an index; it holds the mesh's digest.
     pub(super) fn id<F: Float>(
         self,

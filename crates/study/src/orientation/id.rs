@@ -41,7 +41,7 @@ impl FromStr for PointsId {
             text.split('/').collect::<Vec<_>>().try_into().map_err(|_| shape())?;
         let (dimension, family) = family.split_once(':').ok_or_else(shape)?;
         let (family, version) = family.split_once('@').ok_or_else(shape)?;
-        let dimension = Dimension::ALL.into_iter().find(|d| d.name() == dimension);
+        let dimension = Dimension::named(dimension);
         Ok(PointsId {
             dimension: dimension.ok_or_else(shape)?,
             family: family.to_owned(),

@@ -9,27 +9,19 @@ use crate::oracle;
 use crate::truth::{Facing, Truth};
 use std::ops::Range;
 
-/// How a hit point is formed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointKind {
-    /// a·(1-u-v) + b·u + c·v.
-    Weights,
-    /// o + t·d.
-    Ray,
+named! {
+    pub names
+    /// How a hit point is formed; the word of `--point`.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum PointKind {
+        /// a·(1-u-v) + b·u + c·v.
+        Weights = "uv",
+        /// o + t·d.
+        Ray = "ray",
+    }
 }
 
 impl PointKind {
-    /// Both, in the order of reports.
-    pub const ALL: [PointKind; 2] = [PointKind::Weights, PointKind::Ray];
-
-    /// The word of `--point`.
-    pub fn name(self) -> &'static str {
-        match self {
-            PointKind::Weights => "uv",
-            PointKind::Ray => "ray",
-        }
-    }
-
     /// True if a kernel's hits have such points.
     pub fn is_given_by(self, entry: &Entry) -> bool {
         match self {

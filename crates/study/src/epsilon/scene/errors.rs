@@ -7,26 +7,16 @@ use crate::audit::{Histogram, values};
 use crate::case::Case;
 use crate::kernel::Hit;
 
-/// A value of a hit that can be off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Value {
-    /// |t - t'| / |t'|, t' being exact.
-    T,
-    /// The distance of the point from the exact one; o + t·d as the scalar computes it, or a point of the
-    /// weights where a kernel reports no t.
-    Point,
-}
-
-impl Value {
-    /// Both.
-    pub const ALL: [Value; 2] = [Value::T, Value::Point];
-
-    /// The word in `--max-error`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Value::T => "t",
-            Value::Point => "point",
-        }
+named! {
+    pub names
+    /// A value of a hit that can be off; the word in `--max-error`.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Value {
+        /// |t - t'| / |t'|, t' being exact.
+        T = "t",
+        /// The distance of the point from the exact one; o + t·d as the scalar computes it, or a point of the weights
+        /// where a kernel reports no t.
+        Point = "point",
     }
 }
 
@@ -53,7 +43,7 @@ impl MaxError {
             let expected = "write t=1e-3 (relative) or point=0.01 (in the scene's unit), or both";
             let (key, number) =
                 word.split_once('=').ok_or_else(|| format!("'{word}' is no error: {expected}"))?;
-            let value = Value::ALL.into_iter().find(|value| value.name() == key.trim());
+            let value = Value::named(key.trim());
             let value = value.ok_or_else(|| format!("unknown value '{key}': {expected}"))?;
             if most.of[value as usize].is_some() {
                 return Err(format!("'{key}' is given twice"));

@@ -30,7 +30,7 @@ impl Costs {
             let expected = "write crack=10,miss=1,hit=1,self-hit=1";
             let (key, value) =
                 word.split_once('=').ok_or_else(|| format!("'{word}' is no cost: {expected}"))?;
-            let kind = Kind::ALL.into_iter().find(|kind| kind.name() == key.trim());
+            let kind = Kind::named(key.trim());
             let kind = kind.ok_or_else(|| {
                 let near = nearest_name(key.trim(), Kind::ALL.map(Kind::name));
                 let near = near.map_or(String::new(), |near| format!("did you mean '{near}'? "));

@@ -12,36 +12,27 @@ use crate::family::Stratum;
 use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// A kind of wrong answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// A ray slips through between triangles that share an edge or a vertex.
-    Crack,
-    /// A hit is lost.
-    Miss,
-    /// A hit is reported where there is none.
-    Hit,
-    /// A ray hits the triangle that it starts on.
-    SelfHit,
+named! {
+    pub names
+    /// How an answer is wrong in a scene; the word in `--cost`.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Kind {
+        /// A ray slips through between triangles that share an edge or a vertex.
+        Crack = "crack",
+        /// A hit is lost.
+        Miss = "miss",
+        /// A hit is reported where there is none.
+        Hit = "hit",
+        /// A ray hits the triangle that it starts on.
+        SelfHit = "self-hit",
+    }
 }
 
 impl Kind {
-    /// All of them, in the order of `--cost`.
-    pub const ALL: [Kind; 4] = [Kind::Crack, Kind::Miss, Kind::Hit, Kind::SelfHit];
-
-    /// The word in `--cost`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::Crack => "crack",
-            Kind::Miss => "miss",
-            Kind::Hit => "hit",
-            Kind::SelfHit => "self-hit",
-        }
-    }
-
     /// True if it is the refusal that is wrong.
     pub fn is_wrong_if_refused(self) -> bool {
         matches!(self, Kind::Crack | Kind::Miss)
@@ -49,11 +40,15 @@ impl Kind {
 }
 
 /// A number that is counted: the wrong answers of one kind in one stratum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Count {
-    /// Where.
+    /// The stratum's family.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub stratum: Stratum,
-    /// What.
+    /// `crack`, `miss`, `hit` or `self-hit`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub kind: Kind,
 }
 

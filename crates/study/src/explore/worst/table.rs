@@ -138,7 +138,7 @@ fn parse_goal(name: &str, case: &AnyCase) -> Result<Goal, String> {
     row.check_in(case.scalars()).map_err(|error| error.0)?;
     let target = Target::find(target, row.entry.info)
         .ok_or_else(|| format!("'{target}' is nothing that {kernel} is searched for"))?;
-    let domain = Domain::find(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
+    let domain = Domain::named(domain).ok_or_else(|| format!("unknown domain '{domain}'"))?;
     Ok(Goal { row, target, domain })
 }
 

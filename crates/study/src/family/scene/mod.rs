@@ -27,45 +27,32 @@ use aimed::{edges, interior, outside, vertices};
 use flat::{grazing, grazing_ray, parallel};
 use shadow::shadow;
 
-/// A part of a scene whose rates are reported by themselves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stratum {
-    /// Rays at a point inside a triangle.
-    Interior,
-    /// Rays at a point of an edge that two triangles share.
-    Edges,
-    /// Rays at the vertex that six triangles share.
-    Vertices,
-    /// Rays almost parallel to a triangle on a generic plane.
-    Grazing,
-    /// Rays exactly parallel to the plane of a triangle.
-    Parallel,
-    /// Rays from a kernel's own hit point on a triangle, in every direction.
-    Shadow,
-    /// Rays at a point of the plane beside a triangle.
-    Outside,
+named! {
+    pub names
+    /// A part of a scene whose rates are reported by themselves, with the name of its family.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Stratum {
+        /// Rays at a point inside a triangle.
+        Interior = "scene-interior",
+        /// Rays at a point of an edge that two triangles share.
+        Edges = "scene-edges",
+        /// Rays at the vertex that six triangles share.
+        Vertices = "scene-vertices",
+        /// Rays almost parallel to a triangle on a generic plane.
+        Grazing = "scene-grazing",
+        /// Rays exactly parallel to the plane of a triangle.
+        Parallel = "scene-parallel",
+        /// Rays from a kernel's own hit point on a triangle, in every direction.
+        Shadow = "scene-shadow",
+        /// Rays at a point of the plane beside a triangle.
+        Outside = "scene-outside",
+    }
 }
 
 impl Stratum {
-    /// All of them, in the order of reports.
-    pub const ALL: [Stratum; 7] = [
-        Stratum::Interior,
-        Stratum::Edges,
-        Stratum::Vertices,
-        Stratum::Grazing,
-        Stratum::Parallel,
-        Stratum::Shadow,
-        Stratum::Outside,
-    ];
-
     /// The family of its cases.
     pub fn family(self) -> &'static Family {
         &STRATA[self as usize]
-    }
-
-    /// The stratum of a family's name.
-    pub fn of_family(name: &str) -> Option<Stratum> {
-        Stratum::ALL.into_iter().find(|stratum| stratum.family().name == name)
     }
 
     /// Case `index` of the set of a seed, at other triangles than those of the scene's numbers.
@@ -76,7 +63,7 @@ impl Stratum {
         seed: u64,
         index: u64,
     ) -> Made<F> {
-        let mut draw = Draw::new(self.family().name, seed, index);
+        let mut draw = Draw::new(self.name(), seed, index);
         with_scene(parameters, |scene| {
             let kernel = parameters.kernel.as_deref();
             self.maker()(&Setup { triangles, scene, kernel }, &mut draw)
