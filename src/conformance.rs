@@ -9,7 +9,6 @@ mod outcome;
 #[cfg(feature = "cli")]
 pub(crate) use expectations::locked;
 pub use outcome::Outcome;
-pub(crate) use outcome::conforms;
 
 use crate::audit::{self, EpsilonChoice, Plan, PlanError, Source};
 use crate::case::{Parameters, Scene};

@@ -2,7 +2,6 @@
 """Moller and Trumbore's test as a kernel for hairline (docs/protocol.md), with numpy if it is there.
 
     hairline audit --kernel-cmd 'python3 moller_trumbore.py'
-    hairline generate --scalar f64 | python3 moller_trumbore.py | hairline judge
 """
 
 import sys
@@ -91,7 +90,7 @@ def main():
         if words[0] == "case":
             ids.append(words[1])
             cases.append([float(word) for word in words[3:]])
-            if len(ids) == 4096:  # a filter gets everything before the end
+            if len(ids) == 4096:  # a file has everything before the end
                 flush()
         elif words[0] == "epsilons":
             epsilon = float(words[2])

@@ -75,7 +75,7 @@ def main():
         if words[0] == "case":
             ids.append(words[1])
             cases.append([float(word) for word in words[3:]])
-            if len(ids) == 4096:  # a filter gets everything before the end
+            if len(ids) == 4096:  # a file has everything before the end
                 flush()
         elif words[0] == "end":
             flush()

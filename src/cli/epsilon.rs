@@ -20,7 +20,7 @@ use crate::epsilon::{SPANNING, StudyPlan, floor, tunable_gates};
 use crate::family::{FAMILIES, Family};
 use crate::kernel::{Entry, Gate, Scalar, Subject};
 use crate::report::Style;
-use crate::report::epsilon::{EPSILON_FORMATS, GatePart, MapPart, parts, record};
+use crate::report::epsilon::{EPSILON_FORMATS, GatePart, parts, record};
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
@@ -48,10 +48,6 @@ pub struct EpsilonArguments {
     /// In a scene: curves at every number of two digits
     #[arg(long)]
     curves: bool,
-
-    /// Compare two gates with each other: one table of both epsilons (text and JSON)
-    #[arg(long)]
-    map: bool,
 
     /// The costs of wrong answers in a scene; costs that are not named keep crack=10,miss=1,hit=1,self-hit=1
     #[arg(long, value_name = "KIND=COST,...", allow_hyphen_values = true)]
@@ -146,7 +142,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
 }
 
 /// The parts that a study of one row in one scalar adds to the record.
-type StudyParts = Result<(Vec<GatePart>, Option<MapPart>), Failure>;
+type StudyParts = Result<Vec<GatePart>, Failure>;
 
 /// A study that is still to be run.
 type Planned<'a> = Box<dyn Fn(&Progress) -> StudyParts + 'a>;
@@ -166,7 +162,7 @@ impl EpsilonArguments {
     /// True if single gates are studied, over families or stored cases, instead of a scene.
     fn is_of_gates(&self) -> bool {
         let names_gates = !self.gate.is_empty() || !self.at.is_empty();
-        let of_gates = self.exact || self.map || self.curves || names_gates;
+        let of_gates = self.exact || self.curves || names_gates;
         let is_of_scene = self.sources.names_scene_or_mesh();
         !is_of_scene && (of_gates || self.sources.names_other_cases())
     }
@@ -176,9 +172,6 @@ impl EpsilonArguments {
     fn rows(&self) -> Result<Vec<Row>, Failure> {
         let mut rows = self.kernels.rows()?;
         rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
-        if self.map && self.gate.len() != 2 {
-            return Err(Failure::usage("--map: name two gates with --gate, as parallel,edge"));
-        }
         refuse_twice("--gate", &self.gate)?;
         let mut reasons = Vec::new();
         rows.retain(|row| self.gates(row).map_err(|reason| reasons.push(reason)).is_ok());
@@ -272,7 +265,7 @@ impl EpsilonArguments {
         let name = row.entry.info.name;
         let subject = F::subject(row.entry)
             .ok_or_else(|| Failure::usage(format!("{name} does not run in {}", F::NAME)))?;
-        Ok(StudyPlan { row, subject, at, gates: chosen, exact: self.exact, map: self.map })
+        Ok(StudyPlan { row, subject, at, gates: chosen, exact: self.exact })
     }
 }
 

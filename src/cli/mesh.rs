@@ -53,8 +53,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// text, json, html, ply or obj, or several separated by commas; html draws the mesh with the edges and
-    /// vertices where rays slip through, ply and obj hold them for a viewer
+    /// text, json or html, or several separated by commas; html draws the mesh with the edges and vertices
+    /// where rays slip through
     #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
     format: Vec<String>,
 

@@ -24,7 +24,6 @@ mod fuzz;
 mod generate;
 mod github;
 mod input;
-mod judge;
 mod list;
 mod map;
 mod merge;
@@ -88,10 +87,8 @@ enum Command {
     Merge(merge::MergeArguments),
     /// Show what got better and what got worse between two records
     Diff(diff::DiffArguments),
-    /// Write cases as lines, for a kernel that is a filter
+    /// Write cases as lines, for a kernel that runs elsewhere
     Generate(Box<generate::GenerateArguments>),
-    /// Read a filter's verdicts, and report where they are wrong
-    Judge(judge::JudgeArguments),
     /// Print the exact truth of cases, one JSON line each
     Truth(truth::TruthArguments),
     /// Compare the oracle with its definition and with integer arithmetic
@@ -126,7 +123,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
-    ("Bring your own", &["generate", "judge", "truth", "vectors", "verify"]),
+    ("Bring your own", &["generate", "truth", "vectors", "verify"]),
     ("Trust it", &["selfcheck", "corpus", "orient"]),
 ];
 
@@ -233,7 +230,6 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Merge(arguments) => merge::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
-        Command::Judge(arguments) => judge::run(&arguments),
         Command::Truth(arguments) => truth::run(&arguments),
         Command::Selfcheck(arguments) => selfcheck::run(&arguments),
         Command::Corpus(arguments) => corpus::run(&arguments),

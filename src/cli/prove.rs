@@ -122,8 +122,6 @@ enum OutputFormat {
     Text,
     /// One object, its schema versioned
     Json,
-    /// Every compared quantity as an FPCore program (fpbench.org)
-    Fpcore,
     /// A script for Gappa: the quantity of one --gate of one --kernel in one --scalar, its bound the goal
     Gappa,
 }
@@ -181,7 +179,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     if entries.len() == 1 {
         arguments.gate_of(entries[0])?;
     }
-    if matches!(arguments.format, OutputFormat::Fpcore | OutputFormat::Gappa) {
+    if arguments.format == OutputFormat::Gappa {
         return files::export(arguments, &entries, scalars, domain);
     }
     if let Some(path) = &arguments.certificate {
@@ -231,7 +229,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     write_result(&arguments.output, |out| match arguments.format {
         OutputFormat::Json => write_json(&record, out),
-        OutputFormat::Fpcore | OutputFormat::Gappa => unreachable!("handled above"),
+        OutputFormat::Gappa => unreachable!("handled above"),
         OutputFormat::Text if entries.len() == 1 => {
             text::kernel(&record, scene.as_ref(), &arguments.rays(), out)
         }

@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::output::{write_result, write_results};
-use crate::vectors::{Test, binary, c, core, csv, digest, json, numbered};
+use crate::vectors::{Test, core, csv, digest, json, numbered};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::fs;
@@ -35,10 +35,6 @@ enum Format {
     Json,
     /// A row a triangle
     Csv,
-    /// A header with an array
-    C,
-    /// Records of 184 bytes
-    Binary,
 }
 
 /// How many tests are made at a time: memory does not grow with their number.
@@ -75,48 +71,34 @@ fn write_core(folder: &Path) -> Result<(), Failure> {
 }
 
 fn write_tests(out: &mut dyn Write, format: Format) -> io::Result<()> {
+    out.write_all(head(format).as_bytes())?;
     let topics = core();
-    let files: Vec<_> =
-        topics.iter().map(|(topic, tests)| json::topic_file(topic, tests)).collect();
-    out.write_all(&head(format, &digest(&files)))?;
-    for (number, test) in topics.iter().flat_map(|(_, tests)| tests).enumerate() {
-        out.write_all(&written(format, number as u64, test))?;
-    }
-    out.write_all(tail(format))
+    let mut tests = topics.iter().flat_map(|(_, tests)| tests);
+    tests.try_for_each(|test| out.write_all(written(format, test).as_bytes()))
 }
 
 fn write_numbered(out: &mut dyn Write, format: Format, count: u64) -> io::Result<()> {
-    out.write_all(&head(format, &format!("the first {count} of the full set")))?;
+    out.write_all(head(format).as_bytes())?;
     for start in (0..count).step_by(CHUNK as usize) {
         let numbers = start..count.min(start + CHUNK);
-        let of_number = |number| numbered(number).map(|test| written(format, number, &test));
-        let parts: Vec<Option<Vec<u8>>> = numbers.into_par_iter().map(of_number).collect();
-        parts.iter().flatten().try_for_each(|part| out.write_all(part))?;
+        let of_number = |number| numbered(number).map(|test| written(format, &test));
+        let parts: Vec<Option<String>> = numbers.into_par_iter().map(of_number).collect();
+        parts.iter().flatten().try_for_each(|part| out.write_all(part.as_bytes()))?;
     }
-    out.write_all(tail(format))
+    Ok(())
 }
 
-fn head(format: Format, digest: &str) -> Vec<u8> {
+/// What stands before the tests.
+fn head(format: Format) -> String {
     match format {
-        Format::Json => Vec::new(),
-        Format::Csv => format!("{}\n", csv::HEADER).into_bytes(),
-        Format::C => c::head(digest).into_bytes(),
-        Format::Binary => binary::head(),
-    }
-}
-
-fn written(format: Format, number: u64, test: &Test) -> Vec<u8> {
-    match format {
-        Format::Json => format!("{}\n", json::line(test)).into_bytes(),
-        Format::Csv => csv::rows(test).into_bytes(),
-        Format::C => c::rows(test).into_bytes(),
-        Format::Binary => binary::records(number, test),
+        Format::Json => String::new(),
+        Format::Csv => format!("{}\n", csv::HEADER),
     }
 }
 
-fn tail(format: Format) -> &'static [u8] {
+fn written(format: Format, test: &Test) -> String {
     match format {
-        Format::C => c::TAIL.as_bytes(),
-        Format::Json | Format::Csv | Format::Binary => b"",
+        Format::Json => format!("{}\n", json::line(test)),
+        Format::Csv => csv::rows(test),
     }
 }

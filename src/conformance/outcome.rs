@@ -65,11 +65,6 @@ impl Outcome {
     }
 }
 
-/// True if every kernel of a record kept its contract, on polygons and across triangles too.
-pub(crate) fn conforms(record: &Record) -> bool {
-    disagreements(&record.result).is_empty()
-}
-
 /// How many findings a message shows in full.
 const SHOWN: usize = 8;
 

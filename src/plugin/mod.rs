@@ -20,7 +20,7 @@ mod running;
 mod stderr;
 pub mod text;
 
-pub use hello::{Hello, Start};
+pub use hello::Hello;
 pub use offset::OffsetCommand;
 pub use process::{Limits, LoadError, load};
 pub use running::Program;

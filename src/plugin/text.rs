@@ -1,8 +1,8 @@
-//! The text encoding: a line a case, a line a verdict. Also what `generate` writes and `judge` reads.
+//! The text encoding: a line a case, a line a verdict. Also what `generate` writes.
 
 #![forbid(unsafe_code)]
 
-pub use super::hello::shown;
+pub(super) use super::hello::shown;
 use crate::arith::Float;
 use crate::case::Case;
 use crate::corpus::number;
@@ -39,7 +39,7 @@ pub(super) fn epsilons_line<F: Float>(epsilons: &[F]) -> String {
 
 /// A line that a kernel wrote.
 #[derive(Debug, PartialEq)]
-pub enum Answer<'a, F> {
+pub(super) enum Answer<'a, F> {
     /// The verdict on a case.
     Verdict(&'a str, Verdict<F>),
     /// `end N [took=NANOSECONDS]`.
@@ -53,7 +53,7 @@ pub enum Answer<'a, F> {
 
 /// `ID miss`, `ID hit [t=T] [u=U] [v=V] [facing=front|back]` or `end N`; an error says what was
 /// expected.
-pub fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
+pub(super) fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
     let shape = || {
         if line.starts_with("HLA1") {
             return "it answers in the binary encoding, and its hello does not say 'encoding binary'"

@@ -3,8 +3,6 @@
 
 #![forbid(unsafe_code)]
 
-pub mod binary;
-pub mod c;
 pub mod csv;
 mod flags;
 pub mod json;

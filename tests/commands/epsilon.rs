@@ -168,26 +168,10 @@ fn one_is_singular() {
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let run = |threads| {
-        let part = ["--kernel", "cramer", "--gate", "t,edge", "--map", "--threads", threads];
+        let part = ["--kernel", "cramer", "--gate", "t,edge", "--threads", threads];
         serde_json::to_string(&record(&part).result).unwrap()
     };
     assert_eq!(run("1"), run("3"));
-}
-
-#[test]
-fn a_map_agrees_with_each_gate_alone() {
-    let record = record(&["--kernel", "cramer", "--gate", "t,edge", "--map", "--scalar", "f32"]);
-    let [map] = &record.result.maps[..] else { panic!("one map") };
-    let [t, edge] = &record.result.gates[..] else { panic!("two gates") };
-    for (part, other, along_first) in [(t, 1, true), (edge, 0, false)] {
-        let zero = map.epsilons[other].iter().position(|e| e == "0").expect("zero is weighed");
-        for price in &part.prices {
-            let here = map.epsilons[1 - other].iter().position(|e| *e == price.epsilon).unwrap();
-            let (i, j) = if along_first { (here, zero) } else { (zero, here) };
-            assert_eq!(map.false_misses[i][j], price.false_misses.count);
-            assert_eq!(map.false_hits[i][j], price.false_hits.count);
-        }
-    }
 }
 
 #[test]
@@ -254,7 +238,6 @@ fn bad_arguments_are_refused_with_a_reason() {
         "has no gate that takes an epsilon",
     );
     refused(&["--gate", "paralel"], "did you mean 'parallel'?");
-    refused(&with(&["--map"]), "name two gates");
     refused(&with(&["--at", "nan"]), "not a finite number");
     refused(&with(&["--gate", "parallel", "--at", "-1"]), "means nothing");
     refused(&with(&["--family", "interior,interior"]), "given twice");

@@ -95,7 +95,7 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
     });
     let first = records.next().unwrap();
     assert_eq!(first["scalars"][0]["topology"]["closed_manifold"], true);
-    assert!(first["scalars"][0]["offenders"].as_u64().unwrap() > 0);
+    assert!(first["scalars"][0]["results"][0]["edges"]["cracked"].as_u64().unwrap() > 0);
     records.for_each(|record| assert_eq!(record, first));
 
     // Ids hold the digest, so that one made from a file is shown with another.

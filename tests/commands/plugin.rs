@@ -767,36 +767,44 @@ fn refused_after_output(arguments: &[&str]) -> String {
 }
 
 #[test]
-fn the_example_in_python_is_the_same_over_the_pipe_and_as_a_filter() {
+fn the_example_in_python_is_the_same_over_the_pipe_and_from_a_file() {
     if !has("python3") {
         return;
     }
     let kernel = format!("python3 {HERE}/examples/python/moller_trumbore.py");
     let flags = ["--family", "edge-near,fan,invalid,lattice", "-n", "1100", "--scalar", "f64"];
     let (piped, _) = record(&[&["--kernel-cmd", &kernel][..], &flags].concat());
-    let filter = format!(
-        "set -o pipefail; '{0}' generate {1} | {kernel} | '{0}' judge --format json",
-        env!("CARGO_BIN_EXE_hairline"),
-        flags.join(" ")
-    );
-    let output = Command::new("bash").args(["-c", &filter]).output().unwrap();
-    assert_eq!(output.status.code(), Some(1), "it disagrees: {}", text(&output.stderr));
-    let judged: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("replayed");
+    std::fs::create_dir_all(&folder).unwrap();
+    let [cases, verdicts] = ["cases.txt", "verdicts.txt"].map(|name| folder.join(name));
+    let [cases, verdicts] = [cases.to_str().unwrap(), verdicts.to_str().unwrap()];
+    let made = hairline(&[&["generate", "-o", cases][..], &flags].concat());
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    let answered = format!("{kernel} < '{cases}' > '{verdicts}'");
+    assert!(Command::new("bash").args(["-c", &answered]).status().unwrap().success());
+    let replay = format!("python3 {HERE}/examples/python/replay.py '{cases}' '{verdicts}'");
+    let (replayed, _) = record(&[&["--kernel-cmd", &replay][..], &flags].concat());
     let totals = |record: &Value| -> Vec<(Value, Value, Value)> {
         let results = record["result"]["results"].as_array().unwrap().iter();
         results.map(|r| (r["family"].clone(), r["classes"].clone(), r["across"].clone())).collect()
     };
-    assert_eq!(totals(&piped), totals(&judged));
-    assert_eq!(piped["result"]["sources"], judged["result"]["sources"]);
-    // An epsilon on the command line reaches it: no determinant is that large.
+    assert_eq!(totals(&piped), totals(&replayed));
+    assert_eq!(piped["result"]["sources"], replayed["result"]["sources"]);
+    // A case without a verdict is an error, and so are verdicts in another order.
+    let more = ["audit", "--family", "edge-near", "-n", "1101", "--scalar", "f64"];
+    let error = refused_after_output(&[&more[..], &["--kernel-cmd", &replay]].concat());
+    assert!(error.contains("has no verdict"), "{error}");
+    let mut lines: Vec<String> =
+        std::fs::read_to_string(verdicts).unwrap().lines().map(str::to_owned).collect();
+    let last = lines.len() - 2;
+    lines.swap(last, last - 1);
+    std::fs::write(verdicts, lines.join("\n")).unwrap();
+    let error = refused_after_output(&[&more[..], &["--kernel-cmd", &replay]].concat());
+    assert!(error.contains("replay.py: found the verdict on "), "{error}");
+    // An epsilon on the command line reaches a kernel over the pipe: no determinant is that large.
     let flags = ["--epsilon", "parallel=1e30", "--family", "interior", "-n", "50"];
     let (tight, _) = record(&[&["--kernel-cmd", &kernel][..], &flags].concat());
     assert_eq!(count(&tight, "false_misses/count"), 50);
-    // The command of a judged filter shows its case.
-    let command = judged.pointer("/result/results/0/findings/0/worst/command").unwrap();
-    let words: Vec<&str> =
-        command.as_str().unwrap().split(' ').skip(1).map(|word| word.trim_matches('\'')).collect();
-    assert_eq!(hairline(&words).status.code(), Some(0), "{command}");
 }
 
 #[test]

@@ -129,7 +129,7 @@ fn bad_scenes_get_one_clear_line() {
         (&["--scale", "2^3"], "leave out --scale"),
         (&["--direction", "unit"], "leave out --scale, --offset and --direction"),
         (&["--at", "1e-3"], "--at: name one --gate"),
-        (&["--map"], "--map is not for --scene"),
+        (&["--exact"], "--exact is not for --scene"),
         (&["--family", "interior"], "--family is not for --scene"),
         (&["--cost", "crack=-1"], "--cost: crack=-1"),
         (&["--gate", "paralel"], "there are parallel, edge, t_min"),

@@ -397,7 +397,10 @@ fn a_hit_that_a_neighbour_reports_leaves_no_crack() {
         }
     }
     assert_eq!(elsewhere, 2);
-    assert!(found.offences.is_empty());
+    for part in Part::ALL {
+        let [_, cracks, doubles, _, odd_folds] = sums(&found, 0, part);
+        assert_eq!([cracks, doubles, odd_folds], [0; 3]);
+    }
 }
 
 #[test]
@@ -600,13 +603,6 @@ fn counts_are_those_of_the_definition<F: Scalar>(name: &str, kernels: &[&str], d
             }
             assert_eq!(sums(&found, 0, part), expected, "{name} {kernel} {part:?}");
             assert_eq!(found.rows[0].cracked[part as usize], cracked.len() as u64);
-            let offending: BTreeSet<usize> = found
-                .offences
-                .iter()
-                .filter(|offence| offence.part == part && offence.cracks > 0)
-                .map(|offence| offence.target as usize)
-                .collect();
-            assert_eq!(offending, cracked);
         }
     }
 }
@@ -622,7 +618,7 @@ fn counts_are_those_of_a_direct_evaluation_in_rationals() {
 fn essence(found: &Found) -> impl PartialEq + std::fmt::Debug + use<> {
     let rows: Vec<_> =
         found.rows.iter().map(|row| (row.row, row.tallies.clone(), row.cracked)).collect();
-    (rows, found.offences.clone(), found.cases)
+    (rows, found.cases)
 }
 
 #[test]

@@ -190,7 +190,6 @@ impl EpsilonArguments {
         }
         let given = [
             ("--exact", self.exact),
-            ("--map", self.map),
             ("--family", self.sources.names_families()),
             ("--exhaustive", self.sources.is_exhaustive()),
         ];

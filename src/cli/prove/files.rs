@@ -1,11 +1,11 @@
-//! Writes certificates, and programs for other people's tools.
+//! Writes certificates, and scripts for Gappa.
 
-use super::{OutputFormat, ProveArguments};
+use super::ProveArguments;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_result;
-use crate::kernel::{Entry, Path, Scalar};
+use crate::kernel::{Entry, Scalar};
 use crate::prove::certificate::{self, Claim, Heading, heading, program};
-use crate::prove::{Domain, Effort, Format, Quantity, Searched, Summary, fpcore, gappa};
+use crate::prove::{Domain, Effort, Searched, Summary, gappa};
 
 /// Writes the certificate of one kernel in one scalar.
 pub fn certify(
@@ -51,71 +51,61 @@ fn certificate_of<F: Searched + Scalar>(
     if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
 }
 
-/// The programs of all quantities, or of those of one gate, or (if true) of its worst one.
-fn programs<F: Searched + Scalar>(
+/// Scripts of the quantity of a gate that has the largest error, or of all its quantities if one has no bound.
+fn scripts<F: Searched + Scalar>(
     entry: &Entry,
+    gate: usize,
     domain: Domain,
-    only: Option<(usize, bool)>,
-    text: &mut String,
-    write: impl Fn(&Path, &Quantity, Domain, Format, &str) -> Option<String>,
-) -> Result<(), String> {
+) -> Result<String, String> {
     let effort = Effort { evaluations: 0, seed: 1 };
     let summary = Summary::<F>::new(entry, domain, &[], &[], effort)?;
-    let mut numbers = vec![0; entry.info.gates.len()];
-    let one = only.filter(|(_, one)| *one).and_then(|(gate, _)| summary.proof.gate(gate)?.ok());
-    for quantity in &summary.proof.quantities {
-        numbers[quantity.gate] += 1;
-        let is_other = one.is_some_and(|one| !std::ptr::eq(one, quantity));
-        if is_other || only.is_some_and(|(gate, _)| gate != quantity.gate) {
+    let proof = &summary.proof;
+    let worst = proof.gate(gate).and_then(Result::ok);
+    let mut text = String::new();
+    let of_gate = proof.quantities.iter().filter(|quantity| quantity.gate == gate);
+    for (number, quantity) in (1..).zip(of_gate) {
+        if worst.is_some_and(|worst| !std::ptr::eq(worst, quantity)) {
             continue;
         }
-        let (gate, number) = (entry.info.gates[quantity.gate].name, numbers[quantity.gate]);
-        let name = format!("{} {} {gate} {number}", entry.info.name, F::NAME);
-        let path = &summary.proof.paths[quantity.path];
-        if let Some(program) = write(path, quantity, summary.domain, summary.format, &name) {
-            text.push_str(&program);
+        let name =
+            format!("{} {} {} {number}", entry.info.name, F::NAME, entry.info.gates[gate].name);
+        let goal = quantity.bound.as_ref().ok().map(|bound| bound.error);
+        let path = &proof.paths[quantity.path];
+        let script = gappa(path, quantity.place, summary.domain, summary.format, &name, goal);
+        if let Ok(script) = script {
+            text.push_str(&script);
             text.push('\n');
         }
     }
-    Ok(())
+    Ok(text)
 }
 
-/// Writes the programs of the chosen kernels in a language of other tools.
+/// Writes the script for Gappa of one gate of one kernel in one scalar.
 pub fn export(
     arguments: &ProveArguments,
     entries: &[&'static Entry],
     scalars: [bool; 2],
     domain: Domain,
 ) -> Result<Status, Failure> {
-    let write = |path: &Path, quantity: &Quantity, domain: Domain, format: Format, name: &str| {
-        match arguments.format {
-            OutputFormat::Gappa => {
-                let goal = quantity.bound.as_ref().ok().map(|bound| bound.error);
-                gappa(path, quantity.place, domain, format, name, goal).ok()
-            }
-            _ => Some(fpcore(path, quantity.place, domain, format, name)),
-        }
-    };
-    let is_one = entries.len() == 1 && scalars[0] != scalars[1] && arguments.gate.is_some();
-    if arguments.format == OutputFormat::Gappa && !is_one {
+    let ([entry], [true, false] | [false, true], Some(_)) = (entries, scalars, &arguments.gate)
+    else {
         return Err(Failure::usage(
             "--format gappa is of one --kernel, one --scalar and one --gate",
         ));
-    }
-    let mut text = String::new();
-    for entry in entries {
-        let gate = arguments.gate_of(entry)?;
-        let only = gate.map(|gate| (gate, arguments.format == OutputFormat::Gappa));
-        let of_f32 = scalars[0].then(|| programs::<f32>(entry, domain, only, &mut text, write));
-        let of_f64 = scalars[1].then(|| programs::<f64>(entry, domain, only, &mut text, write));
-        let failed = [of_f32, of_f64].into_iter().flatten().find_map(Result::err);
-        if let Some(why) = failed.filter(|_| !arguments.quiet) {
-            eprintln!("{}: no program: {why}", entry.info.name);
-        }
-    }
+    };
+    let gate = arguments.gate_of(entry)?.expect("there is --gate");
+    let text = if scalars[0] {
+        scripts::<f32>(entry, gate, domain)
+    } else {
+        scripts::<f64>(entry, gate, domain)
+    };
+    let none = |why: &str| {
+        let message = format!("{}: no program: {why}", entry.info.name);
+        Failure::Message(Status::NothingSelected, message)
+    };
+    let text = text.map_err(|why| none(&why))?;
     if text.is_empty() {
-        let message = "no chosen kernel has such a program".to_owned();
-        return Err(Failure::Message(Status::NothingSelected, message));
+        return Err(none("a divisor of the gate has no bound"));
     }
     write_result(&arguments.output, |out| out.write_all(text.as_bytes()))?;
     Ok(Status::Success)

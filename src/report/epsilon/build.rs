@@ -5,7 +5,7 @@ use crate::arith::Float;
 use crate::audit::{Place, Row, Source, Tally, Trials, exact_severity};
 use crate::case::Case;
 use crate::epsilon::{
-    Curve, Duty, GateStudy, Map, Price, Question, Response, Side, SourceResponse, Study, StudyPlan,
+    Curve, Duty, GateStudy, Price, Question, Response, Side, SourceResponse, Study, StudyPlan,
     own_false_hits,
 };
 use crate::family::Grouping;
@@ -20,26 +20,23 @@ pub fn parts<F: Scalar>(
     plan: &StudyPlan<'_, F>,
     sources: &[Source],
     study: &Study<F>,
-) -> (Vec<GatePart>, Option<MapPart>) {
+) -> Vec<GatePart> {
     let gates = study.gates.iter().enumerate();
-    let parts = gates.map(|(n, gate)| gate_part(plan, sources, study, n, gate)).collect();
-    (parts, study.map.as_ref().map(|map| map_part(plan.row, map)))
+    gates.map(|(n, gate)| gate_part(plan, sources, study, n, gate)).collect()
 }
 
 /// A record of parts.
 pub fn record(
     sources: &[Source],
-    parts: Vec<(Vec<GatePart>, Option<MapPart>)>,
+    parts: Vec<Vec<GatePart>>,
     threads: usize,
     seconds: f64,
 ) -> EpsilonRecord {
-    let (gates, maps): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
     EpsilonRecord {
         schema: EPSILON_SCHEMA.to_owned(),
         result: EpsilonResult {
             sources: sources.iter().map(planned_source).collect(),
-            gates: gates.into_iter().flatten().collect(),
-            maps: maps.into_iter().flatten().collect(),
+            gates: parts.into_iter().flatten().collect(),
         },
         provenance: EpsilonProvenance {
             tool: concat!("hairline ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -276,19 +273,5 @@ fn distance(class: Class, in_space: f64, along: Option<f64>) -> f64 {
     match along {
         Some(along) if class.is_off_the_interval() => outside.max(along),
         _ => in_space,
-    }
-}
-
-fn map_part<F: Scalar>(row: &Row, map: &Map<F>) -> MapPart {
-    let info = row.entry.info;
-    MapPart {
-        kernel: info.name.to_owned(),
-        scalar: F::NAME.to_owned(),
-        gates: map.gates.map(|gate| info.gates[gate].name.to_owned()),
-        epsilons: map.epsilons.each_ref().map(|list| list.iter().map(|e| shortest(*e)).collect()),
-        must_hit: map.must_hit,
-        must_miss: map.must_miss,
-        false_misses: map.false_misses.clone(),
-        false_hits: map.false_hits.clone(),
     }
 }

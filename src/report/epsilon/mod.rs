@@ -72,7 +72,6 @@ fn brief(record: &EpsilonRecord, most: usize) -> EpsilonRecord {
         result: EpsilonResult {
             sources: record.result.sources.clone(),
             gates: record.result.gates.iter().map(gate).collect(),
-            maps: record.result.maps.clone(),
         },
         provenance: record.provenance.clone(),
     }

@@ -29,8 +29,6 @@ pub struct EpsilonResult {
     pub sources: Vec<PlannedSource>,
     /// One entry for each kernel, scalar and gate.
     pub gates: Vec<GatePart>,
-    /// Two gates against each other.
-    pub maps: Vec<MapPart>,
 }
 
 /// Where and how a record was made.
@@ -198,27 +196,4 @@ pub struct FarthestPart {
     pub ulps: f64,
     /// Shows the case.
     pub command: String,
-}
-
-/// Two gates against each other.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct MapPart {
-    /// The kernel's name.
-    pub kernel: String,
-    /// `f32` or `f64`.
-    pub scalar: String,
-    /// The gates' names.
-    pub gates: [String; 2],
-    /// The epsilons of each.
-    pub epsilons: [Vec<String>; 2],
-    /// Cases that must be hit.
-    pub must_hit: u64,
-    /// Cases that must be missed.
-    pub must_miss: u64,
-    /// By epsilon of the first gate, then of the second.
-    pub false_misses: Vec<Vec<u64>>,
-    /// By epsilon of the first gate, then of the second.
-    pub false_hits: Vec<Vec<u64>>,
 }

@@ -21,10 +21,6 @@ pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Resul
         }
         prices(part, out)?;
     }
-    for map in &record.result.maps {
-        writeln!(out)?;
-        write_map(map, out)?;
-    }
     Ok(())
 }
 
@@ -236,29 +232,4 @@ fn share(rate: &Rate) -> String {
 
 fn short(rate: &Rate) -> String {
     rate.rate.map_or("-".to_owned(), percent)
-}
-
-fn write_map(map: &MapPart, out: &mut dyn Write) -> io::Result<()> {
-    let [first, second] = &map.gates;
-    writeln!(out, "{} {}: {first} (down) against {second} (across)", map.kernel, map.scalar)?;
-    let tables = [
-        ("false misses", &map.false_misses, map.must_hit),
-        ("false hits", &map.false_hits, map.must_miss),
-    ];
-    for (kind, table, of) in tables {
-        writeln!(out, "  {kind} of {}", group_digits(of))?;
-        write!(out, "    {:>14}", "")?;
-        for epsilon in &map.epsilons[1] {
-            write!(out, " {epsilon:>13}")?;
-        }
-        writeln!(out)?;
-        for (epsilon, row) in map.epsilons[0].iter().zip(table) {
-            write!(out, "    {epsilon:>14}")?;
-            for count in row {
-                write!(out, " {:>13}", group_digits(*count))?;
-            }
-            writeln!(out)?;
-        }
-    }
-    Ok(())
 }

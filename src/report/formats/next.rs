@@ -14,7 +14,7 @@ pub(super) fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    // The kernel of `judge` cannot be chosen by a flag.
+    // The product of `verify` cannot be chosen by a flag.
     let rows: Vec<&RowPart> =
         lines.iter().map(|line| line.row.part).filter(|row| !row.selector.is_empty()).collect();
     let Some(first) = rows.first() else {

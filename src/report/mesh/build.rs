@@ -48,7 +48,6 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
     };
     MeshReport {
         record: MeshRecord { schema: MESH_SCHEMA, result, provenance },
-        offenders: parts.offenders,
         drawing: (0 < plan.places).then(|| Drawing::new(mesh, parts.rows)),
     }
 }
@@ -57,7 +56,6 @@ pub fn build(surface: &Surface, plan: &Plan, found: &[Found], context: &Context)
 #[derive(Default)]
 struct Parts {
     scalars: Vec<ScalarPart>,
-    offenders: Vec<Offender>,
     rows: Vec<DrawnRow>,
 }
 
@@ -76,16 +74,8 @@ fn add_scalar<F: Float>(surface: &Surface, plan: &Plan, found: &Found, parts: &m
         topology: builder.topology(topology),
         rays: Part::ALL.map(|part| targets.count(part) * plan.directions),
         cases: found.cases,
-        offenders: found.offences.len() as u64,
         results: found.rows.iter().map(|row| builder.row(&plan.rows[row.row], row)).collect(),
     });
-    parts.offenders.extend(found.offences.iter().map(|offence| Offender {
-        scalar: F::NAME,
-        points: builder.points(&targets.points(offence.part, offence.target as usize)),
-        cracks: offence.cracks,
-        doubles: offence.doubles,
-        odd_folds: offence.odd_folds,
-    }));
 }
 
 struct Builder<'a, F> {

@@ -1,9 +1,7 @@
-//! The record of a mesh audit, and its formats: text, JSON, a page that draws the mesh, and the offending edges
-//! and vertices as PLY and OBJ for a viewer.
+//! The record of a mesh audit, and its formats: text, JSON, and a page that draws the mesh.
 
 mod build;
 mod drawing;
-mod geometry;
 #[cfg(feature = "cli")]
 mod page;
 #[cfg(feature = "cli")]
@@ -38,6 +36,4 @@ pub const MESH_FORMATS: &[MeshFormat] = &[
     MeshFormat { name: "json", write: |report, _, out| write_json(&report.record, out) },
     #[cfg(feature = "cli")]
     MeshFormat { name: HTML, write: page::write },
-    MeshFormat { name: "ply", write: geometry::write_ply },
-    MeshFormat { name: "obj", write: geometry::write_obj },
 ];

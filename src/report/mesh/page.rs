@@ -203,8 +203,9 @@ fn foot(record: &MeshRecord) -> Markup {
                 (made(provenance))
             }
             p {
-                "Every number of this page is in the JSON record, and every place where a row goes wrong in the PLY file: add "
-                code { "--format html,json,ply -o mesh.html -o mesh.json -o mesh.ply" } " to the command."
+                "Every number of this page is in the JSON record: add "
+                code { "--format html,json -o mesh.html -o mesh.json" } " to the command. With "
+                code { "--examples N" } " it has the first N places of each kind."
             }
         }
     }

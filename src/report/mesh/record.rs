@@ -12,13 +12,11 @@ pub const MESH_SCHEMA: &str = "hairline-mesh/1";
 pub struct MeshReport {
     /// The record of the findings.
     pub record: MeshRecord,
-    /// Every edge and vertex that some row's contract does not want so.
-    pub offenders: Vec<Offender>,
     /// The drawing in a page, if the plan keeps places.
     pub drawing: Option<Drawing>,
 }
 
-/// Everything that a mesh audit found, but for the whole list of edges and vertices.
+/// Everything that a mesh audit found.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeshRecord {
     /// [`MESH_SCHEMA`].
@@ -72,8 +70,6 @@ pub struct ScalarPart {
     pub rays: [u64; 2],
     /// Rays with the triangles that they were put to.
     pub cases: u64,
-    /// Edges and vertices that some row's contract does not want so.
-    pub offenders: u64,
     /// One a row whose kernel runs in this scalar.
     pub results: Vec<MeshRowResult>,
 }
@@ -192,20 +188,4 @@ pub struct MeshExample {
     pub faces: Vec<u32>,
     /// The command that shows it again.
     pub command: String,
-}
-
-/// An edge (two points) or a vertex (one) where rows went wrong, with how many rays of all rows together
-/// say so. Cracks count for every row, doubles and folds for rows that promise exactly one hit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Offender {
-    /// `f32` or `f64`.
-    pub scalar: &'static str,
-    /// Two ends, or one vertex.
-    pub points: Vec<[f64; 3]>,
-    /// Rays that no triangle reported.
-    pub cracks: u32,
-    /// Rays that two triangles or more reported where one is right.
-    pub doubles: u32,
-    /// Rays over a fold with the wrong parity.
-    pub odd_folds: u32,
 }

@@ -1,9 +1,9 @@
 mod constants;
-mod fpcore;
 mod gappa;
 mod measures;
 mod mirrors;
 mod permanent;
+mod program;
 mod rows;
 mod sign;
 mod tiny;

@@ -2,7 +2,7 @@
 
 use super::super::dyadic::Big;
 use super::super::{Domain, Dyadic, Format, Prover, relative};
-use super::fpcore::{is_taken, run};
+use super::program::{is_taken, run};
 use super::recorded;
 use crate::arith::recorded::{Operation, Recorded};
 use crate::arith::{Float, Real};

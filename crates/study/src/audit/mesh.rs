@@ -1,5 +1,5 @@
-//! `hairline mesh`: the groups at a mesh's edges and vertices by class of ray, and which edges and
-//! vertices are at fault.
+//! `hairline mesh`: the groups at a mesh's edges and vertices by class of ray, and how many edges and
+//! vertices have a crack.
 
 use super::chunk::{Chunk, SourceSummary};
 use super::group_count::{GroupCount, Outcome};
@@ -17,7 +17,7 @@ use crate::oracle::Layers;
 use crate::truth::Truth;
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The plan of a run on a mesh.
 pub struct Plan {
@@ -59,8 +59,6 @@ pub struct Found {
     pub scalar: &'static str,
     /// The rows whose kernels run in this scalar.
     pub rows: Vec<RowFound>,
-    /// The wrong outcomes of the rows, by part and target.
-    pub offences: Vec<Offence>,
     /// Cases that went through the oracle: a ray and a triangle each.
     pub cases: u64,
     /// Which layer of the oracle decided.
@@ -96,46 +94,28 @@ pub struct Tally {
     pub places: Places,
 }
 
-/// An edge or vertex with a crack of some row, whatever its contract, or with a double or a wrong fold
-/// of one that promises exactly one hit; and how many rays of all rows together say so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Offence {
-    /// Edge or vertex.
-    pub part: Part,
-    /// Which: its place among the targets.
-    pub target: u32,
-    /// Cracks.
-    pub cracks: u32,
-    /// Doubles, of rows that promise exactly one hit.
-    pub doubles: u32,
-    /// Folds of wrong parity, of rows that promise exactly one hit.
-    pub odd_folds: u32,
-}
-
 /// Runs a plan on a mesh in one scalar, which the surface has. The sums do not depend on the number of
 /// threads.
 pub fn run<F: Scalar>(surface: &Arc<Surface>, plan: &Plan, observer: &dyn Observer) -> Found {
     let rows = Rows::<F>::new(&plan.rows);
-    let [edges, vertices] = Part::ALL.map(|part| {
+    let parts = Part::ALL.map(|part| {
         let source = plan.source(surface, part);
         let targets = source.count::<F>() / plan.directions;
         let run = Run { plan, part, source, rows: &rows, observer };
-        (part, run.sums(Marks::new(targets, rows.each.len())))
+        run.sums(Cracked::new(targets, rows.each.len()))
     });
-    let parts = [&edges, &vertices];
     let found = rows.each.iter().enumerate().map(|(i, row)| RowFound {
         row: row.number,
-        tallies: parts.map(|(_, (_, sums))| sums.rows[i].0.clone()),
-        cracked: parts.map(|(_, (marks, _))| marks.cracked(i)),
-        nanoseconds: parts.iter().map(|(_, (_, sums))| sums.rows[i].1).sum(),
+        tallies: parts.each_ref().map(|(_, sums)| sums.rows[i].0.clone()),
+        cracked: parts.each_ref().map(|(cracked, _)| cracked.count(i)),
+        nanoseconds: parts.iter().map(|(_, sums)| sums.rows[i].1).sum(),
     });
     let mut layers = Layers::default();
-    parts.iter().for_each(|(_, (_, sums))| layers.merge(&sums.summary.layers));
+    parts.iter().for_each(|(_, sums)| layers.merge(&sums.summary.layers));
     Found {
         scalar: F::NAME,
         rows: found.collect(),
-        offences: parts.iter().flat_map(|(part, (marks, _))| marks.offences(*part)).collect(),
-        cases: parts.iter().map(|(_, (_, sums))| sums.summary.cases).sum(),
+        cases: parts.iter().map(|(_, sums)| sums.summary.cases).sum(),
         layers,
     }
 }
@@ -176,19 +156,19 @@ impl Merge for Sums {
 }
 
 impl<F: Scalar> Run<'_, F> {
-    fn sums(&self, marks: Marks) -> (Marks, Sums) {
+    fn sums(&self, cracked: Cracked) -> (Cracked, Sums) {
         let empty = || Sums {
             summary: SourceSummary::new(0, F::NAME),
             rows: vec![Default::default(); self.rows.each.len()],
             limits: [self.plan.examples, self.plan.places],
         };
-        let add = |sums: &mut Sums, indices| self.add_chunk(indices, &marks, sums);
+        let add = |sums: &mut Sums, indices| self.add_chunk(indices, &cracked, sums);
         let indices = 0..self.source.count::<F>();
         let sums = engine::sum(indices, self.source.chunk(), self.observer, empty, add);
-        (marks, sums)
+        (cracked, sums)
     }
 
-    fn add_chunk(&self, indices: Range<u64>, marks: &Marks, sums: &mut Sums) {
+    fn add_chunk(&self, indices: Range<u64>, cracked: &Cracked, sums: &mut Sums) {
         let (limit, first) = (self.plan.examples, indices.start);
         let chunk = Chunk::<F>::make(&self.source, indices, self.observer, &mut sums.summary);
         let contracts = &self.rows.contracts;
@@ -212,13 +192,15 @@ impl<F: Scalar> Run<'_, F> {
                         continue;
                     }
                 };
-                let target = group.index % marks.targets.len() as u64;
-                let aim = Aim::of(group.index / marks.targets.len() as u64);
+                let target = group.index % cracked.targets;
+                let aim = Aim::of(group.index / cracked.targets);
                 let near = near[(group.index - first) as usize];
                 let class = &mut tally.classes[2 * usize::from(near) + usize::from(aim.grazing)];
                 let outcome = class.add(&group, limit);
                 if let Some(wrong) = wrong_by(outcome, asked.0.across) {
-                    marks.note(number, target as usize, wrong);
+                    if wrong == Wrong::Crack {
+                        cracked.note(number, target as usize);
+                    }
                     tally.places.add(wrong, target as u32, group.index, self.plan.places);
                 }
             }
@@ -248,45 +230,25 @@ fn wrong_by(outcome: Outcome, across: Across) -> Option<Wrong> {
     }
 }
 
-/// Which targets have what: shared by all threads. Additions and unions commute.
-struct Marks {
-    targets: Vec<[AtomicU32; 3]>,
-    /// For each row a bit a target: whether it has a crack.
-    cracked: Vec<Vec<AtomicU64>>,
+/// Which targets have a crack: shared by all threads, as unions commute.
+struct Cracked {
+    targets: u64,
+    /// For each row a bit a target.
+    rows: Vec<Vec<AtomicU64>>,
 }
 
-impl Marks {
-    fn new(targets: u64, rows: usize) -> Marks {
+impl Cracked {
+    fn new(targets: u64, rows: usize) -> Cracked {
         let words = || (0..targets.div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
-        Marks {
-            targets: (0..targets).map(|_| Default::default()).collect(),
-            cracked: (0..rows).map(|_| words()).collect(),
-        }
+        Cracked { targets, rows: (0..rows).map(|_| words()).collect() }
     }
 
-    fn note(&self, row: usize, target: usize, wrong: Wrong) {
-        if wrong == Wrong::Crack {
-            self.cracked[row][target / 64].fetch_or(1 << (target % 64), Ordering::Relaxed);
-        }
-        self.targets[target][wrong as usize].fetch_add(1, Ordering::Relaxed);
+    fn note(&self, row: usize, target: usize) {
+        self.rows[row][target / 64].fetch_or(1 << (target % 64), Ordering::Relaxed);
     }
 
-    fn cracked(&self, row: usize) -> u64 {
+    fn count(&self, row: usize) -> u64 {
         let ones = |word: &AtomicU64| u64::from(word.load(Ordering::Relaxed).count_ones());
-        self.cracked[row].iter().map(ones).sum()
-    }
-
-    fn offences(&self, part: Part) -> impl Iterator<Item = Offence> + '_ {
-        let counts = |marks: &[AtomicU32; 3]| marks.each_ref().map(|n| n.load(Ordering::Relaxed));
-        (0..).zip(&self.targets).filter_map(move |(target, marks)| {
-            let [cracks, doubles, odd_folds] = counts(marks);
-            (cracks + doubles + odd_folds > 0).then_some(Offence {
-                part,
-                target,
-                cracks,
-                doubles,
-                odd_folds,
-            })
-        })
+        self.rows[row].iter().map(ones).sum()
     }
 }

@@ -7,7 +7,6 @@
 #![forbid(unsafe_code)]
 
 mod accuracy;
-mod answers;
 mod attribution;
 mod by_finding;
 mod causes;
@@ -40,7 +39,6 @@ mod trials;
 pub use crate::engine::{Observer, Unobserved};
 pub use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
-pub use answers::{Answers, Given};
 pub use attribution::attribute_with;
 pub use attribution::{Attribution, attribute, attribute_by_running};
 pub use by_finding::ByFinding;

@@ -56,10 +56,7 @@ impl Row {
             kernel: self.entry.info.name.to_owned(),
             set: Some(self.set.clone()),
             epsilons: self.epsilon_argument(),
-            // A kernel that no flag chooses is unknown to the reader, and so is its own contract.
-            contract: self.contract.words(
-                Some(&self.entry.info.contract).filter(|_| !self.entry.selector().is_empty()),
-            ),
+            contract: self.contract.words(Some(&self.entry.info.contract)),
         }
     }
 
@@ -121,7 +118,7 @@ impl Row {
 
     /// `hairline explain` of what the arguments name, with this row.
     pub fn explain_command(&self, arguments: &str) -> String {
-        format!("hairline explain {arguments} {}", self.flags()).trim_end().to_owned()
+        format!("hairline explain {arguments} {}", self.flags())
     }
 }
 

@@ -102,8 +102,13 @@ fn sum_scalar<F: Scalar>(plan: &Plan, shard: Shard, observer: &dyn Observer, aud
 
 fn finish_scalar<F: Scalar>(plan: &Plan, observer: &dyn Observer, audit: &mut Audit) {
     let runner = Runner::<F>::new(&plan.rows, plan.attribute, observer);
-    let cells = audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME).collect();
-    runner.finish_cells(cells, |number| &plan.sources[number], plan.examples);
+    let cells: Vec<&mut Cell> =
+        audit.cells.iter_mut().filter(|cell| cell.scalar == F::NAME).collect();
+    let causes = engine::map(&cells, |cell| runner.causes(&plan.sources[cell.source], cell));
+    for (cell, causes) in cells.into_iter().zip(causes) {
+        cell.causes = causes;
+        cell.tally.keep_examples(plan.examples);
+    }
 }
 
 impl Audit {
@@ -132,7 +137,7 @@ impl Audit {
 }
 
 /// The sums over a source.
-pub(super) struct Sums {
+struct Sums {
     summary: SourceSummary,
     rows: Vec<(Tally, u64)>,
 }
@@ -148,7 +153,7 @@ impl Merge for Sums {
 }
 
 /// A plan in one scalar, its kernels and epsilons resolved.
-pub(super) struct Runner<'a, F: Scalar> {
+struct Runner<'a, F: Scalar> {
     rows: Rows<F>,
     /// How many findings of a class are attributed, and on how many indices of each source the values
     /// of hits are measured.
@@ -165,11 +170,11 @@ pub(super) struct Asked {
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
-    pub fn new(rows: &[Row], attribute: usize, observer: &'a dyn Observer) -> Self {
+    fn new(rows: &[Row], attribute: usize, observer: &'a dyn Observer) -> Self {
         Runner { rows: Rows::new(rows), attribute, observer }
     }
 
-    pub fn no_sums(&self, examples: usize, source: usize) -> Sums {
+    fn no_sums(&self, examples: usize, source: usize) -> Sums {
         let tally = || Tally::new(examples, self.attribute);
         Sums {
             summary: SourceSummary::new(source, F::NAME),
@@ -178,27 +183,13 @@ impl<'a, F: Scalar> Runner<'a, F> {
     }
 
     /// Puts what a source added up to at the end of the sums.
-    pub fn add_to(&self, sums: Sums, audit: &mut Audit) {
+    fn add_to(&self, sums: Sums, audit: &mut Audit) {
         let source = sums.summary.source;
         audit.sources.push(sums.summary);
         let rows = self.rows.each.iter().zip(sums.rows);
         audit.cells.extend(rows.map(|(row, (tally, nanoseconds))| {
             Cell::new(row.number, source, F::NAME, tally, nanoseconds)
         }));
-    }
-
-    /// Finds the causes of the cells' findings, and keeps as many examples as asked.
-    pub fn finish_cells<'s>(
-        &self,
-        cells: Vec<&mut Cell>,
-        source: impl Fn(usize) -> &'s Source + Sync,
-        examples: usize,
-    ) {
-        let causes = engine::map(&cells, |cell| self.causes(source(cell.source), cell));
-        for (cell, causes) in cells.into_iter().zip(causes) {
-            cell.causes = causes;
-            cell.tally.keep_examples(examples);
-        }
     }
 
     fn causes(&self, source: &Source, cell: &Cell) -> BTreeMap<(Class, Finding), Causes> {
@@ -233,7 +224,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         sampled.flat_map(|(_, cases)| cases).collect()
     }
 
-    pub fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut Sums) {
+    fn add_chunk(&self, source: &Source, indices: Range<u64>, sums: &mut Sums) {
         let chunk = Chunk::make(source, indices, self.observer, &mut sums.summary);
         let sample = self.sample(source, &chunk);
         let asked = self.ask(&chunk);

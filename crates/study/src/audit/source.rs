@@ -222,11 +222,6 @@ impl Source {
         targets.is_some_and(|targets| targets.add_neighbours((*part, index), ray, cases))
     }
 
-    /// True if a case's id alone makes the case again.
-    pub fn is_remade_from_id(&self) -> bool {
-        matches!(self, Source::Family { exhaustive: false, .. })
-    }
-
     /// True if its rates are those of a random sample, which has an interval; false if those of a whole set.
     pub fn is_sample(&self) -> bool {
         match self {

@@ -5,7 +5,6 @@ use super::advice::{Trade, candidates, decades, total};
 use super::axis::Axis;
 use super::curve::Question;
 use super::duty::Duty;
-use super::map::{Map, map};
 use super::run::{Request, Response, SourceResponse, run};
 use crate::arith::Float;
 use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_scalar};
@@ -24,8 +23,6 @@ pub struct StudyPlan<'a, F: 'static> {
     pub at: Vec<F>,
     /// Keep every margin.
     pub exact: bool,
-    /// Weigh the first two gates against each other.
-    pub map: bool,
 }
 
 /// A study's results.
@@ -34,8 +31,6 @@ pub struct Study<F> {
     pub responses: Vec<SourceResponse<F>>,
     /// By gate of the plan.
     pub gates: Vec<GateStudy<F>>,
-    /// The first two gates against each other.
-    pub map: Option<Map<F>>,
 }
 
 /// A study's results for one gate.
@@ -108,14 +103,7 @@ pub fn study<F: Scalar>(
         check(&prices, &duty, n, &responses)?;
         studies.push(GateStudy { gate, total, trade, marks, prices });
     }
-    let map = plan.map.then(|| {
-        let epsilons = [0, 1].map(|k| {
-            let study: &GateStudy<F> = &studies[k];
-            study.prices.iter().map(|price| price.epsilon).collect()
-        });
-        map(&request, epsilons, sources, observer)
-    });
-    Ok(Study { responses, gates: studies, map })
+    Ok(Study { responses, gates: studies })
 }
 
 /// The epsilons of a gate that have names, by value.
@@ -250,12 +238,9 @@ mod tests {
         };
         let sources = ["grazing", "edge-near", "secondary-ray"].map(source);
         let subject = f32::subject(entry).unwrap();
-        let study = |map: bool, at: &[f32]| {
-            let (gates, at) = (vec![0, 1], at.to_vec());
-            let plan = StudyPlan { row: &row, subject, gates, at, exact: false, map };
-            study(&plan, &sources, &Unobserved).unwrap()
-        };
-        let found = study(true, &[0.125, -0.25]);
+        let (gates, at) = (vec![0, 1], vec![0.125, -0.25]);
+        let plan = StudyPlan { row: &row, subject, gates, at, exact: false };
+        let found = study(&plan, &sources, &Unobserved).unwrap();
         let own = row.epsilons::<f32>();
         for (gate, of_gate) in found.gates.iter().enumerate() {
             assert_eq!(of_gate.gate, gate);
@@ -285,10 +270,6 @@ mod tests {
                 assert!((wrong.low..=wrong.high).contains(&misses.sum()), "{:e}", price.epsilon);
             }
         }
-        let map = found.map.unwrap();
-        let epsilons = |gate: usize| found.gates[gate].prices.iter().map(|p| p.epsilon).collect();
-        assert_eq!(map.epsilons, [epsilons(0), epsilons(1)] as [Vec<f32>; 2]);
-        assert!(study(false, &[]).map.is_none());
     }
 
     #[test]
