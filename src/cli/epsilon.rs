@@ -8,7 +8,7 @@ use super::before::{
 };
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
-use super::output::{ColorChoice, paired_outputs, write_results};
+use super::output::{ColorChoice, paired_outputs, write_record};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -19,7 +19,6 @@ use crate::epsilon::scene::LEAST_T;
 use crate::epsilon::{SPANNING, StudyPlan, floor, tunable_gates};
 use crate::family::{FAMILIES, Family};
 use crate::kernel::{Entry, Gate, Scalar, Subject};
-use crate::report::Style;
 use crate::report::epsilon::{EPSILON_FORMATS, GatePart, parts, record};
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
@@ -92,12 +91,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
             return Err(Failure::usage(format!("{flag}: {why}")));
         }
     }
-    let outputs = paired_outputs(
-        EPSILON_FORMATS,
-        |format| format.name,
-        &arguments.format,
-        &arguments.output,
-    )?;
+    let outputs = paired_outputs(EPSILON_FORMATS, &arguments.format, &arguments.output)?;
     let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
@@ -133,11 +127,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     let all = studies.iter().map(|study| study(&progress)).collect::<Result<Vec<_>, _>>()?;
     progress.finish();
     let record = record(sources, all, threads, progress.seconds());
-    write_results(outputs, |format, _, out| {
-        let details = arguments.curves;
-        let style = Style { color: ColorChoice::Never.enabled(false), details };
-        (format.write)(&record, style, out)
-    })?;
+    write_record(outputs, &record, ColorChoice::Never, arguments.curves)?;
     Ok(Status::Success)
 }
 

@@ -110,7 +110,7 @@ struct Picture {
 /// Runs the command.
 pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     let formats = arguments.formats()?;
-    let outputs = paired_outputs(FORMATS, |name| name, &formats, &arguments.output)?;
+    let outputs = paired_outputs(FORMATS, &formats, &arguments.output)?;
     let wants = |name: &str| outputs.iter().any(|(format, _)| **format == name);
     if arguments.drawing && wants("png") {
         return Err(Failure::usage("a drawing is written as svg or text, not as png"));

@@ -4,7 +4,7 @@ use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::chosen_scalars;
 use super::input::read_mesh;
-use super::output::{ColorChoice, paired_outputs, write_results};
+use super::output::{ColorChoice, paired_outputs, write_record};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -14,7 +14,7 @@ use crate::family::MeshFamily;
 use crate::kernel::Scalar;
 use crate::mesh::{Part, Surface};
 use crate::report::mesh::{MESH_FORMATS, build, places};
-use crate::report::{Context, HTML, Style, number_of};
+use crate::report::{Context, HTML, number_of};
 use clap::Args;
 use std::sync::Arc;
 
@@ -77,8 +77,7 @@ pub struct MeshArguments {
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
-    let mut outputs =
-        paired_outputs(MESH_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    let mut outputs = paired_outputs(MESH_FORMATS, &arguments.format, &arguments.output)?;
     let mut plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
@@ -104,10 +103,7 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
         // It is printed why, but no file becomes a report of nothing.
         outputs.retain(|(_, path)| *path == "-");
     }
-    write_results(outputs, |format, path, out| {
-        let color = arguments.color.enabled(path == "-");
-        (format.write)(&report, Style { color, details: arguments.details }, out)
-    })?;
+    write_record(outputs, &report, arguments.color, arguments.details)?;
     if nothing {
         let message = format!(
             "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",

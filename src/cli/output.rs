@@ -3,7 +3,7 @@
 use super::exit::Failure;
 use super::plugins;
 use crate::descriptors;
-use crate::report::number_of;
+use crate::report::{Format, Style, number_of};
 use crate::suggest::nearest_name;
 use clap::ValueEnum;
 use std::fs::{self, File};
@@ -35,17 +35,34 @@ impl ColorChoice {
     }
 }
 
+/// A format, which has a name on the command line.
+pub trait Named {
+    /// The name.
+    fn name(&self) -> &'static str;
+}
+
+impl Named for &'static str {
+    fn name(&self) -> &'static str {
+        self
+    }
+}
+
+impl<R> Named for Format<R> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+}
+
 /// Formats with where they go: each named format to its output, one alone to standard output.
-pub fn paired_outputs<'a, T>(
+pub fn paired_outputs<'a, T: Named>(
     table: &'static [T],
-    name_of: fn(&T) -> &'static str,
     formats: &[String],
     outputs: &'a [String],
 ) -> Result<Vec<(&'static T, &'a str)>, Failure> {
     let find = |name: &String| {
-        let found = table.iter().find(|format| name_of(format) == name);
+        let found = table.iter().find(|format| format.name() == name);
         found.ok_or_else(|| {
-            let names: Vec<&str> = table.iter().map(name_of).collect();
+            let names: Vec<&str> = table.iter().map(T::name).collect();
             let advice = match nearest_name(name, names.iter().copied()) {
                 Some(near) => format!("; did you mean '{near}'?"),
                 None => format!(": there are {}", names.join(", ")),
@@ -94,6 +111,18 @@ pub fn write_results<T>(
         .map(|(what, path)| written(Path::new(path), |out| write(what, path, out)));
     let files = written.filter_map(Result::transpose).collect::<Result<Vec<Beside>, _>>()?;
     files.into_iter().try_for_each(Beside::put_in_place)
+}
+
+/// Writes a record in several formats, in colour where that is wanted.
+pub fn write_record<R>(
+    outputs: Vec<(&Format<R>, &str)>,
+    record: &R,
+    color: ColorChoice,
+    details: bool,
+) -> Result<(), Failure> {
+    write_results(outputs, |format, path, out| {
+        (format.write)(record, Style { color: color.enabled(path == "-"), details }, out)
+    })
 }
 
 /// Refuses a file that could not be written, before the work whose result it would hold.

@@ -3,7 +3,7 @@
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, RUNNING};
-use super::output::{ColorChoice, paired_outputs, write_results};
+use super::output::{ColorChoice, paired_outputs, write_record};
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
@@ -12,7 +12,7 @@ use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Plan, Shard, Source};
 use crate::engine::Unobserved;
 use crate::report::{
-    Context, FORMATS, Format, HTML, Illustrations, PartialPart, PlanFlags, Record, Style, build,
+    Context, FORMATS, Format, HTML, Illustrations, PartialPart, PlanFlags, Record, build,
     group_digits, illustrations, number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
@@ -69,7 +69,7 @@ pub struct Outputs<'a> {
 impl ReportArguments {
     /// Checks the flags, before anything runs.
     pub fn outputs(&self) -> Result<Outputs<'_>, Failure> {
-        let pairs = paired_outputs(FORMATS, |format| format.name, &self.format, &self.output)?;
+        let pairs = paired_outputs(FORMATS, &self.format, &self.output)?;
         let illustrate = match self.illustrate {
             IllustrateChoice::Auto => pairs.iter().any(|(format, _)| format.name == HTML),
             choice => choice == IllustrateChoice::Always,
@@ -86,10 +86,7 @@ impl Outputs<'_> {
 
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
-        write_results(self.pairs.clone(), |format, path, out| {
-            let style = Style { color: self.color.enabled(path == "-"), details: self.details };
-            (format.write)(record, style, out)
-        })
+        write_record(self.pairs.clone(), record, self.color, self.details)
     }
 }
 

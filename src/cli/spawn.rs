@@ -7,7 +7,7 @@ mod text;
 use super::before::{refuse_wrong_values, scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
-use super::output::{paired_outputs, write_results};
+use super::output::{ColorChoice, paired_outputs, write_record};
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::note_left_out;
@@ -16,12 +16,12 @@ use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::plugin::{OffsetCommand, Program};
+use crate::report::Format;
 use crate::spawn::{Plan, PointKind, Scheme, Sums, default_schemes, needs_t, parse, register};
 use crate::studied::Studied;
 use choice::{least_without_failure, made_for};
 use clap::Args;
 use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
-use std::io::{self, Write};
 
 /// The flags of `spawn`: the run, and how it is reported.
 #[derive(Args)]
@@ -102,20 +102,12 @@ pub struct SpawnArguments {
 const DEFAULT_KERNEL: &str = "moller-trumbore";
 
 /// A format of the output.
-struct SpawnFormat {
-    name: &'static str,
-    write: fn(&SpawnRecord, &mut dyn Write) -> io::Result<()>,
-}
-
-const FORMATS: &[SpawnFormat] = &[
-    SpawnFormat { name: "text", write: text::write },
-    SpawnFormat { name: "json", write: record::write_json },
-];
+const FORMATS: &[Format<SpawnRecord>] =
+    &[Format { name: "text", write: text::write }, Format::JSON];
 
 /// Runs the command.
 pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
-    let outputs =
-        paired_outputs(FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    let outputs = paired_outputs(FORMATS, &arguments.format, &arguments.output)?;
     set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
@@ -172,7 +164,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         planes: scenes.iter().map(|scene| scene.plane.name().to_owned()).collect(),
         points,
     };
-    write_results(outputs, |format, _, out| (format.write)(&record, out))?;
+    write_record(outputs, &record, ColorChoice::Never, false)?;
     Ok(Status::Success)
 }
 

@@ -88,7 +88,7 @@ fn write_numbered(out: &mut dyn Write, format: Format, count: u64) -> io::Result
     Ok(())
 }
 
-/// What stands before the tests.
+/// The text before the tests.
 fn head(format: Format) -> String {
     match format {
         Format::Json => String::new(),

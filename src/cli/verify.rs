@@ -46,7 +46,7 @@ const NAMES: &[&str] = &["text", "json", "record", "jsonl", "junit", "sarif", "m
 
 /// Runs the command.
 pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
-    let outputs = paired_outputs(NAMES, |name| name, &arguments.format, &arguments.output)?;
+    let outputs = paired_outputs(NAMES, &arguments.format, &arguments.output)?;
     let profile =
         match arguments.profile.as_deref() {
             None => None,

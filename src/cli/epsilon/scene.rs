@@ -4,14 +4,13 @@ use super::{EpsilonArguments, fault, found_margins, tells_margins};
 use crate::audit::Row;
 use crate::cli::before::{refuse_wrong_values, scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
-use crate::cli::output::{ColorChoice, paired_outputs, write_results};
+use crate::cli::output::{ColorChoice, paired_outputs, write_record};
 use crate::cli::progress::Progress;
 use crate::epsilon::scene::{
     Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
     own_epsilons,
 };
 use crate::family::Stratum;
-use crate::report::Style;
 use crate::report::scene::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
 use crate::studied::Studied;
 
@@ -32,8 +31,7 @@ const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where r
 /// Runs the command; the flags may leave the count to it.
 pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
     arguments.refuse_what_scenes_do_not_take()?;
-    let outputs =
-        paired_outputs(SCENE_FORMATS, |format| format.name, &arguments.format, &arguments.output)?;
+    let outputs = paired_outputs(SCENE_FORMATS, &arguments.format, &arguments.output)?;
     set_threads(arguments.threads)?;
     let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
     let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
@@ -103,10 +101,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     }
     progress.finish();
     let record = scene_record(&studied, &costs, max_error, seed, count, parts);
-    write_results(outputs, |format, _, out| {
-        let style = Style { color: ColorChoice::Never.enabled(false), details: false };
-        (format.write)(&record, style, out)
-    })?;
+    write_record(outputs, &record, ColorChoice::Never, false)?;
     Ok(Status::Success)
 }
 

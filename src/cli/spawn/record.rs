@@ -12,7 +12,6 @@ use crate::spawn::{
     least_weight, new_ray,
 };
 use serde::Serialize;
-use std::io::{self, Write};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "hairline-spawn/1";
@@ -379,12 +378,6 @@ impl WrongPart {
             explain: plan.row.explain_command(&quoted(&line)),
         })
     }
-}
-
-/// Writes one object.
-pub fn write_json(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, record)?;
-    writeln!(out)
 }
 
 #[cfg(test)]

@@ -5,12 +5,12 @@ use super::choice::derived_name;
 use super::record::{DerivedPart, HeightsPart, PointsPart, SchemePart, SpawnRecord};
 use crate::case::{Number, PlaneKind};
 use crate::kernel::{self, Role};
-use crate::report::{Rate, group_digits, interval_of, percent};
+use crate::report::{Rate, Style, group_digits, interval_of, percent};
 use crate::spawn::describe;
 use std::io::{self, Write};
 
 /// Writes a block for each kernel, kind of hit point and scalar, and a legend.
-pub fn write(record: &SpawnRecord, out: &mut dyn Write) -> io::Result<()> {
+pub fn write(record: &SpawnRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
     for (i, part) in record.points.iter().enumerate() {
         if i > 0 {
             writeln!(out)?;

@@ -12,23 +12,15 @@ pub(crate) use csv::quoted;
 pub use record::*;
 pub(in crate::report) use text::{FLUSHED, is_subnormal, least_normal};
 
-use super::Style;
+use super::{Format, Style};
 use std::io::{self, Write};
 
-/// A format that a study can be written in.
-pub struct EpsilonFormat {
-    /// The name on the command line.
-    pub name: &'static str,
-    /// Writes a record.
-    pub write: fn(&EpsilonRecord, Style, &mut dyn Write) -> io::Result<()>,
-}
-
 /// One row per format.
-pub const EPSILON_FORMATS: &[EpsilonFormat] = &[
-    EpsilonFormat { name: "text", write: text::write },
-    EpsilonFormat { name: "json", write: json },
-    EpsilonFormat { name: "csv", write: csv::write },
-    EpsilonFormat { name: "svg", write: plot::write },
+pub const EPSILON_FORMATS: &[Format<EpsilonRecord>] = &[
+    Format { name: "text", write: text::write },
+    Format { name: "json", write: json },
+    Format { name: "csv", write: csv::write },
+    Format { name: "svg", write: plot::write },
 ];
 
 /// On one line, because a line a number is ten times as long. Without details only the curve of all sources

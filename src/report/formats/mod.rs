@@ -28,6 +28,7 @@ pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 use super::disagreement::kinds_of;
 use super::*;
 use super::{disagreement, rate, record};
+use serde::Serialize;
 use std::io::{self, Write};
 
 /// How people-facing formats look.
@@ -40,11 +41,17 @@ pub struct Style {
 }
 
 /// A format that a record can be written in.
-pub struct Format {
+pub struct Format<R: 'static = Record> {
     /// The name on the command line.
     pub name: &'static str,
     /// Writes a record.
-    pub write: fn(&Record, Style, &mut dyn Write) -> io::Result<()>,
+    pub write: fn(&R, Style, &mut dyn Write) -> io::Result<()>,
+}
+
+impl<R: Serialize> Format<R> {
+    /// One JSON value over several lines.
+    pub const JSON: Format<R> =
+        Format { name: "json", write: |record, _, out| write_json(record, out) };
 }
 
 /// The format that shows pictures.
@@ -53,7 +60,7 @@ pub const HTML: &str = "html";
 /// One row per format.
 pub const FORMATS: &[Format] = &[
     Format { name: "text", write: text::write },
-    Format { name: "json", write: |record, _, out| write_json(record, out) },
+    Format::JSON,
     Format { name: "jsonl", write: jsonl::write },
     Format { name: "junit", write: junit::write },
     Format { name: "sarif", write: sarif::write },

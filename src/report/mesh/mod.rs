@@ -19,21 +19,12 @@ pub use record::*;
 
 #[cfg(feature = "cli")]
 use super::HTML;
-use super::{Style, write_json};
-use std::io::{self, Write};
-
-/// A format of a mesh audit.
-pub struct MeshFormat {
-    /// The name on the command line.
-    pub name: &'static str,
-    /// Writes a report.
-    pub write: fn(&MeshReport, Style, &mut dyn Write) -> io::Result<()>,
-}
+use super::{Format, write_json};
 
 /// One row per format.
-pub const MESH_FORMATS: &[MeshFormat] = &[
-    MeshFormat { name: "text", write: text::write },
-    MeshFormat { name: "json", write: |report, _, out| write_json(&report.record, out) },
+pub const MESH_FORMATS: &[Format<MeshReport>] = &[
+    Format { name: "text", write: text::write },
+    Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
     #[cfg(feature = "cli")]
-    MeshFormat { name: HTML, write: page::write },
+    Format { name: HTML, write: page::write },
 ];

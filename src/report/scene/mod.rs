@@ -17,31 +17,17 @@ mod words;
 pub use build::{kernel_part, scene_record};
 pub use record::*;
 
-use super::Style;
-use std::io::{self, Write};
-
-/// A format that a study of a scene can be written in.
-pub struct SceneFormat {
-    /// The name on the command line.
-    pub name: &'static str,
-    /// Writes a record.
-    pub write: fn(&SceneRecord, Style, &mut dyn Write) -> io::Result<()>,
-}
+use super::Format;
 
 /// One row per format.
-pub const SCENE_FORMATS: &[SceneFormat] = &[
-    SceneFormat { name: "text", write: text::write },
-    SceneFormat { name: "json", write: json },
-    SceneFormat { name: "csv", write: csv::write },
-    SceneFormat { name: "svg", write: plot::write },
+pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
+    Format { name: "text", write: text::write },
+    Format::JSON,
+    Format { name: "csv", write: csv::write },
+    Format { name: "svg", write: plot::write },
     #[cfg(feature = "cli")]
-    SceneFormat { name: "html", write: page::write },
+    Format { name: "html", write: page::write },
 ];
-
-fn json(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, record)?;
-    writeln!(out)
-}
 
 #[cfg(test)]
 mod tests {

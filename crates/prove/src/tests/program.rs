@@ -29,7 +29,7 @@ pub(super) fn run<F: Float>(path: &Path, inputs: &[F; 17]) -> Vec<F> {
     values
 }
 
-/// Whether inputs of these numbers take a path.
+/// True if inputs of these numbers take a path.
 pub(super) fn is_taken<F: Float>(path: &Path, values: &[F]) -> bool {
     let of = |place: Place| values[place as usize];
     path.decisions.iter().all(|(comparison, answer)| {
