@@ -15,6 +15,9 @@
 //! The root of this crate is the interface. The modules hold what `hairline` and its prover share, and change with
 //! them.
 
+// Runs that find margins are compiled with the feature of their name alone.
+#![cfg_attr(not(feature = "margins"), allow(dead_code, unused_imports))]
+
 #[doc(hidden)]
 pub use serde;
 
