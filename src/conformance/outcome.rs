@@ -3,8 +3,8 @@
 use crate::case::{Case, rust_case};
 use crate::kernel::KERNELS;
 use crate::report::{
-    ALL_CLASSES, Conformance, FindingKind, FindingPart, KernelResult, Key, Rate, Record, Verdict,
-    counts_alone, disagreements, interval_of, percent, rate_of,
+    ALL_CLASSES, Conformance, FindingKind, FindingPart, KernelResult, Key, Promised, Rate, Record,
+    Verdict, counts_alone, disagreements, interval_of, percent, rate_of,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -45,10 +45,8 @@ impl Outcome {
         };
         let part = self.record.result.results.iter().find(is_of);
         // A kernel that promises nothing across triangles breaks no promise; expectations count its cracks.
-        let promised = part.and_then(|part| part.across.as_ref()).map(|across| &across.promised);
-        if key.finding == FindingKind::Crack
-            && promised.is_some_and(|promised| promised == "nothing")
-        {
+        let promised = part.and_then(|part| part.across.as_ref()).map(|across| across.promised);
+        if key.finding == FindingKind::Crack && promised == Some(Promised::Nothing) {
             return true;
         }
         let Some(most) = self.allowed.get(key.finding.name()) else { return false };

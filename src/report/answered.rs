@@ -1,14 +1,13 @@
 //! The record of what a product answered to test vectors, from the answers that were judged one by one.
 
 use super::build::{Context, across_part, counts, finding_part, provenance_of, severity_part};
-use super::disagreement::PARITY;
 use super::{
-    AcrossPart, Example, KernelResult, PlanPart, PlannedSource, Rate, Record, ResultPart, RowPart,
-    RowTotal, SCHEMA, SourcePart, distribution,
+    AcrossPart, Example, KernelResult, PlanPart, PlannedSource, Promised, Rate, Record, ResultPart,
+    RowPart, RowTotal, SCHEMA, SourcePart, distribution,
 };
 use crate::arith::Float;
 use crate::audit::{Digest, Judged, Place, Severities, Tally};
-use crate::contract::{Across, Extent};
+use crate::contract::Extent;
 use crate::corpus::hex;
 use crate::judge::{Class, Distances, Finding, GroupTruth, Obligation};
 use crate::vectors::{CLOSED, PREFIX, Test};
@@ -48,27 +47,6 @@ pub enum Asked {
     Single(Obligation),
     /// The demand on triangles together.
     Group(GroupTruth),
-}
-
-/// The demand on the hits on every group.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Promised {
-    /// One at least.
-    AtLeastOne,
-    /// One.
-    ExactlyOne,
-    /// An odd or an even number.
-    Parity,
-}
-
-impl Promised {
-    fn name(self) -> &'static str {
-        match self {
-            Promised::AtLeastOne => Across::AtLeastOne.name(),
-            Promised::ExactlyOne => Across::ExactlyOne.name(),
-            Promised::Parity => PARITY,
-        }
-    }
 }
 
 /// A product, and the demand that it was asked to meet.
@@ -239,7 +217,7 @@ impl<'a> Set<'a> {
             severity: distribution::severities(&tally.severities),
             accuracy: BTreeMap::new(),
             across: has_groups.then(|| {
-                let part = across_part(product.promised.name(), &tally.groups, false, id);
+                let part = across_part(product.promised, &tally.groups, false, id);
                 AcrossPart { missed_folds: Rate::default(), ..part }
             }),
             polygons: None,

@@ -245,14 +245,14 @@ pub(super) fn severity_part<F: Float>(case: &Case<F>, extent: Extent) -> Option<
 
 /// The outcomes of groups for which the contract promises something, with the id of each.
 pub(super) fn across_part(
-    promised: &str,
+    promised: Promised,
     groups: &GroupCount,
     sample: bool,
     id: impl Fn(u64) -> String,
 ) -> AcrossPart {
     let ids = |indices: &[u64]| indices.iter().map(|i| id(*i)).collect();
     AcrossPart {
-        promised: promised.to_owned(),
+        promised,
         cracks: rate(groups.cracks, groups.crossings, sample),
         doubles: rate(groups.doubles, groups.crossings, sample),
         odd_folds: rate(groups.odd_folds, groups.folds, sample),
@@ -274,7 +274,7 @@ fn across_in_source<F: Scalar>(source: &Source, row: &Row, groups: &GroupCount) 
     AcrossPart {
         file: source.file_flag(),
         elsewhere: elsewhere.then(|| rate(groups.elsewhere, groups.crossings, sample)),
-        ..across_part(row.contract.across.name(), groups, sample, |i| source.id::<F>(i, None))
+        ..across_part(row.contract.across.into(), groups, sample, |i| source.id::<F>(i, None))
     }
 }
 

@@ -124,17 +124,14 @@ pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
     );
     let folds: Together =
         (FindingKind::OddFold, &across.odd_folds, &across.odd_fold_digest, &across.first_odd_folds);
-    match across.promised.as_str() {
-        "nothing" if is_shared_in_scene(&part.family) => vec![cracks],
-        "nothing" => Vec::new(),
-        "at-least-one" => vec![cracks],
-        PARITY => vec![folds],
-        _ => vec![cracks, doubles, folds],
+    match across.promised {
+        Promised::Nothing if is_shared_in_scene(&part.family) => vec![cracks],
+        promised => {
+            let all = promised.rules_out().into_iter().zip([cracks, doubles, folds]);
+            all.filter(|(is_ruled_out, _)| *is_ruled_out).map(|(_, found)| found).collect()
+        }
     }
 }
-
-/// The promise across triangles where only an odd or an even number of hits is demanded.
-pub(super) const PARITY: &str = "parity";
 
 /// The findings on whole polygons.
 pub(super) fn polygons(part: &KernelResult) -> Vec<Together<'_>> {

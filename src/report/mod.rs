@@ -29,7 +29,7 @@ pub mod scene;
 mod shard;
 
 #[cfg(feature = "studies")]
-pub use answered::{AnsweredTest, Asked, Product, Promised, answered};
+pub use answered::{AnsweredTest, Asked, Product, answered};
 pub use build::{Context, build};
 pub use conformance::*;
 pub(crate) use disagreement::counts_alone;

@@ -13,7 +13,7 @@ use super::illustration::Illustrations;
 pub use super::rate::Rate;
 use crate::audit::Trials;
 pub use finding::*;
-pub use kind::FindingKind;
+pub use kind::{FindingKind, Promised};
 pub use part::*;
 pub use plan::*;
 use serde::{Deserialize, Serialize};

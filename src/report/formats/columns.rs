@@ -175,8 +175,7 @@ pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
 /// The outcomes of groups of triangles, for one row.
 #[derive(Clone, Debug)]
 pub(super) struct Across {
-    /// `nothing`, `at-least-one`, `exactly-one`.
-    promised: String,
+    promised: Promised,
     /// Crossings without a hit: how many, of how many.
     pub(super) cracks: [u64; 2],
     /// Crossings with two hits or more.
@@ -194,29 +193,30 @@ impl Across {
         };
         let [cracks, doubles] = [sum(|part| &part.cracks), sum(|part| &part.doubles)];
         let odd_folds = sum(|part| &part.odd_folds)[0];
-        let promised = parts().next()?.promised.clone();
+        let promised = parts().next()?.promised;
         (0 < cracks[1]).then_some(Across { promised, cracks, doubles, odd_folds })
     }
 
     /// True if the contract rules out cracks, and true if it rules out doubles.
     pub(super) fn rules_out(&self) -> [bool; 2] {
-        [self.promised != "nothing", self.promised == "exactly-one"]
+        let [cracks, doubles, _] = self.promised.rules_out();
+        [cracks, doubles]
     }
 
     /// True if something happened that the contract rules out.
     pub(super) fn is_broken(&self) -> bool {
-        let [no_crack, no_double] = self.rules_out();
-        no_crack && 0 < self.cracks[0] || no_double && 0 < self.doubles[0] + self.odd_folds
+        let happened = [self.cracks[0], self.doubles[0], self.odd_folds];
+        self.promised.rules_out().into_iter().zip(happened).any(|(ruled_out, n)| ruled_out && 0 < n)
     }
 
     /// The promise, and the word `kept` or `BROKEN`.
     pub(super) fn words(&self) -> String {
-        let promise = match self.promised.as_str() {
-            "nothing" => return "nothing".to_owned(),
-            "at-least-one" => ">= 1",
-            _ => "= 1",
-        };
-        format!("{promise}: {}", if self.is_broken() { "BROKEN" } else { "kept" })
+        match self.promised.in_short() {
+            None => "nothing".to_owned(),
+            Some(promise) => {
+                format!("{promise}: {}", if self.is_broken() { "BROKEN" } else { "kept" })
+            }
+        }
     }
 }
 

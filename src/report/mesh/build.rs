@@ -122,7 +122,7 @@ impl<F: Float> Builder<'_, F> {
         MeshRowResult {
             kernel: row.entry.info.name.to_owned(),
             set: row.set.clone(),
-            promised: row.contract.across.name(),
+            promised: row.contract.across.into(),
             edges: part(Part::Edges),
             vertices: part(Part::Vertices),
         }

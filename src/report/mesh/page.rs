@@ -7,7 +7,7 @@ use super::stage;
 use super::text::topology_lines;
 use crate::report::formats::html::words::{counts, interval, percent, shortened};
 use crate::report::formats::html::{SHARED, STYLE, head_of, made, policy, shade};
-use crate::report::{Rate, Style, group_digits, number_of};
+use crate::report::{Promised, Rate, Style, group_digits, number_of};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
 
@@ -120,8 +120,8 @@ fn rates(rows: &[Shown]) -> Markup {
 
 fn rate_row(number: usize, row: &Shown) -> Markup {
     let MeshRowResult { edges, vertices, promised, .. } = row.result;
-    let hue = if *promised == "nothing" { "h" } else { "m" };
-    let exact = if *promised == "exactly-one" { "m" } else { "" };
+    let hue = if *promised == Promised::Nothing { "h" } else { "m" };
+    let exact = if *promised == Promised::ExactlyOne { "m" } else { "" };
     let count = |n: u64| html! { td data-v=(n) { (group_digits(n)) } };
     let of = |part: &MeshPartResult| {
         html! { td data-v=(part.cracked) { (group_digits(part.cracked)) small { "of " (group_digits(part.of)) } } }

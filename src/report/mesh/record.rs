@@ -1,7 +1,7 @@
 //! The record of a mesh audit, versioned: `result` is the same bytes whatever the number of threads.
 
 use super::drawing::Drawing;
-use crate::report::{Provenance, Rate, RowPart};
+use crate::report::{Promised, Provenance, Rate, RowPart};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -113,7 +113,7 @@ pub struct MeshRowResult {
     /// The name of its epsilons.
     pub set: String,
     /// The contract's promise: `nothing`, `at-least-one`, `exactly-one`.
-    pub promised: &'static str,
+    pub promised: Promised,
     /// At edges of two triangles.
     pub edges: MeshPartResult,
     /// At vertices inside closed fans.

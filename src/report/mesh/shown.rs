@@ -3,8 +3,8 @@
 use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
 use super::text::label;
-use crate::report::Rate;
 use crate::report::formats::html::room::Room;
+use crate::report::{Promised, Rate};
 
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
 const MARKS: usize = 3_500_000;
@@ -38,11 +38,9 @@ impl Shown<'_> {
     pub fn promise(&self) -> Option<(&'static str, bool)> {
         let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
         let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
-        match self.result.promised {
-            "at-least-one" => Some((">= 1", 0 == self.leaks())),
-            "exactly-one" => Some(("= 1", 0 == self.leaks() && !more)),
-            _ => None,
-        }
+        let promised = self.result.promised;
+        let is_kept = 0 == self.leaks() && !(more && promised == Promised::ExactlyOne);
+        promised.in_short().map(|hits| (hits, is_kept))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::record::*;
 use crate::report::formats::text::share_column;
 use crate::report::formats::text::short_count;
-use crate::report::{Rate, Style, group_digits, number_of};
+use crate::report::{Promised, Rate, Style, group_digits, number_of};
 use std::io::{self, Write};
 
 /// Writes the record. The layout is for people and not stable.
@@ -78,7 +78,7 @@ fn write_scalar(
             // What nobody promised is no error.
             share_column(
                 &both(|rates| &rates.doubles),
-                Style { color: style.color && row.promised == "exactly-one", ..style }
+                Style { color: style.color && row.promised == Promised::ExactlyOne, ..style }
             ),
             share_column(&both(|rates| &rates.odd_folds), style),
             short_count(row.edges.total.elsewhere.count + row.vertices.total.elsewhere.count),
@@ -202,7 +202,7 @@ fn examples(row: &MeshRowResult, limit: usize, elsewhere: bool) -> Vec<(String, 
     for (name, result) in [("edge", &row.edges), ("vertex", &row.vertices)] {
         for (class, found) in &result.classes {
             let mut lists = vec![("crack", &found.first_cracks)];
-            if row.promised == "exactly-one" {
+            if row.promised == Promised::ExactlyOne {
                 lists.push(("double", &found.first_doubles));
                 lists.push(("wrong at a fold", &found.first_odd_folds));
             }

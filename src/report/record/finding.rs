@@ -1,6 +1,6 @@
 //! Findings: how often, why, how bad, and cases that show them.
 
-use super::{FindingKind, Rate};
+use super::{FindingKind, Promised, Rate};
 use crate::audit::{Attribution, Octave};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -124,7 +124,8 @@ fn or_infinite<'de, D: serde::Deserializer<'de>>(number: D) -> Result<f64, D::Er
 #[serde(deny_unknown_fields)]
 pub struct AcrossPart {
     /// The contract's promise: `nothing`, `at-least-one`, `exactly-one`.
-    pub promised: String,
+    #[cfg_attr(test, schemars(with = "String"))]
+    pub promised: Promised,
     /// Crossings without a hit.
     pub cracks: Rate,
     /// Crossings with two hits or more.

@@ -1,5 +1,6 @@
-//! Every kind of finding that a record can hold: on cases, on groups of triangles, on whole polygons.
+//! The words of a record: kinds of findings, and promises across triangles.
 
+use crate::contract::Across;
 use crate::judge::Finding;
 use std::cmp::Ordering;
 
@@ -76,5 +77,53 @@ impl Ord for FindingKind {
 impl PartialOrd for FindingKind {
     fn partial_cmp(&self, other: &FindingKind) -> Option<Ordering> {
         Some(self.cmp(other))
+    }
+}
+
+named! {
+    pub names
+    /// The promise for the number of hits on triangles that share an edge or a vertex.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Promised {
+        /// Nothing.
+        Nothing = "nothing",
+        /// At least one where the ray passes through.
+        AtLeastOne = "at-least-one",
+        /// One where the ray passes through.
+        ExactlyOne = "exactly-one",
+        /// An odd number where the ray passes through, an even one at folds.
+        Parity = "parity",
+    }
+}
+
+impl Promised {
+    /// True if it rules out cracks, true if doubles, and true if a wrong parity at folds.
+    pub fn rules_out(self) -> [bool; 3] {
+        match self {
+            Promised::Nothing => [false; 3],
+            Promised::AtLeastOne => [true, false, false],
+            Promised::ExactlyOne => [true; 3],
+            Promised::Parity => [false, false, true],
+        }
+    }
+
+    /// The number of hits in short; none without a promise.
+    pub fn in_short(self) -> Option<&'static str> {
+        match self {
+            Promised::Nothing => None,
+            Promised::AtLeastOne => Some(">= 1"),
+            Promised::ExactlyOne => Some("= 1"),
+            Promised::Parity => Some("parity"),
+        }
+    }
+}
+
+impl From<Across> for Promised {
+    fn from(across: Across) -> Promised {
+        match across {
+            Across::Nothing => Promised::Nothing,
+            Across::AtLeastOne => Promised::AtLeastOne,
+            Across::ExactlyOne => Promised::ExactlyOne,
+        }
     }
 }

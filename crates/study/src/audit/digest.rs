@@ -15,7 +15,7 @@ pub struct Place {
     pub triangle: u32,
 }
 
-/// The sum, modulo 2^128, of a hash of each place, and a [sketch](super::sketch) that shows what is in one set
+/// The sum, modulo 2^128, of a hash of each place, and a sketch that shows what is in one set
 /// and not in another. Adding is commutative, so the digest of a run does not depend on threads or shards, and
 /// its size does not depend on the set's. Two sets of equal sum that differ are a matter of chance (one in
 /// 2^128), not of care: it is no protection against forgery.

@@ -179,7 +179,7 @@ fn length(v: [f64; 3]) -> f64 {
     largest * v.into_iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Ranges in which t, u and v of a hit are surely right. Beyond these numbers [`are_near`] decides.
+/// Ranges in which t, u and v of a hit are surely right. Beyond these numbers `are_near` decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<F> {
     /// The least t, u and v.

@@ -161,7 +161,7 @@ fn group(
     rate: &Rate,
     ids: &[String],
 ) -> Markup {
-    let promised = result.across.as_ref().map_or("nothing", |across| across.promised.as_str());
+    let promised = result.across.as_ref().map_or(Promised::Nothing, |across| across.promised);
     html! {
         div.class {
             h5 { (kind) }

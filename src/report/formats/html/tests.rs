@@ -220,6 +220,8 @@ fn tags(page: &str) -> Vec<(String, Vec<(String, String)>)> {
             assert_eq!(open.pop(), Some(name));
             continue;
         }
+        let empty = tag.strip_suffix('/');
+        let tag = empty.unwrap_or(tag);
         let name = tag.split(' ').next().unwrap();
         let mut attributes = Vec::new();
         let mut words = tag[name.len()..].trim_start();
@@ -241,7 +243,7 @@ fn tags(page: &str) -> Vec<(String, Vec<(String, String)>)> {
             // What stands in them is no markup.
             let (_, after) = rest.split_once(&format!("</{name}>")).unwrap();
             rest = after;
-        } else if !["meta", "img", "input"].contains(&name) {
+        } else if empty.is_none() && !["meta", "img", "input"].contains(&name) {
             open.push(name);
         }
     }

@@ -8,7 +8,7 @@ pub const CONFIDENCE: f64 = 0.95;
 /// The share of wrong answers at a limit, as one in how many, where the trials can show it.
 pub const ONE_IN: u64 = 10_000;
 
-/// The most margins that are kept of each count. They are enough for [`ONE_IN`] of nine million trials; of more the
+/// The most margins that are kept of each count. They are enough for `ONE_IN` of nine million trials; of more the
 /// share is smaller.
 pub const KEPT: usize = 1024;
 
@@ -23,8 +23,8 @@ pub struct Ranks {
     pub far: u64,
 }
 
-/// The ranks for n trials. The share is one in [`ONE_IN`], whatever n is, so that the ranks rise with n; of fewer trials
-/// than show it the smallest round share that they can show; of so many that ranks pass [`KEPT`] the largest round share
+/// The ranks for n trials. The share is one in `ONE_IN`, whatever n is, so that the ranks rise with n; of fewer trials
+/// than show it the smallest round share that they can show; of so many that ranks pass `KEPT` the largest round share
 /// below. None of fewer than 29 trials, which cannot even show one in ten.
 pub fn ranks(n: u64) -> Option<Ranks> {
     let rounds = || (1..=18).flat_map(|k| [1u64, 2, 5].map(|d| d * 10u64.pow(k)));
@@ -35,7 +35,7 @@ pub fn ranks(n: u64) -> Option<Ranks> {
         .or_else(|| shown().filter_map(|round| ranks_at(n, round)).last())
 }
 
-/// The ranks for one share, if n trials show it and [`KEPT`] margins are enough.
+/// The ranks for one share, if n trials show it and `KEPT` margins are enough.
 fn ranks_at(n: u64, one_in: u64) -> Option<Ranks> {
     let mut fewer = 0.0;
     let mut safe = None;
