@@ -248,10 +248,7 @@ mod tests {
     #[test]
     fn several_failures_in_one_group_hid_one_group() {
         let crashed: (&str, FindingKind, &[u64]) = ("edge", FindingKind::Crash, &[10, 11, 12, 13]);
-        fn of_groups<'a>(
-            finding: FindingKind,
-            cases: &'a [u64],
-        ) -> (&'a str, FindingKind, &'a [u64]) {
+        fn of_groups(finding: FindingKind, cases: &[u64]) -> (&str, FindingKind, &[u64]) {
             ("group", finding, cases)
         }
         let two = of_groups(FindingKind::Crack, &[10, 20]);
