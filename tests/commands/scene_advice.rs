@@ -374,3 +374,42 @@ fn what_is_recommended_is_tried_on_every_kind_of_plane() {
     assert!(screen.contains("\nrecommended, on other planes"), "{screen}");
     assert!(screen.contains("\nrays: aimed from their rounded origin"), "{screen}");
 }
+
+#[test]
+fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
+    let folder = scratch("epsilon-ranking");
+    let all = ["epsilon", "--scene", "room", "--scalar", "f32", "-n", "300", "-q"];
+    let files = ["--format", "text,json", "-o", "a.txt", "-o", "a.json"];
+    ends(&folder, &[&all[..], &files].concat(), 0);
+    let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    let text = read("a.txt");
+    let record: SceneRecord = serde_json::from_str(&read("a.json")).unwrap();
+    assert!(text.lines().count() <= 30, "{text}");
+    let rows: Vec<Vec<&str>> = text
+        .lines()
+        .filter(|line| {
+            record.kernels.iter().any(|part| line.starts_with(&format!("{} ", part.kernel)))
+        })
+        .map(|line| line.split_whitespace().collect())
+        .collect();
+    assert_eq!(rows.len(), 9, "{text}");
+    // Costs rise from row to row, and no kernel costs less than the first.
+    let costs: Vec<f64> = rows.iter().map(|row| row[1].parse().unwrap()).collect();
+    assert!(costs.is_sorted(), "{text}");
+    let fixed = record.kernels.iter().map(|part| part.tried[0].cost);
+    assert!(fixed.fold(f64::INFINITY, f64::min) + 0.001 > costs[0], "{text}");
+    // Kernels that compute the same stand in one row.
+    let alike = text.lines().find(|line| line.starts_with("  same answers: ")).unwrap();
+    assert!(alike.contains("moller-trumbore-t") || alike.contains("precomputed"), "{text}");
+    assert!(text.lines().filter(|line| !line.starts_with("  ")).all(|line| line.len() <= 110));
+    assert!(text.contains("f32 is fit for this scene"), "{text}");
+    let next = text.lines().find_map(|line| line.strip_prefix("next: hairline ")).unwrap();
+    let words = next.split("     ").next().unwrap().split(' ');
+    let words: Vec<&str> = words.chain(["--scalar", "f32", "-n", "300", "-q"]).collect();
+    assert!(ends(&folder, &words, 0).0.contains("limits, the other numbers fixed"));
+    // Far from 0 the numbers of f32 are too far apart for triangles of a metre.
+    let far = "extent=1000,center=50000000,edge=1..50,distance=0..2000";
+    let kernels = "moller-trumbore,woop-watertight,cramer";
+    let far = study(&folder, kernels, far, &["-n", "100"]);
+    assert!(far.contains("f32 is unfit") && far.contains("use f64, or move the origin"), "{far}");
+}

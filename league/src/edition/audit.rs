@@ -4,7 +4,9 @@ use crate::Entrant;
 use hairline::internals::arith::Float;
 use hairline::internals::case::Case;
 use hairline::internals::corpus::lines::AnyCase;
-use hairline::internals::report::{Example, FindingPart, KernelResult, Record};
+use hairline::internals::report::{
+    Example, FindingKind, FindingPart, KernelResult, Promised, Record,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -173,13 +175,13 @@ fn scalar_result(
         shares
     };
     let [mut cracks, mut doubles] = [Share::default(); 2];
-    let mut promised = "";
+    let mut promised = Promised::Nothing;
     for part in results.iter().filter_map(|result| result.across.as_ref()) {
         cracks.add(part.cracks.count, part.cracks.of);
         doubles.add(part.doubles.count, part.doubles.of);
-        promised = &part.promised;
+        promised = part.promised;
     }
-    let deepest = |finding: &str, groups: &[&str]| {
+    let deepest = |finding: FindingKind, groups: &[&str]| {
         let results = groups.iter().flat_map(|group| of_group(group));
         let depths = results.flat_map(|result| {
             let parts = result.findings.iter().filter(|part| part.finding == finding);
@@ -188,14 +190,14 @@ fn scalar_result(
         depths.max_by(|a, b| a.ulps.total_cmp(&b.ulps))
     };
     const ORDINARY: &[&str] = &["plain", "edges", "vertices", "parallel", "start"];
-    let findings = ["false-miss", "false-hit"];
+    let findings = [FindingKind::FalseMiss, FindingKind::FalseHit];
     let [ordinary, sized] = [ORDINARY, &["size"]].map(|groups| {
-        let depths = findings.iter().filter_map(|finding| deepest(finding, groups));
+        let depths = findings.into_iter().filter_map(|finding| deepest(finding, groups));
         depths.map(|depth| depth.ulps).fold(0.0, f64::max)
     });
     let is_broken = match promised {
-        "exactly-one" => cracks.count + doubles.count > 0,
-        "at-least-one" => cracks.count > 0,
+        Promised::ExactlyOne => cracks.count + doubles.count > 0,
+        Promised::AtLeastOne => cracks.count > 0,
         _ => false,
     };
     let half = half_of_digits(scalar);
@@ -216,8 +218,8 @@ fn scalar_result(
         groups: GROUPS.iter().map(|(name, _)| ((*name).to_owned(), shares(name))).collect(),
         cracks,
         doubles,
-        deepest_miss: deepest("false-miss", all),
-        deepest_hit: deepest("false-hit", all),
+        deepest_miss: deepest(FindingKind::FalseMiss, all),
+        deepest_hit: deepest(FindingKind::FalseHit, all),
         t_error_ulps: t.and_then(|t| Some([t.median?, t.percent_99?])),
         nanoseconds: nanoseconds.map(f64::round),
     }
@@ -234,9 +236,9 @@ fn depth(entrant: &Entrant, family: &str, part: &FindingPart) -> Option<Depth> {
     let along = severity.along.unwrap_or(f64::INFINITY);
     // To be missed because of where the ray starts alone: the line passes through the triangle.
     let is_behind = part.class.ends_with("/before") && !part.class.starts_with("outside");
-    let edges = match part.finding.as_str() {
-        "false-hit" if is_behind => along,
-        "false-hit" => severity.in_space,
+    let edges = match part.finding {
+        FindingKind::FalseHit if is_behind => along,
+        FindingKind::FalseHit => severity.in_space,
         _ => severity.in_space.min(along),
     };
     let ulps = edges * severity.edge_in_ulps;

@@ -117,7 +117,7 @@ fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
     all.into()
 }
 
-const USE: &str = "use";
+pub(super) const USE: &str = "use";
 const LEAST_BAD: &str = "least bad:";
 
 /// The words before epsilons: that they are to be used, unless the notes say that no numbers are good.
@@ -126,7 +126,7 @@ fn lead(record: &SceneRecord, part: &SceneKernelPart, tried: &TriedPart) -> &'st
 }
 
 /// True if epsilons that follow each triangle's size come first.
-fn is_scale_free_better(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+pub(super) fn is_scale_free_better(record: &SceneRecord, part: &SceneKernelPart) -> bool {
     let best = &part.tried[0];
     let is_good = |tried| no_good(record, part, tried).is_empty();
     part.relative.as_ref().is_some_and(|relative| {

@@ -8,9 +8,7 @@ use crate::case::{Number, SCENES};
 /// Commands that show more of what is recommended.
 pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0].epsilons;
-    let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
-    let scene = preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned());
-    let scene = format!("--scene {scene}");
+    let scene = format!("--scene {}", scene_words(record));
     // A mesh has its own extent and edges.
     let is_of_rays =
         |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
@@ -49,6 +47,20 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     let note = if record.mesh.is_some() { "  # other triangles of these sizes" } else { "" };
     let spawn = has_t.then(|| command("spawn", &of_spawn, note));
     [command("audit", &of_audit, &same_rays)].into_iter().chain(spawn).collect()
+}
+
+/// The scene as `--scene` takes it.
+fn scene_words(record: &SceneRecord) -> String {
+    let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
+    preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned())
+}
+
+/// The flags that name the scene, or the mesh, of a study.
+pub(super) fn of_scene(record: &SceneRecord) -> String {
+    match &record.mesh {
+        None => format!("--scene {}", scene_words(record)),
+        Some(mesh) => format!("--mesh {}", shell_word(&mesh.path)),
+    }
 }
 
 /// A scene of triangles as large as a mesh's, within its coordinates or at least their own longest edge.

@@ -10,6 +10,7 @@ mod notes;
 #[cfg(feature = "cli")]
 mod page;
 mod plot;
+mod ranking;
 mod record;
 mod text;
 mod words;

@@ -4,6 +4,7 @@
 use super::answer::{Answer, answer};
 use super::elsewhere::worse_elsewhere;
 use super::legend::legend;
+use super::ranking;
 use super::record::{SceneKernelPart, SceneRecord};
 use crate::report::Style;
 use std::io::{self, Write};
@@ -11,8 +12,11 @@ use std::io::{self, Write};
 /// The least width of a column of the tables.
 const WIDTH: usize = 15;
 
-/// Writes the recommendation first, then the evidence.
+/// Writes the recommendation first, then the evidence; of many kernels one table.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
+    if ranking::is_needed(record) {
+        return ranking::write(record, out);
+    }
     for (i, part) in record.kernels.iter().enumerate() {
         if i > 0 {
             writeln!(out)?;
