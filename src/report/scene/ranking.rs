@@ -2,11 +2,14 @@
 
 use super::answer::{USE, answer, is_scale_free_better};
 use super::commands::of_scene;
-use super::notes::is_coarse;
 use super::record::{Kind, SceneKernelPart, SceneRecord, Stratum, TriedPart};
 use super::words::{human, of_unit, share, spaced};
 use crate::report::record::Rate;
 use std::io::{self, Write};
+
+/// The smallest triangle is so many of a scalar's steps long, or longer, where its numbers are fine enough: then
+/// rounding moves a vertex by less than can be seen.
+const FINE: f64 = 1000.0;
 
 /// One row: kernels that answer alike.
 struct Row<'a> {
@@ -34,7 +37,7 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
     let all = ["f32", "f64"].map(|scalar| (scalar, rows(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
-    let most = if scalars == 1 { 9 } else { 4 };
+    let most = if scalars == 1 { 9 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         writeln!(out, "\n{}", fitness(record, best.part))?;
@@ -121,19 +124,18 @@ fn write_row(record: &SceneRecord, row: &Row, out: &mut dyn Write) -> io::Result
     }
 }
 
-/// A sentence that says if the scalar's numbers are fine enough for the scene.
+/// A sentence that says if the scalar's numbers are fine enough for the scene's smallest triangles.
 fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let SceneKernelPart { scalar, spacing, .. } = part;
     let apart = format!("{}{}", human(&format!("{spacing:.1e}")), spaced(&record.unit));
-    match is_coarse(record, part) {
-        false => {
-            format!("{scalar} is fit for this scene: its numbers are {apart} apart at the far end")
-        }
-        true => format!(
-            "{scalar} is unfit for this scene: its numbers are {apart} apart at the far end, and the smallest triangles are {}{} long: {}move the origin to the camera",
-            record.edge[0],
-            spaced(&record.unit),
-            if scalar == "f32" { "use f64, or " } else { "" }
-        ),
+    let numbers = format!("its numbers are {apart} apart at the far end");
+    let parts = (record.edge[0] / spacing).round();
+    if FINE <= parts {
+        let smallest = "below a thousandth of the smallest triangles";
+        return format!("{scalar} is fit for this scene: {numbers},\n  {smallest}");
     }
+    let wider = if scalar == "f32" { "use f64, or " } else { "" };
+    format!(
+        "{scalar} is coarse for this scene: {numbers},\n  1/{parts} of the smallest triangles: {wider}move the origin to the camera"
+    )
 }
