@@ -14,7 +14,7 @@ use std::io::{self, Write};
 const OWN_STYLE: &str = "
 svg.chart { width: 100%; max-width: 34rem; height: auto; }
 .use { font-size: 1.05rem; } .use::first-letter { text-transform: uppercase; } .use code { font-size: .9rem; }
-.scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; } .scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
 ";
 
 /// Writes the record.

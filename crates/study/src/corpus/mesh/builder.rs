@@ -62,6 +62,7 @@ const NO_AREA: &str = "triangles without area, kept";
 
 impl Builder {
     /// For a file without lines.
+    #[cfg(feature = "files")]
     pub fn without_lines() -> Builder {
         Builder { without_lines: true, ..Builder::default() }
     }
