@@ -15,7 +15,7 @@ const LABEL: f64 = 46.0;
 
 /// Colours by kind of ray, dashes by kind of error; light and dark.
 pub(super) const STYLE: &str = "
-.chart { font: 12px system-ui, -apple-system, sans-serif; fill: #1d2125; }
+.chart { font: 12px system-ui, -apple-system, sans-serif; fill: #1d2125; color: #1d2125; }
 .chart .paper { fill: #fff; } .chart .soft { fill: #575e66; }
 .chart .grid { stroke: #dcdfe3; fill: none; } .chart .axis { stroke: #575e66; fill: none; }
 .chart .tried { stroke: #575e66; stroke-dasharray: 1 3; fill: none; }
@@ -29,7 +29,7 @@ pub(super) const STYLE: &str = "
 .chart .vertices { color: #7b3fa0; } .chart .grazing { color: #1d5fae; }
 .chart .parallel { color: #00707a; } .chart .shadow { color: #1a6b3a; } .chart .outside { color: #8a6d00; }
 @media (prefers-color-scheme: dark) {
-.chart { fill: #e6e8ea; }
+.chart { fill: #e6e8ea; color: #e6e8ea; }
 .chart .paper { fill: #14171a; } .chart .soft { fill: #a3abb3; }
 .chart .grid { stroke: #343a41; } .chart .axis, .chart .tried { stroke: #a3abb3; }
 .chart .this { stroke: #e6e8ea; } .chart text.this { stroke: none; } .chart .within { fill: #7ed09a; }

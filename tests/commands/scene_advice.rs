@@ -399,12 +399,15 @@ fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
     let fixed = record.kernels.iter().map(|part| part.tried[0].cost);
     assert!(fixed.fold(f64::INFINITY, f64::min) + 0.001 > costs[0], "{text}");
     // Kernels that compute the same stand in one row.
-    let alike = text.lines().find(|line| line.starts_with("  same answers: ")).unwrap();
+    let alike = text
+        .lines()
+        .find(|line| line.starts_with("  as often wrong with the same numbers: "))
+        .unwrap();
     assert!(alike.contains("moller-trumbore-t") || alike.contains("precomputed"), "{text}");
     assert!(text.lines().all(|line| line.len() <= 110), "{text}");
     assert!(text.contains("f32 is fit for this scene"), "{text}");
     let next = text.lines().find_map(|line| line.strip_prefix("next: hairline ")).unwrap();
-    let words = next.split("     ").next().unwrap().split(' ');
+    let words = next.split("  # ").next().unwrap().split(' ');
     let words: Vec<&str> = words.chain(["--scalar", "f32", "-n", "300", "-q"]).collect();
     assert!(ends(&folder, &words, 0).0.contains("limits, the other numbers fixed"));
     // Far from 0 the numbers of f32 are too far apart for triangles of a metre.

@@ -47,8 +47,9 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
         for row in rows.iter().take(most) {
             write_row(record, row, out)?;
         }
-        if let Some(more) = rows.len().checked_sub(most).filter(|more| 0 < *more) {
-            writeln!(out, "and {more} that cost more (--format csv lists all)")?;
+        let more: usize = rows.iter().skip(most).map(|row| 1 + row.alike.len()).sum();
+        if 0 < more {
+            writeln!(out, "and {more} more kernels, none cheaper (--format csv lists all)")?;
         }
     }
     writeln!(
@@ -59,7 +60,7 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
     match all.iter().find_map(|(_, rows)| rows.first()) {
         Some(best) => writeln!(
             out,
-            "next: hairline epsilon --kernel {} {}     what each number does, and its limits",
+            "next: hairline epsilon --kernel {} {}  # what each number does, and its limits",
             best.part.kernel,
             of_scene(record)
         ),
@@ -120,7 +121,7 @@ fn write_row(record: &SceneRecord, row: &Row, out: &mut dyn Write) -> io::Result
     }
     match row.alike.is_empty() {
         true => Ok(()),
-        false => writeln!(out, "  same answers: {}", row.alike.join(", ")),
+        false => writeln!(out, "  as often wrong with the same numbers: {}", row.alike.join(", ")),
     }
 }
 
@@ -129,13 +130,13 @@ fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let SceneKernelPart { scalar, spacing, .. } = part;
     let apart = format!("{}{}", human(&format!("{spacing:.1e}")), spaced(&record.unit));
     let numbers = format!("its numbers are {apart} apart at the far end");
-    let parts = (record.edge[0] / spacing).round();
+    let parts = (record.edge[0] / spacing).round().max(1.0);
     if FINE <= parts {
-        let smallest = "below a thousandth of the smallest triangles";
+        let smallest = "below a thousandth of the smallest triangle's longest edge";
         return format!("{scalar} is fit for this scene: {numbers},\n  {smallest}");
     }
     let wider = if scalar == "f32" { "use f64, or " } else { "" };
     format!(
-        "{scalar} is coarse for this scene: {numbers},\n  1/{parts} of the smallest triangles: {wider}move the origin to the camera"
+        "{scalar} is coarse for this scene: {numbers},\n  1/{parts} of the smallest triangle's longest edge: {wider}move the origin to the camera"
     )
 }
