@@ -101,7 +101,7 @@ pub fn write_result(
     written(path.as_ref(), write)?.map_or(Ok(()), Beside::put_in_place)
 }
 
-/// Writes several results; unless all can be written, every file stays as it was.
+/// Writes several results. Files take their places after all are written, so a full disk changes none of them.
 pub fn write_results<T>(
     outputs: Vec<(T, &str)>,
     write: impl Fn(T, &str, &mut dyn Write) -> io::Result<()>,

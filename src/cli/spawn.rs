@@ -101,7 +101,7 @@ pub struct SpawnArguments {
 /// The kernel that runs if nobody names one.
 const DEFAULT_KERNEL: &str = "moller-trumbore";
 
-/// A format of the output.
+/// The formats of the output.
 const FORMATS: &[Format<SpawnRecord>] =
     &[Format { name: "text", write: text::write }, Format::JSON];
 

@@ -174,6 +174,9 @@ impl Chart {
                 _ => shown.push((x, share, interval)),
             }
         }
+        if shown.is_empty() {
+            return;
+        }
         let (path, band) = self.down.steps(shown.into_iter(), right);
         if !band.is_empty() {
             let _ = writeln!(self.drawing, "<path class=\"band {class}\" d=\"{band}\"/>");

@@ -111,7 +111,7 @@ pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
     !(is_shared_in_scene(&part.family) && kind.is_wrong_verdict())
 }
 
-/// The counts of all that the contract rules out across triangles; in a scene cracks count in any case.
+/// The counts of all that the contract rules out across triangles. In a scene cracks count even where nothing is promised.
 pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
     let Some(across) = &part.across else { return Vec::new() };
     let cracks: Together =

@@ -4,7 +4,7 @@ use hairline::internals::arith::{Arithmetic, Float, scale_by_power_of_two};
 use hairline::internals::case::{Case, Draw, Parameters};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{
-    Entry, KERNELS, Scalar, Subject, Verdict, in_arithmetic, refused_by,
+    Entry, KERNELS, Scalar, Subject, Tunable, Verdict, in_arithmetic, open_epsilons, refused_by,
 };
 
 /// Indices of each family, wild cases, and epsilon sets for each case and kernel.
@@ -160,6 +160,52 @@ fn kernels_treat_a_nan_as_declared<F: Scalar>() {
             assert_eq!(hit, entry.info.hits_nan, "{} {}", entry.info.name, F::NAME);
         }
     }
+}
+
+/// A kernel whose gates nobody sees.
+struct Closed<F: 'static>(&'static dyn Subject<F>);
+
+impl<F: Float> Subject<F> for Closed<F> {
+    fn run(&self, cases: &[Case<F>], epsilons: &[F], verdicts: &mut [Verdict<F>]) {
+        self.0.run(cases, epsilons, verdicts);
+    }
+}
+
+fn runs_find_the_margins_that_the_gates_show<F: Scalar>() {
+    for entry in KERNELS {
+        let (shown, info) = (F::subject(entry).unwrap(), entry.info);
+        let (open, width) = (open_epsilons::<F>(info), info.gates.len());
+        for (family, index) in FAMILIES.iter().flat_map(|family| [0, 1, 2].map(|i| (family, i))) {
+            let made = family.make::<F>(&Parameters::default(), 5, index);
+            let cases = made.cases();
+            let mut by_gates = vec![F::zero(); cases.len() * width];
+            let mut by_runs = by_gates.clone();
+            let mut values = vec![None; cases.len()];
+            shown.margins(info, cases, &mut by_gates, &mut []);
+            Closed(shown).margins(info, cases, &mut by_runs, &mut values);
+            let rows = by_gates.chunks(width).zip(by_runs.chunks(width)).zip(cases);
+            for (((by_gates, by_runs), case), values) in rows.zip(values) {
+                let is_hit = by_gates.iter().zip(&open).all(|(margin, e)| e <= margin);
+                let of_gates = by_gates.iter().map(|m| if is_hit { *m } else { -F::infinity() });
+                let expected = of_gates.zip(info.gates).map(|(m, gate)| match gate.epsilon {
+                    Tunable::Fixed if is_hit => F::infinity(),
+                    // The largest number is the largest epsilon there is.
+                    _ if m.place() == F::infinity().place() - 1 => F::infinity(),
+                    _ => m,
+                });
+                let expected: Vec<F> = expected.collect();
+                let about = format!("{} {}: {case:?}", info.name, family.name);
+                assert!(by_runs == expected, "{about}: {by_runs:?}, {expected:?}");
+                assert_eq!(values.is_some(), is_hit, "{about}");
+            }
+        }
+    }
+}
+
+#[test]
+fn runs_find_the_margins_that_the_gates_show_in_either_scalar() {
+    runs_find_the_margins_that_the_gates_show::<f32>();
+    runs_find_the_margins_that_the_gates_show::<f64>();
 }
 
 #[test]

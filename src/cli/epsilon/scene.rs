@@ -7,15 +7,12 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_record};
 use crate::cli::progress::Progress;
 use crate::epsilon::scene::{
-    Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
+    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
     own_epsilons,
 };
 use crate::family::Stratum;
 use crate::report::scene::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
 use crate::studied::Studied;
-
-/// Rays of each stratum, if the flags do not say: enough to show one in 10,000.
-const COUNT: u64 = 40_000;
 
 /// The most values of --at.
 const MOST_AT: usize = 5;

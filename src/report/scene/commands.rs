@@ -1,27 +1,18 @@
 //! The commands that show more of what is recommended for a scene.
 
-use super::notes::is_coarse;
-use super::record::{MeshPart, SceneKernelPart, SceneRecord};
+use super::notes::{has_default_costs, is_coarse};
+use super::record::{NamedNumber, SceneKernelPart, SceneRecord};
 use crate::audit::shell_word;
 use crate::case::{Number, SCENES};
+use crate::epsilon::scene::COUNT;
 
 /// Commands that show more of what is recommended.
 pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0].epsilons;
-    let scene = format!("--scene {}", scene_words(record));
-    // A mesh has its own extent and edges.
-    let is_of_rays =
-        |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
-    let of_mesh = |mesh: &MeshPart| {
-        // Standard input was read once.
-        let path = if mesh.path == "-" { "FILE" } else { &mesh.path };
-        let words: Vec<&str> =
-            ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
-        format!("--mesh {} --scene {}", shell_word(path), shell_word(&words.join(",")))
-    };
-    let (of_audit, of_spawn) = match &record.mesh {
-        None => (scene.clone(), scene),
-        Some(mesh) => (of_mesh(mesh), format!("--scene {}", shell_word(&stand_in(record)))),
+    let of_audit = of_scene(record);
+    let of_spawn = match &record.mesh {
+        None => of_audit.clone(),
+        Some(_) => format!("--scene {}", shell_word(&stand_in(record))),
     };
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
     let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
@@ -55,12 +46,45 @@ fn scene_words(record: &SceneRecord) -> String {
     preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned())
 }
 
-/// The flags that name the scene, or the mesh, of a study.
-pub(super) fn of_scene(record: &SceneRecord) -> String {
-    match &record.mesh {
-        None => format!("--scene {}", scene_words(record)),
-        Some(mesh) => format!("--mesh {}", shell_word(&mesh.path)),
+/// The flags that name the scene of a study, or its mesh and how rays meet it.
+fn of_scene(record: &SceneRecord) -> String {
+    let Some(mesh) = &record.mesh else { return format!("--scene {}", scene_words(record)) };
+    // A mesh has its own extent and edges.
+    let is_of_rays =
+        |word: &&str| !["extent=", "center=", "edge="].iter().any(|key| word.starts_with(key));
+    // Standard input was read once.
+    let path = if mesh.path == "-" { "FILE" } else { &mesh.path };
+    let words: Vec<&str> =
+        ["mesh"].into_iter().chain(record.scene.split(',').filter(is_of_rays)).collect();
+    format!("--mesh {} --scene {}", shell_word(path), shell_word(&words.join(",")))
+}
+
+/// The command that studies one kernel as this record does.
+pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart) -> String {
+    let numbers = |flag: &str, numbers: &[NamedNumber]| {
+        let words: Vec<String> =
+            numbers.iter().map(|it| format!("{}={}", it.name, Number(it.number))).collect();
+        format!(" {flag} {}", words.join(","))
+    };
+    let mut command = format!(
+        "hairline epsilon {} {} --scalar {}",
+        part.selector,
+        of_scene(record),
+        part.scalar
+    );
+    if !has_default_costs(record) {
+        command += &numbers("--cost", &record.costs);
     }
+    if !record.max_error.is_empty() {
+        command += &numbers("--max-error", &record.max_error);
+    }
+    if record.seed != 1 {
+        command += &format!(" --seed {}", record.seed);
+    }
+    if record.count != COUNT {
+        command += &format!(" -n {}", record.count);
+    }
+    command
 }
 
 /// A scene of triangles as large as a mesh's, within its coordinates or at least their own longest edge.

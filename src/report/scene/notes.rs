@@ -28,16 +28,7 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
             "the kernel has no epsilons, so the least t is all that there is to choose".to_owned(),
         );
     }
-    if record.count < FEW {
-        notes.push(format!(
-            "from {} of each kind only: {}",
-            number_of(record.count, "ray", "rays"),
-            match record.count {
-                ..TOO_FEW => "too few to choose by; leave out -n",
-                _ => "another seed may name quite others",
-            }
-        ));
-    }
+    notes.extend(few_rays(record));
     for (gate, e) in &part.others {
         let instead = if gate == "t" { ": the least t is chosen in its place" } else { "" };
         notes.push(format!("{gate}={e} is kept{instead}"));
@@ -55,6 +46,17 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
         _ => notes.extend(accuracy(record)),
     }
     notes
+}
+
+/// A note if there were too few rays to choose epsilons by.
+pub(super) fn few_rays(record: &SceneRecord) -> Option<String> {
+    let advice = match record.count {
+        ..TOO_FEW => "too few to choose by; leave out -n",
+        TOO_FEW..FEW => "another seed may name quite others",
+        _ => return None,
+    };
+    let rays = number_of(record.count, "ray", "rays");
+    Some(format!("from {rays} of each kind only: {advice}"))
 }
 
 /// The share of wrong answers from which on no scene can live with them, by what is counted; none where a scene may
@@ -122,7 +124,7 @@ pub(super) fn no_good(
     vec![format!("no numbers are good here: even these {what}"), instead(record, part, count.kind)]
 }
 
-fn has_default_costs(record: &SceneRecord) -> bool {
+pub(super) fn has_default_costs(record: &SceneRecord) -> bool {
     let default = Costs::default();
     record.costs.iter().all(|cost| {
         let mut kinds = Kind::ALL.into_iter();

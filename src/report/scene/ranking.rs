@@ -1,7 +1,8 @@
 //! Which kernel for a scene: all kernels in one table, the one that costs least first.
 
 use super::answer::{USE, answer, is_scale_free_better};
-use super::commands::of_scene;
+use super::commands::of_kernel;
+use super::notes::few_rays;
 use super::record::{Kind, SceneKernelPart, SceneRecord, Stratum, TriedPart};
 use super::words::{human, of_unit, share, spaced};
 use crate::report::record::Rate;
@@ -34,6 +35,7 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
         None => record.scene.as_str(),
     };
     writeln!(out, "kernels with their best epsilons in {scene}{}", of_unit(&record.unit))?;
+    few_rays(record).map_or(Ok(()), |note| writeln!(out, "{note}"))?;
     let all = ["f32", "f64"].map(|scalar| (scalar, rows(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
@@ -41,8 +43,7 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         writeln!(out, "\n{}", fitness(record, best.part))?;
-        let heads = ["cost", "leaks", "lost hits", "self-hits"];
-        let [cost, leaks, lost, self_hits] = heads;
+        let [cost, leaks, lost, self_hits] = ["cost", "leaks", "lost inside", "self-hits"];
         writeln!(out, "{scalar:<28}{cost:>6}{leaks:>13}{lost:>13}{self_hits:>13}")?;
         for row in rows.iter().take(most) {
             write_row(record, row, out)?;
@@ -54,16 +55,20 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
     }
     writeln!(
         out,
-        "\ncost: each share times its weight; leaks: at shared edges or vertices; lost hits: inside a triangle;\n\
-         self-hits: of shadow rays (-: the kernel has no t). Shares are of rays aimed there, not of your pixels."
+        "\nleaks: at shared edges or vertices; lost inside: hits inside a triangle; self-hits: of shadow rays (-: the\n\
+         kernel has no t). Shares are of rays aimed there, not of your pixels. cost: each share times its weight; false\n\
+         hits and rays almost parallel to their triangle also count"
     )?;
-    match all.iter().find_map(|(_, rows)| rows.first()) {
-        Some(best) => writeln!(
-            out,
-            "next: hairline epsilon --kernel {} {}  # what each number does, and its limits",
-            best.part.kernel,
-            of_scene(record)
-        ),
+    let shown = || all.iter().flat_map(|(_, rows)| rows.iter().take(most));
+    if shown().any(|row| is_scale_free_better(record, row.part)) {
+        writeln!(out, "L: the triangle's longest edge; M: the largest coordinate")?;
+    }
+    let is_fit = |row: &&Row| FINE <= steps(record, row.part);
+    match shown().find(is_fit).or(shown().next()) {
+        Some(best) => {
+            let command = of_kernel(record, best.part);
+            writeln!(out, "next: {command}  # what each number does, and its limits")
+        }
         None => Ok(()),
     }
 }
@@ -114,10 +119,8 @@ fn write_row(record: &SceneRecord, row: &Row, out: &mut dyn Write) -> io::Result
     writeln!(out, "{kernel:<28}{cost:>6.3}{leaks:>13}{lost:>13}{self_hits:>13}")?;
     let answer = answer(record, part);
     if let Some(used) = answer.used.first() {
-        let text = used.text.replace("--epsilon ", "").replace("  and  ", ", ");
-        let text = text.replace("count a hit only if ", "");
         let lead = if used.lead == USE { "use" } else { "no numbers are good; least bad:" };
-        writeln!(out, "  {lead} {text}")?;
+        writeln!(out, "  {lead} {}", used.text)?;
     }
     match row.alike.is_empty() {
         true => Ok(()),
@@ -125,12 +128,17 @@ fn write_row(record: &SceneRecord, row: &Row, out: &mut dyn Write) -> io::Result
     }
 }
 
+/// The length of the smallest triangle's longest edge in steps of the scalar's numbers at the far end.
+fn steps(record: &SceneRecord, part: &SceneKernelPart) -> f64 {
+    record.edge[0] / part.spacing
+}
+
 /// A sentence that says if the scalar's numbers are fine enough for the scene's smallest triangles.
 fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let SceneKernelPart { scalar, spacing, .. } = part;
     let apart = format!("{}{}", human(&format!("{spacing:.1e}")), spaced(&record.unit));
     let numbers = format!("its numbers are {apart} apart at the far end");
-    let parts = (record.edge[0] / spacing).round().max(1.0);
+    let parts = steps(record, part).round().max(1.0);
     if FINE <= parts {
         let smallest = "below a thousandth of the smallest triangle's longest edge";
         return format!("{scalar} is fit for this scene: {numbers},\n  {smallest}");

@@ -4,7 +4,7 @@ use super::{Case, Draw};
 use crate::arith::Float;
 
 /// As many cases as asked for: rays at vertices, edges, the inside and the plane of triangles on small grids, then
-/// triangles of many exponents with rays through points near their edges, then bit patterns.
+/// triangles of many exponents with rays through points near their edges, then numbers of any exponent.
 pub fn hard_cases<F: Float>(seed: u64, count: u64) -> Vec<Case<F>> {
     (0..count).map(|index| hard_case(&mut Draw::new("hard", seed, index), index)).collect()
 }

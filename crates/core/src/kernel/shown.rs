@@ -97,7 +97,8 @@ mod tests {
     use super::*;
     use crate::case::hard_cases;
 
-    /// Runs of one kernel: the bounds decide as exact numbers do, or leave it.
+    /// Runs of one kernel: the bounds decide as exact numbers do, or leave it. Of numbers with any exponents they
+    /// leave most.
     fn bounds_decide_as_exact_numbers<F: crate::kernel::Scalar, K: Kernel>() {
         let (mut decided, mut runs) = (0, 0);
         for (index, case) in hard_cases::<F>(1, 1000).iter().enumerate() {
@@ -106,17 +107,18 @@ mod tests {
             let exact = Lifted::new(case, &epsilons, Exact::from_f64).run::<K>();
             let near = Lifted::new(case, &epsilons, Bounded::new);
             let near = bounded(|| near.run::<K>());
-            runs += 1;
+            let is_ordinary = index % 4 != 3;
+            runs += usize::from(is_ordinary);
             if let Some(near) = near {
-                decided += 1;
+                decided += usize::from(is_ordinary);
                 assert_eq!(near, exact, "{} {}", K::INFO.name, case.hex());
             }
         }
-        assert!(decided * 3 > runs, "{}: {decided} of {runs}", K::INFO.name);
+        assert!(decided * 2 > runs, "{}: {decided} of {runs}", K::INFO.name);
     }
 
     #[test]
-    fn bounds_decide_many_runs_of_every_kind_of_kernel_as_exact_numbers_do() {
+    fn bounds_decide_most_runs_of_every_kind_of_kernel_as_exact_numbers_do() {
         use crate::kernel::*;
         bounds_decide_as_exact_numbers::<f32, plane_unit_normal::PlaneUnitNormal>();
         bounds_decide_as_exact_numbers::<f64, plane_unit_normal::PlaneUnitNormal>();

@@ -5,8 +5,7 @@ use super::stored_case::{StoredCase, check_name};
 use super::stored_truth::StoredTruth;
 use super::{FoundBy, number, plain_json};
 use crate::arith::Float;
-use crate::case::AnyCase;
-use crate::case::Case;
+use crate::case::{AnyCase, Case};
 use serde_json::Value;
 use std::fmt;
 

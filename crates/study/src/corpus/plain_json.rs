@@ -2,8 +2,7 @@
 
 use super::stored_case::{StoredCase, check_name};
 use crate::arith::Float;
-use crate::case::AnyCase;
-use crate::case::Case;
+use crate::case::{AnyCase, Case};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;

@@ -21,6 +21,9 @@ mod study;
 mod tests;
 mod trials;
 
+/// Rays of each stratum, if nothing says how many: enough to show one in 10,000.
+pub const COUNT: u64 = 40_000;
+
 pub use confidence::{CONFIDENCE, ranks};
 pub use curves::Curve;
 pub use elsewhere::try_elsewhere;

@@ -5,7 +5,6 @@ use super::construction::construct;
 use crate::arith::Float;
 use crate::audit::{EpsilonText, Row};
 use crate::case::{AnyScalar, Case, Draw};
-
 use crate::explore::mutate;
 use crate::kernel::{Entry, Gated, KERNELS, Scalar, Subject, Tunable};
 
