@@ -128,11 +128,15 @@ impl RunArguments {
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
         let sources = self.sources.sources(self.report.quiet, |_| true)?;
+        let others = match self.sources.names_kind() {
+            true => Vec::new(),
+            false => sources.iter().flat_map(Source::in_other_kinds).collect(),
+        };
         let with_parts = |source: Source| {
             let parts = source.mesh_parts(self.directions, scalars);
             std::iter::once(source).chain(parts)
         };
-        let sources = sources.into_iter().flat_map(with_parts).collect();
+        let sources = sources.into_iter().flat_map(with_parts).chain(others).collect();
         Ok(Plan { rows, sources, scalars, examples: self.examples, attribute })
     }
 

@@ -71,7 +71,8 @@ pub struct SourceArguments {
     /// Run rays in a scene instead of families: unit, room, city or cad-mm, or what is known of yours,
     /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit; mesh is the scene that --mesh names.
     /// edge=0.01..0.1..10: half are smaller than 0.1; plane=generic, axis, axis-near-0, axis-0, terrain
-    /// or box: how triangles lie; ray=generated: aimed before the origin is rounded
+    /// or box: how triangles lie; toward=axis or axis-plane: where rays go [without either: all kinds, told
+    /// apart]; ray=generated: aimed before the origin is rounded
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
 
@@ -137,14 +138,18 @@ impl SourceArguments {
             note_left_out(&scene, text);
         }
         self.note_missed_angles(&scene, None, quiet)?;
-        let names_planes = self.scene.as_deref().is_some_and(Scene::names_planes);
-        let others = if names_planes { Vec::new() } else { scene.of_all_planes().split_off(1) };
+        let others = if self.names_kind() { Vec::new() } else { scene.of_all_kinds().split_off(1) };
         Ok(StudiedScene { scene, unit, mesh: None, others })
     }
 
     /// True if a scene or a mesh is named.
     pub fn names_scene_or_mesh(&self) -> bool {
         self.scene.is_some() || !self.mesh.is_empty()
+    }
+
+    /// True if the scene's words name a kind of planes or rays.
+    pub fn names_kind(&self) -> bool {
+        self.scene.as_deref().is_some_and(Scene::names_kind)
     }
 
     /// The scene that the mesh is, and the mesh.

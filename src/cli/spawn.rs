@@ -117,9 +117,9 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         note_left_out(&scene, &arguments.scene);
     }
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
-    let scenes = match Scene::names_planes(&arguments.scene) {
+    let scenes = match Scene::names_kind(&arguments.scene) {
         true => vec![scene.clone()],
-        false => scene.of_all_planes(),
+        false => scene.of_all_kinds(),
     };
     let commands = arguments.commands()?;
     let schemes = arguments.schemes()?;
@@ -161,7 +161,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         count: arguments.count,
         wall,
         fold,
-        planes: scenes.iter().map(|scene| scene.plane.name().to_owned()).collect(),
+        planes: scenes.iter().map(|scene| scene.kind().to_string()).collect(),
         points,
     };
     write_record(outputs, &record, ColorChoice::Never, false)?;

@@ -3,6 +3,7 @@
 
 use super::{Amount, Entry, Expectations, SCHEMA};
 use crate::audit::is_of_mesh;
+use crate::case::SceneKind;
 use crate::corpus::InputError;
 use crate::family::{FAMILIES, STRATA};
 use crate::kernel;
@@ -174,7 +175,10 @@ impl Reader<'_> {
         let entry = |amount: Result<(String, Amount), InputError>| {
             let (family, amount) = amount?;
             if !is_of_mesh(&family) && !family.starts_with("corpus:") {
-                self.check("family", (&family, spanned.span()), &families)?;
+                let of_kind =
+                    family.split_once(':').filter(|(_, kind)| SceneKind::named(kind).is_some());
+                let name = of_kind.map_or(family.clone(), |(stratum, _)| stratum.to_owned());
+                self.check("family", (&name, spanned.span()), &families)?;
             }
             let key = Key {
                 kernel: row.kernel.get_ref().clone(),

@@ -11,6 +11,8 @@ mod conformance;
 mod disagreement;
 mod distribution;
 #[cfg(feature = "studies")]
+pub(crate) mod elsewhere;
+#[cfg(feature = "studies")]
 pub mod epsilon;
 #[cfg(feature = "studies")]
 pub mod formats;

@@ -180,9 +180,9 @@ fn numbers_that_are_no_good_are_not_to_be_used() {
 }
 
 #[test]
-fn an_audit_of_a_scene_names_the_kinds_of_planes_that_it_does_not_draw() {
-    const AT_ZERO: &str = "plane=axis-0 (floors and walls at coordinate 0)";
-    const BOXES: &str = "plane=box (boxes along the axes)";
+fn an_audit_of_a_scene_draws_every_kind_of_planes_and_rays_unless_one_is_named() {
+    const AT_ZERO: &str = "axis-0 (floors and walls at coordinate 0)";
+    const BOXES: &str = "box (boxes along the axes)";
     let squeezed = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let folder = scratch("claims-planes");
     for (flags, parts) in [
@@ -190,6 +190,7 @@ fn an_audit_of_a_scene_names_the_kinds_of_planes_that_it_does_not_draw() {
         (&["--scene", "room,center=100"], [false, true]),
         (&["--scene", "room,plane=generic"], [false, false]),
         (&["--scene", "room,plane=axis-0"], [false, false]),
+        (&["--scene", "room,toward=axis"], [false, false]),
         (&["--family", "interior"], [false, false]),
     ] {
         let all = [&["audit", "-n", "20", "-q", "--kernel", "cramer"][..], flags].concat();
@@ -199,6 +200,29 @@ fn an_audit_of_a_scene_names_the_kinds_of_planes_that_it_does_not_draw() {
             parts,
             "{flags:?}\n{screen}"
         );
+    }
+}
+
+#[test]
+fn an_audit_of_a_scene_says_on_which_planes_a_kernel_is_more_often_wrong() {
+    let folder = scratch("claims-elsewhere");
+    let flags = ["audit", "-n", "2000", "-q", "--kernel", "woop-watertight", "--scalar", "f32"];
+    let (screen, _) = ends(&folder, &[&flags[..], &["--scene", "room"]].concat(), 0);
+    let line = screen.lines().find(|line| line.contains("f32: ends")).expect(&screen);
+    let words: Vec<&str> = line.split_whitespace().rev().take(4).collect();
+    let [kind, "on", most, own] = words[..] else { panic!("{line}") };
+    let percent = |word: &str| word.trim_end_matches('%').parse::<f64>().unwrap();
+    // Shadow rays from floors at coordinate 0 start there exactly, so their t is 0: 0 <= t accepts half of them.
+    assert!(kind.starts_with("axis") && percent(own) < 2.0 && 10.0 < percent(most), "{line}");
+    let json = ["--scene", "room", "--format", "json"];
+    let record: serde_json::Value =
+        serde_json::from_str(&ends(&folder, &[&flags[..], &json].concat(), 0).0).unwrap();
+    let sources = record["result"]["plan"]["sources"].as_array().unwrap();
+    let names: Vec<&str> = sources.iter().map(|it| it["family"].as_str().unwrap()).collect();
+    // Seven strata; rays along axes are in five, which are not about the angle to the plane.
+    assert_eq!(names.len(), 7 * 6 + 5 * 3, "{names:?}");
+    for name in ["scene-shadow", "scene-shadow:axis-0", "scene-edges:axis+axis-rays"] {
+        assert!(names.contains(&name), "{name}");
     }
 }
 

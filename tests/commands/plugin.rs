@@ -522,7 +522,8 @@ fn a_tolerance_that_closes_cracks_is_better_in_the_check_of_a_scene() {
     let file = fs::read_to_string(folder.join("hairline.expectations.toml.lock")).unwrap();
     let of_shared = |line: &&str| line.contains("scene-edges") || line.contains("scene-vertices");
     let shared: Vec<&str> = file.lines().filter(of_shared).collect();
-    assert!(shared.len() == 2 && shared.iter().all(|line| line.contains("crack")), "{shared:?}");
+    // On every kind of planes and rays on which there are any.
+    assert!(10 < shared.len() && shared.iter().all(|line| line.contains("crack")), "{shared:?}");
     let out = check(&tolerant, &[], 1);
     for family in ["scene-edges", "scene-vertices"] {
         assert!(!out.contains(&format!("{family}: false-")), "{out}");

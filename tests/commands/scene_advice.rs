@@ -193,7 +193,7 @@ fn a_mesh_is_audited_as_it_was_studied_and_its_edges_are_well_within_their_limit
     let more = more.replace(from, to);
     let words: Vec<&str> = more.split(' ').collect();
     let (out, _) = ends(&folder, &[&words[..], &["-q"]].concat(), 0);
-    assert!(out.contains("7 sources") && out.contains(" cracks"), "{out}");
+    assert!(out.contains("on 7 families,") && out.contains(" cracks"), "{out}");
     // Triangles may be larger than the coordinates are; the stand-in for them runs all the same.
     fs::write(folder.join("quad.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
         .unwrap();
@@ -364,14 +364,26 @@ fn what_is_recommended_is_tried_on_every_kind_of_plane() {
     };
     let part = record("room").kernels.remove(0);
     let planes: Vec<&str> = part.elsewhere.iter().map(|plane| plane.plane.as_str()).collect();
-    assert_eq!(planes, ["axis", "axis-near-0", "axis-0", "terrain", "box"]);
+    assert_eq!(
+        planes,
+        [
+            "axis",
+            "axis-near-0",
+            "axis-0",
+            "terrain",
+            "box",
+            "axis-plane-rays",
+            "axis-rays",
+            "axis+axis-rays"
+        ]
+    );
     for plane in &part.elsewhere {
         assert_eq!(plane.wrong.len(), part.counts.len());
         assert!(plane.wrong.iter().all(|rate| 500 < rate.of), "{plane:?}");
     }
     assert!(record("room,plane=axis-0").kernels[0].elsewhere.is_empty());
     let (screen, _) = ends(&folder, &[&study[..], &["--scene", "room"]].concat(), 0);
-    assert!(screen.contains("\nrecommended, on other planes"), "{screen}");
+    assert!(screen.contains("\nrecommended: more often wrong on "), "{screen}");
     assert!(screen.contains("\nrays: aimed from their rounded origin"), "{screen}");
 }
 
@@ -392,7 +404,7 @@ fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
         })
         .map(|line| line.split_whitespace().collect())
         .collect();
-    assert_eq!(rows.len(), 9, "{text}");
+    assert_eq!(rows.len(), 7, "{text}");
     // Costs rise from row to row, and no kernel costs less than the first.
     let costs: Vec<f64> = rows.iter().map(|row| row[1].parse().unwrap()).collect();
     assert!(costs.is_sorted(), "{text}");
@@ -408,7 +420,7 @@ fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
     assert!(text.contains("f32 is fit for this scene"), "{text}");
     let next = text.lines().find_map(|line| line.strip_prefix("next: hairline ")).unwrap();
     let words = next.split("  # ").next().unwrap().split(' ');
-    let words: Vec<&str> = words.chain(["--scalar", "f32", "-n", "300", "-q"]).collect();
+    let words: Vec<&str> = words.chain(["-q"]).collect();
     assert!(ends(&folder, &words, 0).0.contains("limits, the other numbers fixed"));
     // Far from 0 the numbers of f32 are too far apart for triangles of a metre.
     let far = "extent=1000,center=500000,edge=1..50,distance=0..2000";

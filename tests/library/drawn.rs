@@ -7,7 +7,7 @@ use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Scalar, find};
 use hairline::internals::oracle;
 use hairline::internals::spawn::{Plan, PointKind, Trials, derived_normal, parse, run};
-use hairline::internals::truth::Truth;
+use hairline::internals::truth::{Feature, Truth};
 use num_rational::BigRational as Rational;
 use num_traits::{One, ToPrimitive};
 
@@ -160,6 +160,51 @@ fn check_planes<F: Scalar>(kind: PlaneKind, words: &str) {
     }
 }
 
+/// Which coordinates of a direction are 0.
+fn still<F: Float>(case: &Case<F>) -> usize {
+    let [_, direction, ..] = case.vectors();
+    direction.iter().filter(|x| x.is_zero()).count()
+}
+
+fn check_rays<F: Scalar>(words: &str, zeros: usize) {
+    for stratum in Stratum::ALL {
+        let made = made::<F>(stratum, words, 400);
+        let truths = made.iter().map(|made| made.iter().map(oracle::truth).collect::<Vec<_>>());
+        let truths: Vec<Vec<Truth>> = truths.collect();
+        let is_flat = [Stratum::Grazing, Stratum::Parallel].contains(&stratum);
+        if is_flat {
+            // Such rays go where their angle needs.
+            continue;
+        }
+        assert!(made.iter().flatten().all(|case| still(case) == zeros), "{words} {stratum:?}");
+        // Rays meet what they are aimed at, and are not parallel to it.
+        let crosses = |truth: &Truth| truth.crossing().is_some();
+        let met = truths.iter().filter(|all| all.iter().any(crosses)).count();
+        assert!(395 <= met, "{words} {stratum:?}: {met}");
+        if stratum == Stratum::Interior {
+            let hits = truths.iter().filter(|all| all[0].hits_closed() == Some(true)).count();
+            assert!(390 <= hits, "{words}: {hits}");
+        }
+        if (stratum, zeros) == (Stratum::Vertices, 2) {
+            let vertices = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
+            let at_vertex =
+                |truth: &Truth| truth.crossing().is_some_and(|it| vertices.contains(&it.feature));
+            let all = truths.iter().filter(|all| all.iter().any(at_vertex)).count();
+            assert!(390 <= all, "{words}: an axis ray at a vertex meets it exactly: {all}");
+        }
+    }
+}
+
+#[test]
+fn rays_go_along_axes_where_the_scene_says_so() {
+    for (toward, zeros) in [("axis", 2), ("axis-plane", 1)] {
+        for scene in ["room", "city,plane=axis", "room,plane=box", "city,direction=target"] {
+            check_rays::<f32>(&format!("{scene},toward={toward}"), zeros);
+            check_rays::<f64>(&format!("{scene},toward={toward}"), zeros);
+        }
+    }
+}
+
 #[test]
 fn planes_are_of_the_kind_that_the_scene_names() {
     for kind in PlaneKind::ALL {
@@ -207,7 +252,7 @@ fn offsets_fail_more_often_in_planes_of_two_axes_and_what_is_proved_never_does()
     assert!((0.13..0.21).contains(&at_zero), "{at_zero}");
     assert!(0.1 < wrong(&format!("{place},plane=axis-near-0")));
     for text in ["unit", "room", "city", "cad-mm", place] {
-        for scene in Scene::parse(text).unwrap().0.of_all_planes() {
+        for scene in Scene::parse(text).unwrap().0.of_all_kinds() {
             let derived = derived_normal::<f32>(&scene, 0.0).unwrap();
             let (row, scene, kind) = (&row, &scene, PointKind::Weights);
             let schemes = &[parse(&format!("normal={derived}")).unwrap()];

@@ -14,7 +14,9 @@ pub use any::{AnyCase, AnyScalar};
 pub use hard::hard_cases;
 pub use literal::{rust_case, rust_list};
 pub use scene::Number;
-pub use scene::{DirectionLength, PlaneKind, RayKind, SCENES, Scene, ScenePreset};
+pub use scene::{
+    DirectionLength, PlaneKind, RayKind, SCENES, Scene, SceneKind, ScenePreset, Toward,
+};
 
 use crate::arith::{Exact, ExactVector, Float, Real, Triple, Vector, scale_by_power_of_two};
 use std::fmt;

@@ -7,8 +7,8 @@ use crate::cli::exit::{Failure, Status};
 use crate::cli::output::{ColorChoice, paired_outputs, write_record};
 use crate::cli::progress::Progress;
 use crate::epsilon::scene::{
-    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with, counts,
-    own_epsilons,
+    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with,
+    counts, own_epsilons,
 };
 use crate::family::Stratum;
 use crate::report::scene::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};

@@ -171,7 +171,7 @@ pub struct SchemePart {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, serde(deny_unknown_fields))]
 pub struct PlanePart {
-    /// The kind, as the word `plane` of a scene takes it.
+    /// The name of the kind of planes and rays.
     pub plane: String,
     /// Starts on the plane, behind it, or nowhere.
     pub wrong: Rate,
@@ -358,7 +358,7 @@ impl PlanePart {
         let rate = |count| Rate::new(sums.trials(count), true);
         let wrong_at = |index| WrongPart::new::<F>(plan, &plan.schemes[place], index);
         PlanePart {
-            plane: plan.scene.plane.name().to_owned(),
+            plane: plan.scene.kind().to_string(),
             wrong: rate(sums.wrong),
             self_hits: if plan.tells_self_hits() { rate(sums.self_hits) } else { Rate::default() },
             first_wrong: sums.first_wrong.and_then(wrong_at),

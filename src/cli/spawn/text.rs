@@ -3,8 +3,9 @@
 
 use super::choice::derived_name;
 use super::record::{DerivedPart, HeightsPart, PointsPart, SchemePart, SpawnRecord};
-use crate::case::{Number, PlaneKind};
+use crate::case::{Number, SceneKind};
 use crate::kernel::{self, Role};
+use crate::report::elsewhere::{self, Compared};
 use crate::report::{Rate, Style, group_digits, interval_of, percent};
 use crate::spawn::describe;
 use std::io::{self, Write};
@@ -86,11 +87,11 @@ fn advice(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::R
                 "       no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {} (95 % sure)",
                 group_digits(best.one_in)
             )?;
-            if let [_, others @ ..] = &record.planes[..]
-                && !others.is_empty()
-            {
-                let others = others.join(", ");
-                writeln!(out, "       nor on planes of any other kind ({others})")?;
+            if 1 < record.planes.len() {
+                writeln!(
+                    out,
+                    "       nor on planes or with rays of any other kind (listed below)"
+                )?;
             }
             writeln!(
                 out,
@@ -155,31 +156,13 @@ fn table(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Re
 
 /// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
 fn elsewhere(record: &SpawnRecord, part: &PointsPart, out: &mut dyn Write) -> io::Result<()> {
-    let is_worse = |scheme: &&SchemePart| {
-        let [_, most] = scheme.wrong.interval.unwrap_or_default();
-        let lows = scheme.elsewhere.iter().filter_map(|plane| Some(plane.wrong.interval?[0]));
-        lows.into_iter().any(|least| most < least)
-    };
-    let worse: Vec<&SchemePart> = part.schemes.iter().filter(is_worse).collect();
-    let [first, others @ ..] = &record.planes[..] else { return Ok(()) };
-    if others.is_empty() {
-        return Ok(());
-    }
-    let others = others.join(", ");
-    if worse.is_empty() {
-        return writeln!(out, "on planes of other kinds ({others}) no offset has more wrong sides");
-    }
-    write!(out, "{:<16}{first:>12}", "wrong side on")?;
-    record.planes[1..].iter().try_for_each(|plane| write!(out, "{plane:>12}"))?;
-    writeln!(out)?;
-    for scheme in worse {
-        let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
-        write!(out, "{:<16}{:>12}", scheme.name, share(&scheme.wrong))?;
-        let mut planes = scheme.elsewhere.iter();
-        planes.try_for_each(|plane| write!(out, "{:>12}", share(&plane.wrong)))?;
-        writeln!(out)?;
-    }
-    Ok(())
+    let share = |rate: &Rate| rate.rate.map_or("-".to_owned(), percent);
+    let rows = part.schemes.iter().map(|scheme| Compared {
+        label: scheme.name.clone(),
+        own: &scheme.wrong,
+        others: scheme.elsewhere.iter().map(|other| &other.wrong).collect(),
+    });
+    elsewhere::write("more wrong sides", &record.planes, &rows.collect::<Vec<_>>(), share, out)
 }
 
 fn row(scheme: &SchemePart, out: &mut dyn Write) -> io::Result<()> {
@@ -272,14 +255,13 @@ times least  the way along the normal over the shortest that is right, where p i
     )
 }
 
-/// The kinds of planes in words, where there are several.
+/// The kinds of planes and rays in words, where there are several.
 fn kinds(record: &SpawnRecord) -> String {
-    let kinds =
-        PlaneKind::ALL.into_iter().filter(|kind| record.planes.iter().any(|it| it == kind.name()));
-    let words: Vec<_> = kinds.map(|kind| format!("{}: {}", kind.name(), kind.in_words())).collect();
+    let kinds = record.planes.iter().filter_map(|name| SceneKind::named(name));
+    let words: Vec<_> = kinds.map(|kind| format!("{kind}: {}", kind.in_words())).collect();
     if words.len() < 2 {
         return String::new();
     }
     let lines = words.chunks(2).map(|chunk| chunk.join("; "));
-    format!("planes       {}\n", lines.collect::<Vec<_>>().join(";\n             "))
+    format!("kinds        {}\n", lines.collect::<Vec<_>>().join(";\n             "))
 }

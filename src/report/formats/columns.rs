@@ -3,14 +3,16 @@
 use super::disagreement::{family_of, is_shared_in_scene};
 use super::record::*;
 use super::row_view::RowView;
-use crate::audit::{Octave, Trials, is_of_mesh};
-use crate::case::PlaneKind;
+use crate::audit::{Octave, Trials, is_of_mesh, kind_of};
+use crate::case::SceneKind;
 use crate::family::Question;
 use crate::vectors;
 
-/// The sources of one question, all of them samples or all of them complete sets.
+/// The sources of one question, all of them samples or all of them complete sets; of a scene's kinds of planes and rays
+/// one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Column {
+    kind: SceneKind,
     topic: Topic,
     /// True if its sources are whole sets, which have counts, and no interval.
     pub(super) complete: bool,
@@ -32,11 +34,20 @@ impl Column {
             None if is_of_mesh(family) => Topic::Mesh,
             None => Topic::Stored,
         };
-        Column { topic, complete }
+        Column { kind: kind_of(family), topic, complete }
     }
 
-    /// The columns of a record in which some kernel must give a verdict, in order.
+    /// The columns of a record in which some kernel must give a verdict, in order: of a scene those of the kind that its
+    /// words name.
     pub(super) fn all(record: &Record) -> Vec<Column> {
+        let mut all = Column::in_all_kinds(record);
+        let own = kinds(record)[0];
+        all.retain(|column| column.kind == own);
+        all
+    }
+
+    /// The same in all kinds of planes and rays.
+    pub(super) fn in_all_kinds(record: &Record) -> Vec<Column> {
         let mut all: Vec<Column> = Vec::new();
         for result in &record.result.results {
             let total = &result.total;
@@ -47,6 +58,11 @@ impl Column {
         all.sort();
         all.dedup();
         all
+    }
+
+    /// The same question in another kind of planes and rays.
+    pub(super) fn of_kind(self, kind: SceneKind) -> Column {
+        Column { kind, ..self }
     }
 
     /// Its head.
@@ -78,6 +94,19 @@ impl Column {
         let of = |part: &&KernelResult| Column::of(&part.family, is_complete(row.sources, part));
         row.results.iter().copied().filter(|part| self == of(part)).collect()
     }
+}
+
+/// The kinds of a record's planes and rays; the one that tables are about comes first.
+pub(super) fn kinds(record: &Record) -> Vec<SceneKind> {
+    let mut kinds: Vec<SceneKind> = Vec::new();
+    for source in &record.result.plan.sources {
+        let kind = kind_of(&source.family);
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    // A plan without sources has results of none.
+    if kinds.is_empty() { vec![SceneKind::ALL[0]] } else { kinds }
 }
 
 /// True if a result's source is a whole set rather than a random sample.
@@ -146,26 +175,6 @@ pub(super) fn shared_in_scenes(record: &Record) -> Option<&'static str> {
     )
 }
 
-/// The note on a scene whose kind of plane nobody chose: other kinds have other rates.
-pub(super) fn kinds_not_drawn(record: &Record) -> Option<String> {
-    let flags = record.provenance.plan_flags.as_ref();
-    if flags.is_some_and(|flags| flags.sources.contains("plane=")) {
-        return None;
-    }
-    let mut parameters = record.result.plan.parameters().filter(|it| it.mesh.is_none());
-    let scene = parameters.find_map(|it| it.scene)?;
-    if scene.plane != PlaneKind::Generic {
-        return None;
-    }
-    let others = scene.of_all_planes().into_iter().map(|scene| scene.plane).skip(1);
-    let others = others.map(|kind| format!("plane={} ({})", kind.name(), kind.in_words()));
-    Some(format!(
-        "All planes here are turned at random (plane=generic). Other kinds were not drawn, and kernels may be wrong more \
-         often there; one run shows one kind, for which --scene takes {}.",
-        others.collect::<Vec<_>>().join(", ")
-    ))
-}
-
 /// The findings of a kind that are off by [`FAR`] longest edges or more.
 pub(super) fn far(result: &KernelResult, kind: FindingKind) -> u64 {
     let Some(severity) = result.severity.get(&kind) else { return 0 };
@@ -185,9 +194,10 @@ pub(super) struct Across {
 }
 
 impl Across {
-    /// The sum of a row's results; none without a crossing.
-    pub(super) fn of(row: &RowView) -> Option<Across> {
-        let parts = || row.results.iter().filter_map(|result| result.across.as_ref());
+    /// The sum of a row's results of a kind of planes; none without a crossing.
+    pub(super) fn of(row: &RowView, kind: SceneKind) -> Option<Across> {
+        let results = || row.results.iter().filter(|result| kind_of(&result.family) == kind);
+        let parts = || results().filter_map(|result| result.across.as_ref());
         let sum = |rate: fn(&AcrossPart) -> &Rate| {
             parts().fold([0, 0], |[n, of], part| [n + rate(part).count, of + rate(part).of])
         };

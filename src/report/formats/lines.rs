@@ -1,6 +1,6 @@
 //! The lines of the screen and of the summary in Markdown: rows with their cells, and words wrapped.
 
-use super::columns::{Across, Cell, Column};
+use super::columns::{Across, Cell, Column, kinds};
 use super::group_digits;
 use super::record::*;
 use super::row_view::RowView;
@@ -28,12 +28,13 @@ impl Line<'_> {
 
 /// Every row in every scalar.
 pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
+    let own = kinds(record)[0];
     let in_scalar = |scalar: &'a String| {
         let rows = RowView::all(record, scalar).into_iter();
         rows.map(move |row| Line {
             cells: columns.iter().map(|column| Cell::sum(&column.results(&row))).collect(),
             values: Cell::of_values(columns, &row),
-            across: Across::of(&row),
+            across: Across::of(&row, own),
             row,
         })
     };

@@ -1,13 +1,15 @@
 //! The screen of `hairline audit`: the answer, a table with a column for each question, the worst
 //! findings, and what to do next. Everything else is behind `--details`.
 
-use super::columns::{Across, Cell, Column, kinds_not_drawn, shared_in_scenes, short_percent};
-use super::disagreement::{Key, disagreements, is_shared_in_scene};
+use super::columns::{Across, Cell, Column, kinds, shared_in_scenes, short_percent};
+use super::disagreement::{Key, disagreements, family_of, is_shared_in_scene};
 use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
 use super::{Style, close_up, extremes, group_digits, next, number_of};
-use crate::family;
+use crate::case::SceneKind;
+use crate::report::elsewhere::is_worse;
+use crate::report::percent;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -25,9 +27,6 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     if let Some(note) = shared_in_scenes(record) {
         write_wrapped(note, out)?;
     }
-    if let Some(note) = kinds_not_drawn(record) {
-        write_wrapped(&note, out)?;
-    }
     for scalar in &record.result.plan.scalars {
         let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);
         let cases = cases.map(|source| source.cases).sum();
@@ -43,6 +42,7 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
         write_table(&columns, &lines, style, out)?;
         write_wrapped(&column_legend(&columns, &lines), out)?;
     }
+    write_elsewhere(record, &columns, &lines, out)?;
     for scalar in &record.result.plan.scalars {
         let rows = lines.iter().filter(|line| line.row.scalar == scalar).map(|line| &line.row);
         write_failures(&rows.collect::<Vec<_>>(), out)?;
@@ -70,19 +70,23 @@ fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
         format!("{} in {}", number_of(*count, "case", "cases"), names.join(" and in "))
     });
     let sources = &result.plan.sources;
-    let is_family = |source: &PlannedSource| family::find(&source.family).is_some();
-    let (one, many) = match sources.iter().all(is_family) {
-        true => ("family", "families"),
-        false => ("source of cases", "sources of cases"),
+    let families: BTreeSet<Option<&str>> =
+        sources.iter().map(|source| Some(family_of(&source.family)?.name)).collect();
+    let sources = match families.contains(&None) {
+        false => number_of(families.len() as u64, "family", "families"),
+        true => number_of(sources.len() as u64, "source of cases", "sources of cases"),
+    };
+    let kinds = match kinds(record).len() {
+        1 => String::new(),
+        several => format!(" in {several} kinds of planes and rays"),
     };
     let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
     writeln!(
         out,
-        "{}: {} ({}) on {}, {}, {:.1} s, plan {}",
+        "{}: {} ({}) on {sources}{kinds}, {}, {:.1} s, plan {}",
         provenance.tool,
         number_of(result.plan.rows.len() as u64, "row", "rows"),
         number_of(kernels.len() as u64, "kernel", "kernels"),
-        number_of(sources.len() as u64, one, many),
         counts.collect::<Vec<_>>().join(", "),
         provenance.seconds,
         result.plan.hash,
@@ -130,6 +134,11 @@ fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<FindingKind, u64>
 }
 
 fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standing> {
+    let everywhere = Column::in_all_kinds(record);
+    let wrong_in = |columns: &[Column], line: &Line| -> u64 {
+        let columns = columns.iter().filter(|column| column.is_ordinary());
+        columns.map(|column| Cell::sum(&column.results(&line.row)).wrong.count).sum()
+    };
     // Stored cases stay out of the mean of samples.
     let all_complete = columns.iter().all(|column| column.complete);
     let of_row = |part: &RowPart| {
@@ -144,7 +153,7 @@ fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standin
         (!shares.is_empty()).then(|| Standing {
             label: format!("{} ({})", part.kernel, part.set),
             share: shares.iter().sum::<f64>() / shares.len() as f64,
-            wrong: cells.iter().map(|(_, cell)| cell.wrong.count).sum(),
+            wrong: lines.clone().map(|line| wrong_in(&everywhere, line)).sum(),
             far: cells.iter().map(|(_, cell)| cell.far).sum(),
             far_values: lines.clone().map(|line| line.values.far).sum(),
             others: other_findings(record, part),
@@ -348,6 +357,68 @@ fn write_table(
         writeln!(out, "{}", text.trim_end())?;
     }
     Ok(())
+}
+
+/// The most rows of what is more often wrong on planes, or with rays, of other kinds.
+const MOST_ELSEWHERE: usize = 10;
+
+/// Writes which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
+fn write_elsewhere(
+    record: &Record,
+    columns: &[Column],
+    lines: &[Line],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let kinds = kinds(record);
+    let [own_kind, others @ ..] = &kinds[..] else { return Ok(()) };
+    if others.is_empty() {
+        return Ok(());
+    }
+    let rate = |cell: &Cell| Rate::new(cell.wrong, true);
+    let mut rows: Vec<(String, Rate, Rate, SceneKind)> = Vec::new();
+    for line in lines {
+        for (column, cell) in columns.iter().zip(&line.cells) {
+            let own = rate(cell);
+            let of = |kind: &SceneKind| {
+                (rate(&Cell::sum(&column.of_kind(*kind).results(&line.row))), *kind)
+            };
+            let worse = others.iter().map(of).filter(|(other, _)| is_worse(&own, other));
+            let most = worse
+                .max_by(|(a, _), (b, _)| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0)));
+            if let Some((other, kind)) = most {
+                let label = format!("{}, {}: {}", line.label(), line.row.scalar, column.label());
+                rows.push((label, own, other, kind));
+            }
+        }
+    }
+    let names: Vec<String> =
+        others.iter().map(|kind| format!("{kind} ({})", kind.in_words())).collect();
+    writeln!(out)?;
+    if rows.is_empty() {
+        let text = format!(
+            "On no other planes or rays is a row clearly more often wrong: {}",
+            names.join(", ")
+        );
+        return write_wrapped(&text, out);
+    }
+    let excess = |(_, own, other, _): &(String, Rate, Rate, SceneKind)| {
+        other.rate.unwrap_or(0.0) - own.rate.unwrap_or(0.0)
+    };
+    rows.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+    let more = rows.len().saturating_sub(MOST_ELSEWHERE);
+    rows.truncate(MOST_ELSEWHERE);
+    let first = rows.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0);
+    let title = "Clearly more often wrong on other planes or rays";
+    let first = first.max(title.len());
+    writeln!(out, "{title:<first$}{:>10}{:>10}", own_kind.to_string(), "most")?;
+    for (label, own, other, kind) in &rows {
+        let [own, other] = [own, other].map(|rate| rate.rate.map_or("-".to_owned(), percent));
+        writeln!(out, "{label:<first$}{own:>10}{other:>10} on {kind}")?;
+    }
+    if 0 < more {
+        writeln!(out, "and {more} more (--details)")?;
+    }
+    write_wrapped(&names.join(", "), out)
 }
 
 /// Cracks and doubles, and what is promised of them.

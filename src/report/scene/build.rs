@@ -135,7 +135,7 @@ pub fn kernel_part<F: Scalar>(
 
 fn plane_part(found: &Elsewhere) -> PlanePart {
     let wrong = found.wrong.iter().map(|trials| Rate::new(*trials, true)).collect();
-    PlanePart { plane: found.plane.name().to_owned(), wrong }
+    PlanePart { plane: found.kind.to_string(), wrong }
 }
 
 /// For each knob the highest limit from below and the lowest from above, where they do not meet.

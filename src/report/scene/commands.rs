@@ -66,12 +66,8 @@ pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart) -> String 
             numbers.iter().map(|it| format!("{}={}", it.name, Number(it.number))).collect();
         format!(" {flag} {}", words.join(","))
     };
-    let mut command = format!(
-        "hairline epsilon {} {} --scalar {}",
-        part.selector,
-        of_scene(record),
-        part.scalar
-    );
+    let mut command =
+        format!("hairline epsilon {} {} --scalar {}", part.selector, of_scene(record), part.scalar);
     if !has_default_costs(record) {
         command += &numbers("--cost", &record.costs);
     }

@@ -4,7 +4,6 @@ mod answer;
 mod build;
 mod commands;
 mod csv;
-mod elsewhere;
 mod legend;
 mod notes;
 #[cfg(feature = "cli")]

@@ -39,7 +39,7 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
     let all = ["f32", "f64"].map(|scalar| (scalar, rows(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
-    let most = if scalars == 1 { 9 } else { 3 };
+    let most = if scalars == 1 { 7 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         writeln!(out, "\n{}", fitness(record, best.part))?;
@@ -67,7 +67,7 @@ pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()>
     match shown().find(is_fit).or(shown().next()) {
         Some(best) => {
             let command = of_kernel(record, best.part);
-            writeln!(out, "next: {command}  # what each number does, and its limits")
+            writeln!(out, "next: {command}  # what each number does")
         }
         None => Ok(()),
     }

@@ -126,7 +126,7 @@ pub struct SceneKernelPart {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanePart {
-    /// The kind, as the word `plane` of a scene takes it.
+    /// The name of the kind of planes and rays.
     pub plane: String,
     /// By count: the wrong answers.
     pub wrong: Vec<Rate>,

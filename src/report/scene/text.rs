@@ -2,11 +2,13 @@
 //! number.
 
 use super::answer::{Answer, answer};
-use super::elsewhere::worse_elsewhere;
 use super::legend::legend;
 use super::ranking;
 use super::record::{SceneKernelPart, SceneRecord};
+use super::words::{label, share};
+use crate::case::{Scene, SceneKind};
 use crate::report::Style;
+use crate::report::elsewhere::{self, Compared};
 use std::io::{self, Write};
 
 /// The least width of a column of the tables.
@@ -31,7 +33,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             used.notes.iter().try_for_each(|note| writeln!(out, "       {note}"))?;
         }
         effects(record, &answer, out)?;
-        elsewhere(answer.name, part, out)?;
+        elsewhere(record, answer.name, part, out)?;
         limits(&answer, out)?;
         let (of, commands) = &answer.next;
         for (i, command) in commands.iter().enumerate() {
@@ -62,26 +64,26 @@ fn effects(record: &SceneRecord, answer: &Answer, out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// Where the recommended epsilons are more often wrong on planes of other kinds.
-fn elsewhere(name: &str, part: &SceneKernelPart, out: &mut dyn Write) -> io::Result<()> {
-    let (planes, rows) = worse_elsewhere(part);
-    if planes.is_empty() {
-        return Ok(());
-    }
-    if rows.is_empty() {
-        let planes = planes.join(", ");
-        return writeln!(out, "{name}, on other planes ({planes}): no more often wrong");
-    }
-    const WIDTH: usize = 12;
-    write!(out, "{:<32}", format!("{name}, on other planes:"))?;
-    planes.iter().try_for_each(|plane| write!(out, "{plane:>WIDTH$}"))?;
-    writeln!(out)?;
-    for (label, cells) in &rows {
-        write!(out, "  {label:<30}")?;
-        cells.iter().try_for_each(|cell| write!(out, "{cell:>WIDTH$}"))?;
-        writeln!(out)?;
-    }
-    Ok(())
+/// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
+fn elsewhere(
+    record: &SceneRecord,
+    name: &str,
+    part: &SceneKernelPart,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
+    let kinds: Vec<String> = [own.to_string()]
+        .into_iter()
+        .chain(part.elsewhere.iter().map(|other| other.plane.clone()))
+        .collect();
+    let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
+        .map(|(place, (count, own))| Compared {
+            label: format!("  {}", label(count)),
+            own,
+            others: part.elsewhere.iter().map(|other| &other.wrong[place]).collect(),
+        })
+        .collect();
+    elsewhere::write(&format!("{name}: more often wrong"), &kinds, &rows, share, out)
 }
 
 fn limits(answer: &Answer, out: &mut dyn Write) -> io::Result<()> {

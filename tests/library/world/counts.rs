@@ -160,7 +160,7 @@ pub fn by_plane<F: Scalar>(
 pub fn scene_of(mesh: &Mesh, shots: &[Shot], plane: &str) -> Scene {
     let all: Vec<&Shot> = shots.iter().collect();
     let (scene, _) = Scene::parse(&words(mesh, &all)).unwrap();
-    let mut scenes = scene.of_all_planes();
+    let mut scenes = scene.of_all_kinds();
     let place = scenes.iter().position(|scene| scene.plane.name() == plane);
     scenes.swap_remove(place.unwrap_or(0))
 }

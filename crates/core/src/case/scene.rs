@@ -31,6 +31,8 @@ pub struct Scene {
     pub ray: RayKind,
     /// How the planes of triangles lie.
     pub plane: PlaneKind,
+    /// Where rays go.
+    pub toward: Toward,
 }
 
 named! {
@@ -67,19 +69,92 @@ named! {
     }
 }
 
-impl PlaneKind {
-    /// The planes in a few words.
-    pub fn in_words(self) -> &'static str {
-        match self {
-            PlaneKind::Generic => "turned at random",
-            PlaneKind::Axis => "floors and walls at any place",
-            PlaneKind::AxisNearZero => "floors and walls near coordinate 0",
-            PlaneKind::AxisAtZero => "floors and walls at coordinate 0",
-            PlaneKind::Terrain => "level ground",
-            PlaneKind::Box => "boxes along the axes",
+named! {
+    pub names
+    /// Where the rays of a scene go, but for those that are almost or exactly parallel to a triangle.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Toward {
+        /// Anywhere.
+        Any = "any",
+        /// In a plane of two axes: one coordinate of the direction is 0.
+        AxisPlane = "axis-plane",
+        /// Along an axis, as rays of parallel projections and voxelizers do: two coordinates of the direction are 0.
+        Axis = "axis",
+    }
+}
+
+/// The kinds of planes and of rays of a scene. Their rates differ, so they are never pooled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SceneKind {
+    /// How the planes of triangles lie.
+    pub plane: PlaneKind,
+    /// Where rays go.
+    pub toward: Toward,
+}
+
+impl SceneKind {
+    /// The kinds that are tried if a scene names none: all planes, and rays along axes at those that are turned at random
+    /// and at floors.
+    pub const ALL: [SceneKind; 9] = {
+        const fn kind(plane: PlaneKind, toward: Toward) -> SceneKind {
+            SceneKind { plane, toward }
+        }
+        [
+            kind(PlaneKind::Generic, Toward::Any),
+            kind(PlaneKind::Axis, Toward::Any),
+            kind(PlaneKind::AxisNearZero, Toward::Any),
+            kind(PlaneKind::AxisAtZero, Toward::Any),
+            kind(PlaneKind::Terrain, Toward::Any),
+            kind(PlaneKind::Box, Toward::Any),
+            kind(PlaneKind::Generic, Toward::AxisPlane),
+            kind(PlaneKind::Generic, Toward::Axis),
+            kind(PlaneKind::Axis, Toward::Axis),
+        ]
+    };
+
+    /// The kind of a name.
+    pub fn named(name: &str) -> Option<SceneKind> {
+        SceneKind::ALL.into_iter().find(|kind| kind.to_string() == name)
+    }
+
+    /// The kind as `--scene` takes it.
+    pub fn words(self) -> String {
+        let plane = format!("plane={}", self.plane.name());
+        match self.toward {
+            Toward::Any => plane,
+            toward => format!("{plane},toward={}", toward.name()),
         }
     }
 
+    /// The planes and the rays in a few words.
+    pub fn in_words(self) -> &'static str {
+        match (self.plane, self.toward) {
+            (PlaneKind::Generic, Toward::Any) => "turned at random",
+            (PlaneKind::Axis, Toward::Any) => "floors and walls at any place",
+            (PlaneKind::AxisNearZero, _) => "floors and walls near coordinate 0",
+            (PlaneKind::AxisAtZero, _) => "floors and walls at coordinate 0",
+            (PlaneKind::Terrain, _) => "level ground",
+            (PlaneKind::Box, _) => "boxes along the axes",
+            (PlaneKind::Axis, _) => "floors and walls, rays along axes",
+            (_, Toward::AxisPlane) => "any plane, rays in planes of two axes",
+            (_, Toward::Axis) => "any plane, rays along axes",
+        }
+    }
+}
+
+impl std::fmt::Display for SceneKind {
+    /// The name of the planes; then where rays go, if not anywhere.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let plane = self.plane.name();
+        match (self.plane, self.toward) {
+            (_, Toward::Any) => f.write_str(plane),
+            (PlaneKind::Generic, toward) => write!(f, "{}-rays", toward.name()),
+            (_, toward) => write!(f, "{plane}+{}-rays", toward.name()),
+        }
+    }
+}
+
+impl PlaneKind {
     /// True if the plane is at or near coordinate 0, so that the scene's center has to be 0.
     fn is_near_zero(self) -> bool {
         matches!(self, PlaneKind::AxisNearZero | PlaneKind::AxisAtZero)
@@ -124,6 +199,7 @@ const fn preset(
         aims_inside: false,
         ray: RayKind::Stored,
         plane: PlaneKind::Generic,
+        toward: Toward::Any,
     };
     ScenePreset { name, unit, scene }
 }
@@ -151,7 +227,7 @@ const OF_MESH: &str = "mesh";
 /// The words of a scene, as errors list them.
 const WORDS: &str = "extent=1000, center=0, edge=0.01..10 or 0.01..0.1..10, distance=0..2000, direction=unit or target, \
      sine=1e-7..0.1, aim=inside or both, ray=stored or generated, \
-     plane=generic, axis, axis-near-0, axis-0, terrain or box";
+     plane=generic, axis, axis-near-0, axis-0, terrain or box, toward=any, axis-plane or axis";
 
 impl Scene {
     /// The same with lengths that are so many times as large.
@@ -265,6 +341,7 @@ impl Scene {
             "plane" => {
                 self.plane = one_of(key, value, PlaneKind::ALL.map(|kind| (kind.name(), kind)))?
             }
+            "toward" => self.toward = one_of(key, value, Toward::ALL.map(|way| (way.name(), way)))?,
             "direction" => {
                 self.direction = match value {
                     "unit" => DirectionLength::Unit,
@@ -307,16 +384,22 @@ impl Scene {
         }
     }
 
-    /// The same scene with each kind of plane that it can have; the generic one first.
-    pub fn of_all_planes(&self) -> Vec<Scene> {
-        let all = PlaneKind::ALL.into_iter();
-        let can_have = |plane: &PlaneKind| !plane.is_near_zero() || self.center == 0.0;
-        all.filter(can_have).map(|plane| Scene { plane, ..self.clone() }).collect()
+    /// Its kind of planes and rays.
+    pub fn kind(&self) -> SceneKind {
+        SceneKind { plane: self.plane, toward: self.toward }
     }
 
-    /// True if the words of a scene name a kind of plane.
-    pub fn names_planes(text: &str) -> bool {
-        text.split(',').any(|word| word.split('=').next().is_some_and(|key| key.trim() == "plane"))
+    /// The same scene in each kind that it can have; the generic one first.
+    pub fn of_all_kinds(&self) -> Vec<Scene> {
+        let can_have = |kind: &SceneKind| !kind.plane.is_near_zero() || self.center == 0.0;
+        let of = |SceneKind { plane, toward }| Scene { plane, toward, ..self.clone() };
+        SceneKind::ALL.into_iter().filter(can_have).map(of).collect()
+    }
+
+    /// True if the words of a scene name a kind of planes or rays.
+    pub fn names_kind(text: &str) -> bool {
+        let mut keys = text.split(',').filter_map(|word| word.split('=').next());
+        keys.any(|key| ["plane", "toward"].contains(&key.trim()))
     }
 
     /// The largest coordinate of a triangle.

@@ -166,7 +166,7 @@ pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
         true => {
             let (room, _) = Scene::parse("room").expect("a preset");
             let in_scene = |scene| Parameters { scene: Some(scene), ..Parameters::default() };
-            room.of_all_planes().into_iter().map(in_scene).collect()
+            room.of_all_kinds().into_iter().map(in_scene).collect()
         }
     };
     let (mut counts, mut cases) = (vec![0u64; ASPECTS.len()], 0);

@@ -2,7 +2,7 @@
 
 use super::row::quoted;
 use crate::arith::Float;
-use crate::case::{Case, Parameters, Ray};
+use crate::case::{Case, Parameters, Ray, SceneKind, Toward};
 use crate::family::{Family, Grouping, LATTICE_SIZE, Made, MeshFamily, Stratum};
 use crate::kernel::Scalar;
 use crate::mesh::{Part, SceneMesh, Surface, Targets};
@@ -71,10 +71,17 @@ pub enum Source {
 
 /// True if a source of this name in tables makes its cases from a mesh.
 pub fn is_of_mesh(name: &str) -> bool {
-    let kind = name.split_once(':').map(|(kind, _)| kind);
-    kind.is_some_and(|kind| {
-        kind == "mesh" || Part::named(kind).is_some() || Stratum::named(kind).is_some()
+    name.split_once(':').is_some_and(|(kind, file)| {
+        kind == "mesh"
+            || Part::named(kind).is_some()
+            || Stratum::named(kind).is_some() && SceneKind::named(file).is_none()
     })
+}
+
+/// The kind of planes and rays of the scene whose source has this name in tables; the generic one of other sources.
+pub fn kind_of(name: &str) -> SceneKind {
+    let kind = name.split_once(':').and_then(|(_, kind)| SceneKind::named(kind));
+    kind.unwrap_or(SceneKind::ALL[0])
 }
 
 /// The stored cases of one file of which all are secondary rays, or none is.
@@ -137,10 +144,36 @@ impl Source {
         Source::SceneMesh { mesh: mesh.clone(), stratum, parameters, seed, count }
     }
 
+    /// The same stratum of a scene in the other kinds of planes and rays that it can have; none of other sources.
+    pub fn in_other_kinds(&self) -> Vec<Source> {
+        let Source::Family { family, parameters, seed, count, exhaustive } = self else {
+            return Vec::new();
+        };
+        let Some(scene) = &parameters.scene else { return Vec::new() };
+        // Rays that are parallel to a triangle, or almost, go where that needs.
+        let is_flat =
+            [Stratum::Grazing, Stratum::Parallel].map(|it| it.family().name).contains(&family.name);
+        let others = scene.of_all_kinds().into_iter().skip(1);
+        let others = others.filter(|scene| !is_flat || scene.toward == Toward::Any);
+        let of = |scene| Source::Family {
+            family,
+            parameters: Parameters { scene: Some(scene), ..parameters.clone() },
+            seed: *seed,
+            count: *count,
+            exhaustive: *exhaustive,
+        };
+        others.map(of).collect()
+    }
+
     /// The name in tables: one line, whatever a file is called.
     pub fn name(&self) -> String {
         let name = match self {
-            Source::Family { family, .. } => family.name.to_owned(),
+            Source::Family { family, parameters, .. } => match &parameters.scene {
+                Some(scene) if scene.kind() != SceneKind::ALL[0] => {
+                    format!("{}:{}", family.name, scene.kind())
+                }
+                _ => family.name.to_owned(),
+            },
             Source::Mesh { family, .. } => format!("mesh:{}", family.file_name()),
             Source::MeshPart { surface, part, .. } => {
                 format!("{}:{}", part.name(), surface.file_name())

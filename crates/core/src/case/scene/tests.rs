@@ -11,6 +11,7 @@ fn scenes_survive_their_text() {
         "extent=1,edge=1,distance=0..4,direction=unit,sine=1e-8..0.01",
         "extent=1,edge=1,distance=0..4,direction=unit,aim=inside",
         "extent=100,edge=0.05..0.1..20,distance=0..4,direction=unit,ray=generated,plane=axis-near-0",
+        "extent=1,edge=1,distance=0..4,direction=unit,toward=axis-plane",
     ] {
         assert_eq!(Scene::parse(text).unwrap().0.to_string(), text);
     }
@@ -56,6 +57,7 @@ fn bad_scenes_say_what_was_expected() {
         ("edge=0.1....1", "two numbers or three"),
         ("ray=cast", "there are stored, generated"),
         ("plane=flat", "there are generic, axis"),
+        ("toward=up", "there are any, axis-plane, axis"),
         ("extent=2,center=1,edge=1,plane=axis-0", "at coordinate 0, not around center=1"),
         ("edge=0.5..2", "the longest edge is at most the extent, 1"),
         ("distance=0", "not 0 alone"),

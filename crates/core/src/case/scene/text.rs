@@ -1,6 +1,6 @@
 //! How the numbers of a scene are read and written.
 
-use super::{DirectionLength, PlaneKind, RayKind, Scene};
+use super::{DirectionLength, PlaneKind, RayKind, Scene, Toward};
 use std::fmt;
 
 /// The extent that words give; 1 if they give none that is a length.
@@ -140,10 +140,12 @@ impl fmt::Display for Scene {
         if self.ray != RayKind::Stored {
             write!(f, ",ray={}", self.ray.name())?;
         }
-        if self.plane == PlaneKind::Generic {
-            Ok(())
-        } else {
-            write!(f, ",plane={}", self.plane.name())
+        if self.plane != PlaneKind::Generic {
+            write!(f, ",plane={}", self.plane.name())?;
+        }
+        match self.toward {
+            Toward::Any => Ok(()),
+            toward => write!(f, ",toward={}", toward.name()),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Tries a study's recommendation in the same scene on planes of other kinds.
+//! Tries a study's recommendation in the same scene on planes and with rays of other kinds.
 
 use super::measure::{Attempt, count_at};
 use super::study::{Elsewhere, SceneStudy, fresh_seed};
@@ -27,7 +27,7 @@ pub fn try_elsewhere<F: Scalar>(
         let mut wrong =
             count_at(&setting, &attempts, fresh_seed(seed), count, observer).into_iter();
         let of_best = wrong.next().expect("one attempt at least");
-        study.elsewhere.push(Elsewhere { plane: scene.plane, wrong: of_best });
+        study.elsewhere.push(Elsewhere { kind: scene.kind(), wrong: of_best });
         study.proved.retain(|found| {
             let wrong = wrong.next().expect("an attempt for each proof");
             wrong[found.bound.count].count == 0

@@ -13,7 +13,7 @@ use super::proved::{Proved, proved};
 use super::trials::{Count, Kind, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
-use crate::case::{Case, PlaneKind};
+use crate::case::{Case, SceneKind};
 use crate::engine::Observer;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
@@ -42,10 +42,10 @@ pub struct SceneStudy<F> {
     pub elsewhere: Vec<Elsewhere>,
 }
 
-/// The results of the recommended epsilons on planes of one kind, on fresh rays.
+/// The results of the recommended epsilons on planes and rays of one kind, fresh ones.
 pub struct Elsewhere {
     /// The kind.
-    pub plane: PlaneKind,
+    pub kind: SceneKind,
     /// By count: the wrong answers.
     pub wrong: Vec<Trials>,
 }

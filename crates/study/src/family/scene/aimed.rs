@@ -2,14 +2,43 @@
 
 use super::super::Made;
 use super::Setup;
-use super::draw::{any_direction, beside, inside, point_of, ray, wide};
+use super::draw::{Frame, any_direction, beside, inside, point_of, ray, wide};
+use super::planes::{AXES, turn};
 use super::triangles::{Pair, Ring};
 use crate::arith::Float;
-use crate::case::{Case, Draw};
+use crate::case::{Case, Draw, Scene, Toward};
+use glam::DVec3;
+
+/// A sine of the angle to a triangle below which rays along axes are drawn again: they would be parallel to floors.
+const LEAST_SINE: f64 = 0.0625;
+
+/// How often such rays are drawn: a triangle may lie at no other angle.
+const AIMS: usize = 64;
+
+/// Where a ray at a triangle goes in a scene: a unit vector, uniform over all that the scene has.
+pub fn aim<F: Float>(draw: &mut Draw, scene: &Scene, triangle: [[F; 3]; 3]) -> DVec3 {
+    if scene.toward == Toward::Any {
+        return any_direction(draw);
+    }
+    let normal = Frame::of(triangle).map_or(DVec3::ZERO, |frame| frame.normal);
+    let mut toward = DVec3::ZERO;
+    for _ in 0..AIMS {
+        let [i, j, _] = draw.pick(&AXES);
+        toward = DVec3::ZERO;
+        (toward[i], toward[j]) = match scene.toward {
+            Toward::Axis => (if draw.coin() { 1.0 } else { -1.0 }, 0.0),
+            _ => turn(draw).into(),
+        };
+        if LEAST_SINE < normal.dot(toward).abs() {
+            break;
+        }
+    }
+    toward
+}
 
 pub fn interior_case<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Case<F> {
     let (triangle, _) = setup.triangles.triangle(draw);
-    let (target, toward) = (point_of(triangle, inside(draw)), any_direction(draw));
+    let (target, toward) = (point_of(triangle, inside(draw)), aim(draw, setup.scene, triangle));
     let (start, direction) = ray(draw, setup.scene, target, toward);
     Case::new(start, direction, triangle)
 }
@@ -20,7 +49,7 @@ pub fn interior<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
 
 pub fn outside<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let (triangle, _) = setup.triangles.triangle(draw);
-    let (target, toward) = (point_of(triangle, beside(draw)), any_direction(draw));
+    let (target, toward) = (point_of(triangle, beside(draw)), aim(draw, setup.scene, triangle));
     let (start, direction) = ray(draw, setup.scene, target, toward);
     Made::One(Case::new(start, direction, triangle))
 }
@@ -30,14 +59,14 @@ pub fn edges<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     // Away from the ends, where rounding moves the ray off the rim of both.
     let along = 0.0625 + 0.875 * draw.unit();
     let target = wide(p) + (wide(q) - wide(p)) * along;
-    let toward = any_direction(draw);
+    let toward = aim(draw, setup.scene, triangles[0]);
     let (start, direction) = ray(draw, setup.scene, target, toward);
     Made::Group(triangles.map(|triangle| Case::new(start, direction, triangle)).into())
 }
 
 pub fn vertices<F: Float>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let Ring { center, triangles } = setup.triangles.fan(draw);
-    let toward = any_direction(draw);
+    let toward = aim(draw, setup.scene, triangles[0]);
     let (start, direction) = ray(draw, setup.scene, wide(center), toward);
     Made::Group(
         triangles.into_iter().map(|triangle| Case::new(start, direction, triangle)).collect(),

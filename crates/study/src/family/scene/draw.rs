@@ -3,7 +3,7 @@
 use super::super::integer::turned;
 use super::super::unit;
 use crate::arith::Float;
-use crate::case::{DirectionLength, Draw, RayKind, Scene};
+use crate::case::{DirectionLength, Draw, RayKind, Scene, Toward};
 use glam::DVec3;
 
 /// A number between two positive ones, each doubling equally likely: 2^-8 of the range on a scale of
@@ -163,8 +163,12 @@ pub fn ray<F: Float>(
     (stored, direction(scene, target - seen_from, toward))
 }
 
-/// The direction along a way in a scene; along a unit vector if the way is too short.
-pub fn direction<F: Float>(scene: &Scene, way: DVec3, toward: DVec3) -> [F; 3] {
+/// The direction along a way in a scene; along a unit vector if the way is too short. A coordinate that is 0 in that
+/// vector stays 0 if the scene's rays go along axes.
+pub fn direction<F: Float>(scene: &Scene, mut way: DVec3, toward: DVec3) -> [F; 3] {
+    if scene.toward != Toward::Any {
+        (0..3).filter(|axis| toward[*axis] == 0.0).for_each(|axis| way[axis] = 0.0);
+    }
     // Nearer than the shortest edge, the target's own rounding would turn the ray.
     let is_short = way.dot(way) < scene.edge[0] * scene.edge[0];
     match scene.direction {

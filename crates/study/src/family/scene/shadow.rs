@@ -2,8 +2,8 @@
 
 use super::super::{Made, control::combination};
 use super::Setup;
-use super::aimed::interior_case;
-use super::draw::{any_direction, between, direction, point_of, rounded};
+use super::aimed::{aim, interior_case};
+use super::draw::{between, direction, point_of, rounded};
 use crate::arith::Vector;
 use crate::case::{Case, Draw};
 use crate::kernel::{Entry, Gives, Scalar, Verdict, find, verdicts_of};
@@ -15,7 +15,7 @@ const DEFAULT_SHADOW_KERNEL: &str = "moller-trumbore";
 pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> Made<F> {
     let name = setup.kernel.unwrap_or(DEFAULT_SHADOW_KERNEL);
     let (point, triangle) = hit(setup, draw, find(name));
-    let toward = any_direction(draw);
+    let toward = aim(draw, setup.scene, triangle);
     let way = toward * between(draw, setup.scene.distance);
     Made::One(Case::new(point, direction(setup.scene, way, toward), triangle))
 }

@@ -1,0 +1,70 @@
+//! What is more often wrong on planes, or with rays, of other kinds than those that a table is about.
+
+use super::record::Rate;
+use std::io::{self, Write};
+
+/// The rates of one thing: on the first kind, and on each of the others.
+pub(crate) struct Compared<'a> {
+    /// Its name.
+    pub label: String,
+    /// On the kind that the table is about.
+    pub own: &'a Rate,
+    /// On the others, in order.
+    pub others: Vec<&'a Rate>,
+}
+
+/// True if a rate is higher than another by more than chance explains.
+pub(crate) fn is_worse(own: &Rate, other: &Rate) -> bool {
+    let [_, most] = own.interval.unwrap_or([0.0, 1.0]);
+    other.interval.is_some_and(|[least, _]| most < least)
+}
+
+impl Compared<'_> {
+    /// True if it is more often wrong on any other kind.
+    pub fn is_worse(&self) -> bool {
+        self.others.iter().any(|other| is_worse(self.own, other))
+    }
+}
+
+/// The most kinds that have columns: more do not fit on a line.
+const MOST_KINDS: usize = 4;
+
+/// Writes those rows that are worse on some kind, with a column for each kind on which one is; one line if none is.
+pub(crate) fn write(
+    title: &str,
+    kinds: &[String],
+    rows: &[Compared],
+    share: fn(&Rate) -> String,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let Some((own, others)) = kinds.split_first().filter(|(_, others)| !others.is_empty()) else {
+        return Ok(());
+    };
+    let worse: Vec<&Compared> = rows.iter().filter(|row| row.is_worse()).collect();
+    if worse.is_empty() {
+        return writeln!(out, "{title} on other planes or rays: nothing");
+    }
+    let is_shown = |place: &usize| worse.iter().any(|row| is_worse(row.own, row.others[*place]));
+    let mut shown: Vec<usize> = (0..others.len()).filter(is_shown).collect();
+    let more = shown.split_off(shown.len().min(MOST_KINDS));
+    let labels = worse.iter().map(|row| row.label.chars().count());
+    let first = labels.chain([title.len() + 3]).max().unwrap_or(0);
+    let heads = [own].into_iter().chain(shown.iter().map(|place| &others[*place]));
+    let widths: Vec<usize> = heads.clone().map(|head| (head.len() + 2).max(12)).collect();
+    let mut line = format!("{:<first$}", format!("{title} on"));
+    heads.zip(&widths).for_each(|(head, width)| line += &format!("{head:>width$}"));
+    writeln!(out, "{line}")?;
+    for row in worse {
+        let mut line = format!("{:<first$}", row.label);
+        let rates = [row.own].into_iter().chain(shown.iter().map(|place| row.others[*place]));
+        for (rate, width) in rates.zip(&widths) {
+            line += &format!("{:>width$}", share(rate));
+        }
+        writeln!(out, "{line}")?;
+    }
+    if more.is_empty() {
+        return Ok(());
+    }
+    let more: Vec<&str> = more.iter().map(|place| others[*place].as_str()).collect();
+    writeln!(out, "  (also on {})", more.join(", "))
+}
