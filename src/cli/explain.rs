@@ -227,7 +227,7 @@ fn write_row<F: Scalar>(
     }
     let gives = row.entry.info.gives;
     write_values(out, gives, &verdict)?;
-    write_errors(out, case, truth, finding, gives, &verdict)
+    write_errors(out, case, truth, finding, (gives, row.contract.value_tolerance), &verdict)
 }
 
 /// The epsilons that the kernel was given, where it does not show its gates, and the margins that runs at other
@@ -349,7 +349,7 @@ fn write_errors<F: Scalar>(
     case: &Case<F>,
     truth: &Truth,
     finding: Option<Finding>,
-    gives: Gives,
+    (gives, tolerance): (Gives, f64),
     verdict: &Verdict<F>,
 ) -> io::Result<()> {
     let Some(crossing) = truth.crossing() else { return Ok(()) };
@@ -357,7 +357,8 @@ fn write_errors<F: Scalar>(
         return Ok(());
     }
     if finding == Some(Finding::WrongValue) {
-        write_wrong_values(out, &ValueErrors::of(case, truth, gives, verdict), verdict)?;
+        let errors = ValueErrors::of(case, truth, gives, verdict);
+        write_wrong_values(out, &errors, verdict, tolerance)?;
     }
     let Errors { t, uv, point } = Errors::of(case, crossing, gives, verdict);
     let named = [("t", t), ("u, v", uv), ("o + t d", point)];
@@ -373,9 +374,10 @@ fn write_wrong_values<F: Scalar>(
     out: &mut dyn Write,
     errors: &ValueErrors,
     verdict: &Verdict<F>,
+    tolerance: f64,
 ) -> io::Result<()> {
     let reported = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-    for which in (0..3).filter(|which| errors.is_wrong(*which)) {
+    for which in (0..3).filter(|which| errors.is_wrong(*which, tolerance)) {
         let (name, times) = (["t", "u", "v"][which], errors.times[which].unwrap_or_default());
         let (reported, exact) = (reported[which], errors.exact[which]);
         writeln!(

@@ -277,3 +277,22 @@ fn values_are_free_where_the_contract_leaves_the_direction_out() {
     let screen = ends(&folder, &[&case[..], &unit].concat(), 0).0;
     assert!(!screen.contains("wrong"), "{screen}");
 }
+
+#[test]
+fn a_contract_that_tolerates_more_of_the_values_has_fewer_findings() {
+    let folder = scratch("claims-values");
+    let count = |words: &str| {
+        let flags = ["audit", "--kernel", "baldwin-weber", "--scalar", "f32", "-n", "3000", "-q"];
+        let more = ["--family", "sliver", "--format", "json", "--contract", words];
+        let json = ends(&folder, &[&flags[..], &more].concat(), 0).0;
+        let record: serde_json::Value = serde_json::from_str(&json).unwrap();
+        record["result"]["results"][0]["total"]["wrong_values"]["count"].as_u64().unwrap()
+    };
+    let [own, tiny, small, free] =
+        ["own", "own,values=1e-6", "own,values=1e-3", "own,values=free"].map(count);
+    assert!(0 == free && free < small && small < own && tiny <= own, "{own} {tiny} {small}");
+    let case = ["explain", "sliver@2/f32/-/1/593", "--kernel", "half-space", "--contract"];
+    let far = ends(&folder, &[&case[..], &["own,values=1e-9"]].concat(), 0).0;
+    let free = ends(&folder, &[&case[..], &["own,values=free"]].concat(), 0).0;
+    assert!(far.contains("wrong t: reported") && !free.contains("wrong"), "{far}\n{free}");
+}

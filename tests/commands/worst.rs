@@ -95,6 +95,36 @@ fn scores_are_what_the_documentation_says() {
                 let v = (rational(verdict.v) - exact.exact.v?).abs();
                 (u.max(v) / ulp).to_f64()
             }
+            Objective::WrongValue => {
+                let [o, d, a, b, c] = case.vectors().map(|v| v.map(rational));
+                let minus =
+                    |p: &[BigRational; 3], q: &[BigRational; 3]| [0, 1, 2].map(|i| &p[i] - &q[i]);
+                let cross = |p: &[BigRational; 3], q: &[BigRational; 3]| {
+                    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &p[i] * &q[j] - &p[j] * &q[i])
+                };
+                let (ab, ac) = (minus(&b, &a), minus(&c, &a));
+                let rows = [cross(&ab, &ac), cross(&d, &ac), cross(&ab, &d)];
+                let determinant: BigRational = (0..3).map(|i| &d[i] * &rows[0][i]).sum();
+                let values = [exact.exact.t?, exact.exact.u?, exact.exact.v?];
+                let [t, u, v] = &values;
+                let w = BigRational::from_integer(1.into()) - u - v;
+                let sum = |i: usize| {
+                    let terms = [&w * &a[i], u * &b[i], v * &c[i], o[i].clone(), t * &d[i]];
+                    terms.iter().map(Signed::abs).sum::<BigRational>()
+                };
+                let size = (0..3).map(sum).max()?;
+                let roundoff = ulp / BigRational::from_integer(2.into());
+                let gives = row.entry.info.gives;
+                let given = [gives.t, gives.uv, gives.uv];
+                let reported = [verdict.t, verdict.u, verdict.v].map(rational);
+                let times = (0..3).filter(|i| given[*i]).map(|i| {
+                    let length: BigRational = rows[i].iter().map(Signed::abs).sum();
+                    let unit = &roundoff * &size * length / determinant.abs();
+                    let unit = if i == 0 { unit } else { unit.max(roundoff.clone()) };
+                    (&reported[i] - &values[i]).abs() / unit
+                });
+                times.max()?.to_f64()
+            }
             Objective::Margin => {
                 let gate = target.gate?;
                 // The float that the gate compares: of a gate `x <= e` the margin is the one below.

@@ -32,6 +32,9 @@ pub struct Contract {
     pub no_self_hit: bool,
     /// Cases nearer than this to where another verdict would be right are free.
     pub band: Option<Band>,
+    /// How far t·|d|, u and v may be off besides what rounding explains, in the triangle's longest edges and in weights:
+    /// what a kernel's documentation allows. Infinite: values are not judged.
+    pub value_tolerance: f64,
 }
 
 /// A distance to the boundary below which nothing is demanded.
@@ -171,6 +174,7 @@ impl Contract {
         across: Across::Nothing,
         no_self_hit: false,
         band: None,
+        value_tolerance: 0.0,
     };
 
     /// A kernel's own contract starts here: as [`Contract::CLOSED_RAY`], invalid input free.
@@ -237,6 +241,11 @@ impl Contract {
             Some(band) => {
                 text.push_str(&format!(", free within {band} longest edges of the boundary"));
             }
+        }
+        match self.value_tolerance {
+            0.0 => {}
+            f64::INFINITY => text.push_str(", values free"),
+            edges => text.push_str(&format!(", values free within {edges:e} longest edges")),
         }
         text
     }

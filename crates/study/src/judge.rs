@@ -21,7 +21,7 @@ pub use expected::{Expectations, Kinds, ask_all, suspects};
 pub use group::owes_groups_alike;
 pub use group::{GroupTruth, group_obligation, group_truth, polygon_obligation, polygon_truth};
 pub use values::{ALLOWANCE, ValueErrors};
-pub use values::{Limits, exact_values_are_near};
+pub use values::{Limits, exact_times, exact_values_are_near};
 
 use crate::arith::Float;
 use crate::case::Case;
@@ -211,7 +211,7 @@ pub struct Answer {
     pub hit: bool,
     /// True if every value that the kernel gives is finite.
     pub finite: bool,
-    /// True if every value is near its exact one, where it has one ([`ALLOWANCE`]).
+    /// True if every value is near its exact one, where it has one ([`ALLOWANCE`]), or as near as the contract tolerates.
     pub near: bool,
     /// The side hit.
     pub facing: Option<Facing>,
@@ -220,15 +220,15 @@ pub struct Answer {
 impl Answer {
     /// The answer in a verdict on a case.
     pub fn of<F: Float>(
-        case: &Case<F>,
-        truth: &Truth,
+        contract: &Contract,
+        (case, truth): (&Case<F>, &Truth),
         gives: Gives,
         verdict: &Verdict<F>,
     ) -> Answer {
         let finite = (!gives.t || verdict.t.is_finite())
             && (!gives.uv || (verdict.u.is_finite() && verdict.v.is_finite()));
         let compares = verdict.hit && finite && values::has_values(truth);
-        let near = !compares || values::are_near(case, gives, verdict);
+        let near = !compares || values::are_near(case, gives, verdict, contract.value_tolerance);
         Answer { hit: verdict.hit, finite, near, facing: verdict.facing }
     }
 }
@@ -250,12 +250,17 @@ pub fn judge<F: Float>(
         (Obligation::MustHit, false) => Some(Finding::FalseMiss),
         (Obligation::MustMiss, true) => Some(Finding::FalseHit),
         (_, false) => None,
-        _ => judge_answer(obligation, truth, gives, Answer::of(case, truth, gives, verdict))
-            .filter(|finding| {
-                let direction = || case.ray.direction.into();
-                *finding != Finding::WrongValue
-                    || promises_direction::<F>(contract.direction, direction())
-            }),
+        _ => judge_answer(
+            obligation,
+            truth,
+            gives,
+            Answer::of(contract, (case, truth), gives, verdict),
+        )
+        .filter(|finding| {
+            let direction = || case.ray.direction.into();
+            *finding != Finding::WrongValue
+                || promises_direction::<F>(contract.direction, direction())
+        }),
     }
 }
 

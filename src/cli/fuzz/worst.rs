@@ -36,7 +36,7 @@ pub struct WorstArguments {
     #[arg(long, value_name = "NAME")]
     gate: Option<String>,
 
-    /// margin, t, uv, false-miss, false-hit, or several separated by commas [default: all]
+    /// margin, t, uv, wrong-value, false-miss, false-hit, or several separated by commas [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME")]
     objective: Vec<String>,
 

@@ -99,7 +99,7 @@ impl<'a> Answer<'a> {
             return Ok(Some(Wrong { finding, edges: 0.0, text }));
         }
         let errors = ValueErrors::of(case, truth, gives, &verdict);
-        let parts = (0..3).filter(|&i| errors.is_wrong(i)).map(|i| {
+        let parts = (0..3).filter(|&i| errors.is_wrong(i, 0.0)).map(|i| {
             let (name, exact) = (["t", "u", "v"][i], errors.exact[i]);
             format!("{name} = {}, exactly {exact:.9e}", self.values[i].unwrap_or_default())
         });

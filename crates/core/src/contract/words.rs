@@ -15,7 +15,7 @@ impl FromStr for Contract {
 
 impl Contract {
     /// From words between commas: a named contract or `own` (a kernel's own contract), then `key=value`
-    /// pairs that change it, `no-self-hit`, and `band=DISTANCE`. Without a name the words must give
+    /// pairs that change it, `no-self-hit`, `band=DISTANCE`, and `values=DISTANCE` or `values=free`. Without a name the words must give
     /// extent, sides and boundary; coplanar rays and triangles without area are then missed, invalid
     /// input is free, and directions of any length are promised.
     ///
@@ -91,6 +91,13 @@ impl Contract {
         if let Some(band) = self.band {
             change(self.band == base.band, "band", &band.to_string());
         }
+        let values = match self.value_tolerance {
+            f64::INFINITY => "free".to_owned(),
+            edges => format!("{edges:e}"),
+        };
+        words.extend(
+            (self.value_tolerance != base.value_tolerance).then(|| format!("values={values}")),
+        );
         if self.no_self_hit && !base.no_self_hit {
             words.push("no-self-hit".to_owned());
         }
@@ -135,9 +142,21 @@ impl Contract {
             }
             "across" => self.across = choice(word, value, Across::ALL, Across::name)?,
             "band" => self.band = Some(value.parse()?),
+            "values" => {
+                let edges = value.parse().ok().filter(|edges| (0.0..f64::INFINITY).contains(edges));
+                self.value_tolerance = match (value, edges) {
+                    ("free", _) => f64::INFINITY,
+                    (_, Some(edges)) => edges,
+                    _ => {
+                        return Err(format!(
+                            "'{word}': write free, or a distance in longest edges from 0 up, as 1e-3"
+                        ));
+                    }
+                };
+            }
             "no-self-hit" if word == key => self.no_self_hit = true,
             _ => {
-                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, band, no-self-hit";
+                let keys = "extent, sides, boundary, ends, coplanar, degenerate, invalid, direction, across, band, values, no-self-hit";
                 return Err(format!("'{word}' is none of {keys}"));
             }
         }
@@ -158,11 +177,12 @@ mod tests {
         let own = read("extent=line, sides=front, boundary=open").unwrap();
         assert_eq!(own, Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open));
         let all = "closed-interval,boundary=free,ends=open,coplanar=hit,degenerate=free,invalid=free,\
-            direction=unit:4,across=exactly-one,no-self-hit";
+            direction=unit:4,across=exactly-one,no-self-hit,values=1e-3";
         assert_eq!(
             read(all).unwrap().describe(),
             "interval, both sides, boundary free, ends open, coplanar hit, degenerate free, invalid free, \
-             exactly-one across triangles, unit directions within 4 ulps, no self-hit"
+             exactly-one across triangles, unit directions within 4 ulps, no self-hit, \
+             values free within 1e-3 longest edges"
         );
         assert_eq!(
             Contract::CLOSED_RAY.describe(),
@@ -179,7 +199,8 @@ mod tests {
         for named in NAMED {
             let own = Contract::of_kernel(Extent::Line, Sides::Front, Boundary::Open);
             let banded = Contract { band: "4ulps".parse().ok(), ..named.contract };
-            for contract in [own, named.contract, banded, read(all).unwrap()] {
+            let free = Contract { value_tolerance: f64::INFINITY, ..named.contract };
+            for contract in [own, named.contract, banded, free, read(all).unwrap()] {
                 assert_eq!(read(&contract.words(None)), Ok(contract));
                 let words = contract.words(Some(&own));
                 assert_eq!(Contract::from_words(&words, Some(&own)), Ok(contract), "{words}");
@@ -206,6 +227,8 @@ mod tests {
             ("closed-ray,sides=back", "'sides=back': there are both, front"),
             ("closed-ray,side=both", "'side=both' is none of extent, "),
             ("closed-ray,direction=unit", "'direction=unit': there are any, unit:ULPS"),
+            ("closed-ray,values=-1", "'values=-1': write free, or a distance"),
+            ("closed-ray,values=inf", "'values=inf': write free, or a distance"),
             ("closed-ray,no-self-hit=yes", "'no-self-hit=yes' is none of "),
         ] {
             let error = read(text).unwrap_err();

@@ -77,6 +77,7 @@ mod tests {
         Dimension, Entry, EpsilonSet, Gate, Hit, KernelInfo, Role, Scalar, Tunable,
     };
 
+    #[cfg(feature = "margins")]
     #[test]
     fn a_panic_at_some_epsilon_is_noted() {
         const GATES: &[Gate] = &[Gate {

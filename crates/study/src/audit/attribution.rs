@@ -85,10 +85,10 @@ pub fn attribute_with<F: Float>(
     // Which values a formula gives does not depend on its epsilons. They are asked for where they were wrong.
     let near = finding != Finding::WrongValue || {
         let values = subject.measure_exact(case).values;
-        values.is_some_and(|hit| exact_values_are_near(case, gives, hit))
+        values.is_some_and(|hit| exact_values_are_near(case, gives, hit, contract.value_tolerance))
     };
     let right = |answer: Answer| right(Answer { near, ..answer });
-    if right(without_rounding((case, truth, gives), &given, exact)?) {
+    if right(without_rounding(contract, (case, truth, gives), &given, exact)?) {
         let raised = match finding {
             Finding::BadValue | Finding::WrongValue => given.decision | given.values,
             _ => given.decision,
@@ -101,7 +101,9 @@ pub fn attribute_with<F: Float>(
     }
     let zeros = vec![F::zero(); epsilons.len()];
     let zero = subject.run_tracked(case, &zeros)?;
-    let answer = without_rounding((case, truth, gives), &zero, || subject.run_exact(case, &zeros))?;
+    let answer = without_rounding(contract, (case, truth, gives), &zero, || {
+        subject.run_exact(case, &zeros)
+    })?;
     Some(if right(answer) { Attribution::Epsilon } else { Attribution::Convention })
 }
 
@@ -132,11 +134,12 @@ pub fn attribute_by_running<F: Float>(
 
 /// The kernel's answer without rounding; the caller adds what it says of the values.
 fn without_rounding<F: Float>(
+    contract: &Contract,
     (case, truth, gives): (&Case<F>, &Truth, Gives),
     float: &TrackedRun<F>,
     exact: impl FnOnce() -> Option<ExactRun>,
 ) -> Option<Answer> {
-    let answer = Answer::of(case, truth, gives, &float.verdict);
+    let answer = Answer::of(contract, (case, truth), gives, &float.verdict);
     let decided = !float.decision.inexact;
     if decided && !(answer.hit && float.values.inexact) {
         return Some(answer);

@@ -5,6 +5,7 @@
 //! | `margin` | the error of what a gate compares with its epsilon | ulps of the gate's scale |
 //! | `t` | the error of t | ulps of the exact t |
 //! | `uv` | the larger error of u and v | ulps of 1 |
+//! | `wrong-value` | the error of t, u or v over what one rounding may do to it | u·κ (`judge::values`) |
 //! | `false-miss` | how far inside a line passes that the gate refused | longest edges |
 //! | `false-hit` | how far outside a line passes that the gate let through | longest edges |
 //!
@@ -29,11 +30,13 @@ use super::domain::Domain;
 use crate::arith::{Exact, Float, Real, Vector};
 use crate::audit::{Row, values};
 use crate::case::{Case, Ray, Triangle};
-use crate::judge::{Distances, Finding, asked, exact_to_change, is_in_extent, judge};
+use crate::judge::{
+    Distances, Finding, ValueErrors, asked, exact_times, exact_to_change, is_in_extent, judge,
+};
 use crate::kernel::gate::refused_by;
 use crate::kernel::{Dimension, KernelInfo, Role, Scalar, Tunable, Verdict};
 use crate::oracle;
-use crate::truth::Truth;
+use crate::truth::{Feature, Truth};
 
 named! {
     pub names
@@ -46,6 +49,8 @@ named! {
         T = "t",
         /// The error of u or v.
         Uv = "uv",
+        /// The error of t, u or v over what one rounding may do to it.
+        WrongValue = "wrong-value",
         /// How far inside a false miss is.
         FalseMiss = "false-miss",
         /// How far outside a false hit is.
@@ -60,6 +65,7 @@ impl Objective {
             Objective::Margin => "ulps of the gate's scale",
             Objective::T => "ulps of t",
             Objective::Uv => "ulps of 1",
+            Objective::WrongValue => "u·κ",
             Objective::FalseMiss => "longest edges inside",
             Objective::FalseHit => "longest edges outside",
         }
@@ -89,6 +95,7 @@ impl Target {
         let mut targets: Vec<Target> = at_gates(Objective::Margin).filter(tuned).collect();
         targets.extend(info.gives.t.then_some(value(Objective::T)));
         targets.extend(info.gives.uv.then_some(value(Objective::Uv)));
+        targets.extend((info.gives.t || info.gives.uv).then_some(value(Objective::WrongValue)));
         targets.extend(at_gates(Objective::FalseMiss));
         targets.extend(at_gates(Objective::FalseHit));
         targets
@@ -140,6 +147,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             Objective::T | Objective::Uv if is_narrow::<F>() => self.quick_value(case),
             Objective::Margin => self.exact_margin(case).as_ref().map(nearest),
             Objective::T | Objective::Uv => self.exact_value(case).as_ref().map(nearest),
+            Objective::WrongValue => self.quick_times(case),
             Objective::FalseMiss | Objective::FalseHit => return self.quick_severity(case),
         };
         score.filter(|score| !score.is_nan()).unwrap_or(-1.0)
@@ -153,6 +161,11 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         match self.target.objective {
             Objective::Margin => self.exact_margin(case),
             Objective::T | Objective::Uv => self.exact_value(case),
+            Objective::WrongValue => {
+                let (_, verdict) = self.hit_with_values(case)?;
+                let times = exact_times(case, self.row.entry.info.gives, &verdict);
+                times.is_finite().then_some(times)
+            }
             Objective::FalseMiss | Objective::FalseHit => {
                 let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
                 finding.filter(|finding| self.wants(*finding, &truth, &verdict, case))?;
@@ -206,6 +219,22 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
         let counts = verdict.hit && finding != Some(Finding::FalseHit);
         truth.crossing().filter(|_| counts).map(|_| verdict)
+    }
+
+    /// The truth and the verdict of a hit that is not false, with finite values, at a point of the triangle.
+    fn hit_with_values(&self, case: &Case<F>) -> Option<(Truth, Verdict<F>)> {
+        let verdict = self.true_hit(case)?;
+        let truth = oracle::truth(case);
+        let is_met = truth.crossing().is_some_and(|it| it.feature != Feature::Outside);
+        let values = [verdict.t, verdict.u, verdict.v];
+        (is_met && values.iter().all(F::is_finite)).then_some((truth, verdict))
+    }
+
+    fn quick_times(&self, case: &Case<F>) -> Option<f64> {
+        let (truth, verdict) = self.hit_with_values(case)?;
+        let times = ValueErrors::of(case, &truth, self.row.entry.info.gives, &verdict).times;
+        let worst = times.into_iter().flatten().fold(0.0, f64::max);
+        worst.is_finite().then_some(worst)
     }
 
     fn quick_value(&self, case: &Case<F>) -> Option<f64> {

@@ -6,7 +6,7 @@
 //! M = max over the axes of |w·a| + |u·b| + |v·c| + |o| + |t·d|. An error of one unit roundoff u in each
 //! coordinate moves t by at most u·κ, where κ = M·|N|₁ / |D|, and likewise u and v. Rounding may carry a value
 //! [`ALLOWANCE`] times as far: a weight always that many unit roundoffs of 1, because weights add up to 1, and
-//! every value the least positive number.
+//! every value the least positive number. A contract may allow more, as a distance.
 
 #[cfg(test)]
 mod tests;
@@ -33,6 +33,9 @@ struct Allowed<R> {
     exact: [R; 3],
     /// u·κ; [`ALLOWANCE`] times as much is allowed.
     unit: [R; 3],
+    /// The squares of the longest edge and of the direction's length.
+    edge_squared: R,
+    direction_squared: R,
     /// The least positive number of the scalar.
     least: f64,
     number: fn(f64) -> R,
@@ -64,16 +67,39 @@ impl<R: Real> Allowed<R> {
             let moved = (row.at(0).abs() + row.at(1).abs() + row.at(2).abs()) * &per_row;
             if i == 0 { moved } else { moved.larger(number(roundoff)) }
         });
-        Allowed { exact, unit, least: F::from_place(1).to_f64(), number }
+        let edge = |edge: &Triple<R>| edge.dot(edge);
+        Allowed {
+            exact,
+            unit,
+            edge_squared: edge(&ab).larger(edge(&ac)).larger(edge(&c.minus(b))),
+            direction_squared: d.dot(d),
+            least: F::from_place(1).to_f64(),
+            number,
+        }
     }
 
-    fn admits(&self, which: usize, value: R) -> bool {
+    /// True if a value is as near as rounding may leave it, or as near as a contract tolerates.
+    fn admits(&self, which: usize, value: R, tolerance: f64) -> bool {
         let off = (value - &self.exact[which]).abs();
         let allowed = (self.number)(ALLOWANCE) * &self.unit[which];
         // Far above the least number of f64, of which bounded numbers know nothing.
         let tiny = (self.number)(2.0f64.powi(-140));
         off.is_at_most(&allowed)
             || off.is_at_most(&tiny) && off.is_at_most(&(self.number)(self.least))
+            || 0.0 < tolerance && self.is_within(which, &off, tolerance)
+    }
+
+    /// True if an error moves the point by at most so many longest edges, or a weight by at most so much.
+    fn is_within(&self, which: usize, off: &R, edges: f64) -> bool {
+        if edges == f64::INFINITY {
+            return true;
+        }
+        let edges = (self.number)(edges);
+        if which != 0 {
+            return off.is_at_most(&edges);
+        }
+        let moved = off.clone() * off * &self.direction_squared;
+        moved.is_at_most(&(edges.clone() * &edges * &self.edge_squared))
     }
 }
 
@@ -86,31 +112,57 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
-/// True if each value that the kernel gives is as near to its exact one as rounding may leave it. The hit has finite
+/// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
+/// tolerates. The hit has finite
 /// values, and its line crosses the plane.
-pub(super) fn are_near<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> bool {
+pub(super) fn are_near<F: Float>(
+    case: &Case<F>,
+    gives: Gives,
+    verdict: &Verdict<F>,
+    tolerance: f64,
+) -> bool {
     fn near<F: Float, R: Real>(
         case: &Case<F>,
         number: fn(f64) -> R,
         values: &[(usize, f64)],
+        tolerance: f64,
     ) -> bool {
         let allowed = Allowed::of(case, number);
-        values.iter().all(|&(which, value)| allowed.admits(which, number(value)))
+        values.iter().all(|&(which, value)| allowed.admits(which, number(value), tolerance))
     }
     let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
     let values: Vec<_> =
         values.into_iter().enumerate().filter(|(which, _)| given(gives)[*which]).collect();
-    bounded(|| near(case, Bounded::new, &values))
-        .unwrap_or_else(|| near(case, Exact::from_f64, &values))
+    bounded(|| near(case, Bounded::new, &values, tolerance))
+        .unwrap_or_else(|| near(case, Exact::from_f64, &values, tolerance))
 }
 
 /// The same of what a kernel's formula gives without rounding.
-pub fn exact_values_are_near<F: Float>(case: &Case<F>, gives: Gives, hit: Hit<Exact>) -> bool {
+pub fn exact_values_are_near<F: Float>(
+    case: &Case<F>,
+    gives: Gives,
+    hit: Hit<Exact>,
+    tolerance: f64,
+) -> bool {
     let allowed = Allowed::of(case, Exact::from_f64);
     let (u, v) = hit.uv.map_or((None, None), |(u, v)| (Some(u), Some(v)));
     let values = [hit.t, u, v].into_iter().zip(given(gives)).enumerate();
-    let near = |value: Option<Exact>, which| value.is_some_and(|x| allowed.admits(which, x));
+    let near =
+        |value: Option<Exact>, which| value.is_some_and(|x| allowed.admits(which, x, tolerance));
     values.into_iter().all(|(which, (value, given))| !given || near(value, which))
+}
+
+/// The error of the worst value of a hit, in multiples of u·κ; infinite if a value has no unit. The hit has finite values,
+/// and its line crosses the plane.
+pub fn exact_times<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> Exact {
+    let allowed = Allowed::of(case, Exact::from_f64);
+    let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
+    let given = (0..3).filter(|which| given(gives)[*which]);
+    let times = given.map(|which| {
+        let off = (Exact::from_f64(values[which]) - &allowed.exact[which]).abs();
+        if off.is_zero() { off } else { off / &allowed.unit[which] }
+    });
+    times.fold(Exact::from_f64(0.0), Exact::larger)
 }
 
 /// How far the values of a hit are off, on a line that crosses the plane.
@@ -122,6 +174,8 @@ pub struct ValueErrors {
     pub times: [Option<f64>; 3],
     /// How far the point is off in longest edges: along the ray by t, or in the plane by u or v.
     pub edges: f64,
+    /// The same of each value.
+    by_value: [f64; 3],
 }
 
 impl ValueErrors {
@@ -139,12 +193,13 @@ impl ValueErrors {
         let given = given(gives);
         let worst = (0..3).filter(|i| given[*i]).map(|i| edges[i]).fold(0.0, f64::max);
         let times = array::from_fn(|i| given[i].then_some(times[i]));
-        ValueErrors { exact, times, edges: worst }
+        ValueErrors { exact, times, edges: worst, by_value: edges }
     }
 
-    /// True if t, u or v (0, 1 or 2) is farther off than allowed.
-    pub fn is_wrong(&self, which: usize) -> bool {
-        self.times[which].is_some_and(|times| ALLOWANCE < times)
+    /// True if t, u or v (0, 1 or 2) is farther off than rounding explains and a contract tolerates.
+    pub fn is_wrong(&self, which: usize, tolerance: f64) -> bool {
+        let is_within = self.by_value[which] <= tolerance;
+        self.times[which].is_some_and(|times| ALLOWANCE < times) && !is_within
     }
 }
 

@@ -101,7 +101,12 @@ fn values_are_judged_as_defined<F: Scalar>() {
                 let is_near =
                     |i: usize| (number(values[i].to_f64()) - &exact[i]).abs() <= allowed[i];
                 let expected = (0..3).all(is_near);
-                assert_eq!(are_near(case, ALL, &hit(values)), expected, "{} {which}", case.hex());
+                assert_eq!(
+                    are_near(case, ALL, &hit(values), 0.0),
+                    expected,
+                    "{} {which}",
+                    case.hex()
+                );
                 let is_sure =
                     (0..3).all(|i| limits.low[i] <= values[i] && values[i] <= limits.high[i]);
                 assert!(!is_sure || expected, "{} {which} {value}", case.hex());
@@ -149,14 +154,79 @@ fn a_rounded_value_is_near_and_a_thousandth_of_an_edge_is_not() {
     );
     let truth = oracle::truth(&unit);
     let exact = ValueErrors::of(&unit, &truth, ALL, &hit([0.0; 3])).exact.map(|x| x as f32);
-    assert!(are_near(&unit, ALL, &hit(exact)));
+    assert!(are_near(&unit, ALL, &hit(exact), 0.0));
     for which in 0..3 {
         for off in [-1e-3, 1e-3, 1e-5] {
             let mut values = exact;
             values[which] += off;
-            assert!(!are_near(&unit, ALL, &hit(values)), "{which} {off}");
+            assert!(!are_near(&unit, ALL, &hit(values), 0.0), "{which} {off}");
             let only_t = Gives { uv: false, ..ALL };
-            assert_eq!(are_near(&unit, only_t, &hit(values)), which != 0);
+            assert_eq!(are_near(&unit, only_t, &hit(values), 0.0), which != 0);
+        }
+    }
+}
+
+/// The tolerance of a contract is a distance: by t along the ray, in longest edges; by u and v a weight.
+fn tolerances_are_judged_as_defined<F: Scalar>() {
+    let (mut within, mut beyond) = (0, 0);
+    for (case, _) in &cases_with_values::<F>(4) {
+        let (exact, allowed) = defined(case);
+        let [_, d, a, b, c] = case.vectors().map(|v| v.map(|x| number(x.to_f64())));
+        let square = |p: &[BigRational; 3], q: &[BigRational; 3]| -> BigRational {
+            (0..3).map(|i| (&p[i] - &q[i]) * (&p[i] - &q[i])).sum()
+        };
+        let edge = square(&a, &b).max(square(&b, &c)).max(square(&c, &a));
+        let zero = [number(0.0), number(0.0), number(0.0)];
+        let direction = square(&d, &zero);
+        let float = |x: &BigRational| F::from_f64(Exact::from_rational(x).approximate());
+        for (tolerance, factor) in [(1e-3, 0.999), (1e-3, 1.001), (0.25, 0.5), (1e-9, 2.0)] {
+            for which in 0..3 {
+                // About so far off: where it stands is computed from the rounded value.
+                let length = float(&(&edge / &direction)).to_f64().sqrt();
+                let off = tolerance * factor * if which == 0 { length } else { 1.0 };
+                let mut values = exact.each_ref().map(float);
+                values[which] = F::from_f64(values[which].to_f64() + off);
+                if values.iter().any(|x| !x.is_finite()) {
+                    continue;
+                }
+                let is_near = |i: usize| {
+                    let off = number(values[i].to_f64()) - &exact[i];
+                    let most = number(tolerance);
+                    let is_tolerated = match i {
+                        0 => &off * &off * &direction <= &most * &most * &edge,
+                        _ => -most.clone() <= off && off <= most,
+                    };
+                    is_tolerated || off <= allowed[i] && -off <= allowed[i]
+                };
+                let expected = (0..3).all(is_near);
+                let about = format!("{} {which} {tolerance} {factor}", case.hex());
+                assert_eq!(are_near(case, ALL, &hit(values), tolerance), expected, "{about}");
+                assert!(are_near(case, ALL, &hit(values), f64::INFINITY), "{about}");
+                *(if expected { &mut within } else { &mut beyond }) += 1;
+            }
+        }
+    }
+    assert!(150 < within && 150 < beyond, "{within} {beyond}");
+}
+
+#[test]
+fn values_within_the_tolerance_of_a_contract_are_near() {
+    tolerances_are_judged_as_defined::<f32>();
+    tolerances_are_judged_as_defined::<f64>();
+}
+
+#[test]
+fn the_worst_value_is_counted_in_units_of_rounding() {
+    for (case, truth) in cases_with_values::<f64>(2) {
+        let (exact, _) = defined(&case);
+        let float = |x: &BigRational| Exact::from_rational(x).approximate();
+        let values = exact.each_ref().map(|x| float(x) * 1.25 + 0.5);
+        let times = ValueErrors::of(&case, &truth, ALL, &hit(values)).times.map(Option::unwrap);
+        let worst = times.into_iter().fold(0.0, f64::max);
+        let found = exact_times(&case, ALL, &hit(values));
+        if worst.is_finite() && found.is_finite() {
+            let found = found.approximate();
+            assert!((found - worst).abs() <= 1e-5 * worst, "{} {found} {worst}", case.hex());
         }
     }
 }
