@@ -51,6 +51,9 @@ pub struct ScalarResult {
     pub deepest_hit: Option<Depth>,
     /// Errors of t in ulps that half and 99 % of the hits of `interior` do not exceed.
     pub t_error_ulps: Option<[f64; 2]>,
+    /// Right hits of ordinary groups whose t, u or v is off by more than rounding explains; since league-2026.2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrong_values: Option<Share>,
     /// A ray, the way there included: the pipe of a process, or the scene that is made for one triangle.
     pub nanoseconds: Option<f64>,
 }
@@ -210,6 +213,10 @@ fn scalar_result(
         () if ordinary.max(sized) > HELD => "rounding",
         () => "held",
     };
+    let mut wrong_values = Share::default();
+    for result in ORDINARY.iter().flat_map(|group| of_group(group)) {
+        wrong_values.add(result.total.wrong_values.count, result.total.wrong_values.of);
+    }
     let all = &[ORDINARY, &["size"]].concat();
     let interior = results.iter().find(|result| result.family == "interior");
     let t = interior.and_then(|result| result.accuracy.get("t"));
@@ -221,6 +228,7 @@ fn scalar_result(
         deepest_miss: deepest(FindingKind::FalseMiss, all),
         deepest_hit: deepest(FindingKind::FalseHit, all),
         t_error_ulps: t.and_then(|t| Some([t.median?, t.percent_99?])),
+        wrong_values: (0 < wrong_values.of).then_some(wrong_values),
         nanoseconds: nanoseconds.map(f64::round),
     }
 }

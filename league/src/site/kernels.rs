@@ -96,6 +96,9 @@ fn section(
         @if let Some([half, most]) = result.t_error_ulps {
             p { "Of plain hits, half have t within " (short(half)) " ulps of the exact one, 99 % within " (short(most)) "." }
         }
+        @if let Some(wrong) = result.wrong_values {
+            p { (of(wrong)) " right hits have a t, u or v that is off by more than rounding explains." }
+        }
         @for (what, depth) in [("false miss", &result.deepest_miss), ("false hit", &result.deepest_hit)] {
             @if let Some(depth) = depth { (deepest(what, depth)) }
         }
