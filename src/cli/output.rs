@@ -10,6 +10,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use terminal_size::terminal_size;
 
 /// When to colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -33,6 +34,12 @@ impl ColorChoice {
             ColorChoice::Auto => allowed && to_stdout && io::stdout().is_terminal(),
         }
     }
+}
+
+/// The width of an output: of a terminal its own, within what can be read; of anything else 80.
+fn width(path: &str) -> usize {
+    let terminal = (path == "-" && io::stdout().is_terminal()).then(terminal_size).flatten();
+    terminal.map_or(Style::WIDTH, |(width, _)| usize::from(width.0).clamp(60, 160))
 }
 
 /// A format, which has a name on the command line.
@@ -121,7 +128,11 @@ pub fn write_record<R>(
     details: bool,
 ) -> Result<(), Failure> {
     write_results(outputs, |format, path, out| {
-        (format.write)(record, Style { color: color.enabled(path == "-"), details }, out)
+        (format.write)(
+            record,
+            Style { color: color.enabled(path == "-"), details, width: width(path) },
+            out,
+        )
     })
 }
 

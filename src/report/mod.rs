@@ -29,6 +29,8 @@ mod record;
 pub mod scene;
 #[cfg(feature = "studies")]
 mod shard;
+#[cfg(feature = "studies")]
+pub(crate) mod table;
 
 #[cfg(feature = "studies")]
 pub use answered::{AnsweredTest, Asked, Product, answered};

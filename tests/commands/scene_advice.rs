@@ -160,8 +160,9 @@ fn the_commands_that_are_named_run_and_know_what_a_gate_on_t_is_for() {
     let audit = ["audit", "--kernel", "moller-trumbore", "--scene", "room", "--family"];
     let rest = ["scene-edges", "--scalar", "f32", "-n", "400", "-q"];
     let (out, _) = ends(&folder, &[&audit[..], &rest[..]].concat(), 0);
-    let choose = out.lines().find_map(|line| line.strip_prefix("Choose an epsilon: hairline "));
-    let words: Vec<&str> = choose.unwrap().split(' ').collect();
+    let mut lines = out.lines().map(|line| line.trim_start_matches("next:").trim());
+    let command = lines.find(|line| line.starts_with("hairline epsilon ")).unwrap();
+    let words: Vec<&str> = command.split("  # ").next().unwrap().split(' ').skip(1).collect();
     assert!(!words.contains(&"--family"), "{words:?}");
     ends(&folder, &[&words[..], &["-q"]].concat(), 0);
 }

@@ -3,7 +3,7 @@
 
 use super::columns::{Column, far, short_percent};
 use super::disagreement::is_shared_in_scene;
-use super::lines::{Line, column_legend, write_wrapped};
+use super::lines::{Line, column_legend};
 use super::pool::Pool;
 use super::rate::percent;
 use super::record::*;
@@ -12,6 +12,7 @@ use super::why::cause_shares;
 use super::{Style, group_digits};
 use crate::audit::Attribution;
 use crate::kernel;
+use crate::report::table::write_wrapped;
 use std::io::{self, Write};
 
 /// Writes each row in each scalar.
@@ -37,6 +38,7 @@ pub(super) fn write(
     write_wrapped(
         "Shares of the cases that must be hit, and that must be missed, with 95 % intervals, on cases chosen to be \
          hard; far off: a verdict wrong by over 1/1000 of the longest edge.",
+        style.width,
         out,
     )?;
     let has_other_causes = |line: &Line| {
@@ -48,10 +50,11 @@ pub(super) fn write(
     if lines.iter().any(has_other_causes) {
         write_wrapped(
             "not-epsilon: with every epsilon 0 it is wrong too; runs cannot tell rounding from the formula itself",
+            style.width,
             out,
         )?;
     }
-    write_wrapped(&column_legend(columns, &[]), out)
+    write_wrapped(&column_legend(columns, &[]), style.width, out)
 }
 
 /// The contract and the gates.
@@ -119,7 +122,7 @@ fn write_line(
         writeln!(out, " {:>10}", short_percent([far, cell.wrong.of]))?;
     }
     write_untold(line, out)?;
-    write_others(line, out)
+    write_others(line, style, out)
 }
 
 /// Why there are no causes, if findings were examined and none can be told.
@@ -138,7 +141,7 @@ fn write_untold(line: &Line, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Cracks and doubles, whole polygons, bad and wrong values, where there are any to count.
-fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
+fn write_others(line: &Line, style: Style, out: &mut dyn Write) -> io::Result<()> {
     if let Some(across) = &line.across {
         let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
         let of = group_digits(across.cracks[1]);
@@ -171,7 +174,7 @@ fn write_others(line: &Line, out: &mut dyn Write) -> io::Result<()> {
             group_digits(line.values.far),
             cause(&line.row.results, FindingKind::WrongValue).trim_end(),
         );
-        write_wrapped(text.trim_end_matches("; most: "), out)?;
+        write_wrapped(text.trim_end_matches("; most: "), style.width, out)?;
     }
     Ok(())
 }

@@ -1,15 +1,13 @@
 //! The three worst findings of a record, in words, each with the command that shows it.
 
 use super::columns::Column;
-use super::lines::{Line, write_wrapped};
+use super::lines::Line;
 use super::record::*;
 use super::worst::severity_of;
 use super::{Style, group_digits};
 use crate::audit::Attribution;
+use crate::report::table::write_wrapped;
 use std::io::{self, Write};
-
-/// How many are shown.
-const MOST: usize = 3;
 
 /// The worst case of one class of findings.
 struct Extreme<'a> {
@@ -20,32 +18,36 @@ struct Extreme<'a> {
     cause: Option<Attribution>,
 }
 
-/// Writes a promise across triangles that was broken, and the worst verdicts in ordinary sizes.
+/// Writes a promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
 pub(super) fn write(
     columns: &[Column],
     lines: &[Line],
+    most: usize,
     style: Style,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     let broken = lines.iter().find_map(|line| Some((line, broken_promise(line)?)));
-    let worst = chosen(all(columns, lines), MOST - usize::from(broken.is_some()));
+    let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
     if broken.is_none() && worst.is_empty() {
         return Ok(());
     }
     let is_all = columns.iter().all(|column| column.is_ordinary());
     let place = if is_all { "" } else { " in ordinary sizes" };
-    writeln!(
-        out,
-        "{bold}Worst{plain}{place}, in longest edges of the triangle, of different causes and kernels:"
-    )?;
+    let head = match most {
+        1 => format!("{bold}Worst{plain}{place}, in longest edges of the triangle:"),
+        _ => {
+            format!("{bold}Worst{plain}{place}, in longest edges, of different causes and kernels:")
+        }
+    };
+    writeln!(out, "{head}")?;
     let commands = broken.into_iter().map(|(line, (text, command))| {
         (format!("{}, {}: {text}", line.label(), line.row.scalar), command)
     });
     let worst =
         worst.iter().map(|extreme| (extreme.describe(), extreme.part.worst.command.clone()));
     for (number, (text, command)) in commands.chain(worst).enumerate() {
-        write_wrapped(&format!("{}. {text}", number + 1), out)?;
+        write_wrapped(&format!("{}. {text}", number + 1), style.width, out)?;
         writeln!(out, "   {command}")?;
     }
     Ok(())

@@ -1,13 +1,11 @@
 //! The lines of the screen and of the summary in Markdown: rows with their cells, and words wrapped.
 
 use super::columns::{Across, Cell, Column, kinds};
-use super::group_digits;
 use super::record::*;
 use super::row_view::RowView;
+use super::{Style, group_digits};
+use crate::report::table::write_wrapped;
 use std::io::{self, Write};
-
-/// Characters in a line, where words can be wrapped.
-const WIDTH: usize = 119;
 
 /// One row in one scalar.
 pub(super) struct Line<'a> {
@@ -54,10 +52,10 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
 }
 
 /// Writes notes on the kernels besides their verdicts, and says if their values are good for anything.
-pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write_notes(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
     for (kernel, notes) in &record.provenance.kernel_notes {
         for note in notes {
-            write_wrapped(&format!("{kernel}: {note}."), out)?;
+            write_wrapped(&format!("{kernel}: {note}."), style.width, out)?;
         }
     }
     let scalars = record.result.plan.scalars.iter();
@@ -71,7 +69,7 @@ pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()
                  or with the wrong side (bad-value). Does it write all that it says that it gives?",
                 row.part.kernel, row.part.set, row.scalar
             );
-            write_wrapped(&text, out)?;
+            write_wrapped(&text, style.width, out)?;
         }
         let [wrong, of] = row.total(|result| Some(&result.total.wrong_values)).counts();
         if of < wrong.saturating_mul(2) {
@@ -82,27 +80,8 @@ pub(super) fn write_notes(record: &Record, out: &mut dyn Write) -> io::Result<()
                  weight of b, v that of c.",
                 row.part.kernel, row.part.set, row.scalar
             );
-            write_wrapped(&text, out)?;
+            write_wrapped(&text, style.width, out)?;
         }
     }
     Ok(())
-}
-
-/// Writes words in lines of [`WIDTH`] at most.
-pub(super) fn write_wrapped(text: &str, out: &mut dyn Write) -> io::Result<()> {
-    if text.is_empty() {
-        return Ok(());
-    }
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if WIDTH < line.chars().count() + 1 + word.chars().count() && !line.trim().is_empty() {
-            writeln!(out, "{line}")?;
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    writeln!(out, "{line}")
 }

@@ -15,9 +15,12 @@ mod markdown;
 mod net;
 mod next;
 mod pool;
+mod questions;
+mod ranking;
 mod row_view;
 mod sarif;
 mod screen;
+mod standing;
 pub(in crate::report) mod text;
 mod verdict;
 mod why;
@@ -32,12 +35,25 @@ use serde::Serialize;
 use std::io::{self, Write};
 
 /// How people-facing formats look.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Style {
     /// True if terminal colours are used.
     pub color: bool,
     /// True if everything is printed: the tables by scalar, and every class of finding of every kernel.
     pub details: bool,
+    /// The most characters of a line of text, but for commands to paste.
+    pub width: usize,
+}
+
+impl Default for Style {
+    fn default() -> Style {
+        Style { color: false, details: false, width: Style::WIDTH }
+    }
+}
+
+impl Style {
+    /// The width where there is no terminal.
+    pub const WIDTH: usize = 80;
 }
 
 /// A format that a record can be written in.

@@ -9,16 +9,17 @@ use std::io::{self, Write};
 /// Writes them.
 pub(super) fn write(
     record: &Record,
+    best: Option<&RowPart>,
     lines: &[Line],
     style: Style,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
     // The product of `verify` cannot be chosen by a flag.
-    let rows: Vec<&RowPart> =
-        lines.iter().map(|line| line.row.part).filter(|row| !row.selector.is_empty()).collect();
+    let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
+    let rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
     let Some(first) = rows.first() else {
-        return writeln!(out, "{bold}Everything:{plain} --details");
+        return writeln!(out, "{bold}next:{plain} --details  # everything");
     };
     let tells_margins = |row: &&&RowPart| {
         let entry = kernel::find(&row.kernel);
@@ -28,13 +29,11 @@ pub(super) fn write(
     let sources = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.sources.as_str());
     let sources = if sources.is_empty() { String::new() } else { format!(" {sources}") };
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
-    // Many rows leave less room.
-    let after = if is_alone { "\n" } else { "   " };
+    let mut commands: Vec<(String, &str)> = Vec::new();
     if !is_alone {
         let one = tuned.unwrap_or(first);
-        write!(out, "{bold}One kernel:{plain} hairline audit {}{sources}{after}", one.selector)?;
+        commands.push((format!("hairline audit {}{sources}", one.selector), "one kernel"));
     }
-    writeln!(out, "{bold}Everything:{plain} --details, or --format html -o report.html")?;
     let all_sources = sources.clone();
     if let Some(tuned) = tuned {
         // `epsilon` knows no rays at a mesh's edges, and takes a scene whole.
@@ -44,15 +43,21 @@ pub(super) fn write(
         } else {
             sources.to_owned()
         };
-        write!(
-            out,
-            "{bold}Choose an epsilon:{plain} hairline epsilon {}{sources}{after}",
-            tuned.selector
-        )?;
+        let command = format!("hairline epsilon {}{sources}", tuned.selector);
+        commands.push((command, "choose an epsilon"));
     }
     let kernels = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.kernels.as_str());
     let kernels = if kernels.is_empty() { String::new() } else { format!(" {kernels}") };
-    writeln!(out, "{bold}Gate a CI:{plain} hairline check{kernels}{all_sources} --bless")
+    commands.push((format!("hairline check{kernels}{all_sources} --bless"), "gate a CI"));
+    commands.push(("--details, or --format html -o report.html".to_owned(), "everything"));
+    for (i, (command, what)) in commands.iter().enumerate() {
+        let lead = if i == 0 { format!("{bold}next:{plain}") } else { "     ".to_owned() };
+        match "next:   # ".len() + command.chars().count() + what.len() <= style.width {
+            true => writeln!(out, "{lead} {command}  # {what}")?,
+            false => writeln!(out, "{lead} {command}")?,
+        }
+    }
+    Ok(())
 }
 
 /// Flags without the families among them.

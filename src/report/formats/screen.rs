@@ -1,16 +1,17 @@
-//! The screen of `hairline audit`: the answer, a table with a column for each question, the worst
-//! findings, and what to do next. Everything else is behind `--details`.
+//! The screen of `hairline audit`: the answer, one table with the best row first, the worst finding, and what to do next.
+//! Everything else is behind `--details`.
 
-use super::columns::{Across, Cell, Column, kinds, shared_in_scenes, short_percent};
-use super::disagreement::{Key, disagreements, family_of, is_shared_in_scene};
-use super::lines::{Line, column_legend, lines, write_notes, write_wrapped};
+use super::columns::{Cell, Column, kinds, shared_in_scenes, short_percent};
+use super::disagreement::family_of;
+use super::lines::{Line, lines, write_notes};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
-use super::{Style, close_up, extremes, group_digits, next, number_of};
+use super::standing::{Standing, other_findings, standings};
+use super::{Style, close_up, extremes, group_digits, next, number_of, ranking};
 use crate::case::SceneKind;
 use crate::report::elsewhere::is_worse;
 use crate::report::percent;
-use std::cmp::Ordering;
+use crate::report::table::write_wrapped;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
@@ -21,11 +22,12 @@ const MOST_CLOSE_UPS: usize = 2;
 pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
     let columns = Column::all(record);
     let lines = lines(record, &columns);
-    write_head(record, out)?;
-    write_notes(record, out)?;
-    write_answer(record, &columns, &lines, out)?;
+    let standings = standings(record, &columns, &lines);
+    write_head(record, style, out)?;
+    write_notes(record, style, out)?;
+    write_answer(record, &columns, &standings, style, out)?;
     if let Some(note) = shared_in_scenes(record) {
-        write_wrapped(note, out)?;
+        write_wrapped(note, style.width, out)?;
     }
     for scalar in &record.result.plan.scalars {
         let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);
@@ -37,22 +39,22 @@ pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::R
     if is_close_up(record) {
         close_up::write(record, &columns, &lines, style, out)?;
     } else {
-        write_cell_legend(&columns, &lines, out)?;
         writeln!(out)?;
-        write_table(&columns, &lines, style, out)?;
-        write_wrapped(&column_legend(&columns, &lines), out)?;
+        ranking::write(record, &columns, &standings, style, out)?;
     }
-    write_elsewhere(record, &columns, &lines, out)?;
+    write_elsewhere(record, &columns, &lines, style, out)?;
     for scalar in &record.result.plan.scalars {
         let rows = lines.iter().filter(|line| line.row.scalar == scalar).map(|line| &line.row);
         write_failures(&rows.collect::<Vec<_>>(), out)?;
     }
-    extremes::write(&columns, &lines, style, out)?;
-    next::write(record, &lines, style, out)
+    writeln!(out)?;
+    let worst = if is_close_up(record) { 3 } else { 1 };
+    extremes::write(&columns, &lines, worst, style, out)?;
+    next::write(record, ranking::best(&standings), &lines, style, out)
 }
 
 /// Writes which kernels ran, and on how many cases.
-fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
+fn write_head(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
     let (result, provenance) = (&record.result, &record.provenance);
     let cases = |scalar: &String| {
         let sources = result.sources.iter().filter(|source| source.scalar == *scalar);
@@ -81,8 +83,7 @@ fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
         several => format!(" in {several} kinds of planes and rays"),
     };
     let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
-    writeln!(
-        out,
+    let text = format!(
         "{}: {} ({}) on {sources}{kinds}, {}, {:.1} s, plan {}",
         provenance.tool,
         number_of(result.plan.rows.len() as u64, "row", "rows"),
@@ -90,7 +91,8 @@ fn write_head(record: &Record, out: &mut dyn Write) -> io::Result<()> {
         counts.collect::<Vec<_>>().join(", "),
         provenance.seconds,
         result.plan.hash,
-    )
+    );
+    write_wrapped(&text, style.width, out)
 }
 
 /// True if there are so few kernels that each has a table of its own.
@@ -98,159 +100,57 @@ fn is_close_up(record: &Record) -> bool {
     record.result.plan.rows.len() <= MOST_CLOSE_UPS
 }
 
-/// How one row did in all scalars, in the columns of ordinary sizes.
-struct Standing {
-    label: String,
-    /// The mean of the cells' shares.
-    share: f64,
-    wrong: u64,
-    /// Wrong verdicts that can be seen, and wrong values.
-    far: u64,
-    far_values: u64,
-    /// The other breaches of the contract, on any case: `crash`, `bad-value`, `crack`, ….
-    others: BTreeMap<FindingKind, u64>,
-}
-
-impl Standing {
-    /// How many answers are off so far that it can be seen.
-    fn all_far(&self) -> u64 {
-        self.far + self.far_values
-    }
-}
-
-/// How often a row broke its contract in other ways than by false misses and false hits of single cases.
-fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<FindingKind, u64> {
-    let mut others = BTreeMap::new();
-    for found in disagreements(&record.result) {
-        let Key { kernel, set, family, finding, .. } = found.key;
-        // Cracks at the shared edges and vertices of a scene are in the shares, promised or not.
-        let is_in_shares = finding.is_wrong_verdict()
-            || finding == FindingKind::Crack && is_shared_in_scene(&family);
-        if (&kernel, &set) == (&part.kernel, &part.set) && !is_in_shares {
-            *others.entry(finding).or_default() += found.rate.count;
-        }
-    }
-    others
-}
-
-fn standings(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Standing> {
-    let everywhere = Column::in_all_kinds(record);
-    let wrong_in = |columns: &[Column], line: &Line| -> u64 {
-        let columns = columns.iter().filter(|column| column.is_ordinary());
-        columns.map(|column| Cell::sum(&column.results(&line.row)).wrong.count).sum()
-    };
-    // Stored cases stay out of the mean of samples.
-    let all_complete = columns.iter().all(|column| column.complete);
-    let of_row = |part: &RowPart| {
-        let lines = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
-        let cells: Vec<(&Column, &Cell)> = lines
-            .clone()
-            .flat_map(|line| columns.iter().zip(&line.cells))
-            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)
-            .collect();
-        let meant = cells.iter().filter(|(column, _)| column.complete == all_complete);
-        let shares: Vec<f64> = meant.filter_map(|(_, cell)| cell.wrong.share()).collect();
-        (!shares.is_empty()).then(|| Standing {
-            label: format!("{} ({})", part.kernel, part.set),
-            share: shares.iter().sum::<f64>() / shares.len() as f64,
-            wrong: lines.clone().map(|line| wrong_in(&everywhere, line)).sum(),
-            far: cells.iter().map(|(_, cell)| cell.far).sum(),
-            far_values: lines.clone().map(|line| line.values.far).sum(),
-            others: other_findings(record, part),
-        })
-    };
-    record.result.plan.rows.iter().filter_map(of_row).collect()
-}
-
 /// The answer in words.
 fn write_answer(
     record: &Record,
     columns: &[Column],
-    lines: &[Line],
+    standings: &[Standing],
+    style: Style,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let standings = standings(record, columns, lines);
     let special: Vec<&str> = columns
         .iter()
         .filter(|column| !column.is_ordinary())
         .map(|column| column.label())
         .collect();
-    // Each is a row of a close-up.
-    let parts = if is_close_up(record) { "rows" } else { "columns" };
-    let place = match &special[..] {
-        [] => String::new(),
-        special => format!(" in ordinary sizes (all {parts} but {})", special.join(" and ")),
+    let place = match (&special[..], is_close_up(record)) {
+        ([], _) => String::new(),
+        // Each is a row of a close-up.
+        (special, true) => {
+            format!(" in ordinary sizes (all rows but {})", special.join(" and "))
+        }
+        (_, false) => " in ordinary sizes".to_owned(),
     };
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
     let mean = match &special[..] {
         _ if meant <= 1 => place.clone(),
-        [] => format!(" (the mean of the {parts})"),
+        [] => " (the mean of the rows)".to_owned(),
         special => {
-            format!(" in ordinary sizes (the mean of all {parts} but {})", special.join(" and "))
+            format!(" in ordinary sizes (the mean of all rows but {})", special.join(" and "))
         }
     };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
-    let text = match &standings[..] {
-        [] if columns.is_empty() => {
+    let label = |standing: &Standing| format!("{} ({})", standing.part.kernel, standing.part.set);
+    let text = match standings {
+        _ if columns.is_empty() => {
             "No case has both a verdict and a contract that demands one.".to_owned()
         }
-        [] => "No case is of ordinary size.".to_owned(),
+        all if all.iter().all(|row| row.share.is_none()) => {
+            "No case is of ordinary size.".to_owned()
+        }
         [only] if only.wrong == 0 && only.others.is_empty() => {
-            format!("{}: every verdict is right{place}.", only.label)
+            format!("{}: every verdict is right{place}.", label(only))
         }
         [only] if only.wrong == 0 => {
-            format!("{}: no false miss and no false hit{place}.", only.label)
+            format!("{}: no false miss and no false hit{place}.", label(only))
         }
         [only] => format!(
             "{} is wrong on {} % of the cases{mean}, {} times by over 1/1000 of the triangle's longest edge.",
-            only.label,
-            percent(only.share),
+            label(only),
+            percent(only.share.unwrap_or_default()),
             group_digits(only.far),
         ),
-        all => {
-            // Of equals the first.
-            let first = |order: fn(&Standing, &Standing) -> Ordering| {
-                all.iter().min_by(|a, b| order(a, b)).expect("several rows")
-            };
-            let least = first(|a, b| a.share.total_cmp(&b.share));
-            let most = first(|a, b| b.share.total_cmp(&a.share));
-            // A kernel that promises less has fewer ways to be wrong.
-            let contracts = lines.iter().map(|line| &*line.row.part.contract);
-            let compared = match contracts.collect::<BTreeSet<&str>>().len() {
-                1 => format!(
-                    "Smallest share of wrong answers{mean}: {}, {} %; largest: {}, {} %. ",
-                    least.label,
-                    percent(least.share),
-                    most.label,
-                    percent(most.share),
-                ),
-                _ => "The rows promise different things; --contract closed-ray judges all by the same. "
-                    .to_owned(),
-            };
-            let [near, far] = [
-                first(|a, b| a.all_far().cmp(&b.all_far())),
-                first(|a, b| b.all_far().cmp(&a.all_far())),
-            ];
-            let far = match far.all_far() {
-                0 => "None was wrong by over 1/1000 of the triangle's longest edge.".to_owned(),
-                most if most == near.all_far() => format!(
-                    "Each was wrong {} times by over 1/1000 of the longest edge.",
-                    group_digits(most),
-                ),
-                most => format!(
-                    "Fewest answers off by over 1/1000 of the longest edge: {}, {}; most: {}, {}.",
-                    near.label,
-                    group_digits(near.all_far()),
-                    far.label,
-                    group_digits(most),
-                ),
-            };
-            format!(
-                "{} of {} rows were right on every case{place}. {compared}{far}",
-                all.iter().filter(|row| row.wrong == 0 && row.others.is_empty()).count(),
-                all.len(),
-            )
-        }
+        all => ranking::answer(all, judged(record), &place),
     };
     let broken: BTreeMap<FindingKind, u64> =
         record.result.plan.rows.iter().flat_map(|part| other_findings(record, part)).fold(
@@ -268,95 +168,18 @@ fn write_answer(
             format!(" Other broken promises: {}.", counts.collect::<Vec<_>>().join(", "))
         }
     };
-    write_wrapped(&(text + &others), out)?;
+    write_wrapped(&(text + &others), style.width, out)?;
     if let Some(partial) = &record.result.partial {
-        writeln!(out, "A part of a run: {}; all numbers are of this part.", partial.in_words())?;
+        let text =
+            format!("A part of a run: {}; all numbers are of this part.", partial.in_words());
+        write_wrapped(&text, style.width, out)?;
     }
     Ok(())
 }
 
-/// Writes the legend of a cell.
-fn write_cell_legend(columns: &[Column], lines: &[Line], out: &mut dyn Write) -> io::Result<()> {
-    let sampled = lines.iter().flat_map(|line| columns.iter().zip(&line.cells));
-    let wide = sampled
-        .filter(|(column, cell)| !column.complete && 0 < cell.wrong.of)
-        .map(|(_, cell)| cell.wrong.interval())
-        .map(|interval| (interval.high - interval.low) / 2.0)
-        .fold(0.0, f64::max);
-    let contracts: BTreeSet<&str> = lines.iter().map(|line| &*line.row.part.contract).collect();
-    let contract = match contracts.len() {
-        1 => "the contract given",
-        _ => "what the row's source promises",
-    };
-    let within = match wide {
-        0.0 => String::new(),
-        wide => format!(" (95 % intervals: ±{:.1} at most)", wide * 100.0 + 0.05),
-    };
-    let free = lines.iter().flat_map(|line| &line.cells).any(|cell| cell.wrong.of == 0);
-    let free = if free { "; - nothing demanded" } else { "" };
-    let stored = columns.iter().any(|column| column.complete);
-    let stored = if stored { "; of whole sets: wrong/all" } else { "" };
-    let text = format!(
-        "Cells: % of wrong verdicts, false misses and false hits, by {contract}, on cases chosen to be \
-         hard{within}; * over 0.1 % are wrong by over 1/1000 of the longest edge{stored}{free}."
-    );
-    write_wrapped(&text, out)
-}
-
-fn write_table(
-    columns: &[Column],
-    lines: &[Line],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    let text = |column: &Column, cell: &Cell| {
-        let share = match column.complete {
-            true if cell.wrong.of == 0 => "-".to_owned(),
-            true => format!("{}/{}", group_digits(cell.wrong.count), group_digits(cell.wrong.of)),
-            false => short_percent([cell.wrong.count, cell.wrong.of]),
-        };
-        format!("{share}{}", if cell.is_far() { '*' } else { ' ' })
-    };
-    let cells = |line: &Line| -> Vec<String> {
-        columns.iter().zip(&line.cells).map(|(column, cell)| text(column, cell)).collect()
-    };
-    let width = |i: usize| {
-        let longest = lines.iter().map(|line| cells(line)[i].len()).max();
-        longest.unwrap_or(0).max(columns[i].label().len() + 1).max(5)
-    };
-    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
-    let first = lines.iter().map(|line| line.label().chars().count()).max().unwrap_or(0).max(22);
-    let has_groups = lines.iter().any(|line| line.across.is_some());
-    let mut scalar = "";
-    for line in lines {
-        if scalar != line.row.scalar {
-            scalar = line.row.scalar;
-            write!(out, "{bold}{:<first$}", format!("{scalar} kernel (epsilons)"))?;
-            for (column, width) in columns.iter().zip(&widths) {
-                write!(out, " {:>width$}", format!("{} ", column.label()))?;
-            }
-            let groups = if has_groups { " cracks doubles  promised" } else { "" };
-            writeln!(out, " values{groups}{plain}")?;
-        }
-        let mut text = format!("{:<first$}", line.label());
-        for ((cell, share), width) in line.cells.iter().zip(cells(line)).zip(&widths) {
-            let share = format!("{share:>width$}");
-            let color = if cell.wrong.of == 0 { "" } else { colour(style, cell.wrong.count) };
-            text.push(' ');
-            text.push_str(&painted(&share, color));
-        }
-        let values = &line.values;
-        let color = if values.wrong.of == 0 { "" } else { colour(style, values.wrong.count) };
-        let far = if values.is_far() { '*' } else { ' ' };
-        let share = short_percent([values.wrong.count, values.wrong.of]);
-        text.push_str(&painted(&format!(" {share:>5}{far}"), color));
-        if has_groups {
-            text.push_str(&across_text(line.across.as_ref(), style));
-        }
-        writeln!(out, "{}", text.trim_end())?;
-    }
-    Ok(())
+/// The cases of a record, in all scalars.
+fn judged(record: &Record) -> u64 {
+    record.result.sources.iter().map(|source| source.cases).sum()
 }
 
 /// The most rows of what is more often wrong on planes, or with rays, of other kinds.
@@ -367,6 +190,7 @@ fn write_elsewhere(
     record: &Record,
     columns: &[Column],
     lines: &[Line],
+    style: Style,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let kinds = kinds(record);
@@ -399,7 +223,7 @@ fn write_elsewhere(
             "On no other planes or rays is a row clearly more often wrong: {}",
             names.join(", ")
         );
-        return write_wrapped(&text, out);
+        return write_wrapped(&text, style.width, out);
     }
     let excess = |(_, own, other, _): &(String, Rate, Rate, SceneKind)| {
         other.rate.unwrap_or(0.0) - own.rate.unwrap_or(0.0)
@@ -418,35 +242,5 @@ fn write_elsewhere(
     if 0 < more {
         writeln!(out, "and {more} more (--details)")?;
     }
-    write_wrapped(&names.join(", "), out)
-}
-
-/// Cracks and doubles, and what is promised of them.
-fn across_text(across: Option<&Across>, style: Style) -> String {
-    let Some(across) = across else { return format!(" {:>6} {:>7}  -", "-", "-") };
-    let rate = |rate: [u64; 2], ruled_out: bool, width: usize| {
-        let color = if ruled_out { colour(style, rate[0]) } else { "" };
-        painted(&format!("{:>width$}", short_percent(rate)), color)
-    };
-    let [no_crack, no_double] = across.rules_out();
-    let color = if no_crack { colour(style, u64::from(across.is_broken())) } else { "" };
-    format!(
-        " {} {}  {}",
-        rate(across.cracks, no_crack, 6),
-        rate(across.doubles, no_double, 7),
-        painted(&across.words(), color)
-    )
-}
-
-/// Green for nothing wrong, red for something.
-fn colour(style: Style, wrong: u64) -> &'static str {
-    match (style.color, wrong) {
-        (false, _) => "",
-        (true, 0) => "\x1b[32m",
-        (true, _) => "\x1b[31m",
-    }
-}
-
-fn painted(text: &str, color: &str) -> String {
-    if color.is_empty() { text.to_owned() } else { format!("{color}{text}\x1b[0m") }
+    write_wrapped(&names.join(", "), style.width, out)
 }

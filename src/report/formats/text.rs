@@ -1,7 +1,8 @@
 //! The record as text for people: the screen, or with `--details` everything: one table a scalar, then
 //! the worst findings with the commands that show them again.
 
-use super::lines::write_notes;
+use super::columns::Column;
+use super::lines::{lines, write_notes};
 use super::rate::{interval_of, percent};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
@@ -62,7 +63,10 @@ fn write_details(record: &Record, style: Style, out: &mut dyn Write) -> io::Resu
             partial.in_words()
         )?;
     }
-    write_notes(record, out)?;
+    write_notes(record, style, out)?;
+    let columns = Column::all(record);
+    let all = lines(record, &columns);
+    super::questions::write(&result.plan.scalars, &columns, &all, style, out)?;
     for scalar in &result.plan.scalars {
         write_scalar(record, scalar, style, out)?;
     }

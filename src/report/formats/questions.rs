@@ -1,0 +1,88 @@
+//! Every question in a column, row by row in the order of the plan: the first table of `--details`.
+
+use super::columns::{Cell, Column, short_percent};
+use super::lines::{Line, column_legend};
+use super::{Style, group_digits};
+use crate::report::table::{self, Row, Table, write_wrapped};
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+/// Writes a table for each scalar, and what stands in it.
+pub(super) fn write(
+    scalars: &[String],
+    columns: &[Column],
+    lines: &[Line],
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let has_groups = lines.iter().any(|line| line.across.is_some());
+    let groups = if has_groups { &["cracks ", "doubles ", "promised"][..] } else { &[] };
+    for scalar in scalars {
+        let mut heads = vec![format!("{scalar} kernel (epsilons)")];
+        heads.extend(columns.iter().map(|column| format!("{} ", column.label())));
+        heads.push("values ".to_owned());
+        heads.extend(groups.iter().map(|head| (*head).to_owned()));
+        let of_scalar = lines.iter().filter(|line| line.row.scalar == scalar);
+        let rows = of_scalar.map(|line| row(columns, line, has_groups)).collect();
+        writeln!(out)?;
+        Table { heads, rows }.write(style, out)?;
+    }
+    write_cell_legend(columns, lines, style, out)?;
+    write_wrapped(&column_legend(columns, lines), style.width, out)
+}
+
+fn row(columns: &[Column], line: &Line, has_groups: bool) -> Row {
+    let text =
+        |share: String, cell: &Cell| format!("{share}{}", if cell.is_far() { '*' } else { ' ' });
+    let share = |cell: &Cell| text(short_percent([cell.wrong.count, cell.wrong.of]), cell);
+    let mut cells: Vec<table::Cell> = Vec::new();
+    for (column, cell) in columns.iter().zip(&line.cells) {
+        let [count, of] = [cell.wrong.count, cell.wrong.of].map(group_digits);
+        cells.push(match column.complete && 0 < cell.wrong.of {
+            true => text(format!("{count}/{of}"), cell).into(),
+            false => share(cell).into(),
+        });
+    }
+    cells.push(share(&line.values).into());
+    if let Some(across) = line.across.as_ref().filter(|_| has_groups) {
+        let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
+        cells.extend([format!("{cracks} "), format!("{doubles} ")].map(table::Cell::from));
+        cells.push(table::Cell { text: across.words(), is_broken: across.is_broken() });
+    } else if has_groups {
+        cells.extend(["- ", "- ", "-"].map(|text| table::Cell::from(text.to_owned())));
+    }
+    Row { label: line.label(), cells, below: Vec::new() }
+}
+
+/// Writes the legend of a cell.
+fn write_cell_legend(
+    columns: &[Column],
+    lines: &[Line],
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let sampled = lines.iter().flat_map(|line| columns.iter().zip(&line.cells));
+    let wide = sampled
+        .filter(|(column, cell)| !column.complete && 0 < cell.wrong.of)
+        .map(|(_, cell)| cell.wrong.interval())
+        .map(|interval| (interval.high - interval.low) / 2.0)
+        .fold(0.0, f64::max);
+    let contracts: BTreeSet<&str> = lines.iter().map(|line| &*line.row.part.contract).collect();
+    let contract = match contracts.len() {
+        1 => "the contract given",
+        _ => "what the row's source promises",
+    };
+    let within = match wide {
+        0.0 => String::new(),
+        wide => format!(" (95 % intervals: ±{:.1} at most)", wide * 100.0 + 0.05),
+    };
+    let free = lines.iter().flat_map(|line| &line.cells).any(|cell| cell.wrong.of == 0);
+    let free = if free { "; - nothing demanded" } else { "" };
+    let stored = columns.iter().any(|column| column.complete);
+    let stored = if stored { "; of whole sets: wrong/all" } else { "" };
+    let text = format!(
+        "Cells: % of wrong verdicts, false misses and false hits, by {contract}, on cases chosen to be \
+         hard{within}; * over 0.1 % are wrong by over 1/1000 of the longest edge{stored}{free}."
+    );
+    write_wrapped(&text, style.width, out)
+}

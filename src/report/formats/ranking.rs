@@ -1,0 +1,225 @@
+//! Every row on one line, the one that is visibly wrong least often first: the table of the screen, and its answer.
+
+use super::columns::{Column, short_percent};
+use super::record::*;
+use super::standing::Standing;
+use super::{Style, group_digits};
+use crate::report::table::{Cell, Row, Table, write_wrapped};
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+/// The most rows; more do not fit on a screen.
+const MOST: usize = 15;
+
+/// The most names in a sentence.
+const MOST_NAMES: usize = 4;
+
+/// The questions in the order in which they have room.
+const ORDER: [&str; 10] =
+    ["mesh", "stored", "sizes", "flat", "ends", "edges", "vertex", "inside", "grid", "lattice"];
+
+/// A row with those that answer alike.
+struct Ranked<'a> {
+    standing: &'a Standing<'a>,
+    alike: Vec<String>,
+}
+
+/// A row's name: its author's epsilons have none.
+fn label(part: &RowPart) -> String {
+    let RowPart { kernel, set, .. } = part;
+    match set.as_str() {
+        "source" | "own" => kernel.clone(),
+        "zero" => format!("{kernel} e=0"),
+        set if set.parse::<f64>().is_ok() => format!("{kernel} e={set}"),
+        set => format!("{kernel} ({set})"),
+    }
+}
+
+/// The best first: without leaks, seldom visibly wrong, few leaks, few wrong answers.
+fn ranked<'a>(standings: &'a [Standing<'a>]) -> Vec<Ranked<'a>> {
+    let mut sorted: Vec<&Standing> = standings.iter().collect();
+    let leaks = |standing: &Standing| {
+        standing.leaks().map_or(0.0, |[count, of]| count as f64 / of.max(1) as f64)
+    };
+    let share = |standing: &Standing| standing.share.unwrap_or(0.0);
+    sorted.sort_by(|a, b| {
+        let by_leak = (0.0 < leaks(a)).cmp(&(0.0 < leaks(b)));
+        let by_far = by_leak.then(a.all_far().cmp(&b.all_far()));
+        by_far.then(leaks(a).total_cmp(&leaks(b))).then(share(a).total_cmp(&share(b)))
+    });
+    let mut rows: Vec<Ranked> = Vec::new();
+    for standing in sorted {
+        match rows.iter_mut().find(|row| row.standing.is_like(standing)) {
+            Some(row) => row.alike.push(label(standing.part)),
+            None => rows.push(Ranked { standing, alike: Vec::new() }),
+        }
+    }
+    rows
+}
+
+/// The row to look at first.
+pub(super) fn best<'a>(standings: &'a [Standing<'a>]) -> Option<&'a RowPart> {
+    ranked(standings).first().map(|row| row.standing.part)
+}
+
+/// Names in a sentence; of many the first.
+fn listed<'a>(all: impl Iterator<Item = &'a Standing<'a>>) -> Option<String> {
+    let names: Vec<String> = all.map(|standing| label(standing.part)).collect();
+    let more = names.len().saturating_sub(MOST_NAMES);
+    let shown = names[..names.len() - more].join(", ");
+    match (names.is_empty(), more) {
+        (true, _) => None,
+        (_, 0) => Some(shown),
+        _ => Some(format!("{shown} and {more} more")),
+    }
+}
+
+/// The answer in sentences.
+pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String {
+    let rows = ranked(standings);
+    let sorted = || rows.iter().map(|row| row.standing);
+    let mut text = Vec::new();
+    let is_right = |it: &&Standing| it.wrong == 0 && it.others.is_empty() && it.share.is_some();
+    if let Some(names) = listed(sorted().filter(is_right)) {
+        text.push(format!("Right on every case{place}: {names}."));
+    }
+    if standings.iter().any(|it| it.leaks().is_some()) {
+        let is_tight = |it: &&Standing| it.leaks().is_some_and(|[count, _]| count == 0);
+        text.push(match listed(sorted().filter(is_tight)) {
+            Some(names) => format!("No leak at shared edges and vertices: {names}."),
+            None => "Every kernel leaks at shared edges or vertices.".to_owned(),
+        });
+    }
+    if let Some(names) = listed(sorted().filter(|it| it.breaks_promise())) {
+        text.push(format!("Breaks what its documentation promises there: {names}."));
+    }
+    let counts = |it: &Standing| (label(it.part), group_digits(it.all_far()));
+    match (sorted().next(), sorted().last()) {
+        (Some(_), Some(worst)) if worst.all_far() == 0 => {
+            text.push(format!("None is visibly wrong (by over 1/1000 of an edge){place}."));
+        }
+        (Some(best), Some(worst)) => {
+            let ((best, least), (worst, most)) = (counts(best), counts(worst));
+            let cases = group_digits(cases);
+            text.push(format!(
+                "Visibly wrong (by over 1/1000 of an edge){place} least often: {best}, {least} of {cases} answers; \
+                 most often: {worst}, {most}."
+            ));
+        }
+        _ => {}
+    }
+    let failing = standings.iter().filter_map(|it| {
+        let (kind, count) = it.others.iter().find(|(kind, _)| kind.is_failure())?;
+        Some(format!("{}: {kind} {}", label(it.part), group_digits(*count)))
+    });
+    let failing: Vec<String> = failing.take(MOST_NAMES).collect();
+    if !failing.is_empty() {
+        text.push(format!("{}.", failing.join(", ")));
+    }
+    let contracts: BTreeSet<&str> = standings.iter().map(|it| &*it.part.contract).collect();
+    if 1 < contracts.len() {
+        text.push(
+            "Each is judged by its own promises; --contract closed-ray judges all by the same."
+                .to_owned(),
+        );
+    }
+    text.join(" ")
+}
+
+/// Writes the table, and what its columns hold.
+pub(super) fn write(
+    record: &Record,
+    columns: &[Column],
+    standings: &[Standing],
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let place = |column: &Column| ORDER.iter().position(|name| *name == column.label());
+    let mut order: Vec<usize> = (0..columns.len()).collect();
+    order.sort_by_key(|i| (!columns[*i].is_ordinary(), place(&columns[*i]).unwrap_or(ORDER.len())));
+    let has_leaks = standings.iter().any(|it| it.leaks().is_some());
+    let before: Vec<&str> =
+        if has_leaks { vec!["leaks", "visible", "values"] } else { vec!["visible", "values"] };
+    let scalars = &record.result.plan.scalars;
+    let mut table = Table::default();
+    table.heads.push("kernel".to_owned());
+    table.heads.extend(before.iter().map(|head| (*head).to_owned()));
+    table.heads.extend(order.iter().map(|i| columns[*i].label().to_owned()));
+    table.heads.extend(scalars.iter().map(|scalar| format!("ns {scalar}")));
+    let rows = ranked(standings);
+    let more: usize = rows.iter().skip(MOST).map(|row| 1 + row.alike.len()).sum();
+    for Ranked { standing, alike } in rows.into_iter().take(MOST) {
+        let mut cells: Vec<Cell> = Vec::new();
+        if has_leaks {
+            let text = standing.leaks().map_or("-".to_owned(), short_percent);
+            let is_broken = standing.breaks_promise();
+            let mark = if is_broken { "!" } else { "" };
+            cells.push(Cell { text: format!("{text}{mark}"), is_broken });
+        }
+        cells.push(group_digits(standing.all_far()).into());
+        let values = standing.worse(|line| line.values).wrong;
+        cells.push(short_percent([values.count, values.of]).into());
+        for &i in &order {
+            let wrong = standing.worse(|line| line.cells[i]).wrong;
+            cells.push(match columns[i].complete {
+                true if wrong.of == 0 => "-".to_owned().into(),
+                true => format!("{}/{}", group_digits(wrong.count), group_digits(wrong.of)).into(),
+                false => short_percent([wrong.count, wrong.of]).into(),
+            });
+        }
+        for scalar in scalars {
+            let times = record.provenance.kernel_nanoseconds.get(scalar);
+            let name = format!("{} ({})", standing.part.kernel, standing.part.set);
+            let time = times.and_then(|times| times.get(&name));
+            cells.push(time.map_or("-".to_owned(), |time| format!("{time:.0}")).into());
+        }
+        let alike = (!alike.is_empty()).then(|| format!("same answers: {}", alike.join(", ")));
+        table.rows.push(Row {
+            label: label(standing.part),
+            cells,
+            below: alike.into_iter().collect(),
+        });
+    }
+    let mut shown = order.clone();
+    while style.width < table.width() && 0 < shown.len() {
+        shown.pop();
+        table.remove(before.len() + shown.len());
+    }
+    table.write(style, out)?;
+    if 0 < more {
+        writeln!(out, "… {more} more rows: --details")?;
+    }
+    let left_out: Vec<&str> = order[shown.len()..].iter().map(|i| columns[*i].label()).collect();
+    let shown: Vec<Column> = shown.iter().map(|i| columns[*i]).collect();
+    legend(record, &shown, &left_out, has_leaks, style, out)
+}
+
+/// The meaning of the columns in a few lines.
+fn legend(
+    record: &Record,
+    shown: &[Column],
+    left_out: &[&str],
+    has_leaks: bool,
+    style: Style,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut parts = Vec::new();
+    if has_leaks {
+        parts.push("leaks: % of rays at shared edges and vertices that hit nothing".to_owned());
+    }
+    parts.push("visible: answers off by over 1/1000 of an edge".to_owned());
+    parts.push("values: % of right hits with a wrong t, u or v".to_owned());
+    let told = shown.iter().filter(|column| !column.about().is_empty());
+    parts.extend(told.map(|column| format!("{}: {}", column.label(), column.about())));
+    let worse = match record.result.plan.scalars.len() {
+        1 => "",
+        _ => " in the worse of the scalars",
+    };
+    parts.push(format!(
+        "other cells: % wrong{worse} on rays aimed at hard places, not of your pixels"
+    ));
+    if !left_out.is_empty() {
+        parts.push(format!("--details has {} too", left_out.join(", ")));
+    }
+    write_wrapped(&parts.join("; "), style.width, out)
+}

@@ -1,0 +1,120 @@
+//! How well each row did, in all scalars and in the columns of ordinary sizes.
+
+use super::columns::{Cell, Column};
+use super::disagreement::{Key, disagreements, is_shared_in_scene};
+use super::lines::Line;
+use super::record::*;
+use crate::audit::Trials;
+use std::collections::BTreeMap;
+
+/// One row in all scalars.
+pub(super) struct Standing<'a> {
+    /// The row.
+    pub part: &'a RowPart,
+    /// Its lines, one a scalar.
+    pub lines: Vec<&'a Line<'a>>,
+    /// The mean of the cells' shares; none if no case of ordinary size demands a verdict.
+    pub share: Option<f64>,
+    /// Wrong verdicts, in every kind of planes and rays.
+    pub wrong: u64,
+    /// Wrong verdicts that can be seen.
+    pub far: u64,
+    /// Wrong values that can be seen.
+    far_values: u64,
+    /// The other breaches of the contract, on any case: `crash`, `bad-value`, `crack`, ….
+    pub others: BTreeMap<FindingKind, u64>,
+}
+
+impl Standing<'_> {
+    /// How many answers are off so far that it can be seen.
+    pub fn all_far(&self) -> u64 {
+        self.far + self.far_values
+    }
+
+    /// The share of rays at shared edges and vertices that hit nothing, in the worse scalar; none if there are no such
+    /// rays.
+    pub fn leaks(&self) -> Option<[u64; 2]> {
+        let all = self.lines.iter().filter_map(|line| Some(line.across.as_ref()?.cracks));
+        all.max_by(|a, b| share(*a).total_cmp(&share(*b)))
+    }
+
+    /// True if it broke what it promises across triangles.
+    pub fn breaks_promise(&self) -> bool {
+        self.lines.iter().any(|line| line.across.as_ref().is_some_and(|it| it.is_broken()))
+    }
+
+    /// The trials in the scalar in which more are wrong.
+    pub fn worse(&self, of: impl Fn(&Line) -> Cell) -> Cell {
+        let share = |cell: &Cell| cell.wrong.share().unwrap_or(-1.0);
+        let cells = self.lines.iter().map(|line| of(line));
+        cells.max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or_default()
+    }
+
+    /// True if another row was wrong exactly as often, in every column and scalar.
+    pub fn is_like(&self, other: &Standing) -> bool {
+        let count = |trials: &Trials| [trials.count, trials.of];
+        let cell = |cell: &Cell| (count(&cell.wrong), cell.far);
+        let numbers = |line: &&Line| {
+            let cells: Vec<_> = line.cells.iter().map(cell).collect();
+            let across = line.across.as_ref().map(|across| (across.cracks, across.doubles));
+            (cells, cell(&line.values), across)
+        };
+        self.others == other.others
+            && self.lines.iter().map(numbers).eq(other.lines.iter().map(numbers))
+    }
+}
+
+fn share([count, of]: [u64; 2]) -> f64 {
+    count as f64 / of.max(1) as f64
+}
+
+/// How often a row broke its contract in other ways than by false misses and false hits of single cases.
+pub(super) fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<FindingKind, u64> {
+    let mut others = BTreeMap::new();
+    for found in disagreements(&record.result) {
+        let Key { kernel, set, family, finding, .. } = found.key;
+        // Cracks at the shared edges and vertices of a scene are in the shares, promised or not.
+        let is_in_shares = finding.is_wrong_verdict()
+            || finding == FindingKind::Crack && is_shared_in_scene(&family);
+        if (&kernel, &set) == (&part.kernel, &part.set) && !is_in_shares {
+            *others.entry(finding).or_default() += found.rate.count;
+        }
+    }
+    others
+}
+
+/// Every row that ran.
+pub(super) fn standings<'a>(
+    record: &'a Record,
+    columns: &[Column],
+    lines: &'a [Line<'a>],
+) -> Vec<Standing<'a>> {
+    let everywhere = Column::in_all_kinds(record);
+    let wrong_in = |columns: &[Column], line: &Line| -> u64 {
+        let columns = columns.iter().filter(|column| column.is_ordinary());
+        columns.map(|column| Cell::sum(&column.results(&line.row)).wrong.count).sum()
+    };
+    // Stored cases stay out of the mean of samples.
+    let all_complete = columns.iter().all(|column| column.complete);
+    let of_row = |part: &'a RowPart| {
+        let of_part = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
+        let lines: Vec<&Line> = of_part.collect();
+        let cells: Vec<(&Column, &Cell)> = lines
+            .iter()
+            .flat_map(|line| columns.iter().zip(&line.cells))
+            .filter(|(column, cell)| column.is_ordinary() && 0 < cell.wrong.of)
+            .collect();
+        let meant = cells.iter().filter(|(column, _)| column.complete == all_complete);
+        let shares: Vec<f64> = meant.filter_map(|(_, cell)| cell.wrong.share()).collect();
+        (!lines.is_empty()).then(|| Standing {
+            part,
+            share: (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64),
+            wrong: lines.iter().map(|line| wrong_in(&everywhere, line)).sum(),
+            far: cells.iter().map(|(_, cell)| cell.far).sum(),
+            far_values: lines.iter().map(|line| line.values.far).sum(),
+            others: other_findings(record, part),
+            lines,
+        })
+    };
+    record.result.plan.rows.iter().filter_map(of_row).collect()
+}
