@@ -1,4 +1,4 @@
-//! What is more often wrong on planes, or with rays, of other kinds than those that a table is about.
+//! Rates that are higher on planes, or with rays, of other kinds than those that a table is about.
 
 use super::record::Rate;
 use std::io::{self, Write};

@@ -9,7 +9,7 @@ const LONGEST_LABEL: usize = 36;
 /// The space before a cell.
 const GAP: usize = 2;
 
-/// What stands in one column of a row.
+/// The content of one column of a row.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cell {
     /// The text.

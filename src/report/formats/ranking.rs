@@ -94,7 +94,8 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
         text.push(format!("Breaks what its documentation promises there: {names}."));
     }
     let counts = |it: &Standing| (label(it.part), group_digits(it.all_far()));
-    match (sorted().next(), sorted().last()) {
+    let best = sorted().min_by_key(|it| it.all_far());
+    match (best, sorted().max_by_key(|it| it.all_far())) {
         (Some(_), Some(worst)) if worst.all_far() == 0 => {
             text.push(format!("None is visibly wrong (by over 1/1000 of an edge){place}."));
         }
@@ -181,7 +182,7 @@ pub(super) fn write(
         });
     }
     let mut shown = order.clone();
-    while style.width < table.width() && 0 < shown.len() {
+    while style.width < table.width() && !shown.is_empty() {
         shown.pop();
         table.remove(before.len() + shown.len());
     }
