@@ -303,7 +303,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     assert_eq!(code, Some(0));
     // Each in its own scalar: mine in f32, the box in f64, the built-in one in both.
     let count = |label: &str| table.lines().filter(|line| line.starts_with(label)).count();
-    let sections = 2; // the table, and the worst findings
+    let sections = 3; // the table of questions, that of shares, and the worst findings
     assert_eq!(count("mine (own)"), sections);
     // Its t is not that of the triangle, which a note says first.
     assert_eq!(count("bounding-box (own)"), sections + 1);
