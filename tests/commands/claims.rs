@@ -191,6 +191,7 @@ fn an_audit_of_a_scene_draws_every_kind_of_planes_and_rays_unless_one_is_named()
         (&["--scene", "room,plane=generic"], [false, false]),
         (&["--scene", "room,plane=axis-0"], [false, false]),
         (&["--scene", "room,toward=axis"], [false, false]),
+        (&["--scene", "room,plane=box,toward=axis"], [false, false]),
         (&["--family", "interior"], [false, false]),
     ] {
         let all = [&["audit", "-n", "20", "-q", "--kernel", "cramer"][..], flags].concat();
@@ -200,6 +201,8 @@ fn an_audit_of_a_scene_draws_every_kind_of_planes_and_rays_unless_one_is_named()
             parts,
             "{flags:?}\n{screen}"
         );
+        // A kind that is not tried by itself is none of a mesh's.
+        assert!(!screen.contains("mesh"), "{flags:?}\n{screen}");
     }
 }
 

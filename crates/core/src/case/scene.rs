@@ -112,18 +112,10 @@ impl SceneKind {
         ]
     };
 
-    /// The kind of a name.
+    /// The kind of a name, also one that is not tried by itself.
     pub fn named(name: &str) -> Option<SceneKind> {
-        SceneKind::ALL.into_iter().find(|kind| kind.to_string() == name)
-    }
-
-    /// The kind as `--scene` takes it.
-    pub fn words(self) -> String {
-        let plane = format!("plane={}", self.plane.name());
-        match self.toward {
-            Toward::Any => plane,
-            toward => format!("{plane},toward={}", toward.name()),
-        }
+        let with = |plane| Toward::ALL.map(|toward| SceneKind { plane, toward });
+        PlaneKind::ALL.into_iter().flat_map(with).find(|kind| kind.to_string() == name)
     }
 
     /// The planes and the rays in a few words.

@@ -113,8 +113,7 @@ fn given(gives: Gives) -> [bool; 3] {
 }
 
 /// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
-/// tolerates. The hit has finite
-/// values, and its line crosses the plane.
+/// tolerates. The hit has finite values, and its line crosses the plane.
 pub(super) fn are_near<F: Float>(
     case: &Case<F>,
     gives: Gives,

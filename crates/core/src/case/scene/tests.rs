@@ -99,3 +99,15 @@ fn a_scalar_refuses_what_it_cannot_hold() {
     let [_, f64] = refused("extent=1e300,edge=1e299,distance=0..1e300");
     assert!(f64.unwrap().contains("overflow in f64"));
 }
+
+#[test]
+fn every_kind_of_planes_and_rays_is_found_by_its_name() {
+    for plane in PlaneKind::ALL {
+        for toward in Toward::ALL {
+            let kind = SceneKind { plane, toward };
+            assert_eq!(SceneKind::named(&kind.to_string()), Some(kind));
+        }
+    }
+    assert_eq!(SceneKind::named("model.obj"), None);
+    assert!(SceneKind::ALL.iter().all(|kind| SceneKind::named(&kind.to_string()) == Some(*kind)));
+}
