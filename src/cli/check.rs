@@ -139,7 +139,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     for given in &given {
         arguments.set(given)?;
     }
-    if arguments.run.report.quiet {
+    if arguments.run.report.output.quiet {
         plugins::be_quiet();
     }
     let is_default_file = arguments.expectations == DEFAULT_FILE;
@@ -189,7 +189,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         } else {
             expected = blessed(&record, &expected, &conformance, file)?;
             conformance = expect::compare(result, target, &expected, Some(file));
-            if !arguments.run.report.quiet {
+            if !arguments.run.report.output.quiet {
                 let was = known_file.map_or(String::new(), |_| format!(" ({change})"));
                 let (known, findings) = (conformance.known.len(), conformance.findings());
                 eprintln!("{file}: {known} known disagreements{was}{findings}");
@@ -321,7 +321,7 @@ impl CheckFlags {
             None => Vec::new(),
         };
         let from_environment = settings::from_environment(|name| std::env::var(name).ok())?;
-        if !self.run.report.quiet {
+        if !self.run.report.output.quiet {
             let names = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());
             settings::unknown_variables(names).iter().for_each(|note| eprintln!("{note}"));
         }

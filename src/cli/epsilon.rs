@@ -8,7 +8,7 @@ use super::before::{
 };
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
-use super::output::{ColorChoice, paired_outputs, write_record};
+use super::output::OutputArguments;
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -27,6 +27,9 @@ use clap::{ArgMatches, Args};
 
 /// Which kernel, gate and cases, and how to report.
 #[derive(Args)]
+#[command(mut_arg("format", |format| {
+    format.help("text, json, csv, svg, or (with --scene or --mesh) markdown, html, c, rust or glsl, or several separated by commas")
+}))]
 pub struct EpsilonArguments {
     #[command(flatten)]
     kernels: KernelArguments,
@@ -60,21 +63,16 @@ pub struct EpsilonArguments {
     #[command(flatten)]
     sources: SourceArguments,
 
-    /// text, json, csv, svg or (with --scene or --mesh) html, or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
-    format: Vec<String>,
-
-    /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Vec<String>,
+    /// In a scene: print the numbers as code, in c, rust or glsl
+    #[arg(long, value_name = "LANGUAGE", value_parser = ["c", "rust", "glsl"], conflicts_with = "format")]
+    snippet: Option<String>,
 
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// Print no progress and no notes
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 /// Runs the command.
@@ -91,20 +89,20 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
             return Err(Failure::usage(format!("{flag}: {why}")));
         }
     }
-    let outputs = paired_outputs(EPSILON_FORMATS, &arguments.format, &arguments.output)?;
+    let outputs = arguments.output.pairs(EPSILON_FORMATS)?;
     let threads = set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     refuse_wrong_values(&rows, scalars)?;
     arguments.warn_of_subnormals(&rows, scalars);
     let usual = |family: &Family| !SPANNING.contains(&family.name);
-    let sources = arguments.sources.sources(arguments.quiet, usual)?;
+    let sources = arguments.sources.sources(arguments.output.quiet, usual)?;
     let families = sources.iter().filter(|source| matches!(source, Source::Family { .. })).count();
-    if !arguments.quiet && families == FAMILIES.len() - SPANNING.len() {
+    if !arguments.output.quiet && families == FAMILIES.len() - SPANNING.len() {
         let left_out = SPANNING.join(", ");
         eprintln!("left out: {left_out}, whose sizes span the whole range (--family runs them)");
     }
-    if !arguments.quiet {
+    if !arguments.output.quiet {
         note_secondary_rays(&rows, &sources);
     }
     let total = total_indices(&sources, scalars)? * rows.len() as u64;
@@ -123,11 +121,11 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
             studies.push(Box::new(move |progress| run_study(&plan, sources, progress)));
         }
     }
-    let progress = Progress::new(total, "indices", arguments.quiet);
+    let progress = Progress::new(total, "indices", arguments.output.quiet);
     let all = studies.iter().map(|study| study(&progress)).collect::<Result<Vec<_>, _>>()?;
     progress.finish();
     let record = record(sources, all, threads, progress.seconds());
-    write_record(outputs, &record, ColorChoice::Never, arguments.curves)?;
+    arguments.output.write_all(outputs, &record, arguments.curves)?;
     Ok(Status::Success)
 }
 
@@ -167,7 +165,7 @@ impl EpsilonArguments {
         rows.retain(|row| self.gates(row).map_err(|reason| reasons.push(reason)).is_ok());
         match reasons.first() {
             Some(reason) if rows.is_empty() => return Err(Failure::usage(reason)),
-            _ if self.quiet => {}
+            _ if self.output.quiet => {}
             _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
         }
         Ok(rows)
@@ -226,7 +224,7 @@ impl EpsilonArguments {
         let in_f32 = if scalars[0] { subnormal::<f32>(rows, &self.at) } else { Vec::new() };
         let in_f64 = if scalars[1] { subnormal::<f64>(rows, &self.at) } else { Vec::new() };
         for (found, name) in [(in_f32, f32::NAME), (in_f64, f64::NAME)] {
-            if !found.is_empty() && !self.quiet {
+            if !found.is_empty() && !self.output.quiet {
                 eprintln!(
                     "warning: {} is subnormal in {name}: machines that flush to zero take it for 0",
                     found.join(", ")

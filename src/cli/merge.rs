@@ -57,7 +57,7 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
         let file = error.record.map_or("merge", |i| &files[i]);
         InputError::of(file, error.message)
     })?;
-    let quiet = arguments.report.quiet;
+    let quiet = arguments.report.output.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrated(plan));
     let record =

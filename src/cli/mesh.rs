@@ -4,7 +4,7 @@ use super::before::{scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::chosen_scalars;
 use super::input::read_mesh;
-use super::output::{ColorChoice, paired_outputs, write_record};
+use super::output::OutputArguments;
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -21,6 +21,9 @@ use std::sync::Arc;
 /// Which mesh and kernels, and how to report it.
 #[derive(Args)]
 #[command(mut_arg("band", |band| band.hide(true)))]
+#[command(mut_arg("format", |format| {
+    format.help("text, json, markdown or html, or several separated by commas; html draws the mesh with the edges and vertices where rays slip through")
+}))]
 pub struct MeshArguments {
     /// An OBJ, PLY or glTF file (.gltf or .glb); - is standard input
     #[arg(value_name = "FILE")]
@@ -53,40 +56,22 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// text, json or html, or several separated by commas; html draws the mesh with the edges and vertices
-    /// where rays slip through
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
-    format: Vec<String>,
-
-    /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Vec<String>,
-
-    /// Print all examples, of every kernel
-    #[arg(long)]
-    details: bool,
-
-    /// When to colour the text
-    #[arg(long, value_enum, default_value_t)]
-    color: ColorChoice,
-
-    /// Print no progress and no notes
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
-    let mut outputs = paired_outputs(MESH_FORMATS, &arguments.format, &arguments.output)?;
+    let mut outputs = arguments.output.pairs(MESH_FORMATS)?;
     let mut plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
-    let family = MeshFamily::new(read_mesh(&arguments.file, arguments.quiet)?, &arguments.file);
+    let family = MeshFamily::new(read_mesh(&arguments.file, arguments.output.quiet)?, &arguments.file);
     if outputs.iter().any(|(format, _)| format.name == HTML) {
         plan.places = places(family.mesh());
     }
     let surface = Arc::new(Surface::new(Arc::new(family), scalars));
-    let progress = Progress::new(0, "rays", arguments.quiet);
+    let progress = Progress::new(0, "rays", arguments.output.quiet);
     let mut found = Vec::new();
     if scalars[0] {
         found.push(arguments.run_scalar::<f32>(&surface, &plan, &progress));
@@ -103,7 +88,7 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
         // It is printed why, but no file becomes a report of nothing.
         outputs.retain(|(_, path)| *path == "-");
     }
-    write_record(outputs, &report, arguments.color, arguments.details)?;
+    arguments.output.write(outputs, &report)?;
     if nothing {
         let message = format!(
             "{}: nothing to ask: no edge lies between two sound faces that are wound consistently",
@@ -133,7 +118,7 @@ impl MeshArguments {
         let count = |part| targets.as_ref().map_or(0, |targets| targets.count(part));
         let rays: u64 = Part::ALL.map(|part| count(part) * plan.directions).iter().sum();
         progress.add_total(rays);
-        if !self.quiet {
+        if !self.output.quiet {
             let rows = plan.rows.iter().filter(|row| F::subject(row.entry).is_some()).count();
             let rows = number_of(rows as u64, "kernel row", "kernel rows");
             eprintln!("{rows} on {rays} rays in {}", F::NAME);

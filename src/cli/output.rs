@@ -1,11 +1,12 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
 use super::exit::Failure;
+use super::flags::OUTPUT;
 use super::plugins;
 use crate::descriptors;
 use crate::report::{Format, Style, number_of};
 use crate::suggest::nearest_name;
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, StdoutLock, Write};
 use std::path::{Path, PathBuf};
@@ -33,6 +34,53 @@ impl ColorChoice {
             ColorChoice::Never => false,
             ColorChoice::Auto => allowed && to_stdout && io::stdout().is_terminal(),
         }
+    }
+}
+
+/// The flags that say how to report, and where.
+#[derive(Args)]
+pub struct OutputArguments {
+    /// A format, or several separated by commas
+    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
+    pub format: Vec<String>,
+
+    /// Where to write, once for each format; - is standard output
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
+    pub output: Vec<String>,
+
+    /// Print everything, not the answer alone
+    #[arg(long, help_heading = OUTPUT)]
+    pub details: bool,
+
+    /// When to colour the text
+    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
+    pub color: ColorChoice,
+
+    /// Print no progress and no notes
+    #[arg(long, short, help_heading = OUTPUT)]
+    pub quiet: bool,
+}
+
+impl OutputArguments {
+    /// Checks the flags, before anything runs: each format with where it goes.
+    pub fn pairs<R>(
+        &self,
+        table: &'static [Format<R>],
+    ) -> Result<Vec<(&'static Format<R>, &str)>, Failure> {
+        paired_outputs(table, &self.format, &self.output)
+    }
+
+    /// Writes a record in each format.
+    pub fn write<R>(&self, pairs: Vec<(&Format<R>, &str)>, record: &R) -> Result<(), Failure> {
+        self.write_all(pairs, record, self.details)
+    }
+
+    pub fn write_all<R>(&self, pairs: Vec<(&Format<R>, &str)>, record: &R, details: bool) -> Result<(), Failure> {
+        let OutputArguments { color, .. } = *self;
+        write_results(pairs, |format, path, out| {
+            let style = Style { color: color.enabled(path == "-"), details, width: width(path) };
+            (format.write)(record, style, out)
+        })
     }
 }
 
@@ -118,22 +166,6 @@ pub fn write_results<T>(
         .map(|(what, path)| written(Path::new(path), |out| write(what, path, out)));
     let files = written.filter_map(Result::transpose).collect::<Result<Vec<Beside>, _>>()?;
     files.into_iter().try_for_each(Beside::put_in_place)
-}
-
-/// Writes a record in several formats, in colour where that is wanted.
-pub fn write_record<R>(
-    outputs: Vec<(&Format<R>, &str)>,
-    record: &R,
-    color: ColorChoice,
-    details: bool,
-) -> Result<(), Failure> {
-    write_results(outputs, |format, path, out| {
-        (format.write)(
-            record,
-            Style { color: color.enabled(path == "-"), details, width: width(path) },
-            out,
-        )
-    })
 }
 
 /// Refuses a file that could not be written, before the work whose result it would hold.

@@ -4,28 +4,32 @@ pub mod check;
 pub mod demand;
 mod files;
 mod job;
+mod page;
 mod record;
 mod scenes;
-mod text;
 mod witnesses;
 
 use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, find_kernel, unknown};
 use super::input::read_text;
-use super::output::write_result;
+use super::output::{OutputArguments, write_result};
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::case;
 use crate::kernel::{self, Entry};
 use crate::prove::{Domain, Effort, Scene, Shape};
-use crate::report::{ProofPart, write_json};
-use clap::{Args, ValueEnum};
+use crate::report::{Format, ProofPart, write_json};
+use clap::Args;
 use job::{Epsilons, Job, Parts};
-use record::{DomainPart, GatePart, Record};
-use scenes::{degrees, mesh_scene, range};
+use record::{DomainPart, GatePart, Record, Report};
+use scenes::{degrees, mesh_scene, range, scene_text};
 use witnesses::{KNOWN, merge, read_witnesses};
 
 /// The flags of `prove`: the kernels, and how to report.
 #[derive(Args)]
+#[command(mut_arg("format", |format| format.help(
+    "text, json, markdown or html, or several separated by commas; or gappa: a script for Gappa, the quantity of one \
+     --gate of one --kernel in one --scalar, its bound the goal"
+)))]
 pub struct ProveArguments {
     /// A kernel, or several separated by commas; NAME+fma is NAME with fused products [default: all]
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
@@ -100,31 +104,23 @@ pub struct ProveArguments {
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["kernel", "certificate", "update", "coordinates", "scene", "mesh"])]
     check: Vec<String>,
 
-    /// The format of the output
-    #[arg(long, value_enum, default_value_t)]
-    format: OutputFormat,
-
-    /// Where to write; - is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: String,
-
-    /// Print no notes
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 const SCENE: &str = "Scene (without one: everything at most 1)";
 
-#[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum OutputFormat {
-    /// For people; not stable
-    #[default]
-    Text,
-    /// One object, its schema versioned
-    Json,
-    /// A script for Gappa: the quantity of one --gate of one --kernel in one --scalar, its bound the goal
-    Gappa,
-}
+/// One row per format.
+const FORMATS: &[Format<Report>] = &[
+    Format::TEXT,
+    Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
+    Format::MARKDOWN,
+    Format::HTML,
+    // A script for Gappa is of one gate, and none of a record.
+    Format { name: GAPPA, write: |_, _, _| Ok(()) },
+];
+
+const GAPPA: &str = "gappa";
 
 /// The proofs about the kernels of some rows, each once, with the witnesses that the program was built with.
 pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
@@ -179,8 +175,9 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     if entries.len() == 1 {
         arguments.gate_of(entries[0])?;
     }
-    if arguments.format == OutputFormat::Gappa {
-        return files::export(arguments, &entries, scalars, domain);
+    let outputs = arguments.output.pairs(FORMATS)?;
+    if let Some((_, path)) = outputs.iter().find(|(format, _)| format.name == GAPPA) {
+        return files::export(arguments, &entries, scalars, (domain, path));
     }
     if let Some(path) = &arguments.certificate {
         return files::certify(&entries, scalars, (domain, &parts), path);
@@ -190,7 +187,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
-    let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
+    let job = Job { scene: scene.clone(), shapes, domain, parts, effort, epsilons, stored: &stored, shared };
     let results = job.run_all(&entries, scalars);
     let mut record = Record {
         schema: "hairline/proof-1",
@@ -209,7 +206,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         record.gates.extend(part.gates.into_iter().filter(wanted));
         record.kernels.extend(part.kernel);
         found.extend(part.witnesses);
-        if let Some(note) = part.note.filter(|_| !arguments.quiet) {
+        if let Some(note) = part.note.filter(|_| !arguments.output.quiet) {
             eprintln!("{note}");
         }
     }
@@ -227,14 +224,13 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         })?;
         eprintln!("{path}: {raised} of {} witnesses are new or worse", stored.len());
     }
-    write_result(&arguments.output, |out| match arguments.format {
-        OutputFormat::Json => write_json(&record, out),
-        OutputFormat::Gappa => unreachable!("handled above"),
-        OutputFormat::Text if entries.len() == 1 => {
-            text::kernel(&record, scene.as_ref(), &arguments.rays(), out)
-        }
-        OutputFormat::Text => text::table(&record, scene.as_ref(), out),
-    })?;
+    let report = Report {
+        record,
+        scene: scene.as_ref().map(scene_text),
+        rays: arguments.rays(),
+        is_of_one: entries.len() == 1,
+    };
+    arguments.output.write(outputs, &report)?;
     Ok(Status::Success)
 }
 
@@ -293,7 +289,7 @@ impl ProveArguments {
     fn scene(&self) -> Result<(Option<Scene>, Vec<Shape>), Failure> {
         if let Some(path) = &self.mesh {
             let distance = self.distance.expect("required by --mesh");
-            let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.quiet)?;
+            let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.output.quiet)?;
             return Ok((Some(scene), shapes));
         }
         if let Some(text) = &self.scene {

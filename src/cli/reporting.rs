@@ -3,7 +3,7 @@
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, RUNNING};
-use super::output::{ColorChoice, paired_outputs, write_record};
+use super::output::OutputArguments;
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
@@ -19,31 +19,17 @@ use clap::{Args, ValueEnum};
 
 /// The flags that say how to report.
 #[derive(Args)]
+#[command(mut_arg("format", |format| {
+    format.help("text, json, jsonl, junit, sarif, markdown or html, or several separated by commas")
+}))]
 pub struct ReportArguments {
-    /// text, json, jsonl, junit, sarif, markdown or html, or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
-    format: Vec<String>,
-
-    /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
-    output: Vec<String>,
-
-    /// Leave nothing out of the text: every class with its worst finding, every deviation
-    #[arg(long, help_heading = OUTPUT)]
-    details: bool,
+    #[command(flatten)]
+    pub output: OutputArguments,
 
     /// When to compute the data of the HTML report's pictures, on a few cases of each source; auto: for
     /// --format html
     #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     illustrate: IllustrateChoice,
-
-    /// When to colour the text
-    #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
-    color: ColorChoice,
-
-    /// Print no progress and no notes
-    #[arg(long, short, help_heading = OUTPUT)]
-    pub quiet: bool,
 }
 
 /// When to illustrate a record.
@@ -62,19 +48,18 @@ enum IllustrateChoice {
 pub struct Outputs<'a> {
     pairs: Vec<(&'static Format, &'a str)>,
     illustrate: bool,
-    details: bool,
-    color: ColorChoice,
+    flags: &'a OutputArguments,
 }
 
 impl ReportArguments {
     /// Checks the flags, before anything runs.
     pub fn outputs(&self) -> Result<Outputs<'_>, Failure> {
-        let pairs = paired_outputs(FORMATS, &self.format, &self.output)?;
+        let pairs = self.output.pairs(FORMATS)?;
         let illustrate = match self.illustrate {
             IllustrateChoice::Auto => pairs.iter().any(|(format, _)| format.name == HTML),
             choice => choice == IllustrateChoice::Always,
         };
-        Ok(Outputs { pairs, illustrate, details: self.details, color: self.color })
+        Ok(Outputs { pairs, illustrate, flags: &self.output })
     }
 }
 
@@ -86,7 +71,7 @@ impl Outputs<'_> {
 
     /// Writes a record to each.
     pub fn write(&self, record: &Record) -> Result<(), Failure> {
-        write_record(self.pairs.clone(), record, self.color, self.details)
+        self.flags.write(self.pairs.clone(), record)
     }
 }
 
@@ -127,7 +112,7 @@ impl RunArguments {
         set_threads(self.threads)?;
         let rows = self.kernels.rows()?;
         let scalars = scalars_in_use(&rows, self.sources.scalars()?)?;
-        let sources = self.sources.sources(self.report.quiet, |_| true)?;
+        let sources = self.sources.sources(self.report.output.quiet, |_| true)?;
         let others = match self.sources.names_kind() {
             true => Vec::new(),
             false => sources.iter().flat_map(Source::in_other_kinds).collect(),
@@ -159,7 +144,7 @@ impl RunArguments {
             .map_err(|error| Failure::usage(format!("--shard: {error}")))?;
         let threads = rayon::current_num_threads();
         let total = total_indices(&plan.sources, plan.scalars)?;
-        if !self.report.quiet {
+        if !self.report.output.quiet {
             note_secondary_rays(&plan.rows, &plan.sources);
             let rows = number_of(plan.rows.len() as u64, "kernel row", "kernel rows");
             let sources =
@@ -179,7 +164,7 @@ impl RunArguments {
                 shard.map_or(String::new(), |shard| format!(", of them shard {shard}"))
             );
         }
-        let progress = Progress::new(total, "rays", self.report.quiet);
+        let progress = Progress::new(total, "rays", self.report.output.quiet);
         let mut sums = audit::sum(plan, shard.unwrap_or(Shard::WHOLE), &progress);
         let part = shard.map(|_| shard_part(plan, &sums));
         audit::finish(plan, &progress, &mut sums);
@@ -193,7 +178,7 @@ impl RunArguments {
         record.provenance.plan_flags =
             Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
         if illustrate {
-            let progress = Progress::without_end(self.report.quiet);
+            let progress = Progress::without_end(self.report.output.quiet);
             progress.tell("epsilons and maps for the pictures".to_owned());
             record.illustrations = Some(illustrated(plan));
             progress.finish();

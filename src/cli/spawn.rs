@@ -1,13 +1,13 @@
 //! `hairline spawn`: how new rays must start so that they do not hit the surface that they leave.
 
 mod choice;
+mod page;
 mod record;
-mod text;
 
 use super::before::{refuse_wrong_values, scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
-use super::output::{ColorChoice, paired_outputs, write_record};
+use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::note_left_out;
@@ -28,6 +28,7 @@ use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
 #[command(mut_arg("kernel", |kernel| {
     kernel.help("A kernel, or several separated by commas [default: moller-trumbore, or only your own if there are some]")
 }))]
+#[command(mut_arg("format", |format| format.help("text, json, markdown or html, or several separated by commas")))]
 pub struct SpawnArguments {
     #[command(flatten)]
     kernels: KernelArguments,
@@ -81,21 +82,12 @@ pub struct SpawnArguments {
     #[arg(long, default_value_t = 1, help_heading = RUNNING)]
     seed: u64,
 
-    /// text or json, or both separated by a comma
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text")]
-    format: Vec<String>,
-
-    /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Vec<String>,
-
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
 
-    /// Print no progress and no notes
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 /// The kernel that runs if nobody names one.
@@ -103,17 +95,17 @@ const DEFAULT_KERNEL: &str = "moller-trumbore";
 
 /// The formats of the output.
 const FORMATS: &[Format<SpawnRecord>] =
-    &[Format { name: "text", write: text::write }, Format::JSON];
+    &[Format::TEXT, Format::JSON, Format::MARKDOWN, Format::HTML];
 
 /// Runs the command.
 pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
-    let outputs = paired_outputs(FORMATS, &arguments.format, &arguments.output)?;
+    let outputs = arguments.output.pairs(FORMATS)?;
     set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
     refuse_wrong_values(&rows, scalars)?;
     let (scene, unit) = arguments.scene(scalars)?;
-    if !arguments.quiet {
+    if !arguments.output.quiet {
         note_left_out(&scene, &arguments.scene);
     }
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
@@ -144,7 +136,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     }
     let passes = if arguments.makes_schemes() { 3 } else { 2 };
     let total = (studies.len() * scenes.len()) as u64 * passes * arguments.count;
-    let progress = Progress::new(total, "first rays", arguments.quiet);
+    let progress = Progress::new(total, "first rays", arguments.output.quiet);
     let points = studies.iter().map(|study| study(&progress)).collect();
     progress.finish();
     for (name, command) in commands {
@@ -164,7 +156,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
         planes: scenes.iter().map(|scene| scene.kind().to_string()).collect(),
         points,
     };
-    write_record(outputs, &record, ColorChoice::Never, false)?;
+    arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
 }
 

@@ -1,7 +1,7 @@
 //! Rates that are higher on planes, or with rays, of other kinds than those that a table is about.
 
+use super::page::{Block, Head, Row, Table};
 use super::record::Rate;
-use std::io::{self, Write};
 
 /// The rates of one thing: on the first kind, and on each of the others.
 pub(crate) struct Compared<'a> {
@@ -29,42 +29,33 @@ impl Compared<'_> {
 /// The most kinds that have columns: more do not fit on a line.
 const MOST_KINDS: usize = 4;
 
-/// Writes those rows that are worse on some kind, with a column for each kind on which one is; one line if none is.
-pub(crate) fn write(
+/// Those rows that are worse on some kind, with a column for each kind on which one is; one sentence if none is.
+pub(crate) fn blocks(
     title: &str,
     kinds: &[String],
     rows: &[Compared],
     share: fn(&Rate) -> String,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+) -> Vec<Block> {
     let Some((own, others)) = kinds.split_first().filter(|(_, others)| !others.is_empty()) else {
-        return Ok(());
+        return Vec::new();
     };
     let worse: Vec<&Compared> = rows.iter().filter(|row| row.is_worse()).collect();
     if worse.is_empty() {
-        return writeln!(out, "{title} on other planes or rays: nothing");
+        return vec![Block::text(format!("{title} on other planes or rays: nothing"))];
     }
     let is_shown = |place: &usize| worse.iter().any(|row| is_worse(row.own, row.others[*place]));
     let mut shown: Vec<usize> = (0..others.len()).filter(is_shown).collect();
     let more = shown.split_off(shown.len().min(MOST_KINDS));
-    let labels = worse.iter().map(|row| row.label.chars().count());
-    let first = labels.chain([title.len() + 3]).max().unwrap_or(0);
-    let heads = [own].into_iter().chain(shown.iter().map(|place| &others[*place]));
-    let widths: Vec<usize> = heads.clone().map(|head| (head.len() + 2).max(12)).collect();
-    let mut line = format!("{:<first$}", format!("{title} on"));
-    heads.zip(&widths).for_each(|(head, width)| line += &format!("{head:>width$}"));
-    writeln!(out, "{line}")?;
-    for row in worse {
-        let mut line = format!("{:<first$}", row.label);
+    let mut heads = vec![Head::of(format!("{title} on")), Head::of(own)];
+    heads.extend(shown.iter().map(|place| Head::of(&others[*place])));
+    let row = |row: &&Compared| {
         let rates = [row.own].into_iter().chain(shown.iter().map(|place| row.others[*place]));
-        for (rate, width) in rates.zip(&widths) {
-            line += &format!("{:>width$}", share(rate));
-        }
-        writeln!(out, "{line}")?;
+        Row::new(&row.label, rates.map(share))
+    };
+    let mut blocks = vec![Block::Table(Table { heads, rows: worse.iter().map(row).collect() })];
+    if !more.is_empty() {
+        let more: Vec<&str> = more.iter().map(|place| others[*place].as_str()).collect();
+        blocks.push(Block::text(format!("(also on {})", more.join(", "))));
     }
-    if more.is_empty() {
-        return Ok(());
-    }
-    let more: Vec<&str> = more.iter().map(|place| others[*place].as_str()).collect();
-    writeln!(out, "  (also on {})", more.join(", "))
+    blocks
 }

@@ -30,7 +30,7 @@ pub mod scene;
 #[cfg(feature = "studies")]
 mod shard;
 #[cfg(feature = "studies")]
-pub(crate) mod table;
+pub(crate) mod page;
 
 #[cfg(feature = "studies")]
 pub use answered::{AnsweredTest, Asked, Product, answered};

@@ -6,6 +6,23 @@ use super::witness::Searched;
 use super::{Domain, Proof, Quantity, Relative, Scene, Shape, Supposed, Symmetry, Uses};
 use crate::kernel::{Entry, Role, Scalar};
 
+/// A sentence about a gate.
+#[derive(Clone, Debug)]
+pub struct Statement {
+    /// The sentence.
+    pub text: String,
+    /// True if it is one of those that people ask for first.
+    pub is_key: bool,
+}
+
+fn key(text: String) -> Statement {
+    Statement { text, is_key: true }
+}
+
+fn said(text: String) -> Statement {
+    Statement { text, is_key: false }
+}
+
 /// An epsilon, and where it comes from.
 pub type Published = (String, f64);
 
@@ -26,10 +43,10 @@ pub fn statements<F: Searched + Scalar>(
     gate: &GateSummary<F>,
     scene: Option<Triangles>,
     published: &[Published],
-) -> Vec<String> {
+) -> Vec<Statement> {
     let bound = match &gate.bound {
         Ok(bound) => *bound,
-        Err(why) => return vec![format!("No bound: {why}.")],
+        Err(why) => return vec![key(format!("No bound: {why}."))],
     };
     let beta = bound.to_f64();
     let unit = summary.format.unit().to_f64();
@@ -48,33 +65,34 @@ pub fn statements<F: Searched + Scalar>(
         format!("; {} ({} u) is known", below(*score), units(score / unit, false))
     });
     let what = "What it compares is never wrong by more than";
-    let mut lines = vec![format!("{what} {}{where_}{known}.", in_units(beta))];
+    let mut lines = vec![said(format!("{what} {}{where_}{known}.", in_units(beta)))];
     if scene.is_some() && !gate.limits.is_empty() {
-        lines.push(supposed(&gate.limits));
+        lines.push(said(supposed(&gate.limits)));
     }
     if let Some(Relative { factor, underflow, .. }) = &gate.relative {
-        lines.push(format!(
+        lines.push(said(format!(
             "At any exponents, short of overflow, it is wrong by at most {} u times its permanent (the sum of the \
              sizes of its terms), and {} more where products underflow.",
             units(factor.to_f64() / unit, true),
             above(underflow.to_f64())
-        ));
+        )));
     }
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
-        _ if !gate.is_margin => lines.push(format!(
+        _ if !gate.is_margin => lines.push(said(format!(
             "At an epsilon of 0 this gate decides otherwise than exact arithmetic only where the exact number \
              is within {} of 0.",
             above(beta)
-        )),
+        ))),
         Role::Parallel if tunable => {
             let mut sizes = BySize::<F>::new(entry, gate.index);
             let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
             parallel(gate, scene, own, beta, published, &mut lines);
             let sizes = sizes.filter(|_| scene.is_none() && !gate.uses.floor);
             if let Some(mut sizes) = sizes {
-                for epsilon in published.iter().filter(|(_, e)| *e > 0.0) {
-                    lines.push(about_epsilon(summary, gate, &mut sizes, epsilon));
+                for (i, epsilon) in published.iter().filter(|(_, e)| *e > 0.0).enumerate() {
+                    let text = about_epsilon(summary, gate, &mut sizes, epsilon);
+                    lines.push(Statement { text, is_key: i == 0 });
                 }
             }
         }
@@ -83,17 +101,17 @@ pub fn statements<F: Searched + Scalar>(
             edge(gate, scene, beta, tunable.then_some(published), &mut lines);
         }
         _ if tunable => {
-            lines.push(format!(
+            lines.push(said(format!(
                 "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
                  that it refuses.",
                 above(beta)
-            ));
+            )));
             lines.extend(published.iter().map(|(name, value)| {
-                format!(
+                said(format!(
                     "e = {name} refuses no exact value of {} and more, and accepts none of {} and less.",
                     signed(value + beta, true),
                     signed(value - beta, false)
-                )
+                ))
             }));
         }
         _ => {}
@@ -133,21 +151,21 @@ fn parallel<F: Searched + Scalar>(
     own: Option<&mut BySize<F>>,
     beta: f64,
     published: &[Published],
-    lines: &mut Vec<String>,
+    lines: &mut Vec<Statement>,
 ) {
     let passes = gate.witnesses[1].as_ref().filter(|witness| witness.score > 0.0);
     let known = passes.map_or(String::new(), |witness| {
         format!(" A parallel ray is known that reaches {}.", below(witness.score))
     });
-    lines.push(format!(
+    lines.push(key(format!(
         "An epsilon above {} refuses every ray that is exactly parallel.{known}",
         above(beta)
-    ));
+    )));
     let Some(Triangles { shapes, scene }) = scene else {
-        lines.push(format!(
+        lines.push(said(format!(
             "With an epsilon e this gate refuses a hit only where the exact value is below e + {}.",
             above(beta)
-        ));
+        )));
         return;
     };
     // Each triangle with its own bound, where the gate knows nothing but its edges.
@@ -159,7 +177,7 @@ fn parallel<F: Searched + Scalar>(
     }
     let is_angle = gate.gate.dimension.length == 0;
     let is_mesh = scene.shape.is_some();
-    let mut say = |name: &str, value: f64| {
+    let mut say = |name: &str, value: f64, is_key: bool| {
         // |det| = 2 * area * |d| * sine of the angle to the plane.
         let sine = shapes
             .iter()
@@ -190,11 +208,12 @@ fn parallel<F: Searched + Scalar>(
                 ),
             }
         };
-        lines.push(format!("In this scene, for |d| = 1, {name} {refuses}; {cost}."));
+        let text = format!("In this scene, for |d| = 1, {name} {refuses}; {cost}.");
+        lines.push(Statement { text, is_key });
     };
-    say("that epsilon", beta * (1.0 + 1e-9));
-    for (name, value) in published.iter().filter(|(_, e)| *e > 0.0) {
-        say(&format!("e = {name}"), *value);
+    say("that epsilon", beta * (1.0 + 1e-9), false);
+    for (i, (name, value)) in published.iter().filter(|(_, e)| *e > 0.0).enumerate() {
+        say(&format!("e = {name}"), *value, i == 0);
     }
 }
 
@@ -232,7 +251,7 @@ fn edge<F>(
     scene: Option<&Scene>,
     beta: f64,
     epsilons: Option<&[Published]>,
-    lines: &mut Vec<String>,
+    lines: &mut Vec<Statement>,
 ) {
     let length = gate.gate.dimension.length;
     // From a number to a share of the way across the triangle; none if that depends on the triangle.
@@ -247,10 +266,10 @@ fn edge<F>(
         format!(", for rays with |d| = 1 that meet the plane at {} or more", degrees(scene.grazing))
     });
     if share.is_some_and(|share| beta * share >= 0.5) {
-        lines.push(format!(
+        lines.push(said(format!(
             "Nothing useful follows for hits at edges: that is half of the way across the smallest triangles, or \
              more{flat}."
-        ));
+        )));
     } else if epsilons.is_some() {
         let lost = gate.witnesses[2].as_ref().filter(|witness| witness.score > 0.0);
         let known = lost.map_or(String::new(), |witness| {
@@ -260,7 +279,7 @@ fn edge<F>(
             )
         });
         let least = signed(-beta, false);
-        lines.push(format!("An epsilon below {least} loses no hit at an edge.{known}"));
+        lines.push(key(format!("An epsilon below {least} loses no hit at an edge.{known}")));
     }
     // How deep inside or far outside, none where that says nothing.
     let across = |x: f64| match share {
@@ -272,10 +291,10 @@ fn edge<F>(
         )),
     };
     if let Some(most) = across(beta) {
-        lines.push(format!(
+        lines.push(key(format!(
             "At an epsilon of 0 this gate loses no hit deeper inside, and lets no miss of this domain through \
              farther outside, than {most}."
-        ));
+        )));
     }
     for (name, value) in epsilons.into_iter().flatten().filter(|(_, value)| *value != 0.0) {
         let inside = match value + beta {
@@ -288,9 +307,9 @@ fn edge<F>(
                 format!("lets no miss of this domain through farther outside than {most}")
             }),
         };
-        let said: Vec<String> = [inside, outside].into_iter().flatten().collect();
-        if !said.is_empty() {
-            lines.push(format!("e = {name} {}.", said.join("; it ")));
+        let does: Vec<String> = [inside, outside].into_iter().flatten().collect();
+        if !does.is_empty() {
+            lines.push(said(format!("e = {name} {}.", does.join("; it "))));
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{EpsilonArguments, fault, found_margins, tells_margins};
 use crate::audit::Row;
 use crate::cli::before::{refuse_wrong_values, scalars_in_use, set_threads};
 use crate::cli::exit::{Failure, Status};
-use crate::cli::output::{ColorChoice, paired_outputs, write_record};
+use crate::cli::output::paired_outputs;
 use crate::cli::progress::Progress;
 use crate::epsilon::scene::{
     COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedScene, contract_with,
@@ -28,7 +28,9 @@ const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where r
 /// Runs the command; the flags may leave the count to it.
 pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status, Failure> {
     arguments.refuse_what_scenes_do_not_take()?;
-    let outputs = paired_outputs(SCENE_FORMATS, &arguments.format, &arguments.output)?;
+    let snippet = arguments.snippet.as_ref().map(std::slice::from_ref);
+    let formats = snippet.unwrap_or(&arguments.output.format);
+    let outputs = paired_outputs(SCENE_FORMATS, formats, &arguments.output.output)?;
     set_threads(arguments.threads)?;
     let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
     let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
@@ -55,17 +57,17 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
             "--epsilon: no kernel here has a t_min to choose, or --gate does not name it",
         ));
     }
-    let studied = arguments.sources.studied_scene(arguments.quiet)?;
+    let studied = arguments.sources.studied_scene(arguments.output.quiet)?;
     match reasons.first() {
         Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
-        _ if arguments.quiet => {}
+        _ if arguments.output.quiet => {}
         _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
     }
-    if !arguments.quiet && !arguments.sources.names_scene_or_mesh() {
+    if !arguments.output.quiet && !arguments.sources.names_scene_or_mesh() {
         let words = "no --scene: in the preset `unit` (others: room, city, cad-mm, your own numbers, --mesh)";
         eprintln!("{words}; --gate varies one gate over families of cases");
     }
-    if !arguments.quiet && arguments.kernels.names_contract() {
+    if !arguments.output.quiet && arguments.kernels.names_contract() {
         eprintln!("{OF_CONTRACT}");
     }
     arguments.warn_of_subnormals(&rows, scalars);
@@ -74,7 +76,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
     let passes = PASSES + studied.others.len() as u64;
     let total = passes * Stratum::ALL.len() as u64 * count * studies as u64;
-    let progress = Progress::new(total, "indices", arguments.quiet);
+    let progress = Progress::new(total, "indices", arguments.output.quiet);
     let run = Run {
         studied: &studied,
         costs: &costs,
@@ -98,7 +100,7 @@ pub fn run(arguments: &EpsilonArguments, is_count_given: bool) -> Result<Status,
     }
     progress.finish();
     let record = scene_record(&studied, &costs, max_error, seed, count, parts);
-    write_record(outputs, &record, ColorChoice::Never, false)?;
+    arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
 }
 

@@ -85,7 +85,7 @@ pub fn export(
     arguments: &ProveArguments,
     entries: &[&'static Entry],
     scalars: [bool; 2],
-    domain: Domain,
+    (domain, path): (Domain, &str),
 ) -> Result<Status, Failure> {
     let ([entry], [true, false] | [false, true], Some(_)) = (entries, scalars, &arguments.gate)
     else {
@@ -107,6 +107,6 @@ pub fn export(
     if text.is_empty() {
         return Err(none("a divisor of the gate has no bound"));
     }
-    write_result(&arguments.output, |out| out.write_all(text.as_bytes()))?;
+    write_result(path, |out| out.write_all(text.as_bytes()))?;
     Ok(Status::Success)
 }

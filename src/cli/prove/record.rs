@@ -1,7 +1,18 @@
 //! The record of `hairline prove`: what `--format json` writes, and what the text is made from.
 
-use crate::prove::{Domain, Supposed};
-use serde::Serialize;
+use crate::prove::{Domain, Statement, Supposed};
+use serde::{Serialize, Serializer};
+
+/// The record of a run, with what a page says beside it.
+pub struct Report {
+    pub record: Record,
+    /// The scene's words, if it has some.
+    pub scene: Option<String>,
+    /// The flags of `epsilon` that choose rays in such a scene.
+    pub rays: String,
+    /// True if it is about one kernel: then its sentences are told.
+    pub is_of_one: bool,
+}
 
 /// The record of a run.
 #[derive(Serialize)]
@@ -49,7 +60,12 @@ pub struct GatePart {
     pub parallel_passes: Option<WitnessPart>,
     /// A number that is not below zero: how far below it is computed, of those known.
     pub computed_below_zero: Option<WitnessPart>,
-    pub statements: Vec<String>,
+    #[serde(serialize_with = "texts")]
+    pub statements: Vec<Statement>,
+}
+
+fn texts<S: Serializer>(statements: &[Statement], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(statements.iter().map(|statement| &statement.text))
 }
 
 /// At least or at most so large is a number that a kernel divides by, or gets by dividing.

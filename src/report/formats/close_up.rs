@@ -12,7 +12,7 @@ use super::why::cause_shares;
 use super::{Style, group_digits};
 use crate::audit::Attribution;
 use crate::kernel;
-use crate::report::table::write_wrapped;
+use crate::report::page::write_wrapped;
 use std::io::{self, Write};
 
 /// Writes each row in each scalar.

@@ -6,7 +6,7 @@ use super::record::*;
 use super::worst::severity_of;
 use super::{Style, group_digits};
 use crate::audit::Attribution;
-use crate::report::table::write_wrapped;
+use crate::report::page::write_wrapped;
 use std::io::{self, Write};
 
 /// The worst case of one class of findings.

@@ -4,7 +4,7 @@ use super::columns::{Across, Cell, Column, kinds};
 use super::record::*;
 use super::row_view::RowView;
 use super::{Style, group_digits};
-use crate::report::table::write_wrapped;
+use crate::report::page::write_wrapped;
 use std::io::{self, Write};
 
 /// One row in one scalar.

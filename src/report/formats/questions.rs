@@ -3,7 +3,7 @@
 use super::columns::{Cell, Column, short_percent};
 use super::lines::{Line, column_legend};
 use super::{Style, group_digits};
-use crate::report::table::{self, Row, Table, write_wrapped};
+use crate::report::page::{self, Head, Row, Table, write_wrapped};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
@@ -25,6 +25,7 @@ pub(super) fn write(
         let of_scalar = lines.iter().filter(|line| line.row.scalar == scalar);
         let rows = of_scalar.map(|line| row(columns, line, has_groups)).collect();
         writeln!(out)?;
+        let heads = heads.into_iter().map(Head::of).collect();
         Table { heads, rows }.write(style, out)?;
     }
     write_cell_legend(columns, lines, style, out)?;
@@ -35,7 +36,7 @@ fn row(columns: &[Column], line: &Line, has_groups: bool) -> Row {
     let text =
         |share: String, cell: &Cell| format!("{share}{}", if cell.is_far() { '*' } else { ' ' });
     let share = |cell: &Cell| text(short_percent([cell.wrong.count, cell.wrong.of]), cell);
-    let mut cells: Vec<table::Cell> = Vec::new();
+    let mut cells: Vec<page::Cell> = Vec::new();
     for (column, cell) in columns.iter().zip(&line.cells) {
         let [count, of] = [cell.wrong.count, cell.wrong.of].map(group_digits);
         cells.push(match column.complete && 0 < cell.wrong.of {
@@ -46,10 +47,10 @@ fn row(columns: &[Column], line: &Line, has_groups: bool) -> Row {
     cells.push(share(&line.values).into());
     if let Some(across) = line.across.as_ref().filter(|_| has_groups) {
         let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
-        cells.extend([format!("{cracks} "), format!("{doubles} ")].map(table::Cell::from));
-        cells.push(table::Cell { text: across.words(), is_broken: across.is_broken() });
+        cells.extend([format!("{cracks} "), format!("{doubles} ")].map(page::Cell::from));
+        cells.push(page::Cell { text: across.words(), is_broken: across.is_broken() });
     } else if has_groups {
-        cells.extend(["- ", "- ", "-"].map(|text| table::Cell::from(text.to_owned())));
+        cells.extend(["- ", "- ", "-"].map(|text| page::Cell::from(text.to_owned())));
     }
     Row { label: line.label(), cells, below: Vec::new() }
 }

@@ -4,7 +4,7 @@ use super::columns::{Column, short_percent};
 use super::record::*;
 use super::standing::Standing;
 use super::{Style, group_digits};
-use crate::report::table::{Cell, Row, Table, write_wrapped};
+use crate::report::page::{Cell, Head, Row, Table, write_wrapped};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
@@ -143,10 +143,10 @@ pub(super) fn write(
         if has_leaks { vec!["leaks", "visible", "values"] } else { vec!["visible", "values"] };
     let scalars = &record.result.plan.scalars;
     let mut table = Table::default();
-    table.heads.push("kernel".to_owned());
-    table.heads.extend(before.iter().map(|head| (*head).to_owned()));
-    table.heads.extend(order.iter().map(|i| columns[*i].label().to_owned()));
-    table.heads.extend(scalars.iter().map(|scalar| format!("ns {scalar}")));
+    table.heads.push(Head::of("kernel"));
+    table.heads.extend(before.iter().map(|head| Head::of(*head)));
+    table.heads.extend(order.iter().map(|i| Head::of(columns[*i].label())));
+    table.heads.extend(scalars.iter().map(|scalar| Head::of(format!("ns {scalar}"))));
     let rows = ranked(standings);
     let more: usize = rows.iter().skip(MOST).map(|row| 1 + row.alike.len()).sum();
     for Ranked { standing, alike } in rows.into_iter().take(MOST) {

@@ -11,7 +11,7 @@ use super::{Style, close_up, extremes, group_digits, next, number_of, ranking};
 use crate::case::SceneKind;
 use crate::report::elsewhere::is_worse;
 use crate::report::percent;
-use crate::report::table::write_wrapped;
+use crate::report::page::write_wrapped;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 

@@ -7,11 +7,11 @@ mod page;
 #[cfg(feature = "cli")]
 mod picture;
 mod record;
+mod screen;
 #[cfg(feature = "cli")]
 mod shown;
 #[cfg(feature = "cli")]
 mod stage;
-mod text;
 
 pub use build::build;
 pub use drawing::places;
@@ -23,7 +23,8 @@ use super::{Format, write_json};
 
 /// One row per format.
 pub const MESH_FORMATS: &[Format<MeshReport>] = &[
-    Format { name: "text", write: text::write },
+    Format::TEXT,
+    Format::MARKDOWN,
     Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
     #[cfg(feature = "cli")]
     Format { name: HTML, write: page::write },

@@ -4,9 +4,10 @@
 use super::record::*;
 use super::shown::{Shown, shown};
 use super::stage;
-use super::text::topology_lines;
+use super::screen::{topology_lines, verdict};
 use crate::report::formats::html::words::{counts, interval, percent, shortened};
 use crate::report::formats::html::{SHARED, STYLE, head_of, made, policy, shade};
+use crate::report::page::Tone;
 use crate::report::{Promised, Rate, Style, group_digits, number_of};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
@@ -21,8 +22,12 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
     let (style, script) = (format!("{STYLE}{OWN_STYLE}"), format!("{SHARED}{OWN_SCRIPT}"));
     let result = &report.record.result;
     let rows = shown(&report.record, drawing);
-    let (class, title) = verdict(result, &rows);
-    let mark = [("good", "✓ "), ("bad", "✕ ")].into_iter().find(|(name, _)| *name == class);
+    let (tone, title) = verdict(result);
+    let (class, mark) = match tone {
+        Tone::Good => ("good", "✓ "),
+        Tone::Bad => ("bad", "✕ "),
+        Tone::Plain => ("plain", ""),
+    };
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -31,7 +36,7 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
                 a.skip href="#main" { "Skip to the report" }
                 header class={ "top " (class) } {
                     p.mark { "hairline" span { " mesh" } }
-                    h1 { (mark.map_or("", |(_, mark)| mark)) (title) }
+                    h1 { (mark) (title) }
                     p.lede {
                         (number_of(result.mesh.triangles, "triangle", "triangles")) ", "
                         (number_of(result.mesh.vertices, "vertex", "vertices")) ", digest " (result.mesh.digest) "; "
@@ -64,27 +69,6 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
         }
     };
     out.write_all(page.into_string().as_bytes())
-}
-
-/// How it went, as a class, and in one line.
-fn verdict(result: &MeshResult, rows: &[Shown]) -> (&'static str, String) {
-    let name = result.mesh.file.rsplit(['/', '\\']).next().unwrap_or(&result.mesh.file);
-    let file = shortened(name, 120);
-    let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
-    let is_broken = rows.iter().any(|row| row.promise().is_some_and(|(_, kept)| !kept));
-    let failed = rows.iter().any(|row| 0 < row.failures());
-    let class = match (is_broken, leaking) {
-        (true, _) => "bad",
-        (false, 0) if !failed => "good",
-        _ => "plain",
-    };
-    let title = match (leaking, rows.len()) {
-        (0, 1) => format!("No ray slips through {file}"),
-        (0, n) => format!("No ray slips through {file} with {n} kernel rows"),
-        (1, 1) => format!("Rays slip through {file}"),
-        (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
-    };
-    (class, title)
 }
 
 fn rates(rows: &[Shown]) -> Markup {
@@ -132,15 +116,15 @@ fn rate_row(number: usize, row: &Shown) -> Markup {
                 a href={ "#r" (number) } { (row.result.kernel) } " " span.set { "(" (row.result.set) ")" } " "
                 span.what { (row.scalar) }
             }
-            @match row.promise() {
+            @match row.result.promise() {
                 None => { td.text.set data-v="0" { "nothing" } },
                 Some((hits, true)) => { td.text.kept data-v="1" { (hits) ": kept" } },
                 Some((hits, false)) => { td.text.broken data-v="2" { (hits) ": BROKEN" } },
             }
             (share(&edges.total.cracks, hue))
             (share(&vertices.total.cracks, hue))
-            (share(&row.both(|rates| &rates.doubles), exact))
-            (share(&row.both(|rates| &rates.odd_folds), exact))
+            (share(&row.result.both(|rates| &rates.doubles), exact))
+            (share(&row.result.both(|rates| &rates.odd_folds), exact))
             (count(edges.total.elsewhere.count + vertices.total.elsewhere.count))
             (of(edges)) (of(vertices))
             (count(row.failures()))

@@ -2,9 +2,8 @@
 
 use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
-use super::text::label;
+use super::screen::label;
 use crate::report::formats::html::room::Room;
-use crate::report::{Promised, Rate};
 
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
 const MARKS: usize = 3_500_000;
@@ -21,26 +20,8 @@ pub(super) struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    pub fn leaks(&self) -> u64 {
-        self.result.edges.cracked + self.result.vertices.cracked
-    }
-
     pub fn failures(&self) -> u64 {
         self.result.edges.failures + self.result.vertices.failures
-    }
-
-    /// The sum of a rate over edges and vertices.
-    pub fn both(&self, rate: fn(&AcrossRates) -> &Rate) -> Rate {
-        Rate::sum([&self.result.edges.total, &self.result.vertices.total].map(rate))
-    }
-
-    /// How many hits are promised, and whether that was kept; none if nothing is promised.
-    pub fn promise(&self) -> Option<(&'static str, bool)> {
-        let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
-        let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
-        let promised = self.result.promised;
-        let is_kept = 0 == self.leaks() && !(more && promised == Promised::ExactlyOne);
-        promised.in_short().map(|hits| (hits, is_kept))
     }
 }
 

@@ -4,7 +4,7 @@ use super::drawing::{AROUND, Drawing, Mark, PLACES};
 use super::picture;
 use super::record::*;
 use super::shown::{Shown, lines};
-use super::text::label;
+use super::screen::label;
 use crate::mesh::Part;
 use crate::report::formats::html::words::{code, shortened};
 use crate::report::{group_digits, number_of};
@@ -25,7 +25,7 @@ pub(super) fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) ->
     let triangles = numbers(&mut drawing.triangles.iter().flat_map(|face| face.map(i64::from)));
     let kinds: Vec<usize> = (0..WRONG.len()).filter(|kind| has_kind(rows, *kind)).collect();
     // Drawn first, or alone: what breaks its promise, otherwise what leaks most.
-    let badness = |row: &Shown| (row.promise().is_some_and(|(_, kept)| !kept), row.marked);
+    let badness = |row: &Shown| (row.result.promise().is_some_and(|(_, kept)| !kept), row.marked);
     let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
     html! {
         section #where aria-labelledby="where-title" {

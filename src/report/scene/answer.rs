@@ -8,6 +8,7 @@ use super::words::{
     unit_of_t, where_of,
 };
 use crate::report::epsilon::least_normal;
+use crate::report::page::Use;
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
 
@@ -25,6 +26,8 @@ pub(super) struct Answer {
     pub columns: Vec<String>,
     /// The results of what was tried: a label, and a cell for each column.
     pub rows: Vec<(String, Vec<String>)>,
+    /// The errors of the hits that remain, in the same way.
+    pub errors: Vec<(String, Vec<String>)>,
     /// How far each number may move.
     pub limits: Vec<LimitRow>,
     /// Limits that do not meet, and what helps.
@@ -33,16 +36,6 @@ pub(super) struct Answer {
     pub prices: Vec<String>,
     /// The subject of the commands, and the commands that show more of it.
     pub next: (&'static str, Vec<String>),
-}
-
-/// Epsilons to use.
-pub(super) struct Use {
-    /// `use`, `or`, `not`, or that even the best are no good.
-    pub lead: &'static str,
-    /// As they are pasted.
-    pub text: String,
-    /// The meaning of the epsilons, a sentence each.
-    pub notes: Vec<String>,
 }
 
 /// A limit of a number.
@@ -76,14 +69,15 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
             .map(|tried| column(part, &tried.name))
             .map(|column| if column == RECOMMENDED { name.to_owned() } else { column })
             .collect(),
-        rows: rows(record, part),
+        rows: rows(part),
+        errors: error_rows(record, part),
         limits: limit_rows(record, part),
         conflicts: part.conflicts.iter().map(|it| conflict_lines(record, part, it)).collect(),
         prices: prices(record, part),
         // No command runs a form that is no number.
         next: match is_scale_free_better(record, part) {
-            true => ("more of the fixed numbers", commands(record, part)),
-            false => ("more", commands(record, part)),
+            true => ("next, with the fixed numbers", commands(record, part)),
+            false => ("next", commands(record, part)),
         },
     }
 }
@@ -99,7 +93,7 @@ fn columns(part: &SceneKernelPart) -> impl Iterator<Item = &TriedPart> {
 
 fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
     let fixed = Use {
-        lead: lead(record, part, &part.tried[0]),
+        lead: lead(record, part, &part.tried[0]).to_owned(),
         text: fixed(record, part),
         notes: notes(record, part),
     };
@@ -109,11 +103,11 @@ fn used(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Use> {
     if is_scale_free_better(record, part) {
         all.reverse();
     }
-    let second = match all.each_ref().map(|it| it.lead) {
+    let second = match all.each_ref().map(|it| it.lead.as_str()) {
         [USE, LEAST_BAD] => "not",
         _ => "or",
     };
-    all[1].lead = second;
+    all[1].lead = second.to_owned();
     all.into()
 }
 
@@ -163,7 +157,7 @@ pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
     .to_owned()
 }
 
-fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
+fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for (i, count) in part.counts.iter().enumerate() {
         let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
@@ -184,6 +178,13 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             rows.push((format!("too far off, {}", where_of(count.stratum)), cells.collect()));
         }
     }
+    let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
+    rows.push(("cost".to_owned(), costs.collect()));
+    rows
+}
+
+fn error_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
+    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for value in ["t", "point"] {
         let unit = if value == "t" { String::new() } else { of_unit(&record.unit) };
         for (place, count) in part.counts.iter().enumerate() {
@@ -192,13 +193,11 @@ fn rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<String
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                let name = format!("error of {value}{unit}, {}", where_of(count.stratum));
+                let name = format!("of {value}{unit}, {}", where_of(count.stratum));
                 rows.push((name, cells.collect()));
             }
         }
     }
-    let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
-    rows.push(("cost".to_owned(), costs.collect()));
     rows
 }
 
@@ -228,7 +227,7 @@ fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart
         format!("they cost {least:.3}, the best fixed ones {most:.3}"),
     ]);
     notes.extend(accuracy(record));
-    Use { lead: lead(record, part, relative), text: forms.collect::<Vec<_>>().join(", "), notes }
+    Use { lead: lead(record, part, relative).to_owned(), text: forms.collect::<Vec<_>>().join(", "), notes }
 }
 
 fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {

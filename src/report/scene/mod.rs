@@ -1,4 +1,4 @@
-//! Studies of scenes as text, JSON, CSV, SVG and HTML.
+//! Studies of scenes as pages, JSON, CSV and SVG.
 
 mod answer;
 mod build;
@@ -6,27 +6,32 @@ mod commands;
 mod csv;
 mod legend;
 mod notes;
-#[cfg(feature = "cli")]
 mod page;
 mod plot;
 mod ranking;
 mod record;
-mod text;
+mod snippet;
+mod standing;
 mod words;
 
 pub use build::{kernel_part, scene_record};
 pub use record::*;
 
 use super::Format;
+use snippet::Language;
 
 /// One row per format.
 pub const SCENE_FORMATS: &[Format<SceneRecord>] = &[
-    Format { name: "text", write: text::write },
+    Format::TEXT,
     Format::JSON,
+    Format::MARKDOWN,
     Format { name: "csv", write: csv::write },
     Format { name: "svg", write: plot::write },
+    Format { name: "c", write: |record, _, out| snippet::write(record, Language::C, out) },
+    Format { name: "rust", write: |record, _, out| snippet::write(record, Language::Rust, out) },
+    Format { name: "glsl", write: |record, _, out| snippet::write(record, Language::Glsl, out) },
     #[cfg(feature = "cli")]
-    Format { name: "html", write: page::write },
+    Format::HTML,
 ];
 
 #[cfg(test)]

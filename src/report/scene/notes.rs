@@ -19,9 +19,7 @@ const TOO_FEW: u64 = 1_000;
 pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
-    let mut notes: Vec<String> = no_good(record, part, &part.tried[0]);
-    notes.extend(meanings);
-    notes.extend(beyond_limits(part));
+    let mut notes: Vec<String> = meanings.collect();
     notes.extend(cracks_of_its_own(record, part));
     if part.knobs.iter().all(|knob| !knob.is_gate) && part.others.is_empty() {
         notes.push(
@@ -194,29 +192,6 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: Kind) -> String {
         return "start shadow rays off the surface (`hairline spawn` finds how far)".to_owned();
     }
     (if is_narrow { "use f64 or another kernel" } else { "use another kernel" }).to_owned()
-}
-
-/// The chosen numbers that are outside their limits although some value is within.
-fn beyond_limits(part: &SceneKernelPart) -> impl Iterator<Item = String> {
-    let pairs = part.knobs.iter().zip(&part.tried[0].epsilons).enumerate();
-    pairs.filter_map(|(place, (knob, epsilon))| {
-        let chosen: f64 = epsilon.parse().ok()?;
-        let is_beyond = |limit: &LimitPart| {
-            // Past the far end of an unsure limit it is outside all the same.
-            let end = if limit.is_unsure { &limit.far } else { &limit.value };
-            let bound: Option<f64> = end.as_ref().and_then(|value| value.parse().ok());
-            let is_wrong = |bound| if limit.is_lower { chosen < bound } else { bound < chosen };
-            limit.knob == place && bound.is_some_and(is_wrong)
-        };
-        let is_trade = part.conflicts.iter().any(|it| part.limits[it.lower].knob == place);
-        let is_said = !is_trade && part.limits.iter().any(is_beyond);
-        let name = &knob.name;
-        is_said.then(|| {
-            format!(
-                "{name}={epsilon} is outside its limits below: a trade, as the rows and the cost show"
-            )
-        })
-    })
 }
 
 /// A note if cracks that no number closes are most of a kernel's cost, with advice.

@@ -1,110 +1,120 @@
-//! A study of a scene as one HTML file that needs nothing else: light and dark, wide and narrow, without
-//! scripts and without a network.
+//! A study of a scene as a page: of one kernel or two what to use, and why; of more a table.
 
 use super::answer::{Answer, answer};
 use super::legend::legend;
-use super::plot::{WIDTH, footer, panels};
+use super::plot::{footer, panels};
+use super::ranking;
 use super::record::{SceneKernelPart, SceneRecord};
-use crate::report::formats::html::{STYLE, head_of, style_policy};
-use crate::report::{Style, chart};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
-use std::io::{self, Write};
+use super::standing::{coarse, standing, telling};
+use super::words::{label, share};
+use crate::case::{Scene, SceneKind};
+use crate::report::elsewhere::{self, Compared};
+use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Tone};
 
-/// The style that only this page has.
-const OWN_STYLE: &str = "
-svg.chart { width: 100%; max-width: 34rem; height: auto; }
-.use { font-size: 1.05rem; } .use::first-letter { text-transform: uppercase; } .use code { font-size: .9rem; }
-pre { white-space: pre-wrap; overflow-wrap: anywhere; } .scroll { width: fit-content; } td { white-space: nowrap; } th[scope=row] { min-width: 8.5rem; }
-";
+/// So many rows argue for what to use.
+const MOST_ROWS: usize = 3;
 
-/// Writes the record.
-pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
-    let style = format!("{STYLE}{}{OWN_STYLE}", chart::STYLE);
-    let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
-    let title = answers.first().map_or("no kernel", |answer| answer.title.as_str());
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            (head_of(&format!("epsilons of {title}"), &style_policy(&style), &style))
-            body {
-                header.top {
-                    p.mark { "hairline" span { " epsilon" } }
-                    h1 { "Which epsilons for this scene" }
-                    p.lede { @for answer in answers.iter().take(1) { (answer.scene) } }
-                }
-                main {
-                    @for (part, answer) in record.kernels.iter().zip(&answers) {
-                        (section(record, part, answer))
-                    }
-                    section {
-                        h2 { "How to read" }
-                        ul { @for line in legend(record) { li { (line) } } }
-                    }
-                }
-            }
+impl Paged for SceneRecord {
+    fn page(&self) -> Page {
+        if ranking::is_needed(self) {
+            return ranking::page(self);
         }
-    };
-    out.write_all(page.into_string().as_bytes())
+        let answers: Vec<Answer> = self.kernels.iter().map(|part| answer(self, part)).collect();
+        let mut page = Page { command: "epsilon", ..Page::default() };
+        for (i, (part, answer)) in self.kernels.iter().zip(&answers).enumerate() {
+            let title = format!("{} in {}", answer.title, answer.scene);
+            match i {
+                0 => page.title = title,
+                _ => page.blocks.push(Block::Heading(title)),
+            }
+            page.blocks.extend(of_kernel(self, part, answer));
+        }
+        page.blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
+        let tones = self.kernels.iter().map(|part| standing(self, part).0);
+        page.tone = if tones.clone().all(|tone| tone == Tone::Good) { Tone::Good } else { Tone::Plain };
+        if tones.clone().all(|tone| tone == Tone::Bad) {
+            page.tone = Tone::Bad;
+        }
+        page
+    }
 }
 
-fn section(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Markup {
-    html! {
-        section {
-            h2 { (answer.title) }
-            @for used in &answer.used {
-                p.use {
-                    b { (used.lead) } " "
-                    @for (i, part) in used.text.split("  and  ").enumerate() {
-                        @if 0 < i { " and " }
-                        code { (part) }
-                    }
-                }
-                ul { @for note in &used.notes { li { (note) } } }
-            }
-            div.plots {
-                @for panel in panels(record, part, answer) {
-                    figure {
-                        svg.chart viewBox=(format!("0 0 {WIDTH} {}", panel.height)) role="img" aria-label=(panel.about) {
-                            (PreEscaped(panel.drawing))
-                        }
-                    }
-                }
-            }
-            div.scroll tabindex="0" role="group" aria-label="Wrong on fresh rays" {
-                table {
-                    caption { "Wrong on fresh rays (seed " (record.fresh_seed) ")" }
-                    thead { tr { th scope="col" { "rays" } @for name in &answer.columns { th scope="col" { (name) } } } }
-                    tbody {
-                        @for (label, cells) in &answer.rows {
-                            tr { th scope="row" { (label) } @for cell in cells { td { (cell) } } }
-                        }
-                    }
-                }
-            }
-            @if !answer.limits.is_empty() {
-                div.scroll tabindex="0" role="group" aria-label="Limits" {
-                    table {
-                        caption { "Each alone may move to (95 % sure, so 1 in 20 fails)" }
-                        thead {
-                            tr { th scope="col" { "number" } th { "limit" } th.text { "rays" } th { "at most" } th { "fresh rays" } }
-                        }
-                        tbody {
-                            @for row in &answer.limits {
-                                tr {
-                                    th scope="row" { (row.knob) }
-                                    td { (row.bound) @if row.is_of_scene { " *" } }
-                                    td.text { (row.what) } td { (row.most) } td { (row.fresh) }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
-            @for conflict in &answer.conflicts { p { (conflict.join(" ")) } }
-            @for price in &answer.prices { p { (price) } }
-            @if !answer.next.1.is_empty() { p { (answer.next.0) ":" } }
-            @for command in &answer.next.1 { pre { (command) } }
-            @for line in footer(record, part) { p.note { (line) } }
-        }
+/// What the words of the tables mean.
+pub(super) fn how_to_read(record: &SceneRecord) -> Vec<Block> {
+    vec![Block::Notes(legend(record))]
+}
+
+/// One kernel in one scalar: the answer, what argues for it, and everything else folded.
+pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Vec<Block> {
+    let mut blocks = vec![Block::text(standing(record, part).1)];
+    blocks.extend(coarse(record, part).map(Block::Text));
+    blocks.extend(answer.used.iter().cloned().map(Block::Use));
+    let title = format!("wrong on fresh rays (seed {})", record.fresh_seed);
+    let heads = |title: &str| -> Vec<Head> {
+        [title].into_iter().chain(answer.columns.iter().map(String::as_str)).map(Head::of).collect()
+    };
+    let table = |title: &str, rows: &[(String, Vec<String>)]| {
+        let rows = rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
+        Block::Table(Table { heads: heads(title), rows })
+    };
+    let places = telling(record, part, MOST_ROWS);
+    let is_telling =
+        |row: &&(String, Vec<String>)| places.iter().any(|place| label(&part.counts[*place]) == row.0);
+    let rows: Vec<_> = answer.rows.iter().filter(is_telling).cloned().collect();
+    blocks.push(table(&title, &rows));
+    blocks.extend(panels(record, part, answer).into_iter().map(Block::Picture));
+    let mut all = vec![table(&title, &answer.rows)];
+    if !answer.errors.is_empty() {
+        all.push(table("errors: half below, 99 % below, worst", &answer.errors));
     }
+    all.extend(of_elsewhere(record, answer.name, part));
+    all.extend(limits(answer));
+    blocks.push(Block::Details(format!("Everything about {} {}", part.kernel, part.scalar), {
+        all.push(Block::Notes(footer(record, part).into()));
+        all
+    }));
+    let mut commands: Vec<Command> =
+        answer.next.1.iter().map(|line| Command { line: line.clone(), what: "" }).collect();
+    let everything = "the same with --details, or --format html -o epsilon.html".to_owned();
+    commands.push(Command { line: everything, what: "" });
+    blocks.push(Block::Commands(answer.next.0, commands));
+    blocks
+}
+
+/// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
+fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec<Block> {
+    let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
+    let others = part.elsewhere.iter().map(|other| other.plane.clone());
+    let kinds: Vec<String> = [own.to_string()].into_iter().chain(others).collect();
+    let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
+        .map(|(place, (count, own))| Compared {
+            label: label(count).to_owned(),
+            own,
+            others: part.elsewhere.iter().map(|other| &other.wrong[place]).collect(),
+        })
+        .collect();
+    elsewhere::blocks(&format!("{name}: more often wrong"), &kinds, &rows, share)
+}
+
+fn limits(answer: &Answer) -> Vec<Block> {
+    if answer.limits.is_empty() {
+        return Vec::new();
+    }
+    let heads = vec![
+        Head::of("limits"),
+        Head::text("the other numbers fixed"),
+        Head::text("95 %: 1 in 20 fails"),
+        Head::of("at most"),
+        Head::of("fresh rays").optional(),
+    ];
+    let row = |row: &super::answer::LimitRow| {
+        let star = if row.is_of_scene { " *" } else { "" };
+        let what = format!("{}{star}", row.what);
+        Row::new(&row.knob, [row.bound.clone(), what, row.most.clone(), row.fresh.clone()])
+    };
+    let mut blocks =
+        vec![Block::Table(Table { heads, rows: answer.limits.iter().map(row).collect() })];
+    blocks.extend(answer.conflicts.iter().map(|conflict| Block::text(conflict.join(" "))));
+    blocks.push(Block::Notes(answer.prices.clone()));
+    blocks
 }

@@ -8,6 +8,7 @@ use crate::audit::Trials;
 use crate::plot::{Decades, decades_around, group_digits};
 use crate::report::Style;
 use crate::report::chart::{Chart, Frame, LINE, Mark, file, text_at, wrapped};
+use crate::report::page::Picture;
 use crate::report::rate::percent;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -18,19 +19,9 @@ const NEGLIGIBLE: f64 = 2e-4;
 const MOST_DECADES: i32 = 5;
 
 /// The width of a panel, and of a file.
-pub(super) const WIDTH: f64 = 460.0;
+const WIDTH: f64 = 460.0;
 const FRAME: Frame =
     Frame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
-
-/// A panel.
-pub(super) struct Panel {
-    /// A description of the picture, for those who do not see it.
-    pub about: String,
-    /// The drawing, as elements of SVG.
-    pub drawing: String,
-    /// How high it is.
-    pub height: f64,
-}
 
 /// Writes the recommendation and the panels of each kernel, one below the other.
 pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
@@ -40,7 +31,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
         let mut heading = vec![(answer.title.clone(), "this"), (answer.scene.clone(), "soft")];
         for used in &answer.used {
             let parts = used.text.split("  and  ").enumerate();
-            let words = [used.lead, "and"];
+            let words = [used.lead.as_str(), "and"];
             heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
         }
         y += 8.0;
@@ -50,7 +41,7 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
         }
         for panel in panels(record, part, &answer) {
             let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{}</g>", panel.drawing);
-            y += panel.height;
+            y += panel.size[1];
         }
         for text in footer(record, part).iter().flat_map(|text| wrapped(text, WIDTH)) {
             y += LINE;
@@ -74,7 +65,7 @@ pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2
 }
 
 /// One panel a number.
-pub(super) fn panels(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Vec<Panel> {
+pub(super) fn panels(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Vec<Picture> {
     (0..part.curves.len()).map(|knob| Draft::new(record, part, answer, knob).panel()).collect()
 }
 
@@ -212,7 +203,7 @@ impl<'a> Draft<'a> {
         (any && low <= high).then_some([low, high])
     }
 
-    fn panel(&self) -> Panel {
+    fn panel(&self) -> Picture {
         let unit = unit_of(self.record, self.knob);
         let name = match self.knob.is_gate {
             true => format!("{}: epsilon of this gate", self.knob.name),
@@ -253,7 +244,7 @@ impl<'a> Draft<'a> {
         let legend = self.legend();
         chart.legend(&legend);
         let about = legend.iter().fold(title, |about, (_, text)| format!("{about}; {text}"));
-        Panel { about, drawing: chart.drawing, height: chart.height }
+        Picture { about, drawing: chart.drawing, size: [WIDTH, chart.height] }
     }
 
     /// Marks with their texts: the lines, then the limits.

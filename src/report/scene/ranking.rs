@@ -1,24 +1,25 @@
 //! Which kernel for a scene: all kernels in one table, the one that costs least first.
 
-use super::answer::{USE, answer, is_scale_free_better};
+use super::answer::{Answer, USE, answer, is_scale_free_better};
 use super::commands::of_kernel;
 use super::notes::few_rays;
+use super::page;
 use super::record::{Kind, SceneKernelPart, SceneRecord, Stratum, TriedPart};
 use super::words::{human, of_unit, share, spaced};
+use crate::report::page::{Block, Command, Head, Page, Row, Table};
 use crate::report::record::Rate;
-use std::io::{self, Write};
 
 /// The smallest triangle is so many of a scalar's steps long, or longer, where its numbers are fine enough: then
 /// rounding moves a vertex by less than can be seen.
 const FINE: f64 = 1000.0;
 
 /// One row: kernels that answer alike.
-struct Row<'a> {
+struct Alike<'a> {
     part: &'a SceneKernelPart,
     /// The results of what its `use` line says.
     best: &'a TriedPart,
     /// The others that do the same with the same numbers.
-    alike: Vec<&'a str>,
+    names: Vec<&'a str>,
 }
 
 /// True if a record has too many kernels for a screen of each.
@@ -28,53 +29,60 @@ pub(super) fn is_needed(record: &SceneRecord) -> bool {
     2 < names.len()
 }
 
-/// Writes a table for each scalar, and what to run next.
-pub(super) fn write(record: &SceneRecord, out: &mut dyn Write) -> io::Result<()> {
+/// A table for each scalar, and what to run next.
+pub(super) fn page(record: &SceneRecord) -> Page {
     let scene = match &record.mesh {
         Some(mesh) => mesh.path.as_str(),
         None => record.scene.as_str(),
     };
-    writeln!(out, "kernels with their best epsilons in {scene}{}", of_unit(&record.unit))?;
-    few_rays(record).map_or(Ok(()), |note| writeln!(out, "{note}"))?;
-    let all = ["f32", "f64"].map(|scalar| (scalar, rows(record, scalar)));
+    let mut blocks: Vec<Block> = few_rays(record).map(Block::Text).into_iter().collect();
+    let all = ["f32", "f64"].map(|scalar| (scalar, alike(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
     let most = if scalars == 1 { 7 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
-        writeln!(out, "\n{}", fitness(record, best.part))?;
-        let [cost, leaks, lost, self_hits] = ["cost", "leaks", "lost inside", "self-hits"];
-        writeln!(out, "{scalar:<28}{cost:>6}{leaks:>13}{lost:>13}{self_hits:>13}")?;
-        for row in rows.iter().take(most) {
-            write_row(record, row, out)?;
-        }
-        let more: usize = rows.iter().skip(most).map(|row| 1 + row.alike.len()).sum();
+        blocks.push(Block::text(fitness(record, best.part)));
+        let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits"].map(Head::of).into();
+        let rows_of = |rows: &[Alike]| rows.iter().map(|alike| row(record, alike)).collect();
+        blocks.push(Block::Table(Table { heads, rows: rows_of(&rows[..most.min(rows.len())]) }));
+        let more: usize = rows.iter().skip(most).map(|row| 1 + row.names.len()).sum();
         if 0 < more {
-            writeln!(out, "and {more} more kernels, none cheaper (--format csv lists all)")?;
+            blocks.push(Block::text(format!("… {more} more kernels, none cheaper: --details")));
         }
     }
-    writeln!(
-        out,
-        "\nleaks: at shared edges or vertices; lost inside: hits inside a triangle; self-hits: of shadow rays (-: the\n\
-         kernel has no t). Shares are of rays aimed there, not of your pixels. cost: each share times its weight; false\n\
-         hits and rays almost parallel to their triangle also count"
-    )?;
     let shown = || all.iter().flat_map(|(_, rows)| rows.iter().take(most));
-    if shown().any(|row| is_scale_free_better(record, row.part)) {
-        writeln!(out, "L: the triangle's longest edge; M: the largest coordinate")?;
+    let forms = match shown().any(|row| is_scale_free_better(record, row.part)) {
+        true => " L: the triangle's longest edge; M: the largest coordinate.",
+        false => "",
+    };
+    blocks.push(Block::Text(String::new()));
+    blocks.push(Block::text(format!(
+        "leaks: at shared edges or vertices; lost inside: hits inside a triangle; self-hits: of shadow rays (-: the \
+         kernel has no t). Shares are of rays aimed there, not of your pixels. cost: each share times its weight; false \
+         hits and almost parallel rays count too.{forms}"
+    )));
+    let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
+    for (part, answer) in record.kernels.iter().zip(&answers) {
+        blocks.push(Block::Details(answer.title.clone(), page::of_kernel(record, part, answer)));
     }
-    let is_fit = |row: &&Row| FINE <= steps(record, row.part);
-    match shown().find(is_fit).or(shown().next()) {
-        Some(best) => {
-            let command = of_kernel(record, best.part);
-            writeln!(out, "next: {command}  # what each number does")
-        }
-        None => Ok(()),
+    blocks.push(Block::Details("How to read".to_owned(), page::how_to_read(record)));
+    let best = shown().find(|row| is_fine(record, row.part)).or(shown().next());
+    let next = best.map(|best| Command {
+        line: of_kernel(record, best.part),
+        what: "may I use these numbers?",
+    });
+    blocks.extend(next.map(|next| Block::Commands("next", vec![next])));
+    Page {
+        command: "epsilon",
+        title: format!("Kernels with their best epsilons in {scene}{}", of_unit(&record.unit)),
+        blocks,
+        ..Page::default()
     }
 }
 
 /// The rows of a scalar, the cheapest first.
-fn rows<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<Row<'a>> {
+fn alike<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<Alike<'a>> {
     let best = |part: &'a SceneKernelPart| match &part.relative {
         Some(relative) if is_scale_free_better(record, part) => relative,
         _ => &part.tried[0],
@@ -82,17 +90,17 @@ fn rows<'a>(record: &'a SceneRecord, scalar: &str) -> Vec<Row<'a>> {
     let parts = record.kernels.iter().filter(|part| part.scalar == scalar);
     let mut parts: Vec<_> = parts.map(|part| (part, best(part))).collect();
     parts.sort_by(|(_, a), (_, b)| a.cost.total_cmp(&b.cost));
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<Alike> = Vec::new();
     for (part, best) in parts {
         match rows.iter_mut().find(|row| row.is_like(part, best)) {
-            Some(row) => row.alike.push(&part.kernel),
-            None => rows.push(Row { part, best, alike: Vec::new() }),
+            Some(row) => row.names.push(&part.kernel),
+            None => rows.push(Alike { part, best, names: Vec::new() }),
         }
     }
     rows
 }
 
-impl Row<'_> {
+impl Alike<'_> {
     /// True if another kernel was wrong as often with the same numbers.
     fn is_like(&self, part: &SceneKernelPart, best: &TriedPart) -> bool {
         let wrong = |tried: &TriedPart| -> Vec<[u64; 2]> {
@@ -104,28 +112,27 @@ impl Row<'_> {
     }
 }
 
-fn write_row(record: &SceneRecord, row: &Row, out: &mut dyn Write) -> io::Result<()> {
-    let Row { part, best, .. } = row;
+fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
     let cell = |is_of: fn(Stratum, Kind) -> bool| {
         let counts = part.counts.iter().zip(&best.wrong);
         let rates = counts.filter(|(count, _)| is_of(count.stratum, count.kind));
         let worst = |a: &&Rate, b: &&Rate| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0));
         rates.map(|(_, rate)| rate).max_by(worst).map_or("-".to_owned(), share)
     };
-    let leaks = cell(|_, kind| kind == Kind::Crack);
-    let lost = cell(|stratum, kind| (stratum, kind) == (Stratum::Interior, Kind::Miss));
-    let self_hits = cell(|_, kind| kind == Kind::SelfHit);
-    let (kernel, cost) = (&part.kernel, best.cost);
-    writeln!(out, "{kernel:<28}{cost:>6.3}{leaks:>13}{lost:>13}{self_hits:>13}")?;
-    let answer = answer(record, part);
-    if let Some(used) = answer.used.first() {
+    let cells = [
+        format!("{:.3}", best.cost),
+        cell(|_, kind| kind == Kind::Crack),
+        cell(|stratum, kind| (stratum, kind) == (Stratum::Interior, Kind::Miss)),
+        cell(|_, kind| kind == Kind::SelfHit),
+    ];
+    let used = answer(record, part).used.into_iter().next();
+    let used = used.map(|used| {
         let lead = if used.lead == USE { "use" } else { "no numbers are good; least bad:" };
-        writeln!(out, "  {lead} {}", used.text)?;
-    }
-    match row.alike.is_empty() {
-        true => Ok(()),
-        false => writeln!(out, "  as often wrong with the same numbers: {}", row.alike.join(", ")),
-    }
+        format!("{lead} {}", used.text)
+    });
+    let alike = format!("as often wrong with the same numbers: {}", names.join(", "));
+    let alike = (!names.is_empty()).then_some(alike);
+    Row { below: used.into_iter().chain(alike).collect(), ..Row::new(&part.kernel, cells) }
 }
 
 /// The length of the smallest triangle's longest edge in steps of the scalar's numbers at the far end.
@@ -133,18 +140,24 @@ fn steps(record: &SceneRecord, part: &SceneKernelPart) -> f64 {
     record.edge[0] / part.spacing
 }
 
-/// A sentence that says if the scalar's numbers are fine enough for the scene's smallest triangles.
-fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
+/// True if the scalar's numbers are fine enough for the scene's smallest triangles.
+pub(super) fn is_fine(record: &SceneRecord, part: &SceneKernelPart) -> bool {
+    FINE <= steps(record, part).round()
+}
+
+/// A sentence that says so, or that they are not.
+pub(super) fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
     let SceneKernelPart { scalar, spacing, .. } = part;
     let apart = format!("{}{}", human(&format!("{spacing:.1e}")), spaced(&record.unit));
     let numbers = format!("its numbers are {apart} apart at the far end");
-    let parts = steps(record, part).round().max(1.0);
-    if FINE <= parts {
+    if is_fine(record, part) {
         let smallest = "below a thousandth of the smallest triangle's longest edge";
-        return format!("{scalar} is fit for this scene: {numbers},\n  {smallest}");
+        return format!("{scalar} is fit for this scene: {numbers}, {smallest}.");
     }
+    let parts = steps(record, part).round().max(1.0);
     let wider = if scalar == "f32" { "use f64, or " } else { "" };
     format!(
-        "{scalar} is coarse for this scene: {numbers},\n  1/{parts} of the smallest triangle's longest edge: {wider}move the origin to the camera"
+        "{scalar} is coarse for this scene: {numbers}, 1/{parts} of the smallest triangle's longest edge: {wider}move \
+         the origin to the camera."
     )
 }

@@ -1,0 +1,131 @@
+//! Proofs as a page: of one kernel the sentences that people ask for first, then its gates; of several a table.
+
+use super::record::{GatePart, KernelPart, Record, Report};
+use crate::prove::units;
+use crate::report::page::{Block, Command, Head, Page, Paged, Row, Table, Tone};
+
+impl Paged for Report {
+    fn page(&self) -> Page {
+        if self.is_of_one { of_one(self) } else { of_all(self) }
+    }
+}
+
+/// All kernels: a row a gate.
+fn of_all(report: &Report) -> Page {
+    let record = &report.record;
+    let mut blocks = vec![Block::Text(domain(report))];
+    for scalar in ["f32", "f64"] {
+        let gates: Vec<&GatePart> =
+            record.gates.iter().filter(|gate| gate.scalar == scalar).collect();
+        if gates.is_empty() {
+            continue;
+        }
+        let mut heads = vec![Head::of(format!("{scalar}, u = {}", unit(scalar))), Head::text("gate")];
+        heads.extend(numbers());
+        heads.push(Head::text("supposes a bound of").optional());
+        let row = |gate: &&GatePart| {
+            let [bound, known, factor] = cells(gate);
+            let cells = [gate.gate.to_owned(), bound, known, factor, gate.supposes.join(", ")];
+            let why = gate.why.as_ref().map(|why| format!("no bound: {why}"));
+            Row { below: why.into_iter().collect(), ..Row::new(&gate.kernel, cells) }
+        };
+        blocks.push(Block::Table(Table { heads, rows: gates.iter().map(row).collect() }));
+    }
+    let watertight = record.kernels.iter().filter(|kernel| kernel.watertight);
+    let watertight: Vec<String> =
+        watertight.map(|kernel| format!("{} ({})", kernel.kernel, kernel.scalar)).collect();
+    if !watertight.is_empty() {
+        let names = watertight.join(", ");
+        blocks.push(Block::Text(String::new()));
+        blocks.push(Block::Text(format!(
+            "Watertight at edges, at an epsilon of 0, proved: {names}"
+        )));
+    }
+    let line = "hairline prove --kernel NAME".to_owned();
+    blocks.push(Block::Commands("next", vec![Command { line, what: "what follows for epsilons" }]));
+    let title = "No float of the domain makes a gate more wrong than its bound; the witness is the worst known.";
+    Page { command: "prove", title: title.to_owned(), tone: Tone::Plain, blocks }
+}
+
+/// One kernel: its sentences.
+fn of_one(report: &Report) -> Page {
+    let record = &report.record;
+    let name = record.kernels.first().map_or("K", |kernel| &kernel.kernel);
+    let mut blocks = vec![Block::Text(domain(report))];
+    for kernel in &record.kernels {
+        let gates: Vec<&GatePart> =
+            record.gates.iter().filter(|gate| gate.scalar == kernel.scalar).collect();
+        blocks.push(Block::Heading(format!("{} in {}", kernel.kernel, kernel.scalar)));
+        let key = |gate: &&GatePart| -> Vec<String> {
+            let all = gate.statements.iter().filter(|statement| statement.is_key);
+            all.map(|statement| format!("{}: {}", gate.gate, statement.text)).collect()
+        };
+        let mut notes: Vec<String> = gates.iter().flat_map(key).collect();
+        notes.push(format!("edges: {}", kernel.edges));
+        blocks.push(Block::Notes(notes));
+        blocks.push(Block::Table(table(kernel, &gates)));
+        let all = gates.iter().flat_map(|gate| {
+            let texts = gate.statements.iter().map(|statement| statement.text.clone());
+            let title = format!("{}: {}", gate.gate, gate.compares);
+            [Block::Text(String::new()), Block::Text(title), Block::Notes(texts.collect())]
+        });
+        let title = format!("Everything about {} in {}", kernel.kernel, kernel.scalar);
+        blocks.push(Block::Details(title, all.collect()));
+    }
+    blocks.push(Block::Details("What is supposed".to_owned(), vec![Block::text(SUPPOSED)]));
+    let line = format!("hairline epsilon --kernel {name} {}", report.rays);
+    blocks.push(Block::Commands(
+        "next",
+        vec![
+            Command { line, what: "which epsilons to use" },
+            Command { line: "the same with --details".to_owned(), what: "everything that is proved" },
+        ],
+    ));
+    let title = format!("{name}: what holds for every float");
+    Page { command: "prove", title, tone: Tone::Plain, blocks }
+}
+
+/// The gates of a kernel: how wrong what each compares can be.
+fn table(kernel: &KernelPart, gates: &[&GatePart]) -> Table {
+    let mut heads = vec![Head::of(format!("u = {}", unit(kernel.scalar)))];
+    heads.extend(numbers());
+    heads.push(Head::text("refuses where").optional());
+    let row = |gate: &&GatePart| {
+        let [bound, known, factor] = cells(gate);
+        let compares = gate.compares.split(" (printed").next().unwrap_or_default();
+        Row::new(gate.gate, [bound, known, factor, compares.to_owned()])
+    };
+    Table { heads, rows: gates.iter().map(row).collect() }
+}
+
+fn numbers() -> [Head; 3] {
+    ["wrong by at most, u", "known, u", "factor"].map(Head::of)
+}
+
+/// The bound, the witness and their ratio.
+fn cells(gate: &GatePart) -> [String; 3] {
+    let number = |x: Option<f64>, up: bool| x.map_or("-".to_owned(), |x| units(x, up));
+    [
+        number(gate.bound_units, true),
+        number(gate.witness.as_ref().map(|w| w.units), false),
+        gate.factor.map_or("-".to_owned(), |x| format!("{x:.2}")),
+    ]
+}
+
+fn unit(scalar: &str) -> &'static str {
+    if scalar == "f32" { "2^-24" } else { "2^-53" }
+}
+
+const SUPPOSED: &str = "A bound supposes, and its witness keeps, only what the gate's numbers use. Powers of two scale \
+                        it: lengths by s scale det by s^2.";
+
+fn domain(Report { record: Record { domain, .. }, scene, .. }: &Report) -> String {
+    match scene {
+        Some(scene) => format!("Scene: {scene}"),
+        None => format!(
+            "Unit domain: coordinates of points and of their differences up to {:.3}, of d up to {}. Where a kernel \
+             divides, divisors of {} and more (the largest coordinate of d too), quotients up to {}.",
+            domain.edge, domain.direction, domain.divisor_at_least, domain.quotient_at_most
+        ),
+    }
+}

@@ -1,0 +1,122 @@
+//! What a command says, in the order in which people read it: one value, from which every format for people is drawn.
+//!
+//! A study's record implements [`Paged`], and is then text, Markdown and HTML.
+
+#[cfg(feature = "cli")]
+mod html;
+mod markdown;
+mod table;
+mod text;
+
+pub(crate) use markdown::{cell as markdown_cell, code as markdown_code};
+pub(crate) use table::{Cell, Head, Row, Table};
+pub(crate) use text::write_wrapped;
+
+use super::Format;
+
+/// What one command says.
+#[derive(Clone, Debug, Default)]
+pub struct Page {
+    /// The command: `epsilon`.
+    pub command: &'static str,
+    /// The first line.
+    pub title: String,
+    /// How it went.
+    pub tone: Tone,
+    /// The rest.
+    pub blocks: Vec<Block>,
+}
+
+/// How it went: the colour of a title.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// Neither.
+    #[default]
+    Plain,
+    /// As it should be.
+    Good,
+    /// A promise is broken.
+    Bad,
+}
+
+/// A part of a page.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// The title of what follows.
+    Heading(String),
+    /// Sentences.
+    Text(String),
+    /// Sentences, each by itself.
+    Notes(Vec<String>),
+    /// Something to paste, after a word, with notes.
+    Use(Use),
+    /// Numbers.
+    Table(Table),
+    /// Commands that lead on, after a word.
+    Commands(&'static str, Vec<Command>),
+    /// Words and what they mean.
+    Terms(Vec<(String, String)>),
+    /// Code, line by line as it is.
+    Listing(String),
+    /// A drawing, where a format has pictures.
+    Picture(Picture),
+    /// What only those read who want everything, with its title.
+    Details(String, Vec<Block>),
+}
+
+/// Something to paste.
+#[derive(Clone, Debug, Default)]
+pub struct Use {
+    /// `use`, `or`, `not`.
+    pub lead: String,
+    /// What is pasted; `  and  ` stands between parts.
+    pub text: String,
+    /// Its meaning, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A command line, which is never broken, and what it is for.
+#[derive(Clone, Debug)]
+pub struct Command {
+    /// The line.
+    pub line: String,
+    /// Its purpose; may be empty.
+    pub what: &'static str,
+}
+
+/// A drawing.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Its content, for those who do not see it.
+    pub about: String,
+    /// Elements of SVG.
+    pub drawing: String,
+    /// Its width and its height.
+    pub size: [f64; 2],
+}
+
+/// A record that is a page.
+pub trait Paged {
+    /// The page.
+    fn page(&self) -> Page;
+}
+
+impl<R: Paged> Format<R> {
+    /// For a terminal. The layout is not stable.
+    pub const TEXT: Format<R> =
+        Format { name: "text", write: |record, style, out| text::write(&record.page(), style, out) };
+    /// For a forge or a chat.
+    pub const MARKDOWN: Format<R> =
+        Format { name: "markdown", write: |record, _, out| markdown::write(&record.page(), out) };
+    /// One file that needs nothing else: light and dark, wide and narrow, without scripts and without a network.
+    #[cfg(feature = "cli")]
+    pub const HTML: Format<R> =
+        Format { name: super::HTML, write: |record, _, out| html::write(&record.page(), out) };
+}
+
+impl Block {
+    /// A sentence.
+    pub fn text(text: impl Into<String>) -> Block {
+        Block::Text(text.into())
+    }
+}

@@ -1,0 +1,222 @@
+//! Tables: a label on the left, cells on the right.
+
+use super::text::wrapped;
+use crate::report::Style;
+use std::io::{self, Write};
+
+/// A label that is longer stands on a line of its own.
+const LONGEST_LABEL: usize = 36;
+
+/// The space before a cell.
+const GAP: usize = 2;
+
+/// The content of one column of a row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cell {
+    /// The text.
+    pub text: String,
+    /// True if it breaks a promise: red on a terminal with colours.
+    pub is_broken: bool,
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Cell {
+        Cell { text, is_broken: false }
+    }
+}
+
+/// A column; the first is that of the labels.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Head {
+    /// Its head.
+    pub head: String,
+    /// True if it holds words, which begin on the left.
+    pub is_text: bool,
+    /// True if a narrow terminal does without it.
+    pub is_optional: bool,
+}
+
+impl Head {
+    /// A column of numbers, or of labels.
+    pub fn of(head: impl Into<String>) -> Head {
+        Head { head: head.into(), ..Head::default() }
+    }
+
+    /// A column of words.
+    pub fn text(head: impl Into<String>) -> Head {
+        Head { is_text: true, ..Head::of(head) }
+    }
+
+    /// The same, which a narrow terminal does without.
+    pub fn optional(self) -> Head {
+        Head { is_optional: true, ..self }
+    }
+}
+
+/// A row, and lines below it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Row {
+    /// The label.
+    pub label: String,
+    /// One cell for each column but the first.
+    pub cells: Vec<Cell>,
+    /// Lines that belong to it, indented below.
+    pub below: Vec<String>,
+}
+
+impl Row {
+    /// A row without lines below it.
+    pub fn new<C: Into<Cell>>(label: impl Into<String>, cells: impl IntoIterator<Item = C>) -> Row {
+        let cells = cells.into_iter().map(Into::into).collect();
+        Row { label: label.into(), cells, below: Vec::new() }
+    }
+}
+
+/// A table.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Table {
+    /// The columns, that of the labels first.
+    pub heads: Vec<Head>,
+    /// The rows.
+    pub rows: Vec<Row>,
+}
+
+impl Table {
+    /// Its width in characters.
+    pub fn width(&self) -> usize {
+        self.label_width() + self.widths().iter().sum::<usize>()
+    }
+
+    /// Takes a column of cells out.
+    pub fn remove(&mut self, column: usize) {
+        self.heads.remove(column + 1);
+        self.rows.iter_mut().for_each(|row| drop(row.cells.remove(column)));
+    }
+
+    /// Writes the heads, in several lines if the table is too wide otherwise, then the rows; without the last of the
+    /// columns that may go if it is still too wide.
+    pub fn write(&self, style: Style, out: &mut dyn Write) -> io::Result<()> {
+        let (first, mut widths) = (self.label_width(), self.widths());
+        let mut heads: Vec<Vec<String>> =
+            self.heads.iter().map(|column| vec![column.head.clone()]).collect();
+        if style.width < self.width() {
+            for (i, width) in widths.iter_mut().enumerate() {
+                let head = &self.heads[i + 1].head;
+                let word = head.split_whitespace().map(|word| word.chars().count()).max();
+                let most = self.cells_width(i).max(word.unwrap_or(0));
+                heads[i + 1] = wrapped(head, most);
+                *width = most + GAP;
+            }
+        }
+        let optional = (0..widths.len()).rev().filter(|i| self.heads[i + 1].is_optional);
+        let mut hidden = Vec::new();
+        for column in optional {
+            let shown = |i: &usize| !hidden.contains(i);
+            if first + (0..widths.len()).filter(shown).map(|i| widths[i]).sum::<usize>() <= style.width {
+                break;
+            }
+            hidden.push(column);
+        }
+        let shown: Vec<usize> = (0..widths.len()).filter(|i| !hidden.contains(i)).collect();
+        let padded = |column: usize, text: &str| {
+            let width = widths[column];
+            match self.heads[column + 1].is_text {
+                true => format!("  {text:<0$}", width - GAP),
+                false => format!("{text:>width$}"),
+            }
+        };
+        let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+        let lines = shown.iter().map(|i| heads[i + 1].len()).chain([1]).max().unwrap_or(1);
+        for line in 0..lines {
+            // The last lines of all heads stand beside each other.
+            let of = |head: &Vec<String>| (line + head.len()).checked_sub(lines).map(|i| head[i].clone());
+            let mut text = format!("{:<first$}", of(&heads[0]).unwrap_or_default());
+            shown.iter().for_each(|i| text += &padded(*i, &of(&heads[i + 1]).unwrap_or_default()));
+            writeln!(out, "{bold}{}{plain}", text.trim_end())?;
+        }
+        for row in &self.rows {
+            let mut line = format!("{:<first$}", row.label);
+            if first < row.label.chars().count() {
+                writeln!(out, "{}", row.label)?;
+                line = " ".repeat(first);
+            }
+            for &i in &shown {
+                let cell = &row.cells[i];
+                let text = padded(i, &cell.text);
+                match style.color && cell.is_broken {
+                    true => line += &format!("\x1b[31m{text}\x1b[0m"),
+                    false => line += &text,
+                }
+            }
+            writeln!(out, "{}", line.trim_end())?;
+            for below in &row.below {
+                writeln!(out, "  {below}")?;
+            }
+        }
+        Ok(())
+    }
+
+    fn label_width(&self) -> usize {
+        let labels = self.rows.iter().map(|row| row.label.chars().count());
+        let longest = labels.filter(|width| *width <= LONGEST_LABEL).max().unwrap_or(0);
+        longest.max(self.heads[0].head.chars().count())
+    }
+
+    fn cells_width(&self, column: usize) -> usize {
+        self.rows.iter().map(|row| row.cells[column].text.chars().count()).max().unwrap_or(0)
+    }
+
+    fn widths(&self) -> Vec<usize> {
+        let heads = self.heads[1..].iter().map(|column| column.head.chars().count());
+        heads.enumerate().map(|(i, head)| self.cells_width(i).max(head) + GAP).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(table: &Table, style: Style) -> String {
+        let mut out = Vec::new();
+        table.write(style, &mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn columns_are_as_wide_as_what_stands_in_them() {
+        let row = |label: &str, cells: [&str; 2]| Row::new(label, cells.map(str::to_owned));
+        let mut table = Table {
+            heads: ["kernel", "leaks", "ns"].map(Head::of).into(),
+            rows: vec![row("a", ["0", "1234"]), row(&"b".repeat(40), ["12.5", "7"])],
+        };
+        table.rows[0].below.push("as often: c".to_owned());
+        table.rows[1].cells[0].is_broken = true;
+        let long = "b".repeat(40);
+        let expected = format!(
+            "kernel  leaks    ns\na           0  1234\n  as often: c\n{long}\n         12.5     7\n"
+        );
+        assert_eq!(text(&table, Style::default()), expected);
+        assert_eq!(table.width(), 19);
+        let style = Style { color: true, ..Style::default() };
+        assert!(text(&table, style).contains("\x1b[31m   12.5\x1b[0m     7"));
+        table.remove(0);
+        assert_eq!(table.width(), 12);
+        assert!(text(&table, Style::default()).starts_with("kernel    ns\na       1234\n"));
+    }
+
+    #[test]
+    fn heads_are_broken_and_columns_dropped_where_there_is_no_room() {
+        let heads = vec![
+            Head::of("knob"),
+            Head::text("rays"),
+            Head::of("at most so many"),
+            Head::of("seen").optional(),
+        ];
+        let table =
+            Table { heads, rows: vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))] };
+        let at = |width: usize| text(&table, Style { width, ..Style::default() });
+        assert_eq!(at(40), "knob  rays  at most so many  seen\nt     far           1 in 10    12\n");
+        assert_eq!(at(30), "knob        at most\n      rays  so many  seen\nt     far   1 in 10    12\n");
+        assert_eq!(at(20), "knob        at most\n      rays  so many\nt     far   1 in 10\n");
+    }
+}

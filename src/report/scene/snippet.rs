@@ -1,0 +1,115 @@
+//! What to use as code to paste, in the language of a kernel.
+
+use super::answer::is_scale_free_better;
+use super::record::*;
+use super::standing::standing;
+use super::words::of_unit;
+use std::io::{self, Write};
+
+/// A language of kernels.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Language {
+    C,
+    Rust,
+    Glsl,
+}
+
+/// Writes the numbers of each kernel as constants, each with the comparison that takes it.
+pub(super) fn write(record: &SceneRecord, language: Language, out: &mut dyn Write) -> io::Result<()> {
+    for (i, part) in record.kernels.iter().enumerate() {
+        if 0 < i {
+            writeln!(out)?;
+        }
+        writeln!(out, "// {} {} in {}{}", part.kernel, part.scalar, record.scene, of_unit(&record.unit))?;
+        writeln!(out, "// {}", standing(record, part).1)?;
+        let relative = part.relative.as_ref().filter(|_| is_scale_free_better(record, part));
+        let follows = relative.is_some();
+        let tried = relative.unwrap_or(&part.tried[0]);
+        for (knob, value) in part.knobs.iter().zip(&tried.epsilons) {
+            let form = knob.form.as_ref().filter(|_| follows && value.parse() != Ok(0.0));
+            writeln!(out, "{}", constant(language, &part.scalar, knob, value))?;
+            if let Some(form) = form {
+                let form = form.replacen('e', &name(knob), 1);
+                writeln!(out, "//   compared as {form}  (L: the triangle's longest edge; M: the largest coordinate)")?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn name(knob: &KnobPart) -> String {
+    let name = knob.name.to_uppercase().replace('-', "_");
+    if knob.is_gate { format!("{name}_EPSILON") } else { name }
+}
+
+/// One number with its comparison, as the kernel's listing has it.
+fn constant(language: Language, scalar: &str, knob: &KnobPart, value: &str) -> String {
+    let name = name(knob);
+    let comparison = match &knob.refuses {
+        // `abs(det) < e (printed det > -e && det < e)`
+        Some(refuses) => {
+            let printed = refuses.split_once("(printed ").map_or(refuses.as_str(), |(_, printed)| {
+                printed.trim_end_matches(')')
+            });
+            format!("refuse where {}", with_name(printed, &name))
+        }
+        None => format!("count a hit only where t >= {name}"),
+    };
+    // C, GLSL and Rust all want a point or an exponent in a float.
+    let is_float = value.contains(['.', 'e', 'E']);
+    let number = if is_float { value.to_owned() } else { format!("{value}.0") };
+    let constant = match (language, scalar) {
+        (Language::C, "f32") => format!("static const float {name} = {number}f;"),
+        (Language::C, _) => format!("static const double {name} = {number};"),
+        (Language::Rust, scalar) => format!("const {name}: {scalar} = {number};"),
+        (Language::Glsl, "f32") => format!("const float {name} = {number};"),
+        (Language::Glsl, _) => format!("const double {name} = {number}lf;"),
+    };
+    format!("{constant}  // {comparison}")
+}
+
+/// A comparison with the epsilon's name in the place of `e`.
+fn with_name(comparison: &str, name: &str) -> String {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut text = String::new();
+    let mut word = String::new();
+    for c in comparison.chars().chain([' ']) {
+        if is_word(c) {
+            word.push(c);
+            continue;
+        }
+        text += if word == "e" { name } else { &word };
+        word.clear();
+        text.push(c);
+    }
+    text.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_epsilon_has_its_name_where_the_comparison_has_it() {
+        let text = with_name("det > -e && edge_e < e", "PARALLEL_EPSILON");
+        assert_eq!(text, "det > -PARALLEL_EPSILON && edge_e < PARALLEL_EPSILON");
+        let knob = KnobPart {
+            name: "parallel".to_owned(),
+            is_gate: true,
+            role: "parallel".to_owned(),
+            refuses: Some("abs(det) < e (printed det > -e && det < e)".to_owned()),
+            dimension: [2, 1],
+            form: None,
+        };
+        let of = |language, scalar| constant(language, scalar, &knob, "5e-10");
+        let comparison = "  // refuse where det > -PARALLEL_EPSILON && det < PARALLEL_EPSILON";
+        assert_eq!(
+            of(Language::C, "f32"),
+            format!("static const float PARALLEL_EPSILON = 5e-10f;{comparison}")
+        );
+        assert_eq!(of(Language::Rust, "f64"), format!("const PARALLEL_EPSILON: f64 = 5e-10;{comparison}"));
+        let least = KnobPart { name: "t_min".to_owned(), is_gate: false, refuses: None, ..knob.clone() };
+        let text = constant(Language::Glsl, "f32", &least, "0");
+        assert_eq!(text, "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN");
+    }
+}

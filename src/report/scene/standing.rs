@@ -1,0 +1,136 @@
+//! May these numbers be used? The sentence that stands first: good, a trade, or no good; and the rows that argue for it.
+
+use super::notes::no_good;
+use super::ranking::{fitness, is_fine};
+use super::record::*;
+use super::words::share;
+use crate::report::page::Tone;
+use crate::report::record::Rate;
+
+/// The share of a cost from which on what remains is said.
+const TELLING: f64 = 0.005;
+
+/// How good the best fixed numbers are, in a sentence or two.
+pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, String) {
+    let flaws = no_good(record, part, &part.tried[0]);
+    if !flaws.is_empty() {
+        return (Tone::Bad, sentences(&flaws));
+    }
+    let trades: Vec<String> = (0..part.knobs.len()).filter_map(|knob| trade(part, knob)).collect();
+    let rest = remains(record, part);
+    let rest = rest.map_or(String::new(), |rest| format!(" What remains: {rest}."));
+    match trades.is_empty() {
+        true => (Tone::Good, format!("Good: every number is within all of its limits.{rest}")),
+        false => (Tone::Plain, format!("A trade: {}.{rest}", trades.join("; "))),
+    }
+}
+
+/// Sentences from lines without their stops.
+fn sentences(lines: &[String]) -> String {
+    let sentence = |line: &String| {
+        let mut letters = line.chars();
+        let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+        format!("{first}{}.", letters.as_str())
+    };
+    lines.iter().map(sentence).collect::<Vec<_>>().join(" ")
+}
+
+/// What no value of a knob does at once, or that its value is outside its limits; none if all are kept.
+fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
+    let name = &part.knobs[knob].name;
+    let conflict = part.conflicts.iter().find(|conflict| part.limits[conflict.lower].knob == knob);
+    if let Some(ConflictPart { lower, upper, .. }) = conflict {
+        let [lower, upper] = [lower, upper].map(|place| &part.limits[*place]);
+        let noun = |limit: &LimitPart| noun(&part.counts[limit.count]);
+        return Some(match (&lower.value, &upper.value) {
+            (None, _) => format!("no {name} ends {}", noun(lower)),
+            (_, None) => format!("no {name} ends {}", noun(upper)),
+            _ => format!("no {name} ends both {} and {}", noun(lower), noun(upper)),
+        });
+    }
+    beyond_limits(part, knob)
+        .map(|epsilon| format!("{name}={epsilon} is outside its own limits, which would cost more"))
+}
+
+/// The chosen value of a knob if it is outside its limits although some value is within.
+fn beyond_limits(part: &SceneKernelPart, knob: usize) -> Option<&str> {
+    let epsilon = &part.tried[0].epsilons[knob];
+    let chosen: f64 = epsilon.parse().ok()?;
+    let is_beyond = |limit: &LimitPart| {
+        // Past the far end of an unsure limit it is outside all the same.
+        let end = if limit.is_unsure { &limit.far } else { &limit.value };
+        let bound: Option<f64> = end.as_ref().and_then(|value| value.parse().ok());
+        let is_wrong = |bound| if limit.is_lower { chosen < bound } else { bound < chosen };
+        limit.knob == knob && bound.is_some_and(is_wrong)
+    };
+    part.limits.iter().any(is_beyond).then_some(epsilon)
+}
+
+/// The wrong answers that make most of the cost, in words, if that is worth a word.
+fn remains(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+    let of_count = |(count, rate): (&Count, &Rate)| {
+        let part = rate.rate.filter(|_| 0 < rate.count)?;
+        Some((cost_of(record, count) * part, phrase(count, &share(rate))))
+    };
+    let mut all: Vec<(f64, String)> =
+        part.counts.iter().zip(&part.tried[0].wrong).filter_map(of_count).collect();
+    all.retain(|(cost, _)| TELLING < *cost);
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.truncate(2);
+    let words: Vec<String> = all.into_iter().map(|(_, words)| words).collect();
+    (!words.is_empty()).then(|| words.join(", "))
+}
+
+fn cost_of(record: &SceneRecord, count: &Count) -> f64 {
+    record.costs.iter().find(|cost| cost.name == count.kind.name()).map_or(0.0, |cost| cost.number)
+}
+
+/// The counts that argue for the recommended numbers: those whose wrong answers cost most with any that were tried.
+pub(super) fn telling(record: &SceneRecord, part: &SceneKernelPart, most: usize) -> Vec<usize> {
+    let worst = |place: &usize| {
+        let tried = part.tried.iter().chain(&part.relative);
+        let shares = tried.map(|tried| tried.wrong[*place].rate.unwrap_or(0.0));
+        cost_of(record, &part.counts[*place]) * shares.fold(0.0, f64::max)
+    };
+    let mut places: Vec<usize> = (0..part.counts.len()).filter(|place| 0.0 < worst(place)).collect();
+    places.sort_by(|a, b| worst(b).total_cmp(&worst(a)));
+    places.truncate(most);
+    places.sort_unstable();
+    places
+}
+
+/// `lost hits at a triangle`.
+fn noun(count: &Count) -> &'static str {
+    match (count.stratum, count.kind) {
+        (Stratum::Edges, _) => "leaks at shared edges",
+        (Stratum::Vertices, _) => "leaks at shared vertices",
+        (Stratum::Grazing, Kind::Miss) => "lost hits of almost parallel rays",
+        (Stratum::Grazing, _) => "false hits of almost parallel rays",
+        (Stratum::Parallel, _) => "false hits of parallel rays",
+        (Stratum::Shadow, _) => "self-hits of shadow rays",
+        (Stratum::Outside, _) => "false hits beside triangles",
+        (Stratum::Interior, Kind::Miss) => "lost hits inside triangles",
+        (Stratum::Interior, _) => "false hits at the back",
+    }
+}
+
+/// `2.9% of the shadow rays hit their own start`.
+fn phrase(count: &Count, share: &str) -> String {
+    let [of, does] = match (count.stratum, count.kind) {
+        (Stratum::Edges, _) => ["rays at a shared edge", "leak"],
+        (Stratum::Vertices, _) => ["rays at a shared vertex", "leak"],
+        (Stratum::Grazing, Kind::Miss) => ["almost parallel hits", "are lost"],
+        (Stratum::Grazing, _) => ["almost parallel rays", "hit falsely"],
+        (Stratum::Parallel, _) => ["parallel rays", "hit falsely"],
+        (Stratum::Shadow, _) => ["shadow rays", "hit their own start"],
+        (Stratum::Outside, _) => ["rays beside a triangle", "hit it"],
+        (Stratum::Interior, Kind::Miss) => ["hits inside a triangle", "are lost"],
+        (Stratum::Interior, _) => ["rays at its back", "hit"],
+    };
+    format!("{share} of the {of} {does}")
+}
+
+/// A word on the scalar, if its numbers are too far apart for the scene.
+pub(super) fn coarse(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
+    (!is_fine(record, part)).then(|| fitness(record, part))
+}
