@@ -1,12 +1,12 @@
-//! What every epsilon costs beside one: `cargo bench --bench response`.
+//! What a pass over all margins costs beside one run: `cargo bench --bench response`.
 //!
 //! Each line times, in one run on one thread and on the same cases: making them, the bare kernel with
-//! its default epsilons, the oracle, and the response of all of the kernel's gates (cases made,
-//! asked, measured, counted). The figure to watch is the response over the other three together.
+//! its default epsilons, the oracle, and a pass of a study of epsilons (cases made, asked, measured,
+//! counted). The figure to watch is the pass over the other three together.
 
 use hairline::internals::audit::{EpsilonChoice, Observer, Source};
 use hairline::internals::case::{Case, Parameters};
-use hairline::internals::epsilon::{Axis, Request, run, tunable_gates};
+use hairline::internals::epsilon::{Attempt, Knob, Setting, count_at, counts_of};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{KERNELS, Scalar, Verdict};
 use hairline::internals::oracle::{Layers, truths};
@@ -66,15 +66,12 @@ fn lines<F: Scalar>() {
             black_box(&all);
         }
     });
-    let axis = Axis::<F>::new(&[]);
     let entries: Vec<_> = KERNELS.iter().collect();
     let mut rows = EpsilonChoice::Source.rows(&entries, None).expect("the default plan");
     rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
     for row in &rows {
-        let gates = tunable_gates(row.entry.info.gates);
-        if gates.is_empty() {
-            continue;
-        }
+        let knobs = Knob::all(row);
+        let counts = counts_of(&sources, &knobs, row);
         let epsilons = row.epsilons::<F>();
         let kernel = median(|| {
             let mut verdicts = vec![Verdict::miss(None); 1024];
@@ -88,8 +85,20 @@ fn lines<F: Scalar>() {
             }
         });
         let subject = F::subject(row.entry).expect("built in");
-        let request = Request { row, subject, gates: &gates, axis: &axis, exact: false };
-        let response = median(|| drop(black_box(run(&request, &sources, &Silent))));
+        let setting = Setting {
+            row,
+            subject,
+            knobs: &knobs,
+            counts: &counts,
+            scene: None,
+            sources: &sources,
+            mesh: None,
+            relative: false,
+            fine_curves: false,
+            store: None,
+        };
+        let attempt = [Attempt::new(vec![F::zero(); knobs.len()])];
+        let response = median(|| drop(black_box(count_at(&setting, &attempt, 1, COUNT, &Silent))));
         println!(
             "{:<28}{}{:>8.0}{:>8.0}{:>8.0}{:>10.0}{:>8.2}{:>8.2}",
             row.entry.info.name,
@@ -107,11 +116,11 @@ fn lines<F: Scalar>() {
 fn main() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
     pool.install(|| {
-        println!("ns a case, one thread; the last two: response over making, kernel and oracle,");
-        println!("and response less making over kernel and oracle");
+        println!("ns a case, one thread; the last two: a pass over making, kernel and oracle,");
+        println!("and a pass less making over kernel and oracle");
         println!(
             "{:<31}{:>8}{:>8}{:>8}{:>10}{:>8}{:>8}",
-            "kernel, all its gates", "making", "kernel", "oracle", "response", "ratio", "ratio"
+            "kernel, all its knobs", "making", "kernel", "oracle", "pass", "ratio", "ratio"
         );
         lines::<f32>();
         lines::<f64>();

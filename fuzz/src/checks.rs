@@ -5,11 +5,11 @@ use hairline::internals::arith::Float;
 use hairline::internals::audit::{CorpusSet, Source, Unobserved};
 use hairline::internals::case::{Case, Draw};
 use hairline::internals::corpus::lines::AnyCase;
-use hairline::internals::epsilon::{Axis, Question, Request, run, tunable_gates};
+use hairline::internals::epsilon::{Attempt, Count, Kind, Knob, Rays, Setting, count_at};
 use hairline::internals::explore::inputs::{Input, of_kernel};
 use hairline::internals::explore::{Signature, mutate};
 use hairline::internals::judge::{self, Obligation};
-use hairline::internals::kernel::{Scalar, Subject, Verdict, refused_by};
+use hairline::internals::kernel::{Scalar, Subject, Tunable, Verdict, refused_by};
 use hairline::internals::oracle::{self, Batch, Layers};
 use hairline::internals::orientation::{
     self, Points, ScaledPoints, default_rows, defined_determinant,
@@ -159,10 +159,9 @@ pub fn disagreement<F: Scalar>(input: &Input<F>) -> Option<Signature> {
     Signature::of(&input.row(), &input.case)
 }
 
-/// The response of a kernel on a case and some of its neighbours says, gate by gate, how often it is
-/// wrong when it is run: at the given epsilon, at each case's margin and beside it. Any axis does; to
-/// make one takes longer than the check.
-pub fn check_response<F: Scalar>(input: &Input<F>, axis: &Axis<F>) -> Result<(), Contradiction>
+/// A study of epsilons says of a case and some of its neighbours, gate by gate, how often the kernel is wrong when it
+/// is run: at the given epsilon, at each case's margin and beside it.
+pub fn check_response<F: Scalar>(input: &Input<F>) -> Result<(), Contradiction>
 where
     AnyCase: From<Case<F>>,
 {
@@ -173,27 +172,42 @@ where
     let asked = |case| judge::asked(case, &oracle::truth(case), &row.contract, false);
     let asked: Vec<Obligation> = cases.iter().map(asked).collect();
     let sources = [Source::Corpus(stored(&cases))];
-    let gates = tunable_gates(entry.info.gates);
-    let request = Request { row: &row, subject, gates: &gates, axis, exact: true };
-    for response in &run(&request, &sources, &Unobserved)[0].gates {
-        let gate = response.gate;
+    let gates = entry.info.gates;
+    let tunable = (0..gates.len()).filter(|gate| gates[*gate].epsilon != Tunable::Fixed);
+    for gate in tunable {
+        let knobs = [Knob::Gate(gate)];
+        let counts = [Kind::Miss, Kind::Hit].map(|kind| Count { rays: Rays::Stored, kind });
+        let setting = Setting {
+            row: &row,
+            subject,
+            knobs: &knobs,
+            counts: &counts,
+            scene: None,
+            sources: &sources,
+            mesh: None,
+            relative: false,
+            fine_curves: false,
+            store: None,
+        };
         let margin = |case: &Case<F>| gated.measure(case).margins[gate];
         let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());
         let about = margins.flat_map(|m| [m.offset_ulps(-1), m, m.offset_ulps(1)]);
-        let lowest = hairline::internals::epsilon::floor::<F>(&entry.info.gates[gate]);
-        for epsilon in about.chain([epsilons[gate]]).filter(|e| lowest <= *e && e.is_finite()) {
+        let is_taken = |e: &F| gates[gate].epsilon == Tunable::Signed || F::zero() <= *e;
+        let about = about.chain([epsilons[gate]]).filter(|e| is_taken(e) && e.is_finite());
+        let about: Vec<F> = about.collect();
+        let attempts: Vec<_> = about.iter().map(|e| Attempt::new(vec![*e])).collect();
+        let told = count_at(&setting, &attempts, 1, 1, &Unobserved);
+        for (epsilon, told) in about.iter().zip(told) {
             let mut at = epsilons.clone();
-            at[gate] = epsilon;
+            at[gate] = *epsilon;
             let wrong = |obligation: Obligation, hit: bool| {
                 let all = cases.iter().zip(&asked).filter(|(_, asked)| **asked == obligation);
                 all.filter(|(case, _)| verdict(subject, case, &at).hit == hit).count() as u64
             };
             let run = [wrong(Obligation::MustHit, false), wrong(Obligation::MustMiss, true)];
-            let told = [Question::FalseMiss, Question::FalseHit]
-                .map(|question| response.curve(question).wrong(epsilon).exact());
             let name = entry.info.name;
             let about = format!("response and run of {name} at {at:?} about {}", case.hex());
-            agree(&about, told, run.map(Some))?;
+            agree(&about, [told[0].count, told[1].count], run)?;
         }
     }
     Ok(())

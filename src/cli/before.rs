@@ -121,12 +121,6 @@ pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [boo
     }
 }
 
-/// The scalars in which the sources have a case.
-pub fn scalars_with_cases(sources: &[Source], scalars: [bool; 2]) -> [bool; 2] {
-    let has = |count: fn(&Source) -> u64| sources.iter().any(|source| 0 < count(source));
-    [scalars[0] && has(Source::count::<f32>), scalars[1] && has(Source::count::<f64>)]
-}
-
 /// The indices of a run; an error if there are none.
 pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Failure> {
     let count = |source: &Source| {

@@ -1,69 +1,73 @@
-//! `hairline epsilon`: every epsilon of a kernel at once, and which to use.
+//! `hairline epsilon`: which epsilons, all of a kernel together, for a scene or on families and stored cases.
 
-mod scene;
-
-use super::before::{
-    note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
-    total_indices,
-};
+use super::before::{note_secondary_rays, refuse_wrong_values, scalars_in_use, set_threads};
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
-use super::output::OutputArguments;
+use super::output::{OutputArguments, paired_outputs};
 use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;
-use crate::arith::{Float, smallest_normal};
-use crate::audit::{Row, Source};
-use crate::epsilon::scene::LEAST_T;
-use crate::epsilon::{SPANNING, StudyPlan, floor, tunable_gates};
-use crate::family::{FAMILIES, Family};
-use crate::kernel::{Entry, Gate, Scalar, Subject};
-use crate::report::epsilon::{EPSILON_FORMATS, GatePart, parts, record};
+use crate::arith::Float;
+use crate::arith::smallest_normal;
+use crate::audit::Row;
+use crate::epsilon::{
+    COUNT, Costs, Count, Knob, LEAST_T, MOST_KNOBS, MaxError, Setting, StudiedRays, contract_with,
+    counts, counts_of, own_epsilons,
+};
+use crate::family::STRATA;
+use crate::kernel::{Entry, Scalar, Subject};
+use crate::report::epsilon::{SCENE_FORMATS, SceneKernelPart, kernel_part, scene_record};
 use crate::studied::Studied;
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
 
+/// The most values of --at.
+const MOST_AT: usize = 5;
+
+/// Passes over every stratum, usually: the grid, the limits, numbers that move between them and their limits, the fresh
+/// rays, and the same for scale-free forms; and the curves. A coarse grid takes more.
+const PASSES: u64 = 11;
+
+/// The note on the parts of a contract that a scene leaves out.
+const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where rays begin and end; at shared edges \
+                           and vertices it counts cracks, whatever the contract says of them";
+
 /// Which kernel, gate and cases, and how to report.
 #[derive(Args)]
 #[command(mut_arg("format", |format| {
-    format.help("text, json, csv, svg, or (with --scene or --mesh) markdown, html, c, rust or glsl, or several separated by commas")
+    format.help("text, json, csv, svg, markdown or html, or several separated by commas; c, rust or glsl as --snippet")
 }))]
 pub struct EpsilonArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// Vary each of these gates alone, over families of cases; with --scene or --mesh choose these only
+    /// Choose these numbers only; a gate's epsilon, or t_min
     #[arg(long, value_delimiter = ',', value_name = "GATE")]
     gate: Vec<String>,
 
-    /// More epsilons to compare, separated by commas
+    /// More values of the one number that --gate names, separated by commas
     #[arg(long, value_delimiter = ',', value_name = "E", allow_hyphen_values = true)]
     at: Vec<String>,
 
-    /// Keep every margin: exact at every epsilon, but memory grows with the number of cases
-    #[arg(long)]
-    exact: bool,
-
-    /// Write every point of each source's curve into the JSON; all kernels together take hundreds of megabytes.
-    /// In a scene: curves at every number of two digits
+    /// Count curves at every number of two digits
     #[arg(long)]
     curves: bool,
 
-    /// The costs of wrong answers in a scene; costs that are not named keep crack=10,miss=1,hit=1,self-hit=1
+    /// The costs of wrong answers; costs that are not named keep crack=10,miss=1,hit=1,self-hit=1
     #[arg(long, value_name = "KIND=COST,...", allow_hyphen_values = true)]
     cost: Option<String>,
 
-    /// In a scene: how large errors of the hits that remain may be, for 99 % of each kind of ray:
-    /// of t relative to itself, of the point in the scene's unit, as t=1e-3,point=0.01
+    /// How large errors of the hits that remain may be, for 99 % of each kind of ray:
+    /// of t relative to itself, of the point in the unit of length, as t=1e-3,point=0.01
     #[arg(long, value_name = "VALUE=ERROR,...", allow_hyphen_values = true)]
     max_error: Option<String>,
 
     #[command(flatten)]
     sources: SourceArguments,
 
-    /// In a scene: print the numbers as code, in c, rust or glsl
+    /// Print the numbers as code, in c, rust or glsl
     #[arg(long, value_name = "LANGUAGE", value_parser = ["c", "rust", "glsl"], conflicts_with = "format")]
     snippet: Option<String>,
 
@@ -75,140 +79,224 @@ pub struct EpsilonArguments {
     output: OutputArguments,
 }
 
-/// Runs the command.
+/// Runs the command; the flags may leave the count of a scene's rays to it.
 pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result<Status, Failure> {
-    if !arguments.is_of_gates() {
-        let source = matches.and_then(|matches| matches.value_source("count"));
-        return scene::run(arguments, source == Some(ValueSource::CommandLine));
-    }
-    for (flag, is_given) in
-        [("--cost", arguments.cost.is_some()), ("--max-error", arguments.max_error.is_some())]
-    {
-        if is_given {
-            let why = "is for scenes: leave out --gate, or name a --scene";
-            return Err(Failure::usage(format!("{flag}: {why}")));
-        }
-    }
-    let outputs = arguments.output.pairs(EPSILON_FORMATS)?;
-    let threads = set_threads(arguments.threads)?;
-    let rows = arguments.rows()?;
+    let source = matches.and_then(|matches| matches.value_source("count"));
+    let is_count_given = source == Some(ValueSource::CommandLine);
+    arguments.check_at()?;
+    let snippet = arguments.snippet.as_ref().map(std::slice::from_ref);
+    let formats = snippet.unwrap_or(&arguments.output.format);
+    let outputs = paired_outputs(SCENE_FORMATS, formats, &arguments.output.output)?;
+    set_threads(arguments.threads)?;
+    let costs = arguments.cost.as_deref().map_or(Ok(Costs::default()), Costs::parse);
+    let costs = costs.map_err(|error| Failure::usage(format!("--cost: {error}")))?;
+    let max_error = arguments.max_error.as_deref().map(MaxError::parse).transpose();
+    let max_error = max_error.map_err(|error| Failure::usage(format!("--max-error: {error}")))?;
+    let max_error = max_error.as_ref();
+    let (rows, least_t) = arguments.kernels.rows_and_least_t()?;
     let scalars = scalars_in_use(&rows, arguments.sources.scalars()?)?;
     refuse_wrong_values(&rows, scalars)?;
-    arguments.warn_of_subnormals(&rows, scalars);
-    let usual = |family: &Family| !SPANNING.contains(&family.name);
-    let sources = arguments.sources.sources(arguments.output.quiet, usual)?;
-    let families = sources.iter().filter(|source| matches!(source, Source::Family { .. })).count();
-    if !arguments.output.quiet && families == FAMILIES.len() - SPANNING.len() {
-        let left_out = SPANNING.join(", ");
-        eprintln!("left out: {left_out}, whose sizes span the whole range (--family runs them)");
+    let (mut tuned, mut reasons): (Vec<Tuned<'_>>, Vec<String>) = Default::default();
+    for row in &rows {
+        let name = row.entry.info.name;
+        if let Some(known) = tuned.iter_mut().find(|known| known.row.entry.info.name == name) {
+            known.sets.push(row);
+            continue;
+        }
+        match arguments.knobs(row) {
+            Ok(knobs) => tuned.push(Tuned { row, sets: vec![row], knobs }),
+            Err(reason) => reasons.push(reason),
+        }
+    }
+    if least_t.is_some() && !tuned.iter().any(|tuned| tuned.knobs.contains(&Knob::LeastT)) {
+        return Err(Failure::usage(
+            "--epsilon: no kernel here has a t_min to choose, or --gate does not name it",
+        ));
+    }
+    let studied = arguments.sources.studied_rays(arguments.output.quiet)?;
+    match reasons.first() {
+        Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
+        _ if arguments.output.quiet => {}
+        _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
     }
     if !arguments.output.quiet {
-        note_secondary_rays(&rows, &sources);
+        note_secondary_rays(&rows, &studied.sources);
     }
-    let total = total_indices(&sources, scalars)? * rows.len() as u64;
-    let scalars = scalars_with_cases(&sources, scalars);
-    // What is wrong with the flags shows before the first study runs.
-    let sources = &sources;
-    let mut studies: Vec<Planned<'_>> = Vec::new();
-    for row in &rows {
-        let in_scalar = row.entry.scalars();
+    if !arguments.output.quiet && studied.scene.is_some() {
+        if !arguments.sources.names_scene_or_mesh() {
+            eprintln!(
+                "no --scene: in the preset `unit` (others: room, city, cad-mm, your own numbers, --mesh)"
+            );
+        }
+        if arguments.kernels.names_contract() {
+            eprintln!("{OF_CONTRACT}");
+        }
+    }
+    arguments.warn_of_subnormals(&rows, scalars);
+    let (seed, count) = arguments.sources.seed_and_count();
+    let count = if is_count_given || studied.scene.is_none() { count } else { COUNT };
+    let studies = scalars.iter().filter(|scalar| **scalar).count() * tuned.len();
+    let passes = PASSES + studied.others.len() as u64;
+    let kinds = if studied.scene.is_some() { STRATA.len() } else { studied.sources.len() };
+    let total = passes * kinds as u64 * count * studies as u64;
+    let progress = Progress::new(total, "indices", arguments.output.quiet);
+    let run = Run {
+        studied: &studied,
+        costs: &costs,
+        max_error,
+        least_t: least_t.as_deref(),
+        at: &arguments.at,
+        fine_curves: arguments.curves,
+        seed,
+        count,
+        progress: &progress,
+    };
+    let mut parts = Vec::new();
+    for tuned in &tuned {
+        let in_scalar = tuned.row.entry.scalars();
         if scalars[0] && in_scalar[0] {
-            let plan = arguments.plan::<f32>(row)?;
-            studies.push(Box::new(move |progress| run_study(&plan, sources, progress)));
+            parts.push(run.study::<f32>(tuned)?);
         }
         if scalars[1] && in_scalar[1] {
-            let plan = arguments.plan::<f64>(row)?;
-            studies.push(Box::new(move |progress| run_study(&plan, sources, progress)));
+            parts.push(run.study::<f64>(tuned)?);
         }
     }
-    let progress = Progress::new(total, "indices", arguments.output.quiet);
-    let all = studies.iter().map(|study| study(&progress)).collect::<Result<Vec<_>, _>>()?;
     progress.finish();
-    let record = record(sources, all, threads, progress.seconds());
-    arguments.output.write_all(outputs, &record, arguments.curves)?;
+    let record = scene_record(&studied, &costs, max_error, seed, count, parts);
+    arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
 }
 
-/// The parts that a study of one row in one scalar adds to the record.
-type StudyParts = Result<Vec<GatePart>, Failure>;
+/// A kernel, the rows of its epsilon sets, and what is chosen of it.
+struct Tuned<'a> {
+    row: &'a Row,
+    sets: Vec<&'a Row>,
+    knobs: Vec<Knob>,
+}
 
-/// A study that is still to be run.
-type Planned<'a> = Box<dyn Fn(&Progress) -> StudyParts + 'a>;
+struct Run<'a> {
+    studied: &'a StudiedRays,
+    costs: &'a Costs,
+    max_error: Option<&'a MaxError>,
+    /// The least t that `--epsilon` names.
+    least_t: Option<&'a str>,
+    at: &'a [String],
+    fine_curves: bool,
+    seed: u64,
+    count: u64,
+    progress: &'a Progress,
+}
 
-fn run_study<F: Studied>(
-    plan: &StudyPlan<'_, F>,
-    sources: &[Source],
-    progress: &Progress,
-) -> StudyParts {
-    let study = F::study(plan, sources, progress);
-    found_margins(plan.row.entry.info.name, plan.subject)?;
-    let study = study.map_err(|error| fault(plan.row.entry, error))?;
-    Ok(parts(plan, sources, &study))
+impl Run<'_> {
+    /// What is counted of a kernel: in a scene only of the strata that are named, if some are.
+    fn counts(&self, knobs: &[Knob], row: &Row) -> Vec<Count> {
+        let StudiedRays { scene, sources, strata, .. } = self.studied;
+        if scene.is_none() {
+            return counts_of(sources, knobs, row);
+        }
+        let mut all = counts(knobs, &row.contract);
+        all.retain(|count| {
+            strata.is_empty() || strata.iter().any(|name| name == count.rays.name())
+        });
+        all
+    }
+
+    fn study<F: Studied>(&self, tuned: &Tuned<'_>) -> Result<SceneKernelPart, Failure> {
+        let Tuned { row, sets, knobs } = tuned;
+        let name = row.entry.info.name;
+        let missing = || Failure::usage(format!("{name} does not run in {}", F::NAME));
+        let row = Row { contract: contract_with(knobs, &row.contract), ..(*row).clone() };
+        let counts = self.counts(knobs, &row);
+        if counts.is_empty() {
+            let message = format!("{name}: nothing to count on such rays");
+            return Err(Failure::Message(Status::NothingSelected, message));
+        }
+        let setting = Setting {
+            row: &row,
+            subject: F::subject(row.entry).ok_or_else(missing)?,
+            knobs,
+            counts: &counts,
+            scene: self.studied.scene.as_ref(),
+            sources: &self.studied.sources,
+            mesh: self.studied.mesh.as_ref(),
+            relative: false,
+            fine_curves: self.fine_curves,
+            store: None,
+        };
+        let number = |flag: &str, text: &str| {
+            let value = F::parse(text).filter(|value| value.is_finite());
+            let wrong = || format!("{flag}: '{text}' is not a finite number of {}", F::NAME);
+            value.ok_or_else(|| Failure::usage(wrong()))
+        };
+        let least_t = self.least_t.map(|text| number("--epsilon", text)).transpose()?;
+        if least_t.is_some_and(|t| t < F::zero()) {
+            return Err(Failure::usage(format!("--epsilon: {LEAST_T} is at least 0")));
+        }
+        let own = |set: &&Row| {
+            let name = self.least_t.map(|text| format!("{},{LEAST_T}={text}", set.set));
+            let epsilons = own_epsilons::<F>(set, knobs, least_t.unwrap_or(F::zero()));
+            (name.unwrap_or_else(|| set.set.clone()), epsilons)
+        };
+        let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
+        named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
+        for text in self.at {
+            let value = number("--at", text)?;
+            let gates = row.entry.info.gates;
+            if value < F::zero() && !knobs[0].takes_negative(gates) {
+                let knob = knobs[0].name(gates);
+                let message = format!(
+                    "--at: below 0 {knob} refuses what it does at 0, so {text} means nothing"
+                );
+                return Err(Failure::usage(message));
+            }
+            named.push((text.clone(), vec![value]));
+        }
+        let Run { costs, max_error, seed, count, progress, .. } = *self;
+        let study = F::study_scene(&setting, costs, max_error, &named, seed, count, progress);
+        found_margins(name, setting.subject)?;
+        let mut study = study.map_err(|error| fault(row.entry, error))?;
+        F::try_elsewhere(&setting, &mut study, &self.studied.others, seed, count, progress);
+        Ok(kernel_part(&setting, &tuned.row.contract, &study, max_error))
+    }
 }
 
 impl EpsilonArguments {
-    /// True if single gates are studied, over families or stored cases, instead of a scene.
-    fn is_of_gates(&self) -> bool {
-        let names_gates = !self.gate.is_empty() || !self.at.is_empty();
-        let of_gates = self.exact || self.curves || names_gates;
-        let is_of_scene = self.sources.names_scene_or_mesh();
-        !is_of_scene && (of_gates || self.sources.names_other_cases())
-    }
-
-    /// One row a kernel: its first epsilon set, with the given epsilons. Of several kernels those that
-    /// cannot be studied are left out, with a note.
-    fn rows(&self) -> Result<Vec<Row>, Failure> {
-        let mut rows = self.kernels.rows()?;
-        rows.dedup_by(|second, first| second.entry.info.name == first.entry.info.name);
+    fn check_at(&self) -> Result<(), Failure> {
         refuse_twice("--gate", &self.gate)?;
-        let mut reasons = Vec::new();
-        rows.retain(|row| self.gates(row).map_err(|reason| reasons.push(reason)).is_ok());
-        match reasons.first() {
-            Some(reason) if rows.is_empty() => return Err(Failure::usage(reason)),
-            _ if self.output.quiet => {}
-            _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
+        if !self.at.is_empty() && self.gate.len() != 1 {
+            return Err(Failure::usage("--at: name one --gate, whose values they are"));
         }
-        Ok(rows)
+        if MOST_AT < self.at.len() {
+            return Err(Failure::usage(format!("--at: at most {MOST_AT} values fit the screen")));
+        }
+        Ok(())
     }
 
-    /// The gates to study, or why the kernel cannot be studied.
-    fn gates(&self, row: &Row) -> Result<Vec<usize>, String> {
-        let gates = row.entry.info.gates;
-        let tunable = tunable_gates(gates);
-        let name = row.entry.info.name;
-        if tunable.is_empty() {
-            return Err(format!("{name} has no gate that takes an epsilon"));
-        }
+    /// The knobs of a kernel that are chosen, or why it cannot be studied.
+    fn knobs(&self, row: &Row) -> Result<Vec<Knob>, String> {
+        let info = row.entry.info;
+        let name = info.name;
         tells_margins(row.entry)?;
-        if self.gate.is_empty() {
-            return Ok(tunable);
+        let all = Knob::all(row);
+        let names: Vec<&str> = all.iter().map(|knob| knob.name(info.gates)).collect();
+        if let Some(unknown) = self.gate.iter().find(|gate| !names.contains(&gate.as_str())) {
+            let near = nearest_name(unknown, names.iter().copied());
+            let near = near.map_or(String::new(), |near| format!(", did you mean '{near}'?"));
+            let names = names.join(", ");
+            return Err(format!("{name} has no '{unknown}' to choose{near}: there are {names}"));
         }
-        let find = |wanted: &String| {
-            let named = |gate: &&usize| gates[**gate].name == wanted;
-            tunable.iter().find(named).copied().ok_or_else(|| self.no_gate(row, gates, wanted))
+        let is_chosen = |knob: &Knob| {
+            self.gate.is_empty() || self.gate.iter().any(|gate| gate == knob.name(info.gates))
         };
-        self.gate.iter().map(find).collect()
-    }
-
-    fn no_gate(&self, row: &Row, gates: &[Gate], wanted: &str) -> String {
-        let kernel = row.entry.info.name;
-        if wanted == LEAST_T {
-            return format!(
-                "{LEAST_T} is no gate of {kernel}: a least t is chosen for a scene (--scene or --mesh, without \
-                 --family and --corpus), and `hairline spawn --scheme t-min=VALUE` tries one"
-            );
+        let chosen: Vec<Knob> = all.into_iter().filter(is_chosen).collect();
+        match chosen.len() {
+            0 => Err(format!("{name} has no number that can be chosen")),
+            n if n > MOST_KNOBS => Err(format!(
+                "{name} has {n} numbers to choose ({}): name at most {MOST_KNOBS} with --gate",
+                names.join(", ")
+            )),
+            _ => Ok(chosen),
         }
-        if gates.iter().any(|gate| gate.name == wanted) {
-            return format!("gate '{wanted}' of {kernel} takes no epsilon");
-        }
-        let advice = nearest_name(wanted, gates.iter().map(|gate| gate.name));
-        let advice = advice.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
-        let names: Vec<&str> =
-            tunable_gates(gates).into_iter().map(|gate| gates[gate].name).collect();
-        format!(
-            "{kernel} has no gate '{wanted}'{advice} (those that take an epsilon: {})",
-            names.join(", ")
-        )
     }
 
     /// Notes given epsilons that a machine may flush to zero.
@@ -231,29 +319,6 @@ impl EpsilonArguments {
                 );
             }
         }
-    }
-
-    fn plan<'a, F: Scalar>(&self, row: &'a Row) -> Result<StudyPlan<'a, F>, Failure> {
-        let chosen = self.gates(row).map_err(Failure::usage)?;
-        let at = self.at.iter().map(|text| {
-            let e = F::parse(text).filter(|e| e.is_finite()).ok_or_else(|| {
-                let message = format!("--at: '{text}' is not a finite number of {}", F::NAME);
-                Failure::usage(message)
-            })?;
-            let gates = row.entry.info.gates;
-            match chosen.iter().find(|gate| e < floor::<F>(&gates[**gate])) {
-                Some(gate) => Err(Failure::usage(format!(
-                    "--at: gate '{}' refuses where {}: below 0 that is the same as 0, so {text} means nothing",
-                    gates[*gate].name, gates[*gate].refuses
-                ))),
-                None => Ok(e),
-            }
-        });
-        let at = at.collect::<Result<_, _>>()?;
-        let name = row.entry.info.name;
-        let subject = F::subject(row.entry)
-            .ok_or_else(|| Failure::usage(format!("{name} does not run in {}", F::NAME)))?;
-        Ok(StudyPlan { row, subject, at, gates: chosen, exact: self.exact })
     }
 }
 

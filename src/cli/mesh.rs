@@ -66,7 +66,8 @@ pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let mut plan = arguments.plan()?;
     let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
     let threads = set_threads(arguments.threads)?;
-    let family = MeshFamily::new(read_mesh(&arguments.file, arguments.output.quiet)?, &arguments.file);
+    let family =
+        MeshFamily::new(read_mesh(&arguments.file, arguments.output.quiet)?, &arguments.file);
     if outputs.iter().any(|(format, _)| format.name == HTML) {
         plan.places = places(family.mesh());
     }

@@ -75,7 +75,12 @@ impl OutputArguments {
         self.write_all(pairs, record, self.details)
     }
 
-    pub fn write_all<R>(&self, pairs: Vec<(&Format<R>, &str)>, record: &R, details: bool) -> Result<(), Failure> {
+    pub fn write_all<R>(
+        &self,
+        pairs: Vec<(&Format<R>, &str)>,
+        record: &R,
+        details: bool,
+    ) -> Result<(), Failure> {
         let OutputArguments { color, .. } = *self;
         write_results(pairs, |format, path, out| {
             let style = Style { color: color.enabled(path == "-"), details, width: width(path) };

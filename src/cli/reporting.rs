@@ -10,7 +10,6 @@ use super::prove;
 use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Plan, Shard, Source};
-use crate::engine::Unobserved;
 use crate::report::{
     Context, FORMATS, Format, HTML, Illustrations, PartialPart, PlanFlags, Record, build,
     group_digits, illustrations, number_of, shard_part,
@@ -179,7 +178,7 @@ impl RunArguments {
             Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
         if illustrate {
             let progress = Progress::without_end(self.report.output.quiet);
-            progress.tell("epsilons and maps for the pictures".to_owned());
+            progress.tell("maps for the pictures".to_owned());
             record.illustrations = Some(illustrated(plan));
             progress.finish();
         }
@@ -190,7 +189,7 @@ impl RunArguments {
 /// The data for the pictures of a plan's report, and the proofs about its kernels.
 pub fn illustrated(plan: &Plan) -> Illustrations {
     let proofs = prove::proofs(&plan.rows, plan.scalars);
-    Illustrations { proofs, ..illustrations(plan, &Unobserved) }
+    Illustrations { proofs, ..illustrations(plan) }
 }
 
 /// A family that breaks its own promise is a fault of this tool.

@@ -6,7 +6,7 @@ use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
 use crate::audit::{EpsilonChoice, Row, shell_word};
 use crate::contract::Band;
-use crate::epsilon::scene::LEAST_T;
+use crate::epsilon::LEAST_T;
 use crate::kernel::{self, Entry};
 use clap::Args;
 use serde::{Deserialize, Serialize};

@@ -8,7 +8,7 @@ use crate::arith::Float;
 use crate::audit::{CorpusSet, Source, shell_word};
 use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
 use crate::corpus::InputError;
-use crate::epsilon::scene::StudiedScene;
+use crate::epsilon::StudiedRays;
 use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum};
 use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
@@ -89,24 +89,33 @@ impl SourceArguments {
     /// The flags again, as a shell takes them.
     pub fn flags(&self) -> String {
         let mut flags = Vec::new();
-        let mut add = |name: &str, value: &str| {
-            flags.push(format!("{name} {}", shell_word(value)));
-        };
+        let mut add = |name: &str, value: &str| flags.push(format!("{name} {value}"));
         if self.scalar != ["f32", "f64"] {
             add("--scalar", &self.scalar.join(","));
         }
-        if !self.family.is_empty() {
-            add("--family", &self.family.join(","));
-        }
-        self.scene.iter().for_each(|scene| add("--scene", scene));
-        self.mesh.iter().for_each(|path| add("--mesh", path));
-        self.corpus.iter().for_each(|path| add("--corpus", path));
         if self.count != COUNT {
             add("-n", &self.count.to_string());
         }
         if self.seed != SEED {
             add("--seed", &self.seed.to_string());
         }
+        flags.insert(usize::from(self.scalar != ["f32", "f64"]), self.case_flags());
+        flags.retain(|flag| !flag.is_empty());
+        flags.join(" ")
+    }
+
+    /// Those of them that say which cases, but for how many of them, of which seed and scalar.
+    fn case_flags(&self) -> String {
+        let mut flags = Vec::new();
+        let mut add = |name: &str, value: &str| {
+            flags.push(format!("{name} {}", shell_word(value)));
+        };
+        if !self.family.is_empty() {
+            add("--family", &self.family.join(","));
+        }
+        self.scene.iter().for_each(|scene| add("--scene", scene));
+        self.mesh.iter().for_each(|path| add("--mesh", path));
+        self.corpus.iter().for_each(|path| add("--corpus", path));
         if self.scale != "1" {
             add("--scale", &self.scale);
         }
@@ -126,12 +135,22 @@ impl SourceArguments {
         flags.join(" ")
     }
 
-    /// The scene to study, which both scalars of the run can hold: that of the mesh if one is named.
-    pub fn studied_scene(&self, quiet: bool) -> Result<StudiedScene, Failure> {
+    /// The rays to study: those of a scene, which both scalars of the run can hold, or of the scene that a mesh is; or
+    /// the families and stored cases that are named.
+    pub fn studied_rays(&self, quiet: bool) -> Result<StudiedRays, Failure> {
+        let is_stratum = |name: &String| Stratum::named(name).is_some();
+        let strata: Vec<String> =
+            self.family.iter().filter(|name| is_stratum(name)).cloned().collect();
+        let mut studied = StudiedRays { strata, ..StudiedRays::default() };
+        let other = studied.strata.len() < self.family.len() || !self.corpus.is_empty();
+        if other || self.names_changes() {
+            (studied.sources, studied.flags) = (self.sources(quiet, |_| true)?, self.case_flags());
+            return Ok(studied);
+        }
         if !self.mesh.is_empty() {
             let (scene, mesh) = self.mesh_scene(quiet)?;
             self.note_missed_angles(&scene, Some(&mesh), quiet)?;
-            return Ok(StudiedScene { scene, unit: "", mesh: Some(mesh), others: Vec::new() });
+            return Ok(StudiedRays { scene: Some(scene), mesh: Some(mesh), ..studied });
         }
         let (scene, unit) = self.scene()?.unwrap_or_default();
         if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
@@ -139,7 +158,13 @@ impl SourceArguments {
         }
         self.note_missed_angles(&scene, None, quiet)?;
         let others = if self.names_kind() { Vec::new() } else { scene.of_all_kinds().split_off(1) };
-        Ok(StudiedScene { scene, unit, mesh: None, others })
+        Ok(StudiedRays { scene: Some(scene), unit, others, ..studied })
+    }
+
+    /// True if cases are changed.
+    fn names_changes(&self) -> bool {
+        let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
+        sized || self.exhaustive || self.direction.is_some()
     }
 
     /// True if a scene or a mesh is named.
@@ -181,26 +206,9 @@ impl SourceArguments {
         Ok((scene, Arc::new(mesh)))
     }
 
-    /// True if all of a finite family is asked for.
-    pub fn is_exhaustive(&self) -> bool {
-        self.exhaustive
-    }
-
     /// The seed, and how many cases of each family.
     pub fn seed_and_count(&self) -> (u64, u64) {
         (self.seed, self.count)
-    }
-
-    /// True if cases are named that do not belong to a scene, or changes to cases.
-    pub fn names_other_cases(&self) -> bool {
-        let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
-        let other = !self.corpus.is_empty() || self.exhaustive || self.direction.is_some();
-        sized || other || self.names_families()
-    }
-
-    /// True if families are named.
-    pub fn names_families(&self) -> bool {
-        !self.family.is_empty()
     }
 
     /// True for each scalar of the run: `f32`, `f64`.

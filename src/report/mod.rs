@@ -23,14 +23,12 @@ mod illustration;
 mod json;
 #[cfg(feature = "studies")]
 pub mod mesh;
+#[cfg(feature = "studies")]
+pub(crate) mod page;
 mod rate;
 mod record;
 #[cfg(feature = "studies")]
-pub mod scene;
-#[cfg(feature = "studies")]
 mod shard;
-#[cfg(feature = "studies")]
-pub(crate) mod page;
 
 #[cfg(feature = "studies")]
 pub use answered::{AnsweredTest, Asked, Product, answered};
@@ -42,7 +40,7 @@ pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 pub use formats::{FORMATS, Format, HTML, MARKDOWN_LIMIT, Style, markdown_within};
 #[cfg(feature = "cli")]
 pub use illustrate::illustrations;
-pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate, ResponsePart};
+pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate};
 #[cfg(feature = "cli")]
 pub use json::JSON_SCHEMA;
 #[cfg(feature = "studies")]

@@ -2,7 +2,7 @@
 
 use crate::json_schema;
 use crate::program::{ends, scratch};
-use hairline::internals::report::scene::SceneRecord;
+use hairline::internals::report::epsilon::SceneRecord;
 
 #[test]
 fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
@@ -234,7 +234,7 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     };
     let error = |record: &SceneRecord, value: &str| {
         let part = &record.kernels[0];
-        let is_grazing = |count: usize| part.counts[count].stratum.name() == "scene-grazing";
+        let is_grazing = |count: usize| part.counts[count].rays.name() == "scene-grazing";
         let errors = part.tried[0].errors.iter().find(|e| is_grazing(e.count) && e.value == value);
         errors.unwrap().clone()
     };

@@ -3,7 +3,7 @@
 
 use crate::json_schema;
 use crate::program::{ends, scratch};
-use hairline::internals::report::scene::{CurvePart, SceneRecord};
+use hairline::internals::report::epsilon::{CurvePart, SceneRecord};
 use std::fs;
 use std::path::Path;
 
@@ -29,7 +29,7 @@ fn a_scene_says_how_flat_its_rays_are() {
         let part = &record.kernels[0];
         let is_lost = |i: &usize| {
             let count = &part.counts[*i];
-            count.stratum.name() == "scene-grazing" && count.kind.name() == "miss"
+            count.rays.name() == "scene-grazing" && count.kind.name() == "miss"
         };
         let place = (0..part.counts.len()).find(is_lost).unwrap();
         let published = part.tried.iter().find(|tried| tried.name == "source").unwrap();
@@ -55,7 +55,7 @@ fn rays_aimed_inside_show_the_false_hits_of_rounding_alone() {
     let record = record(&folder, "moller-trumbore", scene, &more);
     let part = &record.kernels[0];
     let is_false_hit = |i: &usize| {
-        part.counts[*i].stratum.name() == "scene-grazing" && part.counts[*i].kind.name() == "hit"
+        part.counts[*i].rays.name() == "scene-grazing" && part.counts[*i].kind.name() == "hit"
     };
     let place = (0..part.counts.len()).find(is_false_hit).unwrap();
     let share = |name: &str| {

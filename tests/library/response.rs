@@ -1,8 +1,10 @@
-//! A response says at every epsilon what the audit finds when it runs the kernel at that epsilon.
+//! What a study of epsilons counts by margins is what the audit finds when it runs the kernel at those epsilons.
 
-use hairline::internals::audit::{self, EpsilonChoice, EpsilonText, Observer, Plan, Row, Source};
+use hairline::internals::audit::{
+    self, EpsilonChoice, EpsilonText, Observer, Plan, Row, Source, Tally,
+};
 use hairline::internals::case::{Draw, Parameters};
-use hairline::internals::epsilon::{Axis, Question, Request, Response, run, tunable_gates};
+use hairline::internals::epsilon::{Attempt, Count, Kind, Knob, Setting, count_at, counts_of};
 use hairline::internals::family::find;
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::{KERNELS, Scalar, Tunable};
@@ -31,15 +33,14 @@ const FAMILIES: [&str; 12] = [
     "fan",
 ];
 
-fn sources(count: u64) -> Vec<Source> {
-    let source = |name: &&str| Source::Family {
+fn source(name: &str, count: u64) -> Source {
+    Source::Family {
         family: find(name).expect("a family"),
         parameters: Parameters::default(),
         seed: 1,
         count,
         exhaustive: false,
-    };
-    FAMILIES.iter().map(source).collect()
+    }
 }
 
 fn base_rows() -> Vec<Row> {
@@ -49,100 +50,101 @@ fn base_rows() -> Vec<Row> {
     rows
 }
 
-/// Epsilons where a count changes, their neighbours, edges, and ordinary ones.
-fn epsilons<F: Scalar>(draw: &mut Draw, axis: &Axis<F>, response: &Response<F>) -> Vec<F> {
-    let steps: Vec<F> = response.curves.iter().flat_map(|curve| curve.steps()).collect();
-    let mut chosen = vec![F::zero(), F::from_f64(1e-6)];
-    for _ in 0..6 {
-        if let Some(near) = (!steps.is_empty()).then(|| draw.pick(&steps)) {
-            chosen.push(near.offset_ulps(draw.integer(-1, 1)));
-        }
-        chosen.push(draw.pick(axis.edges()));
-    }
-    chosen.retain(|e| e.is_finite());
-    chosen
+/// The knobs of a row that are gates: only those does an audit run.
+fn gates(row: &Row) -> Vec<Knob> {
+    let gates = row.entry.info.gates.iter().enumerate();
+    let tunable = gates.filter(|(_, gate)| gate.epsilon != Tunable::Fixed);
+    tunable.map(|(place, _)| Knob::Gate(place)).collect()
 }
 
-/// What the audit counts on one source, by [`Question::ALL`]; a group question only where groups are.
-fn audited<F: Scalar>(row: &Row, source: Source, gate: usize, epsilon: F) -> [u64; 5] {
+fn setting<'a, F: Scalar>(
+    row: &'a Row,
+    knobs: &'a [Knob],
+    counts: &'a [Count],
+    sources: &'a [Source],
+) -> Setting<'a, F> {
+    let subject = F::subject(row.entry).unwrap();
+    let (scene, mesh, store) = (None, None, None);
+    let (relative, fine_curves) = (false, false);
+    Setting { row, subject, knobs, counts, scene, sources, mesh, relative, fine_curves, store }
+}
+
+/// What the audit counts on one source.
+fn audited<F: Scalar>(row: &Row, source: &Source, knobs: &[Knob], epsilons: &[F]) -> Tally {
     let mut row = row.clone();
-    row.epsilons[gate] = EpsilonText::Decimal(format!("{epsilon:e}"));
-    assert!(row.epsilons::<F>()[gate] == epsilon, "the text is the number");
+    for (knob, epsilon) in knobs.iter().zip(epsilons) {
+        let Knob::Gate(gate) = *knob else { unreachable!("gates only") };
+        row.epsilons[gate] = EpsilonText::Decimal(format!("{epsilon:e}"));
+        assert!(row.epsilons::<F>()[gate] == *epsilon, "the text is the number");
+    }
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
-    let plan = Plan { rows: vec![row], sources: vec![source], scalars, examples: 0, attribute: 0 };
-    let tally = &audit::run(&plan, &Silent).cells[0].tally;
-    let total = tally.total();
-    [
-        total.of(Finding::FalseMiss),
-        total.of(Finding::FalseHit),
-        tally.groups.cracks,
-        tally.groups.doubles,
-        tally.self_hits.hits,
-    ]
+    let plan =
+        Plan { rows: vec![row], sources: vec![source.clone()], scalars, examples: 0, attribute: 0 };
+    audit::run(&plan, &Silent).cells.remove(0).tally
 }
 
-fn responses_agree_with_running<F: Scalar>(exact: bool) {
-    let mut draw = Draw::new("response", 1, u64::from(exact));
-    let count = 60;
-    let axis = Axis::<F>::new(&[F::from_f64(1e-6)]);
+fn counts_agree_with_running<F: Scalar>() {
+    let mut draw = Draw::new("response", 1, 0);
+    let mut compared = 0;
     for row in base_rows() {
-        let gates = tunable_gates(row.entry.info.gates);
-        let subject = F::subject(row.entry).unwrap();
-        let request = Request { row: &row, subject, gates: &gates, axis: &axis, exact };
-        let responses = run(&request, &sources(count), &Silent);
-        for (number, source) in responses.iter().enumerate() {
-            for response in &source.gates {
-                for epsilon in epsilons(&mut draw, &axis, response) {
-                    let below_zero = epsilon < F::zero();
-                    let gate = &row.entry.info.gates[response.gate];
-                    if below_zero && gate.epsilon == Tunable::NonNegative {
-                        continue;
-                    }
-                    let source = sources(count).swap_remove(number);
-                    let told = format!(
-                        "{} {} {} e = {epsilon:e} on {}",
-                        row.entry.info.name,
-                        F::NAME,
-                        gate.name,
-                        source.name()
-                    );
-                    let counts = audited(&row, source, response.gate, epsilon);
-                    for (question, count) in Question::ALL.into_iter().zip(counts) {
-                        let wrong = response.curve(question).wrong(epsilon);
-                        assert!(wrong.low <= count && count <= wrong.high, "{told}: {question:?}");
-                        if exact || axis.edges().contains(&epsilon) {
-                            assert_eq!(wrong.exact(), Some(count), "{told}: {question:?}");
-                        }
-                    }
+        let knobs = gates(&row);
+        if knobs.is_empty() {
+            continue;
+        }
+        for name in FAMILIES {
+            let sources = [source(name, 60)];
+            let counts = counts_of(&sources, &knobs, &row);
+            let setting = setting::<F>(&row, &knobs, &counts, &sources);
+            for _ in 0..8 {
+                let epsilon = |knob: &Knob| {
+                    let size = F::from_f64(10f64.powi(draw.integer(-16, 1) as i32));
+                    let signed = knob.takes_negative(row.entry.info.gates);
+                    [size, F::zero(), if signed { -size } else { size }][draw.below(3) as usize]
+                };
+                let epsilons: Vec<F> = knobs.iter().map(epsilon).collect();
+                let attempt = [Attempt::new(epsilons.clone())];
+                let found = count_at(&setting, &attempt, 1, 60, &Silent).remove(0);
+                let tally = audited(&row, &sources[0], &knobs, &epsilons);
+                let total = tally.total();
+                for (count, found) in counts.iter().zip(found) {
+                    let run = match count.kind {
+                        Kind::Miss => total.of(Finding::FalseMiss),
+                        Kind::Hit => total.of(Finding::FalseHit),
+                        Kind::Crack => tally.groups.cracks,
+                        Kind::SelfHit => tally.self_hits.hits,
+                    };
+                    let kernel = row.entry.info.name;
+                    let told = format!("{kernel} {} at {epsilons:?} on {name}", F::NAME);
+                    assert_eq!(found.count, run, "{told}: {:?}", count.kind);
+                    compared += run;
                 }
             }
         }
     }
+    assert!(10_000 < compared, "{compared}");
 }
 
 #[test]
-fn responses_agree_with_running_in_f32() {
-    responses_agree_with_running::<f32>(false);
-    responses_agree_with_running::<f32>(true);
+fn counts_by_margins_agree_with_running_in_f32() {
+    counts_agree_with_running::<f32>();
 }
 
 #[test]
-fn responses_agree_with_running_in_f64() {
-    responses_agree_with_running::<f64>(false);
-    responses_agree_with_running::<f64>(true);
+fn counts_by_margins_agree_with_running_in_f64() {
+    counts_agree_with_running::<f64>();
 }
 
 #[test]
-fn a_response_does_not_depend_on_the_number_of_threads() {
+fn counts_do_not_depend_on_the_number_of_threads() {
     let row = &base_rows()[0];
-    let gates = tunable_gates(row.entry.info.gates);
-    let axis = Axis::<f32>::new(&[]);
-    let subject = f32::subject(row.entry).unwrap();
-    let request = Request { row, subject, gates: &gates, axis: &axis, exact: false };
+    let knobs = gates(row);
+    let sources = FAMILIES.map(|name| source(name, 5000));
+    let counts = counts_of(&sources, &knobs, row);
+    let setting = setting::<f32>(row, &knobs, &counts, &sources);
+    let attempt = [Attempt::new(vec![1e-6; knobs.len()])];
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        let responses = pool.install(|| run(&request, &sources(5000), &Silent));
-        responses.into_iter().map(|source| source.gates).collect::<Vec<_>>()
+        pool.install(|| count_at(&setting, &attempt, 1, 5000, &Silent))
     };
     let one = with(1);
     assert_eq!(one, with(2));

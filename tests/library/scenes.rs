@@ -5,9 +5,9 @@ use hairline::internals::arith::Float;
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Parameters, SCENES, Scene};
 use hairline::internals::corpus::mesh::read_obj;
-use hairline::internals::epsilon::scene::{
-    Attempt, Costs, Count, Kind, Knob, Limit, MaxError, Proved, Setting, cheapest, contract_with,
-    count_at, counts, limits, proved,
+use hairline::internals::epsilon::{
+    Attempt, Costs, Count, Kind, Knob, Limit, MaxError, Proved, Rays, Setting, cheapest,
+    contract_with, count_at, counts, limits, proved,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
 use hairline::internals::judge::{GroupTruth, Obligation, asked, group_obligation};
@@ -147,7 +147,8 @@ fn setting<'a>(
         subject,
         knobs,
         counts,
-        scene,
+        scene: Some(scene),
+        sources: &[],
         mesh: None,
         relative: false,
         fine_curves: false,
@@ -165,9 +166,10 @@ struct Counted {
 fn all_counted(setting: &Setting<'_, f32>, seed: u64, number: u64) -> Vec<Counted> {
     let contract = &setting.row.contract;
     let mut all = Vec::new();
-    for (count, Count { stratum, kind }) in setting.counts.iter().enumerate() {
+    for (count, Count { rays, kind }) in setting.counts.iter().enumerate() {
+        let Rays::Stratum(stratum) = *rays else { panic!("{rays:?} in a scene") };
         let family = stratum.family();
-        let source = setting.source(*stratum, seed, number);
+        let source = setting.source(stratum, seed, number);
         for index in 0..source.count::<f32>() {
             let made = source.make::<f32>(index);
             let cases = made.cases().to_vec();
@@ -321,7 +323,8 @@ fn errors_above_the_limit_are_no_more_frequent_than_stated() {
     let kernel = "moller-trumbore";
     let (row, _, _) = tuned(kernel);
     let knobs = [Knob::Gate(0)];
-    let counts = [Kind::Miss, Kind::Hit].map(|kind| Count { stratum: Stratum::Grazing, kind });
+    let counts =
+        [Kind::Miss, Kind::Hit].map(|kind| Count { rays: Rays::Stratum(Stratum::Grazing), kind });
     let setting = setting(&row, &knobs, &counts, &scene);
     let most = 0.02;
     let max_error = MaxError::parse(&format!("t={most}")).unwrap();

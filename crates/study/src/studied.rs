@@ -1,20 +1,13 @@
 //! The longest runs, compiled in this crate for both scalars. A crate that called them by a type parameter would compile
 //! them once more, with its own optimisation.
 
-use crate::epsilon::scene::{Costs, MaxError, SceneStudy, Setting, study_scene, try_elsewhere};
-use crate::epsilon::{Study, StudyPlan, study};
+use crate::epsilon::{Costs, MaxError, SceneStudy, Setting, study_scene, try_elsewhere};
 use crate::explore::worst::{Entry, Goal, find_worst};
 use crate::spawn;
-use crate::{audit::Source, case::Scene, engine::Observer, kernel::Scalar};
+use crate::{case::Scene, engine::Observer, kernel::Scalar};
 
 /// A scalar in which everything is studied.
 pub trait Studied: Scalar {
-    /// [`study`].
-    fn study(
-        plan: &StudyPlan<'_, Self>,
-        sources: &[Source],
-        observer: &dyn Observer,
-    ) -> Result<Study<Self>, String>;
     /// [`study_scene`].
     fn study_scene(
         setting: &Setting<'_, Self>,
@@ -43,14 +36,6 @@ pub trait Studied: Scalar {
 macro_rules! studied {
     ($scalar:ty) => {
         impl Studied for $scalar {
-            fn study(
-                plan: &StudyPlan<'_, Self>,
-                sources: &[Source],
-                observer: &dyn Observer,
-            ) -> Result<Study<Self>, String> {
-                study(plan, sources, observer)
-            }
-
             fn study_scene(
                 setting: &Setting<'_, Self>,
                 costs: &Costs,

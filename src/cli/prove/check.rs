@@ -19,9 +19,7 @@ pub fn check(arguments: &ProveArguments) -> Result<Status, Failure> {
     let files = arguments.check.par_iter().with_max_len(1);
     let lines: Vec<String> = files.map(|file| checked(file)).collect::<Result<_, _>>()?;
     let path = arguments.output.output.first().map_or("-", String::as_str);
-    write_result(path, |out| {
-        lines.iter().try_for_each(|line| writeln!(out, "{line}"))
-    })?;
+    write_result(path, |out| lines.iter().try_for_each(|line| writeln!(out, "{line}")))?;
     Ok(Status::Success)
 }
 

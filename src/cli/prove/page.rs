@@ -20,7 +20,8 @@ fn of_all(report: &Report) -> Page {
         if gates.is_empty() {
             continue;
         }
-        let mut heads = vec![Head::of(format!("{scalar}, u = {}", unit(scalar))), Head::text("gate")];
+        let mut heads =
+            vec![Head::of(format!("{scalar}, u = {}", unit(scalar))), Head::text("gate")];
         heads.extend(numbers());
         heads.push(Head::text("supposes a bound of").optional());
         let row = |gate: &&GatePart| {
@@ -37,9 +38,8 @@ fn of_all(report: &Report) -> Page {
     if !watertight.is_empty() {
         let names = watertight.join(", ");
         blocks.push(Block::Text(String::new()));
-        blocks.push(Block::Text(format!(
-            "Watertight at edges, at an epsilon of 0, proved: {names}"
-        )));
+        blocks
+            .push(Block::Text(format!("Watertight at edges, at an epsilon of 0, proved: {names}")));
     }
     let line = "hairline prove --kernel NAME".to_owned();
     blocks.push(Block::Commands("next", vec![Command { line, what: "what follows for epsilons" }]));
@@ -78,7 +78,10 @@ fn of_one(report: &Report) -> Page {
         "next",
         vec![
             Command { line, what: "which epsilons to use" },
-            Command { line: "the same with --details".to_owned(), what: "everything that is proved" },
+            Command {
+                line: "the same with --details".to_owned(),
+                what: "everything that is proved",
+            },
         ],
     ));
     let title = format!("{name}: what holds for every float");

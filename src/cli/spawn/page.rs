@@ -121,9 +121,11 @@ fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
     let is_published = |scheme: &&SchemePart| scheme.name != "none" && !scheme.name.contains('=');
     let failed = |scheme: &SchemePart| scheme.wrong.count.max(scheme.self_hits.count);
     let height = |scheme: &SchemePart| scheme.height_in_edges.median.unwrap_or(f64::INFINITY);
-    let published = part.schemes.iter().filter(is_published).min_by(|a, b| {
-        failed(a).cmp(&failed(b)).then(height(a).total_cmp(&height(b)))
-    });
+    let published = part
+        .schemes
+        .iter()
+        .filter(is_published)
+        .min_by(|a, b| failed(a).cmp(&failed(b)).then(height(a).total_cmp(&height(b))));
     let none = part.schemes.iter().find(|scheme| scheme.name == "none");
     let mut rows: Vec<&SchemePart> = part.schemes.iter().filter(is_best).collect();
     rows.extend(none.into_iter().chain(published.filter(|scheme| !is_best(scheme))));
@@ -173,8 +175,9 @@ fn table(record: &SpawnRecord, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
         (Head::of("height: median"), Box::new(|scheme| height(scheme.height_in_edges.median))),
     ];
     if is_whole {
-        let interval =
-            |scheme: &SchemePart| interval_of(&scheme.wrong).trim_matches([' ', '(', ')']).to_owned();
+        let interval = |scheme: &SchemePart| {
+            interval_of(&scheme.wrong).trim_matches([' ', '(', ')']).to_owned()
+        };
         columns[0] = (Head::of("wrong side [95 %]"), Box::new(interval));
         let mut more = |head: &str, shown: Shown| columns.push((Head::of(head).optional(), shown));
         more("99 %", Box::new(|scheme| height(scheme.height_in_edges.p99)));

@@ -1,98 +1,328 @@
-//! A study's curves as SVG: the epsilon on a logarithmic axis with zero in its middle, shares of wrong answers on a
-//! logarithmic one.
+//! Plots of each value of a number while the others stay: wrong answers over the value, what was tried as
+//! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
-use super::record::{EpsilonRecord, GatePart};
+use super::answer::{Answer, LimitRow, RECOMMENDED, answer, column};
+use super::record::*;
+use super::words::{human, label, unit_of};
 use crate::audit::Trials;
-use crate::epsilon::LEAST_SUM;
-use crate::plot::{Decades, decades_around};
+use crate::plot::{Decades, decades_around, group_digits};
 use crate::report::Style;
-use crate::report::chart::{Chart, Frame, Mark, file, text_at};
+use crate::report::chart::{Chart, Frame, LINE, Mark, file, text_at, wrapped};
+use crate::report::page::Picture;
+use crate::report::rate::percent;
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
-const FRAME: Frame =
-    Frame { width: 940.0, left: 76.0, right: 24.0, above: 62.0, plot: 240.0, zero: 36.0 };
-
-/// The lines that are drawn: the question's place, its name and its class.
-const LINES: [(usize, &str, &str); 3] = [
-    (0, "false misses", "miss"),
-    (5, "false hits that this gate is there to refuse", "hit"),
-    (2, "cracks", "crack"),
-];
-
-/// Changes of a share below this do not make the axis longer.
-const NEGLIGIBLE: f64 = 2e-3;
-
+/// Changes of a share below this are not drawn.
+const NEGLIGIBLE: f64 = 2e-4;
 /// The most decades of shares that fit.
-const MOST_DECADES: i32 = 8;
+const MOST_DECADES: i32 = 5;
 
-/// Writes one panel a gate, one below the other.
-pub fn write(record: &EpsilonRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
+/// The width of a panel, and of a file.
+const WIDTH: f64 = 460.0;
+const FRAME: Frame =
+    Frame { width: WIDTH, left: 62.0, right: 14.0, above: 56.0, plot: 210.0, zero: 24.0 };
+
+/// Writes the recommendation and the panels of each kernel, one below the other.
+pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<()> {
     let (mut drawing, mut y) = (String::new(), 0.0);
-    for part in &record.result.gates {
-        let chart = panel(part);
-        drawing += &format!("<g transform=\"translate(0 {y})\">{}</g>\n", chart.drawing);
-        y += chart.height + 14.0;
+    for part in &record.kernels {
+        let answer = answer(record, part);
+        let mut heading = vec![(answer.title.clone(), "this"), (answer.scene.clone(), "soft")];
+        for used in &answer.used {
+            let parts = used.text.split("  and  ").enumerate();
+            let words = [used.lead.as_str(), "and"];
+            heading.extend(parts.map(|(k, part)| (format!("{} {part}", words[k.min(1)]), "")));
+        }
+        y += 8.0;
+        for (text, class) in heading {
+            y += LINE;
+            drawing += &text_at(12.0, y, class, &text);
+        }
+        for panel in panels(record, part, &answer) {
+            let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{}</g>", panel.drawing);
+            y += panel.size[1];
+        }
+        for text in footer(record, part).iter().flat_map(|text| wrapped(text, WIDTH)) {
+            y += LINE;
+            drawing += &text_at(12.0, y, "soft", &text);
+        }
+        y += LINE;
     }
-    let title = "Shares of wrong answers by epsilon";
-    out.write_all(file(title, FRAME.width, y, &drawing).as_bytes())
+    out.write_all(file("Wrong answers by epsilon in a scene", WIDTH, y, &drawing).as_bytes())
 }
 
-/// The decades of one sign in which the drawn shares change, and those of the marks.
-fn span(part: &GatePart, points: &[(f64, [u64; 6])], sign: f64) -> Option<Decades> {
-    let asked = part.curves[0].asked;
-    let mut side: Vec<(f64, [u64; 6])> =
-        points.iter().filter(|(e, _)| e * sign > 0.0).copied().collect();
-    side.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    let (first, last) = (side.first()?.1, side.last()?.1);
-    let moved = |a: &[u64; 6], b: &[u64; 6]| {
-        LINES.iter().any(|(k, ..)| a[*k].abs_diff(b[*k]) as f64 > NEGLIGIBLE * asked[*k] as f64)
-    };
-    let low = side.iter().find(|(_, counts)| moved(counts, &first)).map(|(e, _)| *e);
-    let high = side.iter().rev().find(|(_, counts)| moved(counts, &last)).map(|(e, _)| *e);
-    // The least sum lies where shares change, or where it makes no difference.
-    let marks = part.marks.iter().filter(|mark| mark.name != LEAST_SUM);
-    let marks = marks.filter_map(|mark| mark.epsilon.parse::<f64>().ok());
-    decades_around(low.into_iter().chain(high).chain(marks.filter(|e| e * sign > 0.0)))
+/// The footer: the rays and the contract behind the shares.
+pub(super) fn footer(record: &SceneRecord, part: &SceneKernelPart) -> [String; 2] {
+    [
+        format!(
+            "{} indices of each kind of ray, seed {}",
+            group_digits(record.count),
+            record.fresh_seed
+        ),
+        format!("contract: {}", part.contract),
+    ]
 }
 
-/// One gate's plot.
-fn panel(part: &GatePart) -> Chart {
-    let GatePart { kernel, scalar, gate, refuses, .. } = part;
-    let all = &part.curves[0];
-    let points = all.points.iter();
-    let points: Vec<(f64, [u64; 6])> =
-        points.filter_map(|(epsilon, counts)| Some((epsilon.parse().ok()?, *counts))).collect();
-    let asked = all.asked.iter().max().copied().unwrap_or(1);
-    let decades = [-1.0, 1.0].map(|sign| span(part, &points, sign));
-    let mut chart = Chart::new(FRAME, decades, (asked, MOST_DECADES), &marks(part));
-    chart.drawing += &text_at(12.0, 20.0, "this", &format!("{kernel} {scalar}, gate {gate}"));
-    chart.drawing += &text_at(12.0, 38.0, "soft", &format!("refuses where {refuses}"));
-    let mut legend = Vec::new();
-    for (question, name, class) in LINES.into_iter().filter(|line| 0 < all.asked[line.0]) {
-        let (of, of_squared) = (all.asked[question], all.asked_squared[question]);
-        let point = |(epsilon, counts): &(f64, [u64; 6])| {
-            let trials = Trials::alike_on_each_ray(counts[question], of, of_squared);
-            let interval = all.sample.then(|| trials.interval());
-            let interval = interval.map(|interval| [interval.low, interval.high]);
-            (*epsilon, counts[question] as f64 / of as f64, interval)
+/// One panel a number.
+pub(super) fn panels(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    answer: &Answer,
+) -> Vec<Picture> {
+    (0..part.curves.len()).map(|knob| Draft::new(record, part, answer, knob).panel()).collect()
+}
+
+/// A count as a line: the wrong answers at each value that this number is to blame for.
+struct Line<'a> {
+    count: &'a Count,
+    of: u64,
+    /// Hits that other numbers refuse, whatever this one is.
+    by_others: u64,
+    wrong: Vec<u64>,
+}
+
+impl Line<'_> {
+    fn class(&self) -> String {
+        class_of(self.count)
+    }
+}
+
+/// `grazing hit`.
+fn class_of(count: &Count) -> String {
+    format!("{} {}", color_of(count), count.kind)
+}
+
+/// The class of a stratum's colour; other rays have that of the kind of error.
+fn color_of(count: &Count) -> &'static str {
+    match (count.rays, count.kind) {
+        (Rays::Stratum(stratum), _) => stratum.name().trim_start_matches("scene-"),
+        (_, Kind::Miss) => "interior",
+        (_, Kind::Hit) => "grazing",
+        (_, Kind::Crack) => "edges",
+        (_, Kind::SelfHit) => "shadow",
+    }
+}
+
+/// The data of a panel.
+struct Draft<'a> {
+    record: &'a SceneRecord,
+    part: &'a SceneKernelPart,
+    answer: &'a Answer,
+    place: usize,
+    knob: &'a KnobPart,
+    values: Vec<f64>,
+    lines: Vec<Line<'a>>,
+    /// The values that were tried, with their names, in order.
+    tried: Vec<(f64, String)>,
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap_or(0.0)
+}
+
+impl<'a> Draft<'a> {
+    fn new(
+        record: &'a SceneRecord,
+        part: &'a SceneKernelPart,
+        answer: &'a Answer,
+        place: usize,
+    ) -> Draft<'a> {
+        let curve = &part.curves[place];
+        let lines = part.counts.iter().zip(&curve.counts).map(|(count, points)| {
+            let is_lost = matches!(count.kind, Kind::Crack | Kind::Miss);
+            let left = points.of - points.refused_by_others;
+            let wrong = points.hits.iter().map(|hits| if is_lost { left - hits } else { *hits });
+            let by_others = if is_lost { points.refused_by_others } else { 0 };
+            Line { count, of: points.of, by_others, wrong: wrong.collect() }
+        });
+        let moves = |line: &Line<'_>| {
+            let (least, most) = (line.wrong.iter().min(), line.wrong.iter().max());
+            let span = most.unwrap_or(&0) - least.unwrap_or(&0);
+            0 < line.of && NEGLIGIBLE * (line.of as f64) < span as f64
         };
-        chart.line(class, points.iter().map(point));
-        let mark = format!("<path class=\"line {class}\" d=\"M0 0h30\"/>");
-        legend.push((mark, name.to_owned()));
-    }
-    chart.legend(&legend);
-    chart
-}
-
-/// Named epsilons, those with one place together.
-fn marks(part: &GatePart) -> Vec<Mark> {
-    let mut marks: Vec<Mark> = Vec::new();
-    for mark in &part.marks {
-        let Ok(value) = mark.epsilon.parse::<f64>() else { continue };
-        match marks.iter_mut().find(|known| known.value == value) {
-            Some(known) => known.text += &format!(", {}", mark.name),
-            None => marks.push(Mark { value, text: mark.name.clone(), is_this: false }),
+        let mut tried: Vec<(f64, String)> = Vec::new();
+        for one in &part.tried {
+            let (value, name) = (number(&one.epsilons[place]), column(part, &one.name));
+            match tried.iter_mut().find(|(known, _)| *known == value) {
+                Some((_, names)) => {
+                    let _ = write!(names, ", {name}");
+                }
+                None => tried.push((value, name)),
+            }
+        }
+        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Draft {
+            record,
+            part,
+            answer,
+            place,
+            knob: &part.knobs[place],
+            values: curve.values.iter().map(|value| number(value)).collect(),
+            lines: lines.filter(moves).collect(),
+            tried,
         }
     }
-    marks
+
+    /// The limits of this number with their rows; the proved ones come last.
+    fn limits(&self) -> impl Iterator<Item = (&'a LimitRow, Option<f64>, bool, &'a Count, bool)> {
+        let part = self.part;
+        let place = self.place;
+        let seen = part
+            .limits
+            .iter()
+            .map(|limit| (limit.knob, limit.value.as_deref(), limit.is_lower, limit.count, false));
+        let proved = part.proved.iter().map(|proved| {
+            (proved.knob, Some(proved.value.as_str()), proved.is_lower, proved.count, true)
+        });
+        let all = seen.chain(proved).zip(&self.answer.limits);
+        all.filter(move |((knob, ..), _)| *knob == place).map(
+            move |((_, value, is_lower, count, is_proved), row)| {
+                (row, value.map(number), is_lower, &part.counts[count], is_proved)
+            },
+        )
+    }
+
+    /// The decades of one sign: of what was tried, of the limits, and where lines move.
+    fn decades(&self, sign: f64) -> Option<Decades> {
+        let moved = |pair: &[f64], i: usize| {
+            let moves = |line: &Line<'_>| {
+                let change = line.wrong[i].abs_diff(line.wrong[i + 1]) as f64;
+                5.0 * NEGLIGIBLE * (line.of as f64) < change
+            };
+            (pair[0] * sign > 0.0 && self.lines.iter().any(moves)).then_some(pair[0])
+        };
+        let moving = self.values.windows(2).enumerate().filter_map(|(i, pair)| moved(pair, i));
+        let limits = self.limits().filter_map(|(_, value, ..)| value);
+        let special = self.tried.iter().map(|(value, _)| *value).chain(limits);
+        // What is next to zero needs no decades of its own.
+        let least = if self.part.scalar == "f32" { 1e-30 } else { 1e-200 };
+        let all = moving.chain(special).filter(|value| least < value * sign);
+        // Nothing is known beyond the values.
+        let end = self.values.iter().fold(least, |end, value| end.max(value * sign));
+        let end = end.log10().ceil() as i32;
+        decades_around(all).map(|(low, high)| (low, high.min(end).max(low + 1)))
+    }
+
+    /// From where to where every limit is kept; none where they do not meet.
+    fn within(&self) -> Option<[f64; 2]> {
+        let (mut low, mut high, mut any) = (f64::NEG_INFINITY, f64::INFINITY, false);
+        for (_, value, is_lower, _, is_proved) in self.limits() {
+            match (is_proved, value) {
+                (true, _) => {}
+                (false, None) => return None,
+                (false, Some(value)) if is_lower => (low, any) = (low.max(value), true),
+                (false, Some(value)) => (high, any) = (high.min(value), true),
+            }
+        }
+        (any && low <= high).then_some([low, high])
+    }
+
+    fn panel(&self) -> Picture {
+        let unit = unit_of(self.record, self.knob);
+        let name = match self.knob.is_gate {
+            true => format!("{}: epsilon of this gate", self.knob.name),
+            false => format!("{}: least t that counts", self.knob.name),
+        };
+        let title = if unit.is_empty() { name } else { format!("{name} ({})", unit.trim()) };
+        let others = self.part.knobs.iter().zip(&self.part.tried[0].epsilons).enumerate();
+        let others = others.filter(|(place, _)| *place != self.place);
+        let others: Vec<String> = others
+            .map(|(_, (knob, epsilon))| format!("{}={}", knob.name, human(epsilon)))
+            .collect();
+        let marks: Vec<Mark> = self.tried.iter().map(mark).collect();
+        let most = self.lines.iter().map(|line| line.of).max().unwrap_or(1);
+        let decades = [self.decades(-1.0), self.decades(1.0)];
+        let mut chart = Chart::new(FRAME, decades, (most, MOST_DECADES), &marks);
+        chart.drawing += &text_at(12.0, 26.0, "this", &title);
+        if !others.is_empty() {
+            let with = format!("with {}", others.join(", "));
+            chart.drawing += &text_at(12.0, 42.0, "soft", &with);
+        }
+        if let Some(ends) = self.within() {
+            chart.shade(if is_open(ends) { "within open" } else { "within" }, ends);
+        }
+        for line in &self.lines {
+            let point = |(value, wrong): (&f64, &u64)| {
+                let interval = Trials::independent(*wrong, line.of).interval();
+                let share = *wrong as f64 / line.of as f64;
+                (*value, share, Some([interval.low, interval.high]))
+            };
+            chart.line(&line.class(), self.values.iter().zip(&line.wrong).map(point));
+        }
+        for (_, value, is_lower, count, is_proved) in self.limits() {
+            if let Some(value) = value {
+                let at = chart.on_axis(value);
+                chart.drawing += &marker(at, is_lower, count, is_proved);
+            }
+        }
+        let legend = self.legend();
+        chart.legend(&legend);
+        let about = legend.iter().fold(title, |about, (_, text)| format!("{about}; {text}"));
+        Picture { about, drawing: chart.drawing, size: [WIDTH, chart.height] }
+    }
+
+    /// Marks with their texts: the lines, then the limits.
+    fn legend(&self) -> Vec<(String, String)> {
+        let lines = self.lines.iter().map(|line| {
+            let what = label(line.count);
+            let n = group_digits(line.of);
+            let others = match line.by_others as f64 / line.of as f64 {
+                0.0 => String::new(),
+                share => format!(", {} by others", percent(share)),
+            };
+            let mark = format!("<path class=\"line {}\" d=\"M0 0h30\"/>", line.class());
+            (mark, format!("{what} (n = {n}{others})"))
+        });
+        let limits = self.limits().map(|(row, _, is_lower, count, is_proved)| {
+            let mark = marker([15.0, 0.0], is_lower, count, is_proved);
+            let most = if is_proved { "proved".to_owned() } else { row.most.clone() };
+            (mark, format!("{} {}: {most}", row.bound, row.what))
+        });
+        let mut all: Vec<(String, String)> = lines.chain(limits).collect();
+        if let Some(line) = self.lines.last() {
+            let mark = format!("<path class=\"band {}\" d=\"M0 -6h30v12h-30z\"/>", line.class());
+            all.push((mark, "around a line: its 95 % interval (Clopper and Pearson)".to_owned()));
+        }
+        if let Some(ends) = self.within() {
+            let [class, text] = match (is_open(ends), ends[0] == f64::NEG_INFINITY) {
+                (false, _) => ["within", "within every limit, 95 % sure of each"],
+                (true, true) => {
+                    ["within open", "below its limits, 95 % sure of each; none from below"]
+                }
+                (true, false) => {
+                    ["within open", "above its limits, 95 % sure of each; none from above"]
+                }
+            };
+            let mark = format!("<rect class=\"{class}\" y=\"-6\" width=\"30\" height=\"12\"/>");
+            all.push((mark, text.to_owned()));
+        } else if self.limits().any(|(.., is_proved)| !is_proved) {
+            all.push((String::new(), "no value is within every limit".to_owned()));
+        }
+        all
+    }
+}
+
+/// A value that was tried.
+fn mark((value, names): &(f64, String)) -> Mark {
+    let text = if *value == 0.0 { "0".to_owned() } else { human(&format!("{value:e}")) };
+    let is_this = names.split(", ").any(|name| name == RECOMMENDED);
+    Mark { value: *value, text: format!("{names}: {text}"), is_this }
+}
+
+/// True if limits are on one side only.
+fn is_open(ends: [f64; 2]) -> bool {
+    ends.iter().any(|end| end.is_infinite())
+}
+
+/// A triangle on the axis that points to the side that a limit allows.
+fn marker([x, y]: [f64; 2], is_lower: bool, count: &Count, is_proved: bool) -> String {
+    let ahead = if is_lower { 9.0 } else { -9.0 };
+    let class = if is_proved { "limit proved" } else { "limit" };
+    let stratum = color_of(count);
+    format!(
+        "<path class=\"{class} {stratum}\" d=\"M{x:.1} {:.1}l{ahead} 5l{} 5z\"/>\n",
+        y - 5.0,
+        -ahead
+    )
 }

@@ -1,199 +1,303 @@
-//! The versioned record of an epsilon study.
+//! The versioned record of a study of a scene.
 
-use crate::report::record::{PlannedSource, Rate};
+pub(super) use crate::epsilon::{Count, Kind, Rays};
+pub(super) use crate::family::Stratum;
+use crate::report::record::Rate;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The schema's name and version.
-pub const EPSILON_SCHEMA: &str = "hairline-epsilon/1";
+pub const SCENE_SCHEMA: &str = "hairline-scene/1";
 
-/// Everything that a study found.
+/// Everything that a study found; the same bytes whatever the number of threads.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct EpsilonRecord {
-    /// [`EPSILON_SCHEMA`].
+pub struct SceneRecord {
+    /// [`SCENE_SCHEMA`].
     pub schema: String,
-    /// The findings: the same bytes whatever the number of threads.
-    pub result: EpsilonResult,
-    /// Where and how it was made.
-    pub provenance: EpsilonProvenance,
+    /// The scene's words; empty on other sources.
+    pub scene: String,
+    /// The names of the families and corpora that were studied instead of a scene. What is said below of a scene's sizes
+    /// is then said of none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sources: Vec<String>,
+    /// The flags that choose them again.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub flags: String,
+    /// Its unit of length; empty if it has none.
+    pub unit: String,
+    /// The largest coordinate of a ray's start.
+    pub reach: f64,
+    /// The mesh that it is, if it is one.
+    pub mesh: Option<MeshPart>,
+    /// True if directions have unit length, so that t is a length.
+    pub unit_directions: bool,
+    /// The shortest and the longest longest edge of a triangle.
+    pub edge: [f64; 2],
+    /// The sines of the angles of almost parallel rays; none for those from 1/8 down to below rounding.
+    pub sine: Option<[f64; 2]>,
+    /// True if all almost parallel rays are aimed inside their triangle.
+    pub aims_inside: bool,
+    /// The seed of the rays from which epsilons are chosen.
+    pub seed: u64,
+    /// The seed of the fresh rays on which they are tried.
+    pub fresh_seed: u64,
+    /// How many indices of each stratum.
+    pub count: u64,
+    /// The costs of wrong answers, by kind.
+    pub costs: Vec<NamedNumber>,
+    /// The largest errors that were wanted: `t`, relative, and `point`, in the scene's unit of length.
+    pub max_error: Vec<NamedNumber>,
+    /// One entry for each kernel and scalar.
+    pub kernels: Vec<SceneKernelPart>,
 }
 
-/// The findings of a study.
+impl SceneRecord {
+    /// True if it is about a scene, and not about families or stored cases.
+    pub fn has_scene(&self) -> bool {
+        !self.scene.is_empty()
+    }
+}
+
+/// A number with a name.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct EpsilonResult {
-    /// The sources of cases.
-    pub sources: Vec<PlannedSource>,
-    /// One entry for each kernel, scalar and gate.
-    pub gates: Vec<GatePart>,
+pub struct NamedNumber {
+    /// The name of the number.
+    pub name: String,
+    /// The number.
+    pub number: f64,
 }
 
-/// Where and how a record was made.
+/// A mesh that is a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct EpsilonProvenance {
-    /// `hairline 0.1.0`.
-    pub tool: String,
-    /// `x86_64-linux`.
-    pub target: String,
-    /// Threads used.
-    pub threads: usize,
-    /// Wall-clock seconds.
-    pub seconds: f64,
+pub struct MeshPart {
+    /// The file, as it was named.
+    pub path: String,
+    /// The digest in case ids.
+    pub digest: String,
+    /// How many triangles.
+    pub triangles: u64,
 }
 
-/// One epsilon of one kernel in one scalar. Epsilons are shortest decimals of the scalar.
+/// One kernel in one scalar. Epsilons are shortest decimals of the scalar.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct GatePart {
+pub struct SceneKernelPart {
     /// The kernel's name.
     pub kernel: String,
+    /// The flag that chooses it.
+    pub selector: String,
     /// `f32` or `f64`.
     pub scalar: String,
-    /// The gate's name.
-    pub gate: String,
-    /// The refusal in the source's notation, with `e` for the epsilon.
-    pub refuses: String,
-    /// The margin's powers of length and of |d|.
-    pub dimension: [i8; 2],
-    /// The epsilons of the other gates.
-    pub others: BTreeMap<String, String>,
-    /// The contract, in words.
+    /// The contract that the kernel is judged by.
     pub contract: String,
-    /// True if every margin was kept, so that the points are all that ever changes.
-    pub exact: bool,
-    /// Epsilons with names.
-    pub marks: Vec<MarkPart>,
-    /// All sources together, then each.
-    pub curves: Vec<CurvePart>,
-    /// The false misses and the false hits between which an epsilon trades.
-    pub trade: TradePart,
-    /// The prices of epsilons, found by running the kernel with them.
-    pub prices: Vec<PricePart>,
-    /// The proof about this gate's epsilons, whatever the cases.
+    /// The contract in the words of `--contract`; absent if it is the kernel's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub proved: Option<String>,
+    pub contract_flag: Option<String>,
+    /// True if one of its gates at the edges takes an epsilon.
+    pub has_edge_epsilon: bool,
+    /// How far apart neighbouring numbers of the scalar are where rays start farthest from 0.
+    pub spacing: f64,
+    /// Twice the area of the smallest triangle, if the scene is a mesh.
+    pub least_shape: Option<f64>,
+    /// True if the kernel takes an interval of t.
+    pub takes_interval: bool,
+    /// The knobs that can be set.
+    pub knobs: Vec<KnobPart>,
+    /// The epsilons of the gates that are not chosen.
+    pub others: BTreeMap<String, String>,
+    /// The kinds of wrong answers that are counted.
+    pub counts: Vec<Count>,
+    /// If errors are limited: whether 99 % of the hits that remain keep the limit with the recommended
+    /// epsilons, in each kind of ray and with a confidence of 95 %. If they do not, none do.
+    pub is_accurate: Option<bool>,
+    /// The results of epsilons on fresh rays; the cheapest first.
+    pub tried: Vec<TriedPart>,
+    /// How far each knob may move while the others stay.
+    pub limits: Vec<LimitPart>,
+    /// Values that are proved.
+    pub proved: Vec<ProvedPart>,
+    /// By knob: what each value does.
+    pub curves: Vec<CurvePart>,
+    /// The knobs for which no value keeps every limit, and what does.
+    pub conflicts: Vec<ConflictPart>,
+    /// Epsilons that follow each case's size, if they are cheaper by a fifth, or if only they keep the errors
+    /// as small as was wanted; counted, no kernel runs with them.
+    pub relative: Option<TriedPart>,
+    /// The results of the recommended epsilons in the same scene on planes of other kinds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub elsewhere: Vec<PlanePart>,
 }
 
-/// An epsilon with a name.
+/// The results of epsilons on planes of one kind, on fresh rays.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct MarkPart {
-    /// A preset's name, or the row's own.
+pub struct PlanePart {
+    /// The name of the kind of planes and rays.
+    pub plane: String,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Rate>,
+}
+
+/// A number that can be chosen.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct KnobPart {
+    /// The gate's name, or `t_min`.
     pub name: String,
-    /// The epsilon.
-    pub epsilon: String,
+    /// True if it is a gate's epsilon, which `--epsilon` takes.
+    pub is_gate: bool,
+    /// The role of the number: `parallel`, `t`, `edge` or `other`.
+    pub role: String,
+    /// The condition under which the gate refuses, with the number as `e`; none for `t_min`.
+    pub refuses: Option<String>,
+    /// The powers of length and of |d| in what is compared with it.
+    pub dimension: [i8; 2],
+    /// The form without a unit, if it has one: `e * L^2 * |d|`.
+    pub form: Option<String>,
 }
 
-/// The response on one source.
+/// The results of epsilons on fresh rays.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct CurvePart {
-    /// The source's name in tables, or `all`.
-    pub family: String,
-    /// True if it is a random sample.
-    pub sample: bool,
-    /// How many could be wrong, by [`crate::epsilon::Question::ALL`]: false misses, false hits,
-    /// cracks, doubles, self-hits, and of the false hits those that this gate is there to refuse.
-    pub asked: [u64; 6],
-    /// Sums over the rays of the squares of how many could be wrong on each.
-    pub asked_squared: [u64; 6],
-    /// How many are wrong, in order of the epsilon; constant before the first and after the last. What
-    /// lies between two points lies between their counts.
-    pub points: Vec<(String, [u64; 6])>,
+pub struct TriedPart {
+    /// `recommended`, the name of one of the kernel's sets, `zero`, a value of `--at`, or `scale-free`.
+    pub name: String,
+    /// By knob.
+    pub epsilons: Vec<String>,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Rate>,
+    /// The sum of their shares, each times its cost.
+    pub cost: f64,
+    /// By count: rays at a shared edge or vertex that hit more than one triangle; they cost nothing. Of none where no
+    /// crack is counted.
+    pub doubles: Vec<Rate>,
+    /// The errors of the hits that remain.
+    pub errors: Vec<ErrorPart>,
+    /// If errors are limited: by count, the hits that remain and are farther off; of none where no hit can
+    /// be lost.
+    pub exceeded: Vec<Rate>,
 }
 
-/// The false misses and the false hits between which an epsilon trades.
+/// The errors of some hits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct TradePart {
-    /// The lowest epsilon that the gate takes.
-    pub floor: String,
-    /// False misses: a lower epsilon repairs them.
-    pub misses: LimitPart,
-    /// False hits that this gate is there to refuse, self-hits with them for a gate on t: a higher
-    /// epsilon repairs them.
-    pub hits: LimitPart,
-    /// The epsilons that are best for both, from and to.
-    pub settled: Option<[String; 2]>,
-    /// The number of cases that must be hit and that another gate refuses, whatever this epsilon.
-    pub refused_by_others: BTreeMap<String, u64>,
+pub struct ErrorPart {
+    /// The place of the count whose hits they are.
+    pub count: usize,
+    /// `t`, relative to itself, or `point`, in the scene's unit of length.
+    pub value: String,
+    /// How many hits.
+    pub hits: u64,
+    /// Half of the errors are at most this, rounded up by at most an eighth; none if that is not finite.
+    pub median: Option<f64>,
+    /// 99 % of the errors are at most this, rounded up by at most an eighth.
+    pub most: Option<f64>,
+    /// The largest error seen.
+    pub worst: Option<f64>,
 }
 
-/// The epsilons that are best for one count.
+/// How far a knob may move while the others stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LimitPart {
-    /// How many could be wrong.
-    pub of: u64,
-    /// The fewest that any epsilon reaches.
-    pub unavoidable: u64,
-    /// The last epsilon that reaches it, for misses; the first, for hits.
-    pub limit: String,
-    /// Shows the case that decides the limit; none if every epsilon reaches it.
-    pub command: Option<String>,
+    /// The knob's place.
+    pub knob: usize,
+    /// The count's place.
+    pub count: usize,
+    /// True if values must be at or above the limit, false if at or below it.
+    pub is_lower: bool,
+    /// The limit; none if no value keeps the share.
+    pub value: Option<String>,
+    /// The other end of an interval: beyond it more than that share is wrong, with the same confidence; none if the rays
+    /// show no such number.
+    pub far: Option<String>,
+    /// True if the rays show so little of where the limit is that nobody should act on its value.
+    pub is_unsure: bool,
+    /// At most one in this many answers is wrong at the limit, with a confidence of 95 %.
+    pub one_in: u64,
+    /// The wrong answers on fresh rays at the limit.
+    pub fresh: Option<Rate>,
+    /// The property of the scene that sets the limit, if the kernel's rounding does not.
+    pub set_by: Option<String>,
+    /// The price of the value, if it is one that loses plain hits or lets rays beside triangles hit.
+    pub price: Option<PricePart>,
 }
 
-/// The price of one epsilon.
+/// The price of a value on fresh rays, while the other numbers stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PricePart {
-    /// The epsilon.
-    pub epsilon: String,
-    /// Who uses it.
-    pub names: Vec<String>,
-    /// True if no other listed epsilon loses and lets through as little, and less of one.
-    pub on_front: bool,
-    /// Among the cases that must be hit, the share that this gate alone refuses.
-    pub lost: Rate,
-    /// Among the cases that this gate is there to refuse, the share that is hit.
-    pub let_through: Rate,
-    /// Among the cases that must be hit, the share that is missed.
-    pub false_misses: Rate,
-    /// Among the cases that must be missed, the share that is hit.
-    pub false_hits: Rate,
-    /// Groups without a hit.
-    pub cracks: Rate,
-    /// Groups with two hits or more.
-    pub doubles: Rate,
-    /// The sources on which it is wrong.
-    pub families: Vec<FamilyPrice>,
-    /// The false hit of this gate's kinds that is farthest outside.
-    pub farthest: Option<FarthestPart>,
+    /// The count's place: hits lost at a triangle, or false hits beside one.
+    pub count: usize,
+    /// Its wrong answers, of all its rays.
+    pub wrong: Rate,
 }
 
-/// The price of one epsilon on one source.
+/// A value that is proved for every ray of the scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct FamilyPrice {
-    /// The source's name in tables.
-    pub family: String,
-    /// Among the cases that must be hit, the share that this gate alone refuses.
-    pub lost: Rate,
-    /// Among the cases that this gate is there to refuse, the share that is hit.
-    pub let_through: Rate,
+pub struct ProvedPart {
+    /// The knob's place.
+    pub knob: usize,
+    /// The place of the count of which nothing is wrong.
+    pub count: usize,
+    /// True if it holds for all values at and above, false if for all at and below.
+    pub is_lower: bool,
+    /// The value.
+    pub value: String,
+    /// The wrong answers on fresh rays at the value: none, or the proof is wrong.
+    pub fresh: Rate,
+    /// The price of the value.
+    pub price: Option<PricePart>,
 }
 
-/// A false hit and how far outside it is.
+/// The results of the values of one knob on fresh rays while the others stay.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-pub struct FarthestPart {
-    /// From the line to the triangle's boundary, or along the ray from the end, in longest edges.
-    pub edges: f64,
-    /// The same in ulps of the largest coordinate.
-    pub ulps: f64,
-    /// Shows the case.
-    pub command: String,
+pub struct CurvePart {
+    /// The values, in order.
+    pub values: Vec<String>,
+    /// One entry a count.
+    pub counts: Vec<CurveCount>,
+}
+
+/// One count of a curve.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CurveCount {
+    /// How many rays.
+    pub of: u64,
+    /// How many of them the other knobs refuse, whatever this one is.
+    pub refused_by_others: u64,
+    /// By value: how many are hits.
+    pub hits: Vec<u64>,
+}
+
+/// Two limits of one knob that do not meet.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ConflictPart {
+    /// The place of the limit from below in the list of limits.
+    pub lower: usize,
+    /// The place of the limit from above.
+    pub upper: usize,
+    /// If the limits of epsilons that follow each case's size meet, from where to where.
+    pub scale_free: Option<[String; 2]>,
 }

@@ -5,6 +5,7 @@ use super::lines::{Line, column_legend, lines};
 use super::net::{NET_TITLE, net_lines};
 use super::rate::percent;
 use super::{Conformance, Deviation, Rate, Record, Style, group_digits, number_of};
+use crate::report::page::{markdown_cell as cell, markdown_code as code};
 use std::io::{self, Write};
 
 /// A forge's summary holds less than a mebibyte.
@@ -138,15 +139,4 @@ fn share(rate: &Rate) -> String {
             format!("{} [{}, {}]", percent(share), percent(low), percent(high))
         }
     }
-}
-
-/// Text inside a table's cell.
-fn cell(text: &str) -> String {
-    text.replace('|', "\\|").replace('\n', " ")
-}
-
-fn code(text: &str) -> String {
-    // A command holds no backtick unless a file's name does.
-    let fence = if text.contains('`') { "``" } else { "`" };
-    format!("{fence}{}{fence}", cell(text))
 }

@@ -10,8 +10,8 @@ use super::standing::{Standing, other_findings, standings};
 use super::{Style, close_up, extremes, group_digits, next, number_of, ranking};
 use crate::case::SceneKind;
 use crate::report::elsewhere::is_worse;
-use crate::report::percent;
 use crate::report::page::write_wrapped;
+use crate::report::percent;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 

@@ -2,9 +2,9 @@
 //! turns the mesh; without it a picture stands still, and tables hold the first places of each row.
 
 use super::record::*;
+use super::screen::{topology_lines, verdict};
 use super::shown::{Shown, shown};
 use super::stage;
-use super::screen::{topology_lines, verdict};
 use crate::report::formats::html::words::{counts, interval, percent, shortened};
 use crate::report::formats::html::{SHARED, STYLE, head_of, made, policy, shade};
 use crate::report::page::Tone;

@@ -153,7 +153,9 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
     };
     let rows = shown.iter().take(MOST_ROWS).map(row).collect();
     blocks.push(Block::Table(Table { heads, rows }));
-    blocks.extend((0 < more).then(|| Block::text(format!("… {more} more rows leak more: --details"))));
+    blocks.extend(
+        (0 < more).then(|| Block::text(format!("… {more} more rows leak more: --details"))),
+    );
     blocks
 }
 
@@ -172,10 +174,12 @@ fn topology_terms(part: &ScalarPart) -> Vec<(String, String)> {
 
 /// The commands that show the first places: of rows that break a promise, then of those that leak least.
 fn first_places(result: &MeshResult) -> Vec<Command> {
-    let mut rows: Vec<&MeshRowResult> = result.scalars.iter().flat_map(|part| &part.results).collect();
+    let mut rows: Vec<&MeshRowResult> =
+        result.scalars.iter().flat_map(|part| &part.results).collect();
     rows.sort_by_key(|row| (!row.promise().is_some_and(|(_, kept)| !kept), row.leaks()));
     let examples = rows.iter().flat_map(|row| examples(row, 1, false).into_iter().take(1));
-    let command = |(_, example): (String, &MeshExample)| Command { line: example.command.clone(), what: "" };
+    let command =
+        |(_, example): (String, &MeshExample)| Command { line: example.command.clone(), what: "" };
     examples.map(command).take(MOST_PLACES).collect()
 }
 

@@ -3,8 +3,8 @@
 use super::drawing::{AROUND, Drawing, Mark, PLACES};
 use super::picture;
 use super::record::*;
-use super::shown::{Shown, lines};
 use super::screen::label;
+use super::shown::{Shown, lines};
 use crate::mesh::Part;
 use crate::report::formats::html::words::{code, shortened};
 use crate::report::{group_digits, number_of};

@@ -53,8 +53,14 @@ fn list(lines: &[String], out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn table(table: &Table, out: &mut dyn Write) -> io::Result<()> {
-    let line = |cells: &mut dyn Iterator<Item = String>| format!("| {} |", cells.collect::<Vec<_>>().join(" | "));
-    let rules = table.heads.iter().enumerate().map(|(i, column)| if i == 0 || column.is_text { "---" } else { "---:" });
+    let line = |cells: &mut dyn Iterator<Item = String>| {
+        format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
+    };
+    let rules = table
+        .heads
+        .iter()
+        .enumerate()
+        .map(|(i, column)| if i == 0 || column.is_text { "---" } else { "---:" });
     writeln!(out, "\n{}", line(&mut table.heads.iter().map(|column| words(&column.head))))?;
     writeln!(out, "{}", line(&mut rules.map(str::to_owned)))?;
     for row in &table.rows {

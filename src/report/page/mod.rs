@@ -9,7 +9,7 @@ mod table;
 mod text;
 
 pub(crate) use markdown::{cell as markdown_cell, code as markdown_code};
-pub(crate) use table::{Cell, Head, Row, Table};
+pub use table::{Cell, Head, Row, Table};
 pub(crate) use text::write_wrapped;
 
 use super::Format;
@@ -103,8 +103,10 @@ pub trait Paged {
 
 impl<R: Paged> Format<R> {
     /// For a terminal. The layout is not stable.
-    pub const TEXT: Format<R> =
-        Format { name: "text", write: |record, style, out| text::write(&record.page(), style, out) };
+    pub const TEXT: Format<R> = Format {
+        name: "text",
+        write: |record, style, out| text::write(&record.page(), style, out),
+    };
     /// For a forge or a chat.
     pub const MARKDOWN: Format<R> =
         Format { name: "markdown", write: |record, _, out| markdown::write(&record.page(), out) };

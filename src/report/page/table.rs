@@ -12,7 +12,7 @@ const GAP: usize = 2;
 
 /// The content of one column of a row.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Cell {
+pub struct Cell {
     /// The text.
     pub text: String,
     /// True if it breaks a promise: red on a terminal with colours.
@@ -27,7 +27,7 @@ impl From<String> for Cell {
 
 /// A column; the first is that of the labels.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Head {
+pub struct Head {
     /// Its head.
     pub head: String,
     /// True if it holds words, which begin on the left.
@@ -55,7 +55,7 @@ impl Head {
 
 /// A row, and lines below it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Row {
+pub struct Row {
     /// The label.
     pub label: String,
     /// One cell for each column but the first.
@@ -74,7 +74,7 @@ impl Row {
 
 /// A table.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Table {
+pub struct Table {
     /// The columns, that of the labels first.
     pub heads: Vec<Head>,
     /// The rows.
@@ -112,7 +112,9 @@ impl Table {
         let mut hidden = Vec::new();
         for column in optional {
             let shown = |i: &usize| !hidden.contains(i);
-            if first + (0..widths.len()).filter(shown).map(|i| widths[i]).sum::<usize>() <= style.width {
+            if first + (0..widths.len()).filter(shown).map(|i| widths[i]).sum::<usize>()
+                <= style.width
+            {
                 break;
             }
             hidden.push(column);
@@ -129,7 +131,9 @@ impl Table {
         let lines = shown.iter().map(|i| heads[i + 1].len()).chain([1]).max().unwrap_or(1);
         for line in 0..lines {
             // The last lines of all heads stand beside each other.
-            let of = |head: &Vec<String>| (line + head.len()).checked_sub(lines).map(|i| head[i].clone());
+            let of = |head: &Vec<String>| {
+                (line + head.len()).checked_sub(lines).map(|i| head[i].clone())
+            };
             let mut text = format!("{:<first$}", of(&heads[0]).unwrap_or_default());
             shown.iter().for_each(|i| text += &padded(*i, &of(&heads[i + 1]).unwrap_or_default()));
             writeln!(out, "{bold}{}{plain}", text.trim_end())?;
@@ -215,8 +219,14 @@ mod tests {
         let table =
             Table { heads, rows: vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))] };
         let at = |width: usize| text(&table, Style { width, ..Style::default() });
-        assert_eq!(at(40), "knob  rays  at most so many  seen\nt     far           1 in 10    12\n");
-        assert_eq!(at(30), "knob        at most\n      rays  so many  seen\nt     far   1 in 10    12\n");
+        assert_eq!(
+            at(40),
+            "knob  rays  at most so many  seen\nt     far           1 in 10    12\n"
+        );
+        assert_eq!(
+            at(30),
+            "knob        at most\n      rays  so many  seen\nt     far   1 in 10    12\n"
+        );
         assert_eq!(at(20), "knob        at most\n      rays  so many\nt     far   1 in 10\n");
     }
 }

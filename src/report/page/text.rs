@@ -26,7 +26,11 @@ impl Writer<'_> {
         for block in blocks {
             let stands_apart = matches!(
                 block,
-                Block::Heading(_) | Block::Table(_) | Block::Commands(..) | Block::Terms(_) | Block::Listing(_)
+                Block::Heading(_)
+                    | Block::Table(_)
+                    | Block::Commands(..)
+                    | Block::Terms(_)
+                    | Block::Listing(_)
             );
             if stands_apart && !after_heading && !self.is_first {
                 writeln!(self.out)?;
@@ -49,7 +53,9 @@ impl Writer<'_> {
                 write!(out, "{plain}")
             }
             Block::Text(text) => write_wrapped(text, width, out),
-            Block::Notes(notes) => notes.iter().try_for_each(|note| indented(note, ["  ", "    "], width, out)),
+            Block::Notes(notes) => {
+                notes.iter().try_for_each(|note| indented(note, ["  ", "    "], width, out))
+            }
             Block::Use(Use { lead, text, notes }) => {
                 writeln!(out, "  {bold}{lead:<3}{plain}  {text}")?;
                 let indent = "       ";
@@ -92,9 +98,17 @@ pub(crate) fn write_wrapped(text: &str, width: usize, out: &mut dyn Write) -> io
 }
 
 /// The same after some space, and after other space in the lines below the first.
-fn indented(text: &str, [first, rest]: [&str; 2], width: usize, out: &mut dyn Write) -> io::Result<()> {
+fn indented(
+    text: &str,
+    [first, rest]: [&str; 2],
+    width: usize,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let lines = wrapped(text, width.saturating_sub(rest.chars().count()));
-    lines.iter().enumerate().try_for_each(|(i, line)| writeln!(out, "{}{line}", if i == 0 { first } else { rest }))
+    lines
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, line)| writeln!(out, "{}{line}", if i == 0 { first } else { rest }))
 }
 
 /// Words in lines of at most this width; no word is broken.
@@ -146,8 +160,14 @@ mod tests {
                     notes: vec!["what it means to you".to_owned()],
                 }),
                 Block::Table(table),
-                Block::Details("more".to_owned(), vec![Block::Notes(vec!["small print".to_owned()])]),
-                Block::Commands("next", vec![Command { line: "hairline x".to_owned(), what: "y" }; 2]),
+                Block::Details(
+                    "more".to_owned(),
+                    vec![Block::Notes(vec!["small print".to_owned()])],
+                ),
+                Block::Commands(
+                    "next",
+                    vec![Command { line: "hairline x".to_owned(), what: "y" }; 2],
+                ),
             ],
             ..Page::default()
         };

@@ -5,7 +5,7 @@ use super::meshes::Mesh;
 use super::rays::{Aim, Shot};
 use hairline::internals::audit::Unobserved;
 use hairline::internals::case::Case;
-use hairline::internals::epsilon::scene::{Costs, Kind, study_scene};
+use hairline::internals::epsilon::{Costs, Kind, study_scene};
 use hairline::internals::family::Stratum;
 use hairline::internals::kernel::Scalar;
 
@@ -97,9 +97,14 @@ pub fn recommended<F: Scalar>(mesh: &Mesh, plane: &str, kernel: &str, count: u64
     let study = study_scene(&setting, &Costs::default(), None, &[], 1, count, &Unobserved).unwrap();
     let aims: Vec<_> = Aim::ALL.map(count_of).into();
     let said = tuned.counts.iter().zip(&study.tried[0].wrong).map(|(count, wrong)| {
-        assert!(count.stratum == Stratum::Parallel || aims.contains(count), "{count:?}");
+        assert!(
+            count.rays == hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel)
+                || aims.contains(count),
+            "{count:?}"
+        );
         let price = if count.kind == Kind::Crack { price(Aim::Edge) } else { price(Aim::Inside) };
-        let is_counted = count.stratum != Stratum::Parallel;
+        let is_counted =
+            count.rays != hairline::internals::epsilon::Rays::Stratum(Stratum::Parallel);
         if is_counted { price * wrong.share().unwrap_or(0.0) } else { 0.0 }
     });
     let best = cheapest::<F>(&tuned, &known);

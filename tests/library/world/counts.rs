@@ -6,7 +6,7 @@ use super::rays::{Aim, Shot, plane_of, shots, words, words_of_rays};
 use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
 use hairline::internals::case::{Case, Scene};
 use hairline::internals::corpus::mesh::read_obj;
-use hairline::internals::epsilon::scene::{
+use hairline::internals::epsilon::{
     Attempt, Count, Kind, Knob, Setting, contract_with, count_at, counts, own_epsilons,
 };
 use hairline::internals::family::{MeshFamily, Stratum};
@@ -75,7 +75,8 @@ impl Tuned {
             subject: F::subject(self.row.entry).unwrap(),
             knobs: &self.knobs,
             counts,
-            scene,
+            scene: Some(scene),
+            sources: &[],
             mesh: None,
             relative: false,
             fine_curves: false,
@@ -138,7 +139,7 @@ pub fn count_of(aim: Aim) -> Count {
         Aim::Beside => (Stratum::Outside, Kind::Hit),
         Aim::Leave => (Stratum::Shadow, Kind::SelfHit),
     };
-    Count { stratum, kind }
+    Count { rays: hairline::internals::epsilon::Rays::Stratum(stratum), kind }
 }
 
 /// The rays of an aim by where their planes lie.

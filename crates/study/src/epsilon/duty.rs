@@ -17,13 +17,12 @@ pub struct Duty {
 }
 
 impl Duty {
-    /// The task of one of a kernel's gates under a contract.
-    pub fn of(gates: &[Gate], gate: usize, contract: &Contract) -> Duty {
+    /// The task of a gate of a role among a kernel's gates, under a contract.
+    pub fn of(gates: &[Gate], role: Role, contract: &Contract) -> Duty {
         let has = |role: Role| gates.iter().any(|gate| gate.role == role);
         let is_culling =
             |gate: &Gate| gate.role == Role::Parallel && gate.epsilon == Tunable::Signed;
         let culls = gates.iter().any(is_culling);
-        let role = gates[gate].role;
         let mut classes = [false; Class::COUNT];
         for class in Class::all() {
             let off_the_ends = class.is_off_the_interval() && contract.extent != Extent::Line;
@@ -66,7 +65,7 @@ mod tests {
     fn guarded(kernel: &str, gate: &str) -> Vec<String> {
         let info = find(kernel).unwrap().info;
         let gate = info.gates.iter().position(|known| known.name == gate).unwrap();
-        let duty = Duty::of(info.gates, gate, &info.contract);
+        let duty = Duty::of(info.gates, info.gates[gate].role, &info.contract);
         Class::all().filter(|class| duty.guards(*class)).map(Class::name).collect()
     }
 
@@ -91,7 +90,7 @@ mod tests {
             };
             let gates: Vec<Gate> = roles.iter().map(gate).collect();
             let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
-            Duty::of(&gates, roles.iter().position(|known| *known == role).unwrap(), &contract)
+            Duty::of(&gates, role, &contract)
         };
         let flat = ["parallel", "coplanar", "degenerate"];
         let off = ["*/*/before", "*/*/beyond"];

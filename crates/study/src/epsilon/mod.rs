@@ -1,26 +1,49 @@
-//! Floor 4: what a kernel does at every epsilon.
+//! Floor 4: which epsilons for a scene, or on families and stored cases: all of a kernel's together, weighed by what
+//! wrong answers cost.
 //!
-//! A gate accepts up to its margin, so the margins of one pass over the cases decide every epsilon.
-//! Margins are counted in cells. The counts are exact at the edges of the cells, at marks and at the
-//! decisive margins; between these they are bracketed.
+//! A *knob* is a number that can be chosen: a gate's epsilon, or the least t that counts. Each ray of a
+//! stratum, or of a family, is a trial, and its margins say at which values of the knobs it is a hit. One pass counts
+//! trials on a grid of all knobs; the cheapest point is the recommendation. Further passes find how far
+//! each knob may move, and try everything on rays of another seed.
 
 #![forbid(unsafe_code)]
 
-mod advice;
-mod axis;
-mod curve;
+mod candidates;
+mod confidence;
+mod curves;
 mod duty;
+mod elsewhere;
+mod errors;
+mod joint;
+mod knob;
+mod limits;
+mod measure;
+mod prepared;
+mod proved;
+mod rays;
 mod relative;
-mod run;
-pub mod scene;
-mod sketch;
 mod study;
+#[cfg(test)]
+mod tests;
+mod trials;
 
-pub use advice::{Side, Trade, candidates, decades, total};
-pub use axis::Axis;
-pub use curve::{Bracket, Cell, Curve, Question};
-pub use duty::Duty;
+/// Rays of each stratum, if nothing says how many: enough to show one in 10,000.
+pub const COUNT: u64 = 40_000;
+
+pub use confidence::{CONFIDENCE, ranks};
+pub use curves::Curve;
+pub use elsewhere::try_elsewhere;
+pub use errors::{ERRORS_ONE_IN, ErrorSums, HitErrors, MaxError, Value, hit_errors};
+pub use joint::Costs;
+pub use knob::{Knob, LEAST_T, MOST_KNOBS, contract_with};
+pub use limits::{Limit, limits};
+pub use measure::{Attempt, count_at};
+pub use prepared::Store;
+pub use proved::{Proved, proved};
+pub use rays::{Count, Kind, Rays, counts, counts_of};
 pub use relative::scale_free_form;
-pub use run::{Request, Response, SourceResponse, floor, run, tunable_gates};
-pub use sketch::{SPANNING, Sketch, few, sketch};
-pub use study::{GateStudy, LEAST_SUM, Price, Study, StudyPlan, own_false_hits, study};
+pub use study::{
+    Elsewhere, OnFresh, SCALE_FREE, SceneStudy, Tried, cheapest, fresh_seed, own_epsilons,
+    study_scene,
+};
+pub use trials::{Setting, StudiedRays, Trial};

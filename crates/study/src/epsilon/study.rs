@@ -1,299 +1,362 @@
-//! A study of a kernel's epsilons: the responses, what follows from them, and what the most interesting
-//! epsilons cost when the kernel is run with them.
+//! A study of a scene: the cheapest epsilons together, how far each may move, and what both do on fresh
+//! rays.
 
-use super::advice::{Trade, candidates, decades, total};
-use super::axis::Axis;
-use super::curve::Question;
-use super::duty::Duty;
-use super::run::{Request, Response, SourceResponse, run};
+use super::candidates::{MOST_POINTS, around, grid, of_values};
+use super::curves::{Curve, axes, curves};
+use super::errors::{ErrorSums, MaxError};
+use super::joint::{Costs, Grid, Joint};
+use super::knob::{Knob, Margins};
+use super::limits::{Limit, all_limits, between, limits, printed};
+use super::measure::{Attempt, OfHits, Wrong, differs, measure};
+use super::prepared::Store;
+use super::proved::{Proved, proved};
+use super::rays::{Count, Kind, Rays};
+use super::trials::Setting;
 use crate::arith::Float;
-use crate::audit::{Audit, EpsilonText, Observer, Plan, Row, Source, Tally, run_scalar};
-use crate::judge::{Class, Finding};
-use crate::kernel::{Gate, PRESETS, Preset, Scalar, Subject};
-
-/// The plan of a study.
-pub struct StudyPlan<'a, F: 'static> {
-    /// The kernel, its contract, and the epsilons of the gates that are not varied.
-    pub row: &'a Row,
-    /// The same kernel in the scalar.
-    pub subject: &'static dyn Subject<F>,
-    /// The gates, each varied alone.
-    pub gates: Vec<usize>,
-    /// Further epsilons to weigh.
-    pub at: Vec<F>,
-    /// Keep every margin.
-    pub exact: bool,
-}
+use crate::audit::{Row, Trials};
+use crate::case::{Case, SceneKind};
+use crate::engine::Observer;
+use crate::family::Stratum;
+use crate::kernel::{Role, Scalar};
 
 /// A study's results.
-pub struct Study<F> {
-    /// By source.
-    pub responses: Vec<SourceResponse<F>>,
-    /// By gate of the plan.
-    pub gates: Vec<GateStudy<F>>,
+pub struct SceneStudy<F> {
+    /// By knob: the cheapest epsilons together.
+    pub best: Vec<F>,
+    /// True if the errors of the hits that remain are as small as was wanted.
+    pub is_accurate: bool,
+    /// The epsilons that were tried on fresh rays: the cheapest, and the named ones, without those that are equal to
+    /// one before.
+    pub tried: Vec<Tried<F>>,
+    /// How far each knob may move.
+    pub limits: Vec<OnFresh<Limit<F>>>,
+    /// Values that are proved: never wrong on fresh rays, or a proof is.
+    pub proved: Vec<OnFresh<Proved<F>>>,
+    /// By knob: what each value does on fresh rays while the others stay.
+    pub curves: Vec<Curve<F>>,
+    /// The cheapest epsilons that follow each case's size, if they are cheaper by a fifth, or if only they
+    /// keep the errors as small as was wanted.
+    pub relative: Option<Tried<F>>,
+    /// How far such epsilons may move.
+    pub relative_limits: Vec<Limit<F>>,
+    /// The results of the cheapest epsilons on planes of other kinds, once they are tried.
+    pub elsewhere: Vec<Elsewhere>,
 }
 
-/// A study's results for one gate.
-pub struct GateStudy<F> {
-    /// The gate's place in the kernel's chain.
-    pub gate: usize,
-    /// All sources together.
-    pub total: Response<F>,
-    /// The false misses and the false hits between which an epsilon trades.
-    pub trade: Trade<F>,
-    /// Epsilons with names: the row's own, presets.
-    pub marks: Vec<(String, F)>,
-    /// The prices of epsilons, in order.
-    pub prices: Vec<Price<F>>,
+/// The results of the recommended epsilons on planes and rays of one kind, fresh ones.
+pub struct Elsewhere {
+    /// The kind.
+    pub kind: SceneKind,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Trials>,
 }
 
-/// The audit's findings with one epsilon.
-pub struct Price<F> {
-    /// The epsilon.
-    pub epsilon: F,
-    /// The kernel's row with it.
-    pub row: Row,
-    /// By source.
-    pub tallies: Vec<Tally>,
+/// A bound of one knob, and what its value does on fresh rays while the other knobs stay.
+pub struct OnFresh<B> {
+    /// The bound.
+    pub bound: B,
+    /// The wrong answers that it is about.
+    pub wrong: Trials,
+    /// The price of the value: the place of the count that the other side of the knob is for, and its wrong answers.
+    pub price: Option<(usize, Trials)>,
 }
 
-/// The name of the epsilon with the least sum of both shares.
-pub const LEAST_SUM: &str = "least sum of both";
+/// The results of epsilons on fresh rays.
+pub struct Tried<F> {
+    /// The name of the epsilons.
+    pub name: String,
+    /// By knob.
+    pub epsilons: Vec<F>,
+    /// By count: the wrong answers.
+    pub wrong: Vec<Trials>,
+    /// The sum of their shares, each times its cost.
+    pub cost: f64,
+    /// By count: the errors of the hits that remain, where hits can be lost.
+    pub errors: Vec<ErrorSums>,
+    /// By count: of those hits the ones whose errors are larger than is wanted.
+    pub exceeded: Vec<Trials>,
+    /// By count: the rays at a shared edge or vertex that hit more than one triangle, which cost nothing.
+    pub doubles: Vec<Trials>,
+}
 
-/// Powers of ten to weigh, beside the limits, presets and given epsilons.
-const DECADES_WEIGHED: usize = 12;
+/// The seed of the fresh rays: the next one.
+pub fn fresh_seed(seed: u64) -> u64 {
+    seed.wrapping_add(1)
+}
 
-/// Runs a study. The error is a disagreement between a response and the audit: a fault of this tool.
-pub fn study<F: Scalar>(
-    plan: &StudyPlan<'_, F>,
-    sources: &[Source],
+/// The name of epsilons that follow each case's size.
+pub const SCALE_FREE: &str = "scale-free";
+
+/// A scale-free form is worth saying if it leaves less than this share of the cost.
+const WORTH_SAYING: f64 = 0.8;
+
+/// Runs a study, which also tries epsilons with names. The error is a disagreement between
+/// margins and the kernel's own run: a fault of this tool.
+pub fn study_scene<F: Scalar>(
+    setting: &Setting<'_, F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    named: &[(String, Vec<F>)],
+    seed: u64,
+    count: u64,
     observer: &dyn Observer,
-) -> Result<Study<F>, String> {
-    let gates = plan.row.entry.info.gates;
-    let own: Vec<F> = plan.row.epsilons();
-    let marks_of = |gate: usize| marks(&gates[gate], plan.row, own[gate]);
-    let mut edges: Vec<F> = decades().chain(plan.at.iter().copied()).collect();
-    edges.extend(plan.gates.iter().flat_map(|gate| marks_of(*gate)).map(|(_, epsilon)| epsilon));
-    let axis = Axis::new(&edges);
-    let request = Request {
-        row: plan.row,
-        subject: plan.subject,
-        gates: &plan.gates,
-        axis: &axis,
-        exact: plan.exact,
-    };
-    let responses = run(&request, sources, observer);
-    let mut studies = Vec::new();
-    for (n, &gate) in plan.gates.iter().enumerate() {
-        let duty = Duty::of(gates, gate, &plan.row.contract);
-        let trade = Trade::new(&gates[gate], &duty, n, sources, &responses);
-        let mut marks = marks_of(gate);
-        let mut weighed = candidates(&trade, DECADES_WEIGHED);
-        weighed.extend(marks.iter().map(|(_, epsilon)| *epsilon).chain(plan.at.iter().copied()));
-        weighed.retain(|epsilon| trade.floor <= *epsilon);
-        if let (None, Some(knee)) = (trade.settled(), trade.knee(axis.edges())) {
-            weighed.push(knee);
-            marks.push((LEAST_SUM.to_owned(), knee));
-            marks.sort_by_key(|(_, epsilon)| epsilon.place());
+) -> Result<SceneStudy<F>, String> {
+    let store = Store::default();
+    let setting = &Setting { store: Some(&store), ..*setting };
+    let (counts, fresh) = (setting.counts, fresh_seed(seed));
+    let accurate = cheapest(setting, costs, max_error, seed, count, observer);
+    let is_accurate = accurate.is_some();
+    let best = accurate.or_else(|| cheapest(setting, costs, None, seed, count, observer));
+    let best = best.expect("without a limit of errors some point is the cheapest");
+    let (best, found) = within_limits(setting, best, costs, max_error, seed, count, observer);
+    let following = Setting { relative: true, ..*setting };
+    let followed = cheapest(&following, costs, max_error, seed, count, observer);
+    let followed = followed.map(|followed| {
+        within_limits(&following, followed, costs, max_error, seed, count, observer)
+    });
+    // The rays of this seed were passed over for the last time.
+    let mut vectors = vec![("recommended".to_owned(), best.clone())];
+    for (name, epsilons) in named {
+        if !vectors.iter().any(|(_, known)| known == epsilons) {
+            vectors.push((name.clone(), epsilons.clone()));
         }
-        weighed.sort_by_key(|epsilon| epsilon.place());
-        weighed.dedup_by(|a, b| a == b);
-        let total = total(n, &responses).ok_or("no source")?;
-        let prices = prices(plan.row, gate, &weighed, sources, observer);
-        check(&prices, &duty, n, &responses)?;
-        studies.push(GateStudy { gate, total, trade, marks, prices });
     }
-    Ok(Study { responses, gates: studies })
-}
-
-/// The epsilons of a gate that have names, by value.
-fn marks<F: Scalar>(gate: &Gate, row: &Row, own: F) -> Vec<(String, F)> {
-    let preset = |preset: &Preset| {
-        let entry = preset.entries.iter().find(|entry| entry.fits(gate))?;
-        let value = EpsilonText::from(entry.value).value::<F>()?;
-        Some((preset.name.to_owned(), value))
+    let plain = vectors.len();
+    let mut attempts: Vec<Attempt<F>> =
+        vectors.iter().map(|(_, epsilons)| Attempt::new(epsilons.clone())).collect();
+    attempts.extend(found.iter().filter_map(|limit| Attempt::at_limit(limit, &best)));
+    let proofs = proved(setting);
+    let at_proved =
+        |proved: &Proved<F>| Attempt::alone(proved.knob, proved.value, proved.is_lower, &best);
+    attempts.extend(proofs.iter().map(at_proved));
+    let plain_ones: Vec<Vec<F>> =
+        attempts[..plain].iter().map(|attempt| attempt.epsilons.clone()).collect();
+    let differs = differs(setting, &plain_ones);
+    let run = measure(setting, &attempts, plain, max_error, fresh, count, observer, differs);
+    let Wrong { trials: mut wrong, of_hits, fault } = run;
+    fault.map_or(Ok(()), Err)?;
+    let of_proofs = wrong.split_off(attempts.len() - proofs.len());
+    let mut of_limits = wrong.split_off(plain).into_iter();
+    let rays: Vec<u64> = wrong[0].iter().map(|trials| trials.of).collect();
+    // All rays count for a price, those that other knobs refuse too.
+    let price = |knob: usize, is_lower: bool, wrong: &[Trials]| {
+        let place = price(setting, knob, is_lower)?;
+        Some((place, Trials::independent(wrong[place].count, rays[place])))
     };
-    let mut marks = vec![(format!("this row: {}", row.set), own)];
-    marks.extend(PRESETS.iter().filter_map(preset));
-    marks.sort_by_key(|(_, epsilon)| epsilon.place());
-    marks
-}
-
-fn prices<F: Scalar>(
-    row: &Row,
-    gate: usize,
-    epsilons: &[F],
-    sources: &[Source],
-    observer: &dyn Observer,
-) -> Vec<Price<F>> {
-    let rows: Vec<Row> = epsilons
-        .iter()
-        .map(|epsilon| {
-            let mut row = row.clone();
-            row.epsilons[gate] = EpsilonText::Decimal(format!("{epsilon:e}"));
-            row
-        })
-        .collect();
-    let mut prices: Vec<Price<F>> = epsilons
-        .iter()
-        .zip(&rows)
-        .map(|(epsilon, row)| Price { epsilon: *epsilon, row: row.clone(), tallies: Vec::new() })
-        .collect();
-    let mut audit = Audit::default();
-    let scalars = [F::NAME == f32::NAME, F::NAME == f64::NAME];
-    let plan = Plan { rows, sources: sources.to_vec(), scalars, examples: 0, attribute: 0 };
-    run_scalar::<F>(&plan, observer, &mut audit);
-    for cell in audit.cells {
-        prices[cell.row].tallies.push(cell.tally);
-    }
-    prices
-}
-
-/// The false hits that a gate is there to refuse, and of how many.
-pub fn own_false_hits(duty: &Duty, tally: &Tally) -> (u64, u64) {
-    if duty.guards_start() && tally.self_hits.rays > 0 {
-        return (tally.self_hits.hits, tally.self_hits.rays);
-    }
-    let guarded = Class::all().filter(|class| duty.guards(*class));
-    let counts = guarded.map(|class| &tally.classes[class.number()]);
-    counts.fold((0, 0), |(count, of), class| {
-        (count + class.of(Finding::FalseHit), of + class.trials(Finding::FalseHit))
+    let of_proof = |(bound, wrong): (Proved<F>, Vec<Trials>)| OnFresh {
+        wrong: wrong[bound.count],
+        price: price(bound.knob, bound.is_lower, &wrong),
+        bound,
+    };
+    let axes = axes(&vectors, &found, &proofs, setting.fine_curves);
+    let proofs: Vec<_> = proofs.into_iter().zip(of_proofs).map(of_proof).collect();
+    refuted(&proofs).map_or(Ok(()), Err)?;
+    let of_limit = |bound: Limit<F>| match bound.value.and_then(|_| of_limits.next()) {
+        Some(wrong) => OnFresh {
+            wrong: wrong[bound.count],
+            price: price(bound.knob, bound.is_lower, &wrong),
+            bound,
+        },
+        None => OnFresh { bound, wrong: Trials::default(), price: None },
+    };
+    let curves = curves(setting, &best, &axes, fresh, count, observer);
+    let found = found.into_iter().map(of_limit).collect();
+    let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits| {
+        let cost = costs.of_trials(counts, &wrong);
+        let OfHits { errors, exceeded, doubles } = of_hits;
+        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles }
+    };
+    let of_vectors = vectors.into_iter().zip(wrong).zip(of_hits);
+    let all: Vec<Tried<F>> =
+        of_vectors.map(|((vector, wrong), of_hits)| tried(vector, wrong, of_hits)).collect();
+    let (relative, relative_limits) = match followed {
+        Some((followed, found)) => {
+            let attempt = [Attempt::new(followed.clone())];
+            let no_run = |_: &[Case<F>], _: &[Margins<F>]| None;
+            let mut sums =
+                measure(&following, &attempt, 1, max_error, fresh, count, observer, no_run);
+            let vector = (SCALE_FREE.to_owned(), followed);
+            let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
+            // Where no fixed values are accurate enough, a form that is needs no lower cost.
+            let is_worth =
+                |form: &Tried<F>| !is_accurate || is_worth_saying(counts, costs, form, &all[0]);
+            (Some(relative).filter(is_worth), found)
+        }
+        None => (None, Vec::new()),
+    };
+    Ok(SceneStudy {
+        best,
+        is_accurate,
+        tried: all,
+        limits: found,
+        proved: proofs,
+        curves,
+        relative,
+        relative_limits,
+        elsewhere: Vec::new(),
     })
 }
 
-/// Compares the responses with what the audit counted.
-fn check<F: Scalar>(
-    prices: &[Price<F>],
-    duty: &Duty,
-    n: usize,
-    responses: &[SourceResponse<F>],
-) -> Result<(), String> {
-    for price in prices {
-        for (tally, response) in price.tallies.iter().zip(responses) {
-            let total = tally.total();
-            let counts = [
-                (Question::FalseMiss, total.of(Finding::FalseMiss)),
-                (Question::FalseHit, total.of(Finding::FalseHit)),
-                (Question::Crack, tally.groups.cracks),
-                (Question::Double, tally.groups.doubles),
-                (Question::SelfHit, tally.self_hits.hits),
-                (Question::OwnFalseHit, own_false_hits(duty, tally).0),
-            ];
-            for (question, count) in counts {
-                let wrong = response.gates[n].curve(question).wrong(price.epsilon);
-                if !(wrong.low..=wrong.high).contains(&count) {
-                    let (epsilon, name) = (price.epsilon, question.name());
-                    return Err(format!(
-                        "the response says {} to {} {name} at e = {epsilon:e}, the run {count}",
-                        wrong.low, wrong.high
-                    ));
-                }
-            }
-        }
+/// The cheapest epsilons with each knob that is not 0 and whose limits meet in the middle between them, where that
+/// costs no more than chance explains; and the limits.
+pub fn within_limits<F: Scalar>(
+    setting: &Setting<'_, F>,
+    best: Vec<F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> (Vec<F>, Vec<Limit<F>>) {
+    let all = all_limits(setting, &best, seed, count, observer);
+    let pairs = between(&all, best.len()).into_iter().zip(&best);
+    let found = printed(setting, all);
+    let middles: Vec<Option<F>> = pairs
+        .map(|(middle, own)| {
+            let is_other =
+                |middle: &F| middle != own && (*middle < F::zero()) == (*own < F::zero());
+            middle.filter(|middle| !own.is_zero() && is_other(middle))
+        })
+        .collect();
+    if middles.iter().all(Option::is_none) {
+        return (best, found);
     }
-    Ok(())
+    let both = best.iter().zip(&middles);
+    let both = both.map(|(own, middle)| [Some(*own), *middle].into_iter().flatten().collect());
+    let joint = Joint::count(setting, of_values(both), max_error, seed, count, observer);
+    match joint.moved(setting.counts, costs, &best, &middles).filter(|moved| *moved != best) {
+        Some(moved) => {
+            let found = limits(setting, &moved, seed, count, observer);
+            (moved, found)
+        }
+        None => (best, found),
+    }
+}
+
+/// A fault of this tool: a value that is proved to be never wrong, and was.
+fn refuted<F: Float>(proofs: &[OnFresh<Proved<F>>]) -> Option<String> {
+    let OnFresh { bound, wrong, .. } = proofs.iter().find(|found| 0 < found.wrong.count)?;
+    let value = bound.value.to_f64();
+    Some(format!("{value:e} is proved to be never wrong, and was {} times", wrong.count))
+}
+
+/// True if a form is cheaper than fixed epsilons by enough, and by more than chance explains.
+fn is_worth_saying<F>(counts: &[Count], costs: &Costs, form: &Tried<F>, fixed: &Tried<F>) -> bool {
+    form.cost < WORTH_SAYING * fixed.cost && is_beyond_chance(counts, costs, [form, fixed])
+}
+
+/// True if the costs of two epsilons differ by more than three standard deviations, as if they were of different rays:
+/// they are of the same, so chance explains even less.
+fn is_beyond_chance<F>(counts: &[Count], costs: &Costs, tried: [&Tried<F>; 2]) -> bool {
+    let variance =
+        |wrong: &Trials| wrong.share().map_or(0.0, |share| share * (1.0 - share) / wrong.of as f64);
+    let of_count =
+        |(count, wrong): (&Count, &Trials)| costs.of(count.kind).powi(2) * variance(wrong);
+    let variances = tried.map(|tried| counts.iter().zip(&tried.wrong).map(of_count).sum::<f64>());
+    let [one, other] = tried.map(|tried| tried.cost);
+    3.0 * (variances[0] + variances[1]).sqrt() < (one - other).abs()
+}
+
+/// The count that shows what a bound of a knob costs: hits lost where it must be large, hits beside triangles
+/// where an edge's must be negative.
+fn price<F: Scalar>(setting: &Setting<'_, F>, knob: usize, is_lower: bool) -> Option<usize> {
+    let role = setting.knobs[knob].role(setting.row.entry.info.gates);
+    let wanted = match (role, is_lower) {
+        (Role::Parallel | Role::T, true) => (Stratum::Interior, Kind::Miss),
+        (Role::Edge | Role::Other, false) => (Stratum::Outside, Kind::Hit),
+        _ => return None,
+    };
+    let (rays, kind) = (Rays::Stratum(wanted.0), wanted.1);
+    setting.counts.iter().position(|count| *count == Count { rays, kind })
+}
+
+/// The epsilons of a row by knob, and the least t.
+pub fn own_epsilons<F: Scalar>(row: &Row, knobs: &[Knob], least_t: F) -> Vec<F> {
+    let epsilons = row.epsilons::<F>();
+    let own = |knob: &Knob| match knob {
+        Knob::Gate(gate) => epsilons[*gate],
+        Knob::LeastT => least_t,
+    };
+    knobs.iter().map(own).collect()
+}
+
+/// The cheapest round epsilons together; none if at all of them too many of the hits that remain have too large
+/// errors.
+pub fn cheapest<F: Scalar>(
+    setting: &Setting<'_, F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> Option<Vec<F>> {
+    let best = |grid: Grid<F>| {
+        let joint = Joint::count(setting, grid, max_error, seed, count, observer);
+        joint.best(setting.counts, costs)
+    };
+    let (grid, step) = grid(setting, MOST_POINTS, max_error, seed, count, observer);
+    // What a coarse grid leaves out may be cheaper.
+    (0..step).rev().try_fold(best(grid)?, |found, step| best(around(&found, step)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::audit::{EpsilonChoice, Unobserved};
-    use crate::case::Parameters;
-    use crate::family::find;
 
-    #[test]
-    fn what_a_gate_is_there_to_refuse_are_false_hits_of_its_classes_or_second_hits() {
-        let info = crate::kernel::find("plane-unit-normal").unwrap().info;
-        for (gate, known) in info.gates.iter().enumerate() {
-            let duty = Duty::of(info.gates, gate, &info.contract);
-            let mut tally = Tally::new(0, 0);
-            let mut expected = (0, 0);
-            for class in Class::all() {
-                let (count, of) = (class.number() as u64 + 1, 100 + class.number() as u64);
-                let counts = &mut tally.classes[class.number()];
-                counts.findings[Finding::FalseHit as usize] = count;
-                counts.findings[Finding::FalseMiss as usize] = 1000;
-                counts.must_miss = of;
-                if duty.guards(class) {
-                    expected = (expected.0 + count, expected.1 + of);
-                }
-            }
-            assert_eq!(own_false_hits(&duty, &tally), expected, "{}", known.name);
-            (tally.self_hits.hits, tally.self_hits.rays) = (3, 50);
-            let expected = if duty.guards_start() { (3, 50) } else { expected };
-            assert_eq!(own_false_hits(&duty, &tally), expected, "{}", known.name);
-        }
+    const COUNTS: [Count; 3] = [
+        Count { rays: Rays::Stratum(Stratum::Edges), kind: Kind::Crack },
+        Count { rays: Rays::Stratum(Stratum::Interior), kind: Kind::Miss },
+        Count { rays: Rays::Stratum(Stratum::Shadow), kind: Kind::SelfHit },
+    ];
+
+    /// So many cracks of 10,000 rays and misses of 500; of self-hits there was no ray.
+    fn tried(cracks: u64, misses: u64) -> Tried<f32> {
+        let some = [Trials::independent(cracks, 10_000), Trials::independent(misses, 500)];
+        let wrong = [&some[..], &[Trials::default()]].concat();
+        let cost = Costs::default().of_trials(&COUNTS, &wrong);
+        assert_eq!(cost, 10.0 * (cracks as f64 / 1e4) + misses as f64 / 500.0);
+        let (name, epsilons, errors) = (String::new(), vec![0.0f32], Vec::new());
+        Tried { name, epsilons, wrong, cost, errors, exceeded: Vec::new(), doubles: Vec::new() }
     }
 
     #[test]
-    fn a_study_weighs_what_has_a_name_and_what_is_asked_for() {
-        let entry = crate::kernel::find("moller-trumbore").unwrap();
-        let row = EpsilonChoice::Source.rows(&[entry], None).unwrap().remove(0);
-        let source = |name| Source::Family {
-            family: find(name).unwrap(),
-            parameters: Parameters::default(),
-            seed: 1,
-            count: 80,
-            exhaustive: false,
+    fn a_few_wrong_answers_are_no_difference() {
+        let is_beyond = |one: [u64; 2], other: [u64; 2]| {
+            let [one, other] = [one, other].map(|[cracks, misses]| tried(cracks, misses));
+            is_beyond_chance(&COUNTS, &Costs::default(), [&one, &other])
         };
-        let sources = ["grazing", "edge-near", "secondary-ray"].map(source);
-        let subject = f32::subject(entry).unwrap();
-        let (gates, at) = (vec![0, 1], vec![0.125, -0.25]);
-        let plan = StudyPlan { row: &row, subject, gates, at, exact: false };
-        let found = study(&plan, &sources, &Unobserved).unwrap();
-        let own = row.epsilons::<f32>();
-        for (gate, of_gate) in found.gates.iter().enumerate() {
-            assert_eq!(of_gate.gate, gate);
-            let epsilons: Vec<f32> = of_gate.prices.iter().map(|price| price.epsilon).collect();
-            assert!(epsilons.windows(2).all(|pair| pair[0] < pair[1]), "{epsilons:?}");
-            let takes_negative = entry.info.gates[gate].epsilon == crate::kernel::Tunable::Signed;
-            assert_eq!(epsilons.contains(&-0.25), takes_negative);
-            assert!(epsilons.contains(&0.125) && epsilons.contains(&0.0));
-            assert!(of_gate.marks.windows(2).all(|pair| pair[0].1 <= pair[1].1));
-            let named = |name: &str| of_gate.marks.iter().find(|mark| mark.0 == name).map(|m| m.1);
-            assert_eq!(named(&format!("this row: {}", row.set)), Some(own[gate]));
-            for (name, epsilon) in &of_gate.marks {
-                assert!(epsilons.contains(epsilon), "{name}");
-                let preset = PRESETS.iter().find(|preset| preset.name == name.as_str());
-                assert!(preset.is_some() || name.starts_with("this row") || name == LEAST_SUM);
-            }
-            assert_eq!(named(LEAST_SUM).is_none(), of_gate.trade.settled().is_some());
-            let all =
-                found.responses.iter().map(|r| r.gates[gate].curve(Question::FalseMiss).total);
-            assert_eq!(of_gate.total.curve(Question::FalseMiss).total, all.sum::<u64>());
-            for price in &of_gate.prices {
-                assert_eq!(price.row.epsilons::<f32>()[gate], price.epsilon);
-                assert_eq!(price.row.epsilons::<f32>()[1 - gate], own[1 - gate]);
-                assert_eq!(price.tallies.len(), sources.len());
-                let misses = price.tallies.iter().map(|t| t.total().of(Finding::FalseMiss));
-                let wrong = of_gate.total.curve(Question::FalseMiss).wrong(price.epsilon);
-                assert!((wrong.low..=wrong.high).contains(&misses.sum()), "{:e}", price.epsilon);
-            }
-        }
+        // Of nothing and of n: n is three standard deviations from nothing at 9.
+        let from_nothing = [0, 1, 8, 10, 100].map(|cracks| is_beyond([0, 7], [cracks, 7]));
+        assert_eq!(from_nothing, [false, false, false, false, true]);
+        let alone = [0, 1, 8, 10, 100].map(|cracks| is_beyond([0, 0], [cracks, 0]));
+        assert_eq!(alone, [false, false, false, true, true]);
+        // Where half are wrong, the deviation of both is 71 of 10,000.
+        let half = [5200, 5230].map(|cracks| is_beyond([5000, 0], [cracks, 0]));
+        assert_eq!(half, [false, true]);
+        // By their cost one makes up for the other.
+        assert!(!is_beyond([100, 0], [0, 50]) && is_beyond([100, 0], [0, 0]));
     }
 
     #[test]
-    fn a_response_that_differs_from_the_run_is_a_fault() {
-        let entry = crate::kernel::find("moller-trumbore").unwrap();
-        let row = EpsilonChoice::Source.rows(&[entry], None).unwrap().remove(0);
-        let family = find("edge-near").unwrap();
-        let parameters = Parameters::default();
-        let source = |seed| {
-            [Source::Family {
-                family,
-                parameters: parameters.clone(),
-                seed,
-                count: 80,
-                exhaustive: false,
-            }]
+    fn a_form_is_worth_saying_if_it_saves_a_fifth_and_not_by_chance() {
+        let is_worth = |form: u64, fixed: u64| {
+            let [form, fixed] = [form, fixed].map(|cracks| tried(cracks, 0));
+            is_worth_saying(&COUNTS, &Costs::default(), &form, &fixed)
         };
-        let (subject, axis) = (f32::subject(entry).unwrap(), Axis::new(&[]));
-        let request = Request { row: &row, subject, gates: &[1], axis: &axis, exact: true };
-        let duty = Duty::of(entry.info.gates, 1, &row.contract);
-        let responses = run(&request, &source(1), &Unobserved);
-        let prices_of = |seed| prices(&row, 1, &[0.0f32, 0.01], &source(seed), &Unobserved);
-        assert_eq!(check(&prices_of(1), &duty, 0, &responses), Ok(()));
-        let fault = check(&prices_of(2), &duty, 0, &responses).unwrap_err();
-        assert!(fault.contains("the response says") && fault.contains("the run"), "{fault}");
+        assert_eq!([790, 800, 850].map(|form| is_worth(form, 1000)), [true, false, false]);
+        assert_eq!([1500, 1700].map(|form| is_worth(form, 2000)), [true, false]);
+        assert_eq!([is_worth(0, 8), is_worth(0, 10)], [false, true]);
+    }
+
+    #[test]
+    fn one_wrong_answer_refutes_a_proof() {
+        let proof = |value: f64, wrong: u64| OnFresh {
+            bound: Proved { knob: 0, count: 0, is_lower: true, value },
+            wrong: Trials::independent(wrong, 9),
+            price: None,
+        };
+        assert_eq!(refuted(&[proof(0.5, 0), proof(0.25, 0)]), None);
+        let told = refuted(&[proof(0.5, 0), proof(0.25, 1)]).unwrap();
+        assert_eq!(told, "2.5e-1 is proved to be never wrong, and was 1 times");
     }
 }

@@ -1,6 +1,5 @@
 //! Kernel by kernel: what it promises, its gates, how wrong it is, why and how far.
 
-use super::curve;
 use super::findings::{self, Depth};
 use super::pictures;
 use super::questions;
@@ -57,7 +56,6 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
     // Counted here, so that the lists below do not take their room.
     let essential = promise.into_string() + &tables.into_string();
     let mut lists = Room::new(room.left().saturating_sub(essential.len() + 2000));
-    let curves = curve::figures(view.record, row, &mut lists);
     let pictures = pictures::section(view.record, row, &mut lists);
     let mut quarter = lists.part(lists.left() / 4);
     let families = by_family(view, row, &mut quarter);
@@ -82,7 +80,13 @@ fn kernel_row(view: &View, row: &Row, depth: Depth, room: &mut Room) -> Markup {
             div.body {
                 (PreEscaped(essential))
                 (pictures)
-                (curves)
+                @if !row.part.epsilons.is_empty() && !row.part.selector.is_empty() {
+                    h4 { "Every epsilon" }
+                    p {
+                        "How often the kernel is wrong as one epsilon varies and the others stay: "
+                        (code(&format!("hairline epsilon {} --format html -o epsilon.html", row.part.selector)))
+                    }
+                }
                 (families)
                 (findings)
             }

@@ -4,7 +4,6 @@
 //! Whatever stands in the record is escaped by the templates; the page's own policy lets only its own
 //! style and script run.
 
-mod curve;
 mod deviations;
 mod findings;
 mod heat;

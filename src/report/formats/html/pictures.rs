@@ -5,7 +5,6 @@ use super::view::{Kind, Row};
 use super::words::code;
 use crate::audit;
 use crate::case::Case;
-use crate::epsilon::SPANNING;
 use crate::kernel::Scalar;
 use crate::map::{self, Ink};
 use crate::report::formats::row_view::RowView;
@@ -14,6 +13,10 @@ use crate::report::record::*;
 use crate::report::{MapPart, Record, group_digits};
 use maud::{Markup, PreEscaped, html};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Families whose sizes span the scalar's range.
+const SPANNING: [&str; 6] =
+    ["tiny", "huge", "direction-length", "mixed-scale", "range-ends", "invalid"];
 
 /// The pictures of a row.
 pub(super) fn section(record: &Record, row: &Row, room: &mut Room) -> Markup {

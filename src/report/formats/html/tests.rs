@@ -3,7 +3,7 @@ use crate::report::formats::net::{NET_TITLE, net_lines};
 use crate::report::record::*;
 use crate::report::{
     Conformance, Deviation, Illustrations, MapPart, Method, NetChange, ProofPart, ProvedGate,
-    ResponsePart, RowChange, Unproved, Verdict,
+    RowChange, Unproved, Verdict,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -163,22 +163,6 @@ fn hostile() -> Record {
     let urls = ["javascript:alert(3)", "https://example.org/?a=\"><b>", "HTTP://x\ny", HOSTILE];
     record.conformance = Some(conformance(urls.map(|url| deviation(HOSTILE, url)).into()));
     record.illustrations = Some(Illustrations {
-        indices: 1,
-        families: vec![name.clone()],
-        responses: vec![ResponsePart {
-            kernel: name.clone(),
-            set: "source".to_owned(),
-            scalar: name.clone(),
-            gate: name.clone(),
-            epsilon: name.clone(),
-            own: [u64::MAX; 3],
-            asked: [1, 2, 0],
-            asked_squared: Some([1, 4, 0]),
-            sample: true,
-            points: vec![(name.clone(), [1; 3]), ("NaN".to_owned(), [9; 3])],
-            misses: (7, name.clone()),
-            hits: (7, name.clone()),
-        }],
         maps: ["QUJD", HOSTILE]
             .map(|png| MapPart {
                 kernel: name.clone(),

@@ -1,9 +1,8 @@
 //! The names that people use for the strata and kinds of a scene, its numbers and its units.
 
 use super::record::*;
+use crate::arith::{Float, smallest_normal};
 use crate::case::Number;
-use crate::epsilon::scene::{Count, Kind};
-use crate::family::Stratum;
 use crate::kernel::Role;
 use crate::report::group_digits;
 use crate::report::record::Rate;
@@ -12,31 +11,40 @@ use crate::report::record::Rate;
 pub(super) const RAYS: &str = "rays: aimed from their rounded origin; ray=generated in --scene aims them before it is rounded";
 
 /// The name of a count.
-pub(super) fn label(count: &Count) -> &'static str {
-    match (count.stratum, count.kind) {
-        (Stratum::Interior, Kind::Miss) => "at a triangle: hits lost",
-        (Stratum::Interior, _) => "at its back: false hits",
-        (Stratum::Edges, _) => "at a shared edge: cracks",
-        (Stratum::Vertices, _) => "at a shared vertex: cracks",
-        (Stratum::Grazing, Kind::Miss) => "almost parallel: hits lost",
-        (Stratum::Grazing, _) => "almost parallel: false hits",
-        (Stratum::Parallel, _) => "exactly parallel: false hits",
-        (Stratum::Shadow, _) => "shadow rays: self-hits",
-        (Stratum::Outside, _) => "beside a triangle: false hits",
-    }
+pub(super) fn label(count: &Count) -> String {
+    let what = match count.kind {
+        Kind::Miss => "hits lost",
+        Kind::Hit => "false hits",
+        Kind::Crack => "cracks",
+        Kind::SelfHit => "self-hits",
+    };
+    let place = match (count.rays, count.kind) {
+        (Rays::Stratum(Stratum::Interior), Kind::Miss) => "at a triangle",
+        (Rays::Stratum(Stratum::Interior), _) => "at its back",
+        (Rays::Stratum(Stratum::Edges), _) => "at a shared edge",
+        (Rays::Stratum(Stratum::Vertices), _) => "at a shared vertex",
+        (Rays::Stratum(Stratum::Grazing), _) => "almost parallel",
+        (Rays::Stratum(Stratum::Parallel), _) => "exactly parallel",
+        (Rays::Stratum(Stratum::Shadow), _) => "shadow rays",
+        (Rays::Stratum(Stratum::Outside), _) => "beside a triangle",
+        (rays, _) => rays.name(),
+    };
+    format!("{place}: {what}")
 }
 
-/// Where the rays of a stratum go.
-pub(super) fn where_of(stratum: Stratum) -> &'static str {
-    match stratum {
-        Stratum::Grazing => "almost parallel",
-        _ => "at a triangle",
+/// Where rays go of which hits can be lost.
+pub(super) fn where_of(rays: Rays) -> &'static str {
+    match rays {
+        Rays::Stratum(Stratum::Grazing) => "almost parallel",
+        Rays::Stratum(_) => "at a triangle",
+        rays => rays.name(),
     }
 }
 
 /// The property of the scene, not of the kernel, that sets a limit.
 pub(super) fn set_by(role: Role, count: Count) -> Option<&'static str> {
-    match (role, count.stratum, count.kind) {
+    let Rays::Stratum(stratum) = count.rays else { return None };
+    match (role, stratum, count.kind) {
         (Role::T, Stratum::Interior, Kind::Miss) => Some("the scene's distances"),
         (Role::Parallel, Stratum::Interior, Kind::Miss) => Some("the scene's smallest triangles"),
         (Role::Parallel, Stratum::Grazing, _) => Some("how flat the almost parallel rays are"),
@@ -84,6 +92,9 @@ pub(super) fn meaning(
 ) -> Option<String> {
     let value: f64 = epsilon.parse().ok().filter(|value| *value != 0.0)?;
     let unit = spaced(&record.unit);
+    if !record.has_scene() && knob.dimension != [0, 0] {
+        return None;
+    }
     match (knob.role.as_str(), knob.dimension) {
         ("t", [1, -1]) => {
             let here = match knob.is_gate {
@@ -234,4 +245,22 @@ pub(super) fn flatness(record: &SceneRecord) -> String {
         None => "from 7 degrees down to below rounding".to_owned(),
         Some([low, high]) => format!("whose sines go from {} to {}", Number(low), Number(high)),
     }
+}
+
+/// The shortest decimal of an epsilon.
+pub(crate) fn shortest<F: Float>(epsilon: F) -> String {
+    if epsilon.is_zero() { "0".to_owned() } else { format!("{epsilon:e}") }
+}
+
+/// The remark on a subnormal epsilon.
+pub(super) const FLUSHED: &str = "a subnormal number, which machines that flush to zero take for 0";
+
+/// True if an epsilon is below the normal numbers of its scalar.
+pub(super) fn is_subnormal(scalar: &str, epsilon: &str) -> bool {
+    epsilon.parse().is_ok_and(|e: f64| e != 0.0 && e.abs() < least_normal(scalar))
+}
+
+/// The smallest normal number of the scalar of a name.
+pub(super) fn least_normal(scalar: &str) -> f64 {
+    if scalar == f32::NAME { smallest_normal::<f32>() } else { smallest_normal::<f64>() }
 }

@@ -48,8 +48,9 @@ fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
             _ => format!("no {name} ends both {} and {}", noun(lower), noun(upper)),
         });
     }
-    beyond_limits(part, knob)
-        .map(|epsilon| format!("{name}={epsilon} is outside its own limits, which would cost more"))
+    beyond_limits(part, knob).map(|epsilon| {
+        format!("{name}={epsilon} is outside its limits: values within them cost more")
+    })
 }
 
 /// The chosen value of a knob if it is outside its limits although some value is within.
@@ -92,31 +93,48 @@ pub(super) fn telling(record: &SceneRecord, part: &SceneKernelPart, most: usize)
         let shares = tried.map(|tried| tried.wrong[*place].rate.unwrap_or(0.0));
         cost_of(record, &part.counts[*place]) * shares.fold(0.0, f64::max)
     };
-    let mut places: Vec<usize> = (0..part.counts.len()).filter(|place| 0.0 < worst(place)).collect();
+    let mut places: Vec<usize> =
+        (0..part.counts.len()).filter(|place| 0.0 < worst(place)).collect();
     places.sort_by(|a, b| worst(b).total_cmp(&worst(a)));
     places.truncate(most);
     places.sort_unstable();
     places
 }
 
-/// `lost hits at a triangle`.
-fn noun(count: &Count) -> &'static str {
-    match (count.stratum, count.kind) {
-        (Stratum::Edges, _) => "leaks at shared edges",
-        (Stratum::Vertices, _) => "leaks at shared vertices",
-        (Stratum::Grazing, Kind::Miss) => "lost hits of almost parallel rays",
-        (Stratum::Grazing, _) => "false hits of almost parallel rays",
-        (Stratum::Parallel, _) => "false hits of parallel rays",
-        (Stratum::Shadow, _) => "self-hits of shadow rays",
-        (Stratum::Outside, _) => "false hits beside triangles",
-        (Stratum::Interior, Kind::Miss) => "lost hits inside triangles",
-        (Stratum::Interior, _) => "false hits at the back",
-    }
+/// `lost hits inside triangles`.
+fn noun(count: &Count) -> String {
+    let what = match count.kind {
+        Kind::Crack => "leaks",
+        Kind::Miss => "lost hits",
+        Kind::Hit => "false hits",
+        Kind::SelfHit => "self-hits",
+    };
+    let place = match count.rays {
+        Rays::Stratum(Stratum::Edges) => "at shared edges",
+        Rays::Stratum(Stratum::Vertices) => "at shared vertices",
+        Rays::Stratum(Stratum::Grazing) => "of almost parallel rays",
+        Rays::Stratum(Stratum::Parallel) => "of parallel rays",
+        Rays::Stratum(Stratum::Shadow) => "of shadow rays",
+        Rays::Stratum(Stratum::Outside) => "beside triangles",
+        Rays::Stratum(Stratum::Interior) if count.kind == Kind::Miss => "inside triangles",
+        Rays::Stratum(Stratum::Interior) => "at the back",
+        rays => return format!("{what} of {}", rays.name()),
+    };
+    format!("{what} {place}")
 }
 
 /// `2.9% of the shadow rays hit their own start`.
 fn phrase(count: &Count, share: &str) -> String {
-    let [of, does] = match (count.stratum, count.kind) {
+    let Rays::Stratum(stratum) = count.rays else {
+        let [of, does] = match count.kind {
+            Kind::Miss => ["hits", "are lost"],
+            Kind::Hit => ["misses", "are false hits"],
+            Kind::Crack => ["crossings", "leak"],
+            Kind::SelfHit => ["rays", "hit their own start"],
+        };
+        return format!("{share} of the {of} of {} {does}", count.rays.name());
+    };
+    let [of, does] = match (stratum, count.kind) {
         (Stratum::Edges, _) => ["rays at a shared edge", "leak"],
         (Stratum::Vertices, _) => ["rays at a shared vertex", "leak"],
         (Stratum::Grazing, Kind::Miss) => ["almost parallel hits", "are lost"],

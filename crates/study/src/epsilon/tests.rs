@@ -59,7 +59,8 @@ impl Tuned {
             subject,
             knobs,
             counts,
-            scene,
+            scene: Some(scene),
+            sources: &[],
             mesh: None,
             relative: false,
             fine_curves: false,
@@ -119,7 +120,11 @@ fn what_is_counted_depends_on_the_least_t_and_the_sides() {
     use Stratum::*;
     let of = |knobs: &[Knob], extent, sides| {
         let contract = Contract { extent, sides, ..Contract::CLOSED_RAY };
-        counts(knobs, &contract).iter().map(|count| (count.stratum, count.kind)).collect::<Vec<_>>()
+        let stratum = |count: &Count| match count.rays {
+            Rays::Stratum(stratum) => (stratum, count.kind),
+            other => panic!("{other:?} in a scene"),
+        };
+        counts(knobs, &contract).iter().map(stratum).collect::<Vec<_>>()
     };
     let always = vec![
         (Interior, Miss),
@@ -175,14 +180,14 @@ fn limits_are_margins_of_their_rank() {
         let found = all_limits(&tuned.setting(), epsilons, 4, 400, &Unobserved);
         // How near rays pass beside a triangle is not printed.
         let mut told = found.clone();
-        told.retain(|limit| tuned.counts[limit.count].stratum.family().name != "scene-outside");
+        told.retain(|limit| tuned.counts[limit.count].rays.name() != "scene-outside");
         assert_eq!(limits(&tuned.setting(), epsilons, 4, 400, &Unobserved), told);
         let mut found = found.into_iter();
         let gates = tuned.row.entry.info.gates;
         for (k, knob) in tuned.knobs.iter().enumerate() {
             for (c, count) in tuned.counts.iter().enumerate() {
                 let role = knob.role(gates);
-                let is_lower = match (role.name(), count.stratum.family().name, count.kind.name()) {
+                let is_lower = match (role.name(), count.rays.name(), count.kind.name()) {
                     ("parallel", "scene-grazing" | "scene-parallel", "hit") => true,
                     ("t", "scene-shadow", "self-hit") => true,
                     ("edge", "scene-outside", "hit") => true,

@@ -4,6 +4,7 @@ use super::super::tests::{KERNELS, Kept, Tuned};
 use super::*;
 use crate::audit::Unobserved;
 use crate::case::Draw;
+use crate::epsilon::Rays;
 
 #[test]
 fn a_union_counts_each_point_once() {
@@ -65,10 +66,10 @@ struct Trials {
 const COUNTS: [Count; 4] = {
     use crate::family::Stratum::*;
     [
-        Count { stratum: Interior, kind: Kind::Miss },
-        Count { stratum: Parallel, kind: Kind::Hit },
-        Count { stratum: Edges, kind: Kind::Crack },
-        Count { stratum: Shadow, kind: Kind::SelfHit },
+        Count { rays: Rays::Stratum(Interior), kind: Kind::Miss },
+        Count { rays: Rays::Stratum(Parallel), kind: Kind::Hit },
+        Count { rays: Rays::Stratum(Edges), kind: Kind::Crack },
+        Count { rays: Rays::Stratum(Shadow), kind: Kind::SelfHit },
     ]
 };
 

@@ -1,17 +1,21 @@
 //! The values that are weighed for each knob: round numbers over the range in which they matter.
 
-use super::super::advice::DECADES;
 use super::errors::{MaxError, errors_of};
 use super::joint::Grid;
 use super::knob::{Knob, MOST_KNOBS};
-use super::trials::{Kind, Setting, Trial};
+use super::rays::{Kind, Rays};
+use super::trials::{Setting, Trial};
 use crate::arith::{Float, smallest_normal};
 use crate::case::{DirectionLength, Scene};
 use crate::engine::{Merge, Observer};
 use crate::kernel::{Dimension, Gate, Role, Scalar};
+use std::ops::RangeInclusive;
 
 /// The first indices of a set show the range.
 const PILOT: u64 = 2048;
+
+/// The decades of the numbers that are weighed.
+const DECADES: RangeInclusive<i32> = -330..=310;
 
 /// How far the range reaches beyond what the pilot shows at an edge, of self-hits, and of hits that are too far off.
 const BEYOND: f64 = 100.0;
@@ -29,8 +33,9 @@ const MOST_VALUES: usize = 60;
 pub const MOST_POINTS: usize = 300_000;
 
 /// The largest size of a knob that means anything: a tolerance as large as the largest triangle, or the
-/// longest way.
-fn cap(knob: Knob, gates: &[Gate], scene: &Scene) -> f64 {
+/// longest way; without a scene any number.
+fn cap(knob: Knob, gates: &[Gate], scene: Option<&Scene>) -> f64 {
+    let Some(scene) = scene else { return f64::MAX };
     let Dimension { length, direction } = knob.dimension(gates);
     let farthest = scene.distance[1].max(scene.edge[1]);
     let size = if knob.role(gates) == Role::T { farthest } else { scene.edge[1] };
@@ -100,7 +105,10 @@ pub fn grid<F: Scalar>(
             // No ray of a scene hits nearer than its least distance, so every other false hit nearer than that
             // would speak for a least t as large: for a property of these rays, and not of the kernel.
             let is_of_t = knob.role(gates) == Role::T;
-            let is_in_reach = !is_of_t || is_self_hit || kind == Kind::Miss;
+            let is_in_reach = match setting.counts[trial.count].rays {
+                Rays::Stratum(_) => !is_of_t || is_self_hit || kind == Kind::Miss,
+                _ => trial.guards[k] || kind == Kind::Miss,
+            };
             if F::zero() < margin && is_refused && is_in_reach {
                 widen(&mut ranges.above[k], size);
                 if is_of_t || kind == Kind::Miss {

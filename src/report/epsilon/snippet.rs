@@ -15,12 +15,23 @@ pub(super) enum Language {
 }
 
 /// Writes the numbers of each kernel as constants, each with the comparison that takes it.
-pub(super) fn write(record: &SceneRecord, language: Language, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write(
+    record: &SceneRecord,
+    language: Language,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     for (i, part) in record.kernels.iter().enumerate() {
         if 0 < i {
             writeln!(out)?;
         }
-        writeln!(out, "// {} {} in {}{}", part.kernel, part.scalar, record.scene, of_unit(&record.unit))?;
+        writeln!(
+            out,
+            "// {} {} in {}{}",
+            part.kernel,
+            part.scalar,
+            record.scene,
+            of_unit(&record.unit)
+        )?;
         writeln!(out, "// {}", standing(record, part).1)?;
         let relative = part.relative.as_ref().filter(|_| is_scale_free_better(record, part));
         let follows = relative.is_some();
@@ -30,7 +41,10 @@ pub(super) fn write(record: &SceneRecord, language: Language, out: &mut dyn Writ
             writeln!(out, "{}", constant(language, &part.scalar, knob, value))?;
             if let Some(form) = form {
                 let form = form.replacen('e', &name(knob), 1);
-                writeln!(out, "//   compared as {form}  (L: the triangle's longest edge; M: the largest coordinate)")?;
+                writeln!(
+                    out,
+                    "//   compared as {form}  (L: the triangle's longest edge; M: the largest coordinate)"
+                )?;
             }
         }
     }
@@ -48,9 +62,9 @@ fn constant(language: Language, scalar: &str, knob: &KnobPart, value: &str) -> S
     let comparison = match &knob.refuses {
         // `abs(det) < e (printed det > -e && det < e)`
         Some(refuses) => {
-            let printed = refuses.split_once("(printed ").map_or(refuses.as_str(), |(_, printed)| {
-                printed.trim_end_matches(')')
-            });
+            let printed = refuses
+                .split_once("(printed ")
+                .map_or(refuses.as_str(), |(_, printed)| printed.trim_end_matches(')'));
             format!("refuse where {}", with_name(printed, &name))
         }
         None => format!("count a hit only where t >= {name}"),
@@ -107,8 +121,12 @@ mod tests {
             of(Language::C, "f32"),
             format!("static const float PARALLEL_EPSILON = 5e-10f;{comparison}")
         );
-        assert_eq!(of(Language::Rust, "f64"), format!("const PARALLEL_EPSILON: f64 = 5e-10;{comparison}"));
-        let least = KnobPart { name: "t_min".to_owned(), is_gate: false, refuses: None, ..knob.clone() };
+        assert_eq!(
+            of(Language::Rust, "f64"),
+            format!("const PARALLEL_EPSILON: f64 = 5e-10;{comparison}")
+        );
+        let least =
+            KnobPart { name: "t_min".to_owned(), is_gate: false, refuses: None, ..knob.clone() };
         let text = constant(Language::Glsl, "f32", &least, "0");
         assert_eq!(text, "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN");
     }

@@ -8,7 +8,8 @@
 
 use super::candidates::middle;
 use super::confidence::{Ranks, kept, ranks};
-use super::trials::{Count, Kind, Setting, Trial, accepts};
+use super::rays::{Count, Kind, Rays};
+use super::trials::{Setting, Trial, accepts};
 use crate::arith::{Float, smallest_normal, two_digits};
 use crate::engine::{Merge, Observer};
 use crate::family::Stratum;
@@ -81,12 +82,20 @@ impl<F: Float> Merge for Tails<F> {
 /// True if a limit comes from the rays beside a triangle. It shows how near they pass, so it is not printed; but the
 /// middle between it and the cracks is a good value for an edge.
 fn is_beside(count: Count) -> bool {
-    count.stratum == Stratum::Outside
+    count.rays == Rays::Stratum(Stratum::Outside)
 }
 
 /// True if a count limits a knob from below, false if from above; none if such a knob is not chosen by what it counts.
 fn side(role: Role, count: Count) -> Option<bool> {
-    match (role, count.stratum, count.kind) {
+    let Rays::Stratum(stratum) = count.rays else {
+        return Some(match (role, count.kind) {
+            (Role::Parallel | Role::T, Kind::Miss) => false,
+            (Role::Parallel | Role::T, Kind::Hit) | (Role::T, Kind::SelfHit) => true,
+            (Role::Edge | Role::Other, kind) => !kind.is_wrong_if_refused(),
+            (Role::Parallel, Kind::Crack | Kind::SelfHit) | (Role::T, Kind::Crack) => return None,
+        });
+    };
+    match (role, stratum, count.kind) {
         (Role::Parallel, Stratum::Grazing | Stratum::Parallel, Kind::Hit) => Some(true),
         (Role::T, Stratum::Shadow, Kind::SelfHit) => Some(true),
         (Role::Parallel | Role::T, Stratum::Interior, Kind::Miss) => Some(false),
@@ -139,7 +148,8 @@ pub fn all_limits<F: Scalar>(
         for (k, c, is_lower, tail) in &mut tails.0 {
             if *c == trial.count {
                 let margin = alone(&trial, *k, epsilons);
-                if *is_lower || is_own(&trial, *k, margin) {
+                let counts = if *is_lower { trial.guards[*k] } else { is_own(&trial, *k, margin) };
+                if counts {
                     tail.of += 1;
                     tail.add(margin, !*is_lower);
                 }
@@ -257,7 +267,8 @@ mod tests {
         // Of an edge and a least t: the triangle that is met, and its neighbour far beside it.
         let (inf, no) = (f64::INFINITY, f64::NEG_INFINITY);
         let margins = [[0.5, 1.0, inf], [-0.3, 9.0, inf], [no; 3]];
-        let trial = Trial { count: 0, margins: &margins, cases: &[], values: &[] };
+        let trial =
+            Trial { count: 0, guards: [true; 3], margins: &margins, cases: &[], values: &[] };
         let own = |least_t: f64| {
             let largest = alone(&trial, 0, &[0.0, least_t, 0.0]);
             (largest, is_own(&trial, 0, largest))

@@ -2,8 +2,7 @@
 
 use super::notes::tolerates;
 use super::record::*;
-use super::words::{RAYS, flatness};
-use crate::report::epsilon::{FLUSHED, is_subnormal};
+use super::words::{FLUSHED, RAYS, flatness, is_subnormal};
 
 /// The meaning of the numbers of a limit, where there is one.
 fn of_limits(record: &SceneRecord) -> Vec<String> {

@@ -4,7 +4,8 @@
 use super::errors::{ErrorSums, MaxError, errors_of};
 use super::knob::{Knob, Margins};
 use super::limits::{Limit, alone, is_own};
-use super::trials::{Count, Kind, Setting, Trial, accepts, is_unknown};
+use super::rays::{Count, Kind};
+use super::trials::{Setting, Trial, accepts, is_unknown};
 use crate::arith::Float;
 use crate::audit::Trials;
 use crate::case::Case;
@@ -209,6 +210,7 @@ pub(super) fn differs<F: Scalar>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::rays::Rays;
     use super::*;
     use crate::family::Stratum;
 
@@ -216,8 +218,9 @@ mod tests {
     fn what_other_knobs_refuse_does_not_count_for_a_limit() {
         // Of an edge and a least t: the triangle that is met, and its neighbour far beside it.
         let margins = [[0.5, 1.0, f64::INFINITY], [-0.3, 9.0, f64::INFINITY]];
-        let trial = Trial { count: 0, margins: &margins, cases: &[], values: &[] };
-        let counts = [Count { stratum: Stratum::Edges, kind: Kind::Crack }];
+        let trial =
+            Trial { count: 0, guards: [true; 3], margins: &margins, cases: &[], values: &[] };
+        let counts = [Count { rays: Rays::Stratum(Stratum::Edges), kind: Kind::Crack }];
         let cracks = |least_t: f64, of_knob: Option<usize>| {
             let attempt = Attempt { epsilons: vec![0.6, least_t], of_knob };
             let mut wrong = Wrong::new(1, 0, &counts);

@@ -22,7 +22,8 @@ impl Paged for SceneRecord {
         let answers: Vec<Answer> = self.kernels.iter().map(|part| answer(self, part)).collect();
         let mut page = Page { command: "epsilon", ..Page::default() };
         for (i, (part, answer)) in self.kernels.iter().zip(&answers).enumerate() {
-            let title = format!("{} in {}", answer.title, answer.scene);
+            let on = if self.has_scene() { "in" } else { "on" };
+            let title = format!("{} {on} {}", answer.title, answer.scene);
             match i {
                 0 => page.title = title,
                 _ => page.blocks.push(Block::Heading(title)),
@@ -31,7 +32,8 @@ impl Paged for SceneRecord {
         }
         page.blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
         let tones = self.kernels.iter().map(|part| standing(self, part).0);
-        page.tone = if tones.clone().all(|tone| tone == Tone::Good) { Tone::Good } else { Tone::Plain };
+        page.tone =
+            if tones.clone().all(|tone| tone == Tone::Good) { Tone::Good } else { Tone::Plain };
         if tones.clone().all(|tone| tone == Tone::Bad) {
             page.tone = Tone::Bad;
         }
@@ -45,21 +47,30 @@ pub(super) fn how_to_read(record: &SceneRecord) -> Vec<Block> {
 }
 
 /// One kernel in one scalar: the answer, what argues for it, and everything else folded.
-pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart, answer: &Answer) -> Vec<Block> {
+pub(super) fn of_kernel(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    answer: &Answer,
+) -> Vec<Block> {
     let mut blocks = vec![Block::text(standing(record, part).1)];
     blocks.extend(coarse(record, part).map(Block::Text));
     blocks.extend(answer.used.iter().cloned().map(Block::Use));
-    let title = format!("wrong on fresh rays (seed {})", record.fresh_seed);
+    let title = match record.has_scene() {
+        true => format!("wrong on fresh rays (seed {})", record.fresh_seed),
+        false => format!("wrong (seed {})", record.fresh_seed),
+    };
     let heads = |title: &str| -> Vec<Head> {
         [title].into_iter().chain(answer.columns.iter().map(String::as_str)).map(Head::of).collect()
     };
     let table = |title: &str, rows: &[(String, Vec<String>)]| {
-        let rows = rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
+        let rows =
+            rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
         Block::Table(Table { heads: heads(title), rows })
     };
     let places = telling(record, part, MOST_ROWS);
-    let is_telling =
-        |row: &&(String, Vec<String>)| places.iter().any(|place| label(&part.counts[*place]) == row.0);
+    let is_telling = |row: &&(String, Vec<String>)| {
+        places.iter().any(|place| label(&part.counts[*place]) == row.0)
+    };
     let rows: Vec<_> = answer.rows.iter().filter(is_telling).cloned().collect();
     blocks.push(table(&title, &rows));
     blocks.extend(panels(record, part, answer).into_iter().map(Block::Picture));
@@ -88,7 +99,7 @@ fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec
     let kinds: Vec<String> = [own.to_string()].into_iter().chain(others).collect();
     let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
         .map(|(place, (count, own))| Compared {
-            label: label(count).to_owned(),
+            label: label(count),
             own,
             others: part.elsewhere.iter().map(|other| &other.wrong[place]).collect(),
         })

@@ -23,7 +23,7 @@ pub fn try_elsewhere<F: Scalar>(
             let bound = &found.bound;
             Attempt::alone(bound.knob, bound.value, bound.is_lower, &study.best)
         }));
-        let setting = Setting { scene, store: None, ..*setting };
+        let setting = Setting { scene: Some(scene), store: None, ..*setting };
         let mut wrong =
             count_at(&setting, &attempts, fresh_seed(seed), count, observer).into_iter();
         let of_best = wrong.next().expect("one attempt at least");

@@ -4,7 +4,7 @@ use super::notes::{has_default_costs, is_coarse};
 use super::record::{NamedNumber, SceneKernelPart, SceneRecord};
 use crate::audit::shell_word;
 use crate::case::{Number, SCENES};
-use crate::epsilon::scene::COUNT;
+use crate::epsilon::COUNT;
 
 /// Commands that show more of what is recommended.
 pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
@@ -34,7 +34,9 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
         _ => format!(" --contract {},no-self-hit", own.unwrap_or("own")),
     };
     let same_rays = format!(" -n {}{contract}", record.count);
-    let has_t = part.knobs.iter().any(|knob| knob.role == "t") && !is_coarse(record, part);
+    let has_t = record.has_scene()
+        && part.knobs.iter().any(|knob| knob.role == "t")
+        && !is_coarse(record, part);
     let note = if record.mesh.is_some() { "  # other triangles of these sizes" } else { "" };
     let spawn = has_t.then(|| command("spawn", &of_spawn, note));
     [command("audit", &of_audit, &same_rays)].into_iter().chain(spawn).collect()
@@ -48,6 +50,9 @@ fn scene_words(record: &SceneRecord) -> String {
 
 /// The flags that name the scene of a study, or its mesh and how rays meet it.
 fn of_scene(record: &SceneRecord) -> String {
+    if !record.has_scene() {
+        return record.flags.clone();
+    }
     let Some(mesh) = &record.mesh else { return format!("--scene {}", scene_words(record)) };
     // A mesh has its own extent and edges.
     let is_of_rays =

@@ -1,7 +1,8 @@
 //! The proofs of `prove` for the knobs in a scene: epsilons at which some wrong answers occur on no ray of the scene.
 
 use super::knob::Knob;
-use super::trials::{Count, Kind, Setting};
+use super::rays::{Count, Kind, Rays};
+use super::trials::Setting;
 use crate::arith::{Float, smallest_normal, three_digits};
 use crate::case::{DirectionLength, Scene};
 use crate::family::Stratum;
@@ -24,9 +25,10 @@ pub struct Proved<F> {
 /// The values that are proved for each knob; none in scenes whose directions have any length, nor where a proof
 /// assumes more than the sizes of triangles and distances.
 pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
-    let is_unit = setting.scene.direction == DirectionLength::Unit;
+    let Some(scene) = setting.scene else { return Vec::new() };
+    let is_unit = scene.direction == DirectionLength::Unit;
     // Else rounding moves vertices and starts by more than the room that the domain has for it.
-    if !is_unit || setting.relative || setting.scene.check_in::<F>().is_err() {
+    if !is_unit || setting.relative || scene.check_in::<F>().is_err() {
         return Vec::new();
     }
     let of_knob = |(k, knob): (usize, &Knob)| {
@@ -35,14 +37,14 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<Proved<F>> {
         let is_lower = role == Role::Parallel;
         let decided = |count: &Count| {
             matches!(
-                (role, count.stratum, count.kind),
-                (Role::Parallel, Stratum::Parallel, Kind::Hit)
-                    | (Role::Edge, Stratum::Edges | Stratum::Vertices, Kind::Crack)
+                (role, count.rays, count.kind),
+                (Role::Parallel, Rays::Stratum(Stratum::Parallel), Kind::Hit)
+                    | (Role::Edge, Rays::Stratum(Stratum::Edges | Stratum::Vertices), Kind::Crack)
             )
         };
         let counts = setting.counts.iter().enumerate().filter(|(_, count)| decided(count));
         let places: Vec<usize> = counts.map(|(place, _)| place).collect();
-        let bound = if places.is_empty() { None } else { bound(setting, gate) };
+        let bound = if places.is_empty() { None } else { bound(setting, scene, gate) };
         let Some(bound) = bound else { return Vec::new() };
         let value = beyond(bound, is_lower);
         places.into_iter().map(|count| Proved { knob: k, count, is_lower, value }).collect()
@@ -58,8 +60,8 @@ fn beyond<F: Float>(bound: f64, is_above: bool) -> F {
 }
 
 /// The largest error of what a gate compares with its epsilon in a scene.
-fn bound<F: Scalar>(setting: &Setting<'_, F>, gate: usize) -> Option<f64> {
-    let domain = proved_scene(setting.scene)?.domain().ok()?;
+fn bound<F: Scalar>(setting: &Setting<'_, F>, scene: &Scene, gate: usize) -> Option<f64> {
+    let domain = proved_scene(scene)?.domain().ok()?;
     let proof =
         Proof::new(paths_of::<F>(setting.row.entry).ok()?, Some(gate), domain, format_of::<F>());
     let bound = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();

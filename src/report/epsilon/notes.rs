@@ -1,11 +1,10 @@
 //! The notes on recommended numbers: what they mean in the scene, and what no number can do.
 
 use super::record::*;
-use super::words::{human, meaning, share, spaced};
+use super::words::{human, least_normal, meaning, share, spaced};
 use crate::arith::Float;
 use crate::case::Number;
-use crate::epsilon::scene::{Costs, Kind, SCALE_FREE};
-use crate::report::epsilon::least_normal;
+use crate::epsilon::{Costs, Kind, SCALE_FREE};
 use crate::report::number_of;
 use crate::report::record::Rate;
 
@@ -48,6 +47,9 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
 
 /// A note if there were too few rays to choose epsilons by.
 pub(super) fn few_rays(record: &SceneRecord) -> Option<String> {
+    if !record.has_scene() {
+        return None;
+    }
     let advice = match record.count {
         ..TOO_FEW => "too few to choose by; leave out -n",
         TOO_FEW..FEW => "another seed may name quite others",
@@ -60,7 +62,8 @@ pub(super) fn few_rays(record: &SceneRecord) -> Option<String> {
 /// The share of wrong answers from which on no scene can live with them, by what is counted; none where a scene may
 /// have to.
 fn too_many(part: &SceneKernelPart, count: &Count) -> Option<f64> {
-    match (count.stratum, count.kind) {
+    let Rays::Stratum(stratum) = count.rays else { return None };
+    match (stratum, count.kind) {
         (Stratum::Interior, Kind::Miss) | (_, Kind::SelfHit) => Some(0.01),
         // Without an epsilon at the edges, cracks are the kernel's, whatever the numbers are.
         (_, Kind::Crack) => part.has_edge_epsilon.then_some(0.01),
@@ -158,7 +161,7 @@ fn overweighed(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
 
 /// True if the scalar's numbers are too far apart for the smallest triangles.
 pub(super) fn is_coarse(record: &SceneRecord, part: &SceneKernelPart) -> bool {
-    record.edge[0] < 32.0 * part.spacing
+    record.has_scene() && record.edge[0] < 32.0 * part.spacing
 }
 
 /// True if products of three of the smallest triangle's lengths lose digits, because the scalar has none so small.

@@ -1,83 +1,34 @@
-//! The trials of a kernel in a scene, and one pass over them.
+//! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
-use super::super::relative::Scales;
+use super::duty::Duty;
 use super::knob::{Knob, MOST_KNOBS, Margins};
-use super::prepared::{Prepared, Store};
+use super::prepared::{Part, Prepared, Store};
+use super::rays::{Count, Kind, Rays};
+use super::relative::Scales;
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, SourceSummary};
 use crate::case::{Case, Parameters, Scene};
-use crate::contract::{Contract, Extent, Sides};
+use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer, Unobserved};
-use crate::family::Stratum;
+use crate::family::{Grouping, Stratum};
 use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-named! {
-    pub names
-    /// How an answer is wrong in a scene; the word in `--cost`.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Kind {
-        /// A ray slips through between triangles that share an edge or a vertex.
-        Crack = "crack",
-        /// A hit is lost.
-        Miss = "miss",
-        /// A hit is reported where there is none.
-        Hit = "hit",
-        /// A ray hits the triangle that it starts on.
-        SelfHit = "self-hit",
-    }
-}
-
-impl Kind {
-    /// True if it is the refusal that is wrong.
-    pub fn is_wrong_if_refused(self) -> bool {
-        matches!(self, Kind::Crack | Kind::Miss)
-    }
-}
-
-/// A number that is counted: the wrong answers of one kind in one stratum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Count {
-    /// The stratum's family.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
-    pub stratum: Stratum,
-    /// `crack`, `miss`, `hit` or `self-hit`.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
-    pub kind: Kind,
-}
-
-/// The counts of a kernel with these knobs under a contract, in the order of reports. Without a
-/// least t nothing can keep a ray from hitting the triangle that it starts on.
-pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
-    use Stratum::*;
-    let starts = contract.extent != Extent::Line;
-    let culls = contract.sides == Sides::Front;
-    let all = [
-        (Interior, Kind::Miss, true),
-        (Interior, Kind::Hit, culls),
-        (Edges, Kind::Crack, true),
-        (Vertices, Kind::Crack, true),
-        (Grazing, Kind::Miss, true),
-        (Grazing, Kind::Hit, true),
-        (Parallel, Kind::Hit, true),
-        (Shadow, Kind::SelfHit, starts && !knobs.is_empty()),
-        (Outside, Kind::Hit, true),
-    ];
-    let counted = all.into_iter().filter(|(.., is_counted)| *is_counted);
-    counted.map(|(stratum, kind, _)| Count { stratum, kind }).collect()
-}
-
-/// A scene to study.
-pub struct StudiedScene {
-    /// In numbers.
-    pub scene: Scene,
-    /// Its unit of length; empty if it has none.
+/// The rays to study.
+#[derive(Default)]
+pub struct StudiedRays {
+    /// The scene; none if there are sources.
+    pub scene: Option<Scene>,
+    /// Families and stored cases, if they are named instead of a scene.
+    pub sources: Vec<Source>,
+    /// The flags that choose the sources again.
+    pub flags: String,
+    /// The strata of the scene; all if none is named.
+    pub strata: Vec<String>,
+    /// The scene's unit of length; empty if it has none.
     pub unit: &'static str,
     /// The mesh that it is, if it is one.
     pub mesh: Option<Arc<SceneMesh>>,
@@ -93,10 +44,12 @@ pub struct Setting<'a, F: Float> {
     pub subject: &'static dyn Subject<F>,
     /// At most [`MOST_KNOBS`].
     pub knobs: &'a [Knob],
-    /// The kinds and strata whose wrong answers are counted.
+    /// The kinds and rays whose wrong answers are counted.
     pub counts: &'a [Count],
-    /// The scene.
-    pub scene: &'a Scene,
+    /// The scene; none on sources.
+    pub scene: Option<&'a Scene>,
+    /// The sources; none in a scene.
+    pub sources: &'a [Source],
     /// The mesh that it is, if it is one.
     pub mesh: Option<&'a Arc<SceneMesh>>,
     /// Epsilons are multiplied by each case's own size.
@@ -111,6 +64,8 @@ pub struct Setting<'a, F: Float> {
 pub struct Trial<'a, F: Float> {
     /// Which of the setting's counts it is for.
     pub count: usize,
+    /// By knob: true if it is there to refuse such a ray, where refusing it is right.
+    pub guards: [bool; MOST_KNOBS],
     /// The margins of each triangle; a hit is reported if one is accepted.
     pub margins: &'a [Margins<F>],
     /// The triangles with their ray.
@@ -124,6 +79,18 @@ impl<F: Float> Trial<'_, F> {
     pub fn is_hit(&self, epsilons: &[F]) -> bool {
         self.margins.iter().any(|margins| accepts(margins, epsilons))
     }
+}
+
+/// By knob: if it is there to refuse a ray.
+pub(super) type Guards = [bool; MOST_KNOBS];
+
+/// The triangles of each ray that crosses a surface at an edge or vertex which they share.
+fn crossings<'a, F: Scalar>(
+    chunk: &'a Chunk<F>,
+    contract: &Contract,
+) -> impl Iterator<Item = Range<usize>> + use<'a, F> {
+    let groups = chunk.groups().zip(chunk.group_truths(contract));
+    groups.filter(|(_, truth)| *truth == GroupTruth::Crossing).map(|((_, range), _)| range)
 }
 
 /// True if the kernel failed while its margins were looked for.
@@ -160,40 +127,60 @@ impl<F: Scalar> Setting<'_, F> {
         look: impl Fn(&mut S, &[Case<F>], &[Margins<F>]) + Sync,
     ) -> S {
         let mut total = empty();
-        for stratum in Stratum::ALL {
-            if !self.counts.iter().any(|count| count.stratum == stratum) {
-                continue;
+        let mut all: Vec<Rays> = self.counts.iter().map(|count| count.rays).collect();
+        all.dedup_by(|a, b| a == b);
+        for (group, rays) in all.into_iter().enumerate() {
+            for (place, source) in self.sources_of(rays, seed, count).into_iter().enumerate() {
+                let add = |sums: &mut S, indices: Range<u64>| {
+                    let place =
+                        Part { group, source: place, start: indices.start, end: indices.end };
+                    let make = || self.prepare(&source, rays, indices);
+                    let part = match self.store {
+                        Some(store) => store.part(seed, place, make),
+                        None => Arc::new(make()),
+                    };
+                    let Prepared { cases, margins, relative, values, trials } = &*part;
+                    let margins = match self.relative {
+                        true => relative.get_or_init(|| self.relative_margins(cases, margins)),
+                        false => margins,
+                    };
+                    look(sums, cases, margins);
+                    for (count, guards, range) in trials {
+                        let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
+                        let values = &values[range.clone()];
+                        add(sums, Trial { count: *count, guards: *guards, margins, cases, values });
+                    }
+                };
+                let indices = 0..source.count::<F>();
+                total.merge(engine::sum(indices, source.chunk(), observer, &empty, add));
             }
-            let source = self.source(stratum, seed, count);
-            let add = |sums: &mut S, indices: Range<u64>| {
-                let place = (stratum, indices.start, indices.end);
-                let make = || self.prepare(&source, stratum, indices);
-                let part = match self.store {
-                    Some(store) => store.part(seed, place, make),
-                    None => Arc::new(make()),
-                };
-                let Prepared { cases, margins, relative, values, trials } = &*part;
-                let margins = match self.relative {
-                    true => relative.get_or_init(|| self.relative_margins(cases, margins)),
-                    false => margins,
-                };
-                look(sums, cases, margins);
-                for (count, range) in trials {
-                    let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
-                    let values = &values[range.clone()];
-                    add(sums, Trial { count: *count, margins, cases, values });
-                }
-            };
-            let indices = 0..source.count::<F>();
-            total.merge(engine::sum(indices, source.chunk(), observer, &empty, add));
         }
         total
+    }
+
+    /// The first indices of the rays of one kind; of stored cases all.
+    fn sources_of(&self, rays: Rays, seed: u64, count: u64) -> Vec<Source> {
+        let reseeded = |source: &Source| match source.clone() {
+            Source::Family { family, parameters, exhaustive: false, .. } => {
+                Source::Family { family, parameters, seed, count, exhaustive: false }
+            }
+            source => source,
+        };
+        match rays {
+            Rays::Stratum(stratum) => vec![self.source(stratum, seed, count)],
+            _ => self
+                .sources
+                .iter()
+                .filter(|source| Rays::of(source) == rays)
+                .map(reseeded)
+                .collect(),
+        }
     }
 
     /// The first indices of a stratum.
     pub fn source(&self, stratum: Stratum, seed: u64, count: u64) -> Source {
         let kernel = (stratum == Stratum::Shadow).then(|| self.row.entry.info.name.to_owned());
-        let scene = Some(self.scene.clone());
+        let scene = Some(self.scene.cloned().unwrap_or_default());
         let parameters = Parameters { scene, kernel, ..Parameters::default() };
         match self.mesh {
             Some(mesh) => Source::of_scene_mesh(mesh, stratum, parameters, seed, count),
@@ -208,32 +195,39 @@ impl<F: Scalar> Setting<'_, F> {
     }
 
     /// The cases of some indices, their margins, and the trials among them.
-    fn prepare(&self, source: &Source, stratum: Stratum, indices: Range<u64>) -> Prepared<F> {
+    fn prepare(&self, source: &Source, rays: Rays, indices: Range<u64>) -> Prepared<F> {
         let mut summary = SourceSummary::new(0, F::NAME);
         let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
         let (margins, values) = self.margins(&chunk.cases);
-        let mut trials = self.trials(&chunk, stratum);
-        trials.retain(|(_, range)| !margins[range.clone()].iter().any(is_unknown));
+        let mut trials = match rays {
+            Rays::Stratum(stratum) => self.trials(&chunk, stratum),
+            _ => self.trials_of(&chunk, rays),
+        };
+        trials.retain(|(.., range)| !margins[range.clone()].iter().any(is_unknown));
         Prepared { cases: chunk.cases, margins, relative: OnceLock::new(), values, trials }
     }
 
-    /// Which cases are a trial together, and of which count.
-    fn trials(&self, chunk: &Chunk<F>, stratum: Stratum) -> Vec<(usize, Range<usize>)> {
+    /// The place of a count, if it is counted.
+    fn place(&self, rays: Rays, kind: Kind) -> Option<usize> {
+        self.counts.iter().position(|count| *count == Count { rays, kind })
+    }
+
+    /// Which cases of a stratum are a trial together, and of which count.
+    fn trials(&self, chunk: &Chunk<F>, stratum: Stratum) -> Vec<(usize, Guards, Range<usize>)> {
         let contract = &self.row.contract;
-        let of =
-            |kind: Kind| self.counts.iter().position(|count| *count == Count { stratum, kind });
+        let of = |kind: Kind| self.place(Rays::Stratum(stratum), kind);
+        // A stratum is what a knob is there for, or is not.
+        let all = [true; MOST_KNOBS];
         if let Some(count) = of(Kind::SelfHit) {
-            return (0..chunk.cases.len()).map(|i| (count, i..i + 1)).collect();
+            return (0..chunk.cases.len()).map(|i| (count, all, i..i + 1)).collect();
         }
         if let Some(count) = of(Kind::Crack) {
-            let groups = chunk.groups().zip(chunk.group_truths(contract));
-            let crossed = groups.filter(|(_, truth)| *truth == GroupTruth::Crossing);
-            return crossed.map(|((_, range), _)| (count, range)).collect();
+            return crossings(chunk, contract).map(|range| (count, all, range)).collect();
         }
         let [misses, hits] = [of(Kind::Miss), of(Kind::Hit)];
         let family = stratum.family();
-        let all = chunk.obligations(contract).into_iter().enumerate();
-        let counted = all.filter_map(|(i, obligation)| {
+        let obligations = chunk.obligations(contract).into_iter().enumerate();
+        let counted = obligations.filter_map(|(i, obligation)| {
             let count = match obligation {
                 // At a mesh not every parallel ray can be made exactly so.
                 _ if !family.keeps(&chunk.truths[i..=i]) => None,
@@ -241,9 +235,40 @@ impl<F: Scalar> Setting<'_, F> {
                 Obligation::MustMiss => hits,
                 Obligation::Free => None,
             };
-            Some((count?, i..i + 1))
+            Some((count?, all, i..i + 1))
         });
         counted.collect()
+    }
+
+    /// The same of other rays, each of which may count for several things.
+    fn trials_of(&self, chunk: &Chunk<F>, rays: Rays) -> Vec<(usize, Guards, Range<usize>)> {
+        let (contract, gates) = (&self.row.contract, self.row.entry.info.gates);
+        let [cracks, misses, hits, self_hits] = Kind::ALL.map(|kind| self.place(rays, kind));
+        let duties: Vec<Duty> =
+            self.knobs.iter().map(|knob| Duty::of(gates, knob.role(gates), contract)).collect();
+        let starts = self_hits.filter(|_| chunk.grouping == Grouping::SecondaryRay);
+        let mut trials = Vec::new();
+        for (i, obligation) in chunk.obligations(contract).into_iter().enumerate() {
+            let mut guards = [false; MOST_KNOBS];
+            for (guards, duty) in guards.iter_mut().zip(&duties) {
+                *guards = match starts {
+                    Some(_) => duty.guards_start(),
+                    None => duty.guards(chunk.class(i)),
+                };
+            }
+            let count = match obligation {
+                _ if starts.is_some() => starts,
+                Obligation::MustHit => misses,
+                Obligation::MustMiss => hits,
+                Obligation::Free => None,
+            };
+            trials.extend(count.map(|count| (count, guards, i..i + 1)));
+        }
+        let crossings = cracks.map(|count| {
+            crossings(chunk, contract).map(move |range| (count, [false; MOST_KNOBS], range))
+        });
+        trials.extend(crossings.into_iter().flatten());
+        trials
     }
 
     /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a

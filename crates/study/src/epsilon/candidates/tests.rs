@@ -19,7 +19,7 @@ fn the_largest_value_is_that_of_the_largest_triangle_or_the_longest_way() {
     ];
     let caps = |text: &str| {
         let (scene, _) = Scene::parse(text).unwrap();
-        [At(0), At(1), At(2), At(3), LeastT].map(|knob| cap(knob, &gates, &scene))
+        [At(0), At(1), At(2), At(3), LeastT].map(|knob| cap(knob, &gates, Some(&scene)))
     };
     // L is at most 4, the longest way 16, |d| 1 or from 0.5 to 16.
     let unit = "extent=32,edge=0.5..4,distance=0..16";

@@ -4,7 +4,7 @@ use super::answer::{Answer, USE, answer, is_scale_free_better};
 use super::commands::of_kernel;
 use super::notes::few_rays;
 use super::page;
-use super::record::{Kind, SceneKernelPart, SceneRecord, Stratum, TriedPart};
+use super::record::{Count, Kind, Rays, SceneKernelPart, SceneRecord, Stratum, TriedPart};
 use super::words::{human, of_unit, share, spaced};
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
 use crate::report::record::Rate;
@@ -33,7 +33,8 @@ pub(super) fn is_needed(record: &SceneRecord) -> bool {
 pub(super) fn page(record: &SceneRecord) -> Page {
     let scene = match &record.mesh {
         Some(mesh) => mesh.path.as_str(),
-        None => record.scene.as_str(),
+        None if record.has_scene() => record.scene.as_str(),
+        None => record.flags.as_str(),
     };
     let mut blocks: Vec<Block> = few_rays(record).map(Block::Text).into_iter().collect();
     let all = ["f32", "f64"].map(|scalar| (scalar, alike(record, scalar)));
@@ -42,7 +43,7 @@ pub(super) fn page(record: &SceneRecord) -> Page {
     let most = if scalars == 1 { 7 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
-        blocks.push(Block::text(fitness(record, best.part)));
+        blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.part))));
         let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits"].map(Head::of).into();
         let rows_of = |rows: &[Alike]| rows.iter().map(|alike| row(record, alike)).collect();
         blocks.push(Block::Table(Table { heads, rows: rows_of(&rows[..most.min(rows.len())]) }));
@@ -113,17 +114,17 @@ impl Alike<'_> {
 }
 
 fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
-    let cell = |is_of: fn(Stratum, Kind) -> bool| {
+    let cell = |is_of: fn(&Count) -> bool| {
         let counts = part.counts.iter().zip(&best.wrong);
-        let rates = counts.filter(|(count, _)| is_of(count.stratum, count.kind));
+        let rates = counts.filter(|(count, _)| is_of(count));
         let worst = |a: &&Rate, b: &&Rate| a.rate.unwrap_or(0.0).total_cmp(&b.rate.unwrap_or(0.0));
         rates.map(|(_, rate)| rate).max_by(worst).map_or("-".to_owned(), share)
     };
     let cells = [
         format!("{:.3}", best.cost),
-        cell(|_, kind| kind == Kind::Crack),
-        cell(|stratum, kind| (stratum, kind) == (Stratum::Interior, Kind::Miss)),
-        cell(|_, kind| kind == Kind::SelfHit),
+        cell(|count| count.kind == Kind::Crack),
+        cell(is_lost),
+        cell(|count| count.kind == Kind::SelfHit),
     ];
     let used = answer(record, part).used.into_iter().next();
     let used = used.map(|used| {
@@ -135,6 +136,12 @@ fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
     Row { below: used.into_iter().chain(alike).collect(), ..Row::new(&part.kernel, cells) }
 }
 
+/// True if a count is of hits inside triangles that are lost; of other sources of all hits that are.
+fn is_lost(count: &Count) -> bool {
+    let inside = !matches!(count.rays, Rays::Stratum(stratum) if stratum != Stratum::Interior);
+    inside && count.kind == Kind::Miss
+}
+
 /// The length of the smallest triangle's longest edge in steps of the scalar's numbers at the far end.
 fn steps(record: &SceneRecord, part: &SceneKernelPart) -> f64 {
     record.edge[0] / part.spacing
@@ -142,7 +149,7 @@ fn steps(record: &SceneRecord, part: &SceneKernelPart) -> f64 {
 
 /// True if the scalar's numbers are fine enough for the scene's smallest triangles.
 pub(super) fn is_fine(record: &SceneRecord, part: &SceneKernelPart) -> bool {
-    FINE <= steps(record, part).round()
+    !record.has_scene() || FINE <= steps(record, part).round()
 }
 
 /// A sentence that says so, or that they are not.

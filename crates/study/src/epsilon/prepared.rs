@@ -1,9 +1,9 @@
 //! Rays of a scene with what the kernel makes of them, kept between the passes over them.
 
 use super::knob::Margins;
+use super::trials::Guards;
 use crate::arith::Float;
 use crate::case::Case;
-use crate::family::Stratum;
 use crate::kernel::Hit;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -22,8 +22,17 @@ pub(super) struct Prepared<F: Float> {
     pub relative: OnceLock<Vec<Margins<F>>>,
     /// The values that a hit of each case would report.
     pub values: Vec<Option<Hit<F>>>,
-    /// Which count each trial is for, and its cases.
-    pub trials: Vec<(usize, Range<usize>)>,
+    /// Which count each trial is for, which knobs guard it, and its cases.
+    pub trials: Vec<(usize, Guards, Range<usize>)>,
+}
+
+/// Some indices of a source of the rays of one kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Part {
+    pub group: usize,
+    pub source: usize,
+    pub start: u64,
+    pub end: u64,
 }
 
 /// The rays of one seed that were prepared first.
@@ -32,8 +41,7 @@ pub struct Store<F: Float>(Mutex<Kept<F>>);
 struct Kept<F: Float> {
     seed: u64,
     cases: usize,
-    /// By stratum, and by the first index and the end.
-    parts: BTreeMap<(Stratum, u64, u64), Arc<Prepared<F>>>,
+    parts: BTreeMap<Part, Arc<Prepared<F>>>,
 }
 
 impl<F: Float> Default for Store<F> {
@@ -47,7 +55,7 @@ impl<F: Float> Store<F> {
     pub(super) fn part(
         &self,
         seed: u64,
-        place: (Stratum, u64, u64),
+        place: Part,
         make: impl FnOnce() -> Prepared<F>,
     ) -> Arc<Prepared<F>> {
         let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -74,8 +82,11 @@ impl<F: Float> Store<F> {
 mod tests {
     use super::*;
 
-    const PLACES: [(Stratum, u64, u64); 3] =
-        [(Stratum::Edges, 0, 1), (Stratum::Edges, 1, 2), (Stratum::Interior, 0, 1)];
+    const PLACES: [Part; 3] = [
+        Part { group: 1, source: 0, start: 0, end: 1 },
+        Part { group: 1, source: 0, start: 1, end: 2 },
+        Part { group: 0, source: 0, start: 0, end: 1 },
+    ];
 
     /// So many cases; nothing else of a part matters to what keeps it.
     fn of_cases(count: usize) -> Prepared<f32> {

@@ -2,7 +2,8 @@
 
 use super::errors::{MaxError, errors_of};
 use super::knob::Margins;
-use super::trials::{Count, Kind, Setting, Trial};
+use super::rays::{Count, Kind};
+use super::trials::{Setting, Trial};
 use crate::arith::Float;
 use crate::audit::Trials;
 use crate::engine::{Merge, Observer};

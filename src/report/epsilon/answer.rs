@@ -4,10 +4,9 @@ use super::commands::commands;
 use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes};
 use super::record::*;
 use super::words::{
-    bound, flag, human, interval, label, least_t, number, of_unit, share, short_error, unit_of,
-    unit_of_t, where_of,
+    bound, flag, human, interval, label, least_normal, least_t, number, of_unit, share,
+    short_error, unit_of, unit_of_t, where_of,
 };
-use crate::report::epsilon::least_normal;
 use crate::report::page::Use;
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
@@ -42,7 +41,7 @@ pub(super) struct Answer {
 pub(super) struct LimitRow {
     pub knob: String,
     pub bound: String,
-    pub what: &'static str,
+    pub what: String,
     pub most: String,
     pub fresh: String,
     /// True if the scene's sizes set it as much as rounding does.
@@ -63,7 +62,10 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
     Answer {
         title,
         name,
-        scene: format!("{}{}", record.scene, of_unit(&record.unit)),
+        scene: match record.has_scene() {
+            true => format!("{}{}", record.scene, of_unit(&record.unit)),
+            false => record.sources.join(", "),
+        },
         used: used(record, part),
         columns: columns(part)
             .map(|tried| column(part, &tried.name))
@@ -160,22 +162,27 @@ pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
 fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for (i, count) in part.counts.iter().enumerate() {
+        // A family may have nothing of a kind.
+        if !matches!(count.rays, Rays::Stratum(_)) && part.tried[0].wrong[i].of == 0 {
+            continue;
+        }
         let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
-        rows.push((label(count).to_owned(), cells));
-        let several = match count.stratum {
-            Stratum::Edges => "at a shared edge: both hit",
-            Stratum::Vertices => "at a shared vertex: several hit",
+        rows.push((label(count), cells));
+        let several = match (count.rays, count.kind) {
+            (Rays::Stratum(Stratum::Edges), _) => "at a shared edge: both hit".to_owned(),
+            (Rays::Stratum(Stratum::Vertices), _) => "at a shared vertex: several hit".to_owned(),
+            (rays, Kind::Crack) => format!("{}: several hit", rays.name()),
             _ => continue,
         };
         let cells = columns(part).map(|tried| share(&tried.doubles[i])).collect();
-        rows.push((several.to_owned(), cells));
+        rows.push((several, cells));
     }
     for (i, count) in part.counts.iter().enumerate() {
         let found: Vec<Option<&Rate>> =
             columns(part).map(|tried| tried.exceeded.get(i).filter(|rate| 0 < rate.of)).collect();
         if found.iter().any(Option::is_some) {
             let cells = found.into_iter().map(|rate| rate.map_or("-".to_owned(), share));
-            rows.push((format!("too far off, {}", where_of(count.stratum)), cells.collect()));
+            rows.push((format!("too far off, {}", where_of(count.rays)), cells.collect()));
         }
     }
     let costs = columns(part).map(|tried| format!("{:.3}", tried.cost));
@@ -193,7 +200,7 @@ fn error_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<(String, Vec<
             let found: Vec<Option<String>> = columns(part).map(of).collect();
             if found.iter().any(Option::is_some) {
                 let cells = found.into_iter().map(|cell| cell.unwrap_or("-".to_owned()));
-                let name = format!("of {value}{unit}, {}", where_of(count.stratum));
+                let name = format!("of {value}{unit}, {}", where_of(count.rays));
                 rows.push((name, cells.collect()));
             }
         }
@@ -227,7 +234,11 @@ fn scale_free(record: &SceneRecord, part: &SceneKernelPart, relative: &TriedPart
         format!("they cost {least:.3}, the best fixed ones {most:.3}"),
     ]);
     notes.extend(accuracy(record));
-    Use { lead: lead(record, part, relative).to_owned(), text: forms.collect::<Vec<_>>().join(", "), notes }
+    Use {
+        lead: lead(record, part, relative).to_owned(),
+        text: forms.collect::<Vec<_>>().join(", "),
+        notes,
+    }
 }
 
 fn limit_rows(record: &SceneRecord, part: &SceneKernelPart) -> Vec<LimitRow> {

@@ -1,0 +1,161 @@
+//! What is counted: the rays that belong together, and how answers on them are wrong.
+
+use super::duty::Duty;
+use super::knob::Knob;
+use crate::audit::{Row, Source};
+use crate::contract::{Contract, Extent, Sides};
+use crate::family::{Family, Grouping, Stratum, find};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+named! {
+    pub names
+    /// How an answer is wrong in a scene; the word in `--cost`.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Kind {
+        /// A ray slips through between triangles that share an edge or a vertex.
+        Crack = "crack",
+        /// A hit is lost.
+        Miss = "miss",
+        /// A hit is reported where there is none.
+        Hit = "hit",
+        /// A ray hits the triangle that it starts on.
+        SelfHit = "self-hit",
+    }
+}
+
+impl Kind {
+    /// True if it is the refusal that is wrong.
+    pub fn is_wrong_if_refused(self) -> bool {
+        matches!(self, Kind::Crack | Kind::Miss)
+    }
+}
+
+/// Rays that are counted together.
+#[derive(Clone, Copy)]
+pub enum Rays {
+    /// A part of a scene.
+    Stratum(Stratum),
+    /// A family.
+    Family(&'static Family),
+    /// All stored cases.
+    Stored,
+}
+
+impl Rays {
+    /// The rays of a source.
+    pub fn of(source: &Source) -> Rays {
+        match source {
+            Source::Family { family, .. } => {
+                Rays::named(family.name).unwrap_or(Rays::Family(family))
+            }
+            _ => Rays::Stored,
+        }
+    }
+
+    /// The name of the family.
+    pub fn name(self) -> &'static str {
+        match self {
+            Rays::Stratum(stratum) => stratum.name(),
+            Rays::Family(family) => family.name,
+            Rays::Stored => "stored",
+        }
+    }
+
+    fn named(name: &str) -> Option<Rays> {
+        let stratum = Stratum::named(name).map(Rays::Stratum);
+        let stored = || (name == Rays::Stored.name()).then_some(Rays::Stored);
+        stratum.or_else(|| find(name).map(Rays::Family)).or_else(stored)
+    }
+}
+
+impl fmt::Debug for Rays {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl PartialEq for Rays {
+    fn eq(&self, other: &Rays) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for Rays {}
+
+impl Serialize for Rays {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Rays {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Rays, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Rays::named(&name).ok_or_else(|| D::Error::custom(format!("no family '{name}'")))
+    }
+}
+
+/// A number that is counted: the wrong answers of one kind on some rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Count {
+    /// The family of the rays, `scene-…` for a stratum.
+    #[serde(rename = "stratum")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub rays: Rays,
+    /// `crack`, `miss`, `hit` or `self-hit`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub kind: Kind,
+}
+
+/// The counts of a kernel with these knobs under a contract, in the order of reports. Without a
+/// least t nothing can keep a ray from hitting the triangle that it starts on.
+pub fn counts(knobs: &[Knob], contract: &Contract) -> Vec<Count> {
+    use Stratum::*;
+    let starts = contract.extent != Extent::Line;
+    let culls = contract.sides == Sides::Front;
+    let all = [
+        (Interior, Kind::Miss, true),
+        (Interior, Kind::Hit, culls),
+        (Edges, Kind::Crack, true),
+        (Vertices, Kind::Crack, true),
+        (Grazing, Kind::Miss, true),
+        (Grazing, Kind::Hit, true),
+        (Parallel, Kind::Hit, true),
+        (Shadow, Kind::SelfHit, starts && !knobs.is_empty()),
+        (Outside, Kind::Hit, true),
+    ];
+    let counted = all.into_iter().filter(|(.., is_counted)| *is_counted);
+    counted.map(|(stratum, kind, _)| Count { rays: Rays::Stratum(stratum), kind }).collect()
+}
+
+/// The counts on sources: of strata those of a scene; of other rays all that they can show. On a ray that starts on a
+/// triangle self-hits are counted, if a knob can prevent them, and nothing else.
+pub fn counts_of(sources: &[Source], knobs: &[Knob], row: &Row) -> Vec<Count> {
+    let of_scene = counts(knobs, &row.contract);
+    let guards_start = knobs.iter().any(|knob| {
+        let role = knob.role(row.entry.info.gates);
+        Duty::of(row.entry.info.gates, role, &row.contract).guards_start()
+    });
+    let mut counts: Vec<Count> = Vec::new();
+    for source in sources {
+        let (rays, grouping) = (Rays::of(source), source.grouping());
+        let starts = guards_start && grouping == Grouping::SecondaryRay;
+        let of_rays = |kind: Kind| match rays {
+            Rays::Stratum(_) => of_scene.contains(&Count { rays, kind }),
+            _ => match kind {
+                Kind::SelfHit => starts,
+                Kind::Crack => grouping.shares_a_ray(),
+                Kind::Miss | Kind::Hit => !starts,
+            },
+        };
+        let of_rays = Kind::ALL.into_iter().filter(|kind| of_rays(*kind));
+        let found = of_rays.map(|kind| Count { rays, kind });
+        let new: Vec<Count> = found.filter(|count| !counts.contains(count)).collect();
+        counts.extend(new);
+    }
+    counts
+}
