@@ -136,6 +136,12 @@ pub fn total_indices(sources: &[Source], scalars: [bool; 2]) -> Result<u64, Fail
     }
 }
 
+/// The scalars in which the sources have a case.
+pub fn scalars_with_cases(sources: &[Source], scalars: [bool; 2]) -> [bool; 2] {
+    let has = |count: fn(&Source) -> u64| sources.iter().any(|source| 0 < count(source));
+    [scalars[0] && has(Source::count::<f32>), scalars[1] && has(Source::count::<f64>)]
+}
+
 /// Sets the number of threads, all cores if none is given; returns how many there are.
 pub fn set_threads(threads: Option<usize>) -> Result<usize, Failure> {
     if let Some(threads) = threads {

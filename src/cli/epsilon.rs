@@ -1,6 +1,8 @@
 //! `hairline epsilon`: which epsilons, all of a kernel together, for a scene or on families and stored cases.
 
-use super::before::{note_secondary_rays, refuse_wrong_values, scalars_in_use, set_threads};
+use super::before::{
+    note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
+};
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use super::output::{OutputArguments, paired_outputs};
@@ -119,6 +121,10 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         _ if arguments.output.quiet => {}
         _ => reasons.iter().for_each(|reason| eprintln!("left out: {reason}")),
     }
+    let scalars = match studied.scene {
+        Some(_) => scalars,
+        None => scalars_with_cases(&studied.sources, scalars),
+    };
     if !arguments.output.quiet {
         note_secondary_rays(&rows, &studied.sources);
     }

@@ -144,6 +144,17 @@ impl SourceArguments {
         let mut studied = StudiedRays { strata, ..StudiedRays::default() };
         let other = studied.strata.len() < self.family.len() || !self.corpus.is_empty();
         if other || self.names_changes() {
+            for (flag, is_given) in
+                [("--scene", self.scene.is_some()), ("--mesh", !self.mesh.is_empty())]
+            {
+                if is_given {
+                    let message = format!(
+                        "leave out {flag}, whose rays are studied, or families, --corpus and changes to cases (--scale, \
+                         --offset, --direction)"
+                    );
+                    return Err(Failure::usage(message));
+                }
+            }
             (studied.sources, studied.flags) = (self.sources(quiet, |_| true)?, self.case_flags());
             return Ok(studied);
         }

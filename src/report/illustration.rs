@@ -4,10 +4,9 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The data for pictures; only where they were asked for.
+/// The data for pictures; only where they were asked for. Records of earlier versions have more of them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
 pub struct Illustrations {
     /// For each row and scalar: about an edge, about a vertex, grazing.
     pub maps: Vec<MapPart>,

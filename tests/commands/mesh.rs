@@ -2,7 +2,7 @@
 
 use crate::program;
 
-use program::{ends, hairline, result_bytes, scratch};
+use program::{ends, flat, hairline, result_bytes, scratch};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -32,21 +32,23 @@ fn the_table_says_what_the_mesh_is_and_where_rays_slip_through() {
     let arguments = ["mesh", &file, "--kernel", "moller-trumbore,woop-watertight"];
     let (out, error) = ends(&folder, &arguments, 0);
     for line in [
-        "  faces      2,304 sound",
-        "  edges      3,456 between two faces",
-        "  vertices   1,152 inside a closed fan",
-        "             a closed surface, wound consistently",
-        "  aimed      27,648 rays at edges, 9,216 at vertices",
-        "woop-watertight (source): nowhere",
-        "cracks: % of rays aimed at edges, and of rays aimed at vertices, that cross the surface there; \
-         doubles, and wrong at",
+        "faces     2,304 sound",
+        "edges     3,456 between two faces",
+        "vertices  1,152 inside a closed fan",
+        "          a closed surface, wound consistently",
+        "aimed     27,648 rays at edges, 9,216 at vertices, in f32 (1,152 points)",
     ] {
         assert!(out.lines().any(|other| other == line), "{line}\n{out}");
     }
+    let is_text = |line: &&str| !line.contains("hairline ");
+    assert!(out.lines().filter(is_text).all(|line| line.chars().count() <= 80), "{out}");
+    assert!(out.lines().count() <= 40, "{out}");
+    let (all, _) = ends(&folder, &[&arguments[..], &["--details"]].concat(), 0);
+    assert!(all.contains("\nwoop-watertight (source): nowhere\n"), "{all}");
     assert!(error.contains("2 kernel rows on 36864 rays in f32"), "{error}");
     // The first crack is shown again by its command.
-    let command = out.lines().find(|line| line.trim_start().starts_with("hairline explain"));
-    let words: Vec<&str> = command.unwrap().split_whitespace().skip(1).collect();
+    let command = out.lines().find_map(|line| line.strip_prefix("shown by: hairline "));
+    let words: Vec<&str> = command.unwrap().split_whitespace().collect();
     let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
     let shown = ends(&folder, &words, 0).0;
     let last = shown.lines().last().unwrap();
@@ -62,7 +64,7 @@ fn a_hit_that_a_neighbour_reports_is_shown_apart() {
     let file = model("heightfield");
     let arguments = ["mesh", &file, "--kernel", "woop-watertight", "--details"];
     let (out, _) = ends(&folder, &arguments, 0);
-    assert!(out.lines().any(|line| line.contains(" elsewhere ")), "{out}");
+    assert!(out.lines().any(|line| line.ends_with(" elsewhere")), "{out}");
     let first = out.lines().position(|line| line.trim_start().starts_with("elsewhere, "));
     let command = out.lines().nth(first.unwrap() + 1).unwrap();
     let words: Vec<&str> = command.split_whitespace().skip(1).collect();
@@ -121,6 +123,8 @@ fn what_cannot_be_asked_is_reported_with_its_line() {
                 f 1 2 3\nf 1 3 4\nf 1 3 5\nf 1 2 6\nf 2 1 6\nf 1 2 7\n";
     let folder = with_obj("mesh-odd", text);
     let (out, error) = ends(&folder, &["mesh", "a.obj", "--kernel", "cramer"], 4);
+    let out = flat(&out);
+    assert!(out.starts_with("Nothing to ask of a.obj "), "{out}");
     assert!(out.contains("1 without area (first at line 13)"), "{out}");
     assert!(out.contains("2 duplicated (first at line 11)"), "{out}");
     assert!(out.contains("1 non-manifold (first at line 8)"), "{out}");

@@ -99,7 +99,7 @@ fn every_command_that_takes_a_mesh_takes_every_format() {
     records.for_each(|record| assert_eq!(record, first));
 
     // Ids hold the digest, so that one made from a file is shown with another.
-    let run = ["mesh", "a.glb", "--directions", "64"];
+    let run = ["mesh", "a.glb", "--directions", "64", "--details"];
     let (text, _) = ends(&folder, &[&run[..], &flags].concat(), 0);
     assert!(text.contains(", faces 1, "), "{text}");
     let page = |file: &str| {

@@ -319,7 +319,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     // Nobody sees its gates, so it runs at many epsilons.
     let (code, shown, error) =
         run(&["epsilon", "--kernel", "mine", "--family", "interior", "-n", "50"]);
-    assert!(code == Some(0) && shown.contains("mine f32, gate t: refuses"), "{shown}{error}");
+    assert!(code == Some(0) && shown.contains("mine f32 on interior"), "{shown}{error}");
     let (code, shown, error) = run(&["epsilon", "--kernel", "mine", "-n", "300"]);
     assert!(code == Some(0) && shown.contains("use  --epsilon t="), "{shown}{error}");
 }

@@ -39,6 +39,11 @@ pub fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     (out, error)
 }
 
+/// A text's words, each after one space, whatever the lines were.
+pub fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// A record's `result`, byte for byte.
 pub fn result_bytes(file: &Path) -> String {
     #[derive(serde::Deserialize)]

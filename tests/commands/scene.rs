@@ -1,7 +1,7 @@
 //! `--scene`: scenes as sources of cases, and `hairline epsilon --scene`.
 
 use crate::json_schema;
-use crate::program::{ends, scratch};
+use crate::program::{ends, flat, scratch};
 use hairline::internals::report::epsilon::SceneRecord;
 
 #[test]
@@ -11,13 +11,12 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     let (screen, error) = ends(&folder, &study, 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
-    // Of two scalars, and few rays, which each notes; one scalar alone fits 52.
-    assert!(lines.len() <= 92, "{} lines", lines.len());
-    assert!(
-        screen.contains("from 4,000 rays of each kind only: another seed may name quite others")
-    );
-    let is_text = |line: &&&str| !line.contains(" hairline ");
-    let long = lines.iter().filter(is_text).find(|line| line.chars().count() > 95);
+    // Of two scalars, and few rays, which each notes.
+    assert!(lines.len() <= 50, "{} lines", lines.len());
+    let few = "from 4,000 rays of each kind only: another seed may name quite others";
+    assert!(flat(&screen).contains(few), "{screen}");
+    let is_text = |line: &&&str| !line.contains(" hairline ") && !line.starts_with("  use ");
+    let long = lines.iter().filter(is_text).find(|line| line.chars().count() > 80);
     assert!(long.is_none(), "{long:?}");
     let used: Vec<&str> = lines.iter().filter_map(|line| line.strip_prefix("  use  ")).collect();
     assert_eq!(used.len(), 2, "{screen}");
@@ -35,9 +34,9 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
         let (_, rest) = out.split_once(" is wrong on ").unwrap_or_else(|| panic!("{out}"));
         rest.split(' ').next().unwrap().trim_start_matches('<').parse::<f64>().unwrap()
     };
-    let audits: Vec<&&str> = lines.iter().filter(|line| line.starts_with("more: ")).collect();
+    let audits: Vec<&&str> = lines.iter().filter(|line| line.starts_with("next: ")).collect();
     assert_eq!(audits.len(), 2, "{screen}");
-    let audit = audits[0].strip_prefix("more: ").unwrap();
+    let audit = audits[0].strip_prefix("next: ").unwrap();
     assert!(audit.ends_with(" --scene room --scalar f32 --seed 2 -n 4000"), "{audit}");
     let published = "hairline audit --kernel moller-trumbore --scene room --scalar f32 -n 4000";
     assert!(5.0 * share(audit) < share(published), "{screen}");
@@ -45,8 +44,9 @@ fn a_scene_is_answered_on_one_screen_with_flags_that_work() {
     let words: Vec<&str> = spawns.next_back().unwrap().split_whitespace().skip(1).collect();
     ends(&folder, &[&words[..], &["-n", "2000", "-q"]].concat(), 0);
     let both = "both or several hit: costs nothing, the nearest hit is the same";
+    let whole = flat(&ends(&folder, &[&study[..], &["--details"]].concat(), 0).0);
     for part in ["almost parallel: false hits", "shadow rays: self-hits", "fresh rays", both] {
-        assert!(screen.contains(part), "{part}: {screen}");
+        assert!(whole.contains(part), "{part}: {whole}");
     }
 }
 
@@ -125,15 +125,14 @@ fn bad_scenes_get_one_clear_line() {
             assert!(error.contains("--scene: ") && error.contains(part), "{scene}: {error}");
         }
     }
-    let flags: [(&[&str], &str); 8] = [
-        (&["--scale", "2^3"], "leave out --scale"),
-        (&["--direction", "unit"], "leave out --scale, --offset and --direction"),
+    let flags: [(&[&str], &str); 7] = [
+        (&["--scale", "2^3"], "leave out --scene"),
+        (&["--direction", "unit"], "leave out --scene"),
         (&["--at", "1e-3"], "--at: name one --gate"),
-        (&["--exact"], "--exact is not for --scene"),
-        (&["--family", "interior"], "--family is not for --scene"),
+        (&["--family", "interior"], "leave out --scene"),
         (&["--cost", "crack=-1"], "--cost: crack=-1"),
         (&["--gate", "paralel"], "there are parallel, edge, t_min"),
-        (&["--format", "sarif"], "there are text, json, csv, svg, html"),
+        (&["--format", "sarif"], "there are text, json, markdown, csv, svg, c, rust, glsl, html"),
     ];
     for (flags, part) in flags {
         let mut arguments = vec!["epsilon", "--kernel", "moller-trumbore", "--scene", "room"];
@@ -141,9 +140,6 @@ fn bad_scenes_get_one_clear_line() {
         let (_, error) = ends(&folder, &arguments, 2);
         assert!(error.contains(part) && error.lines().count() == 1, "{flags:?}: {error}");
     }
-    let gate = ["epsilon", "--gate", "edge", "--cost", "crack=1"];
-    let (_, error) = ends(&folder, &gate, 2);
-    assert!(error.contains("--cost: is for scenes"), "{error}");
     for (epsilon, part) in [
         ("t_min=-1", "t_min is at least 0"),
         ("t_min=x", "'x' is not a finite number"),
@@ -170,7 +166,7 @@ fn published_sets_and_values_of_one_gate_are_columns_of_one_study() {
     };
     let head = |screen: &str| -> Vec<String> {
         let line = screen.lines().find(|line| line.starts_with("wrong on fresh rays")).unwrap();
-        line.split_once(':').unwrap().1.split_whitespace().map(str::to_owned).collect()
+        line.split_once(')').unwrap().1.split_whitespace().map(str::to_owned).collect()
     };
     let both = screen("plane-unit-normal", &[]);
     assert_eq!(head(&both), ["recommended", "zero", "1e-6"]);
@@ -217,8 +213,8 @@ fn a_form_without_a_unit_is_the_answer_where_fixed_numbers_cost_twice_as_much() 
     let used = wide.lines().find(|line| line.starts_with("  use  ")).unwrap();
     assert!(used.contains("edge = -") && used.ends_with(" * L^4"), "{wide}");
     assert!(wide.contains("\n  not  --epsilon parallel="), "{wide}");
-    assert!(wide.contains("no fixed numbers are good here"), "{wide}");
-    assert!(wide.contains("fixed     scale-free"), "{wide}");
+    assert!(wide.contains("No fixed numbers are good here"), "{wide}");
+    assert!(flat(&wide).contains(" fixed scale-free "), "{wide}");
     // Triangles of one size need none.
     assert!(!screen("extent=1,edge=0.5..0.5,distance=0..4").contains("scale-free"));
 }
@@ -256,20 +252,18 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     assert!(error(&of_point, "point").most.unwrap() < 0.026, "{:?}", error(&of_point, "point"));
     let screen = |most: &str| {
         let all = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room", "-n", "4000", "-q"];
-        ends(&folder, &[&all[..], &["--scalar", "f32", "--max-error", most]].concat(), 0).0
+        let more = ["--scalar", "f32", "--max-error", most, "--details"];
+        ends(&folder, &[&all[..], &more].concat(), 0).0
     };
     let shown = screen("t=1e-3,point=0.01");
+    let most = "remain are off by at most 0.001 times t, 0.01 m in the point's place";
+    assert!(flat(&shown).contains(most), "{shown}");
     assert!(
-        shown.contains("remain are off by at most 0.001 times t, 0.01 m in the point's place"),
+        shown.contains("\nof t, almost parallel ") && shown.contains("\nof point (m), at a"),
         "{shown}"
     );
     assert!(
-        shown.contains("\n  error of t, almost parallel ")
-            && shown.contains("\n  error of point (m), at a"),
-        "{shown}"
-    );
-    assert!(
-        screen("t=1e-12").contains(
+        flat(&screen("t=1e-12")).contains(
             "no fixed values at which 99 % of the hits are off by at most 1e-12 times t:"
         )
     );
@@ -279,21 +273,20 @@ fn errors_of_the_hits_that_remain_are_shown_and_limited() {
     let [exceeded, free] = [&limited, &free].map(|record| &record.kernels[0].tried[0].exceeded);
     assert!(free.is_empty() && exceeded.iter().any(|rate| 0 < rate.of), "{exceeded:?}");
     assert!(exceeded.iter().all(|rate| rate.rate.is_none_or(|share| share < 0.015)));
-    assert!(shown.contains("\n  too far off, almost parallel "), "{shown}");
-    let (_, error) = ends(&folder, &["epsilon", "--gate", "edge", "--max-error", "t=1"], 2);
-    assert!(error.contains("--max-error: is for scenes"), "{error}");
+    assert!(shown.contains("\ntoo far off, almost parallel "), "{shown}");
 }
 
 #[test]
 fn what_is_proved_stands_beside_the_limits() {
     let folder = scratch("scene-proved");
     let study = ["epsilon", "--kernel", "moller-trumbore", "--scene", "room", "-n", "1000", "-q"];
-    let (screen, _) = ends(&folder, &study, 0);
+    let (screen, _) = ends(&folder, &[&study[..], &["--details"]].concat(), 0);
     let proved: Vec<&str> = screen.lines().filter(|line| line.contains("0: proved")).collect();
     assert_eq!(proved.len(), 2, "{screen}");
     for line in proved {
-        assert!(line.starts_with("  parallel >= ") && line.ends_with(" 0"), "{line}");
-        assert!(line.contains("exactly parallel: false hits"), "{line}");
+        let line = flat(line);
+        assert!(line.starts_with("parallel >= "), "{line}");
+        assert!(line.ends_with(" exactly parallel: false hits 0: proved"), "{line}");
     }
 }
 
@@ -391,13 +384,12 @@ fn a_mesh_is_a_scene() {
     let (screen, error) = ends(&folder, &study, 0);
     assert_eq!(error, "");
     for part in [
-        "moller-trumbore f32 in box.obj (12 triangles)\n",
         // Edges are rounded outwards to three digits: a box's diagonals are 4.472, 3.606 and 5.
-        "\n  extent=3,edge=3.6..5,distance=0..5.39,direction=unit\n",
-        "\n  use  --epsilon parallel=",
+        "moller-trumbore f32 in box.obj (12 triangles) in extent=3,edge=3.6..5,distance=0..5.39,direction=unit ",
+        " use --epsilon parallel=",
         "the smallest triangle is missed at angles below",
     ] {
-        assert!(screen.contains(part), "{part}: {screen}");
+        assert!(flat(&screen).contains(part), "{part}: {screen}");
     }
     // Every kind of ray was found: edges, vertices and planes that hold an axis.
     assert!(!screen.lines().any(|line| line.ends_with(" -")), "{screen}");
@@ -477,16 +469,15 @@ fn meshes_that_are_no_scene_get_one_clear_line() {
     run(&["--mesh", "box.obj", "--scene", "room"], 2, "'room' is no word for the scene of a mesh");
     run(&["--mesh", "box.obj", "--scene", "extent=9"], 2, "its own extent, edges and planes");
     run(&["--mesh", "box.obj", "--scene", "distance=-1"], 2, "must be from 0 up");
-    run(&["--mesh", "box.obj", "--exact"], 2, "--exact is not for --scene, nor for --mesh");
-    run(&["--mesh", "box.obj", "--family", "interior"], 2, "--family");
-    run(&["--mesh", "box.obj", "--scale", "2^3"], 2, "leave out --scale");
-    run(&["--mesh", "box.obj", "--corpus", "x"], 2, "leave out --corpus");
+    run(&["--mesh", "box.obj", "--family", "interior"], 2, "leave out --mesh");
+    run(&["--mesh", "box.obj", "--scale", "2^3"], 2, "leave out --mesh");
+    run(&["--mesh", "box.obj", "--corpus", "x"], 2, "leave out --mesh");
     run(&["--scene", "mesh"], 2, "'mesh' needs --mesh FILE");
     // One triangle has no edge with another: those rows are empty, and the rest is answered.
     std::fs::write(folder.join("one.obj"), "v 0 0 0\nv 1 0.5 0.25\nv 0.3 1 0.1\nf 1 2 3\n")
         .unwrap();
     let one = ["epsilon", "--kernel", "moller-trumbore", "--mesh", "one.obj", "-n", "500", "-q"];
-    let (screen, _) = ends(&folder, &one, 0);
+    let (screen, _) = ends(&folder, &[&one[..], &["--details"]].concat(), 0);
     let row = |label: &str| screen.lines().find(|line| line.contains(label)).unwrap();
     for label in ["at a shared edge: cracks", "at a shared vertex: cracks", "exactly parallel"] {
         assert!(row(label).ends_with(" -"), "{screen}");

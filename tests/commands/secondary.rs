@@ -7,10 +7,10 @@ use std::fs;
 /// The study of a gate on t, of cases that flags name.
 fn gate(folder: &std::path::Path, cases: &[&str]) -> Value {
     let study = ["epsilon", "--kernel", "plane-unit-normal", "--gate", "t", "--scalar", "f32"];
-    let rest = ["--contract", "no-self-hit", "--format", "json", "-q", "--curves"];
+    let rest = ["--contract", "no-self-hit", "--format", "json", "-q"];
     let (out, _) = ends(folder, &[&study[..], cases, &rest[..]].concat(), 0);
     let record: Value = serde_json::from_str(&out).unwrap();
-    record["result"]["gates"][0].clone()
+    record["kernels"][0].clone()
 }
 
 fn generate(folder: &std::path::Path, count: &str) {
@@ -26,34 +26,40 @@ fn stored_shadow_rays_give_the_advice_of_the_family() {
     assert!(text.lines().all(|line| line.contains(r#""starts":"on-triangle""#)));
     ends(&folder, &["corpus", "verify", "shadow.jsonl"], 0);
     let stored = gate(&folder, &["--corpus", "shadow.jsonl"]);
-    let family = gate(&folder, &["--family", "secondary-ray", "-n", "3000"]);
-    assert_eq!(stored["curves"][1]["family"], "corpus-secondary:shadow.jsonl");
-    assert_eq!(stored["curves"][0]["points"], family["curves"][0]["points"]);
-    assert_eq!(stored["curves"][0]["asked"], family["curves"][0]["asked"]);
+    // The rays that are reported of a family are those of the next seed.
+    let family = ["--family", "secondary-ray", "-n", "3000", "--seed", "0"];
+    let at = ["--at", "1e-5"];
+    let stored_at = gate(&folder, &[&["--corpus", "shadow.jsonl"][..], &at].concat());
+    let family_at = gate(&folder, &[&family[..], &at].concat());
+    let wrong = |part: &Value| part["tried"].as_array().unwrap().last().unwrap()["wrong"].clone();
+    assert_eq!(wrong(&stored_at), wrong(&family_at));
     // An epsilon on t can only help here: all that is asked of it is to refuse.
-    let of = |i: usize| stored["curves"][0]["asked"][i].as_u64().unwrap();
-    assert_eq!([of(0), of(1), of(4), of(5)], [0, 3000, 3000, 3000], "{}", stored["curves"][0]);
+    let kinds = |part: &Value| -> Vec<String> {
+        let counts = part["counts"].as_array().unwrap();
+        counts.iter().map(|count| count["kind"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(kinds(&stored), ["self-hit"]);
+    assert_eq!(stored["tried"][0]["wrong"][0]["of"], 3000);
 
     // Without the mark half of them have to be hit, which is the wrong direction; a note says so.
     let plain = text.replace(r#""starts":"on-triangle","#, "");
     fs::write(folder.join("plain.jsonl"), &plain).unwrap();
-    let asked = gate(&folder, &["--corpus", "plain.jsonl"])["curves"][0]["asked"].clone();
-    assert!(1000 < asked[0].as_u64().unwrap() && asked[4] == 0, "{asked}");
+    let plain = gate(&folder, &["--corpus", "plain.jsonl"]);
+    assert_eq!(kinds(&plain), ["miss", "hit"]);
+    assert!(1000 < plain["tried"][0]["wrong"][0]["of"].as_u64().unwrap(), "{plain}");
     let audit = ["audit", "--kernel", "plane-unit-normal", "--scalar", "f32"];
     let told = |file: &str| {
         let rest = ["--corpus", file, "--contract", "no-self-hit"];
         ends(&folder, &[&audit[..], &rest[..]].concat(), 0).1
     };
     // Only f32 has cases, so nothing is said of f64; and the gate's own columns are told apart from `all`.
-    let study = ["epsilon", "--kernel", "cramer", "--gate", "t", "--corpus", "shadow.jsonl"];
+    let study = ["epsilon", "--kernel", "plane-unit-normal", "--corpus", "shadow.jsonl"];
     let (out, _) = ends(&folder, &study, 0);
-    assert!(out.contains("cramer f32, gate t") && !out.contains("f64"), "{out}");
-    assert!(out.contains(
-        "where a ray starts on its triangle, every hit is one that this gate lets through"
-    ));
+    assert!(out.contains("plane-unit-normal f32 on ") && !out.contains("f64"), "{out}");
+    // A least t is a number to choose on such rays too.
     let study = ["epsilon", "--kernel", "moller-trumbore", "--gate", "t_min", "--corpus"];
-    let (_, error) = ends(&folder, &[&study[..], &["shadow.jsonl"]].concat(), 2);
-    assert!(error.contains("a least t is chosen for a scene") && error.lines().count() == 1);
+    let (out, _) = ends(&folder, &[&study[..], &["shadow.jsonl"]].concat(), 0);
+    assert!(out.contains("count a hit only if t >= "), "{out}");
     let note = "no case of plain.jsonl says \"starts\":\"on-triangle\"";
     assert!(told("plain.jsonl").contains(note) && !told("shadow.jsonl").contains("note:"));
 }

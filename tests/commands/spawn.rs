@@ -1,6 +1,6 @@
 //! `hairline spawn`: the screen, the record, and what is wrong usage.
 
-use crate::program::{ends, scratch};
+use crate::program::{ends, flat, scratch};
 use hairline::internals::case::SceneKind;
 use serde_json::Value;
 use std::fs;
@@ -19,16 +19,22 @@ fn the_screen_says_what_to_use_and_its_command_works() {
     let (screen, error) = ends(&folder, &["spawn", "--scene", "room", "-n", "20000"], 0);
     assert_eq!(error, "");
     let lines: Vec<&str> = screen.lines().collect();
-    assert!(lines.len() <= 90, "{} lines", lines.len());
-    let long = lines.iter().find(|line| 110 < line.chars().count());
+    assert!(lines.len() <= 60, "{} lines", lines.len());
+    let is_text = |line: &&&str| !line.contains("hairline ");
+    let long = lines.iter().filter(is_text).find(|line| 80 < line.chars().count());
     assert!(long.is_none(), "{long:?}");
     assert_eq!(screen.matches("\n  use  ").count(), 2, "{screen}");
-    for part in ["hit points from u and v", "hit points o + t*d", "waechter-binder", "wrong side"] {
+    for part in ["Which hit point is yours?", "p = (1-u-v)*a + u*b + v*c", "p = o + t*d", "\nnone "]
+    {
         assert!(screen.contains(part), "{part}: {screen}");
     }
-    let commands = lines.iter().filter_map(|line| line.trim().strip_prefix("hairline "));
+    let whole = ends(&folder, &["spawn", "--scene", "room", "-n", "2000", "--details"], 0).0;
+    assert!(whole.contains("\nwaechter-binder ") && whole.contains("\nmitsuba "), "{whole}");
+    let commands: Vec<&str> =
+        lines.iter().filter_map(|line| line.strip_prefix("next: hairline ")).collect();
+    assert_eq!(commands.len(), 1);
     for command in commands {
-        let mut again: Vec<&str> = command.split(' ').collect();
+        let mut again: Vec<&str> = command.split("  # ").next().unwrap().split(' ').collect();
         again.extend(["-n", "2000", "-q"]);
         let (screen, _) = ends(&folder, &again, 0);
         assert!(screen.contains("room") || screen.contains("extent=5"), "{screen}");
@@ -41,12 +47,10 @@ fn an_offset_that_jumps_over_the_scene_is_not_recommended() {
     let far = ["spawn", "--scene", "room", "--scheme", "t-min=300", "-n", "5000", "-q"];
     let (screen, _) = ends(&folder, &far, 0);
     assert!(!screen.contains("\n  use  "), "{screen}");
-    assert_eq!(
-        screen.matches("none of these: the lowest that never fails, t-min=300,").count(),
-        2,
-        "{screen}"
-    );
-    assert!(screen.contains("leave out --scheme"), "{screen}");
+    let all = flat(&screen);
+    let none = "None of these: the lowest that never fails, t-min=300,";
+    assert_eq!(all.matches(none).count(), 2, "{screen}");
+    assert!(all.contains("Leave out --scheme"), "{screen}");
     // Of few rays the lowest never fails, but the derived bound comes first.
     let (few, _) =
         ends(&folder, &["spawn", "--scene", "room", "-n", "20", "--point", "uv", "-q"], 0);
@@ -126,7 +130,7 @@ fn the_recommended_offset_holds_on_every_kind_of_plane() {
         let rate = at_zero["wrong"]["rate"].as_f64().unwrap();
         assert!(part["point"] == "uv" || (0.12..0.22).contains(&rate), "{at_zero}");
     }
-    let (screen, _) = ends(&folder, &[&["spawn", "-q"], &place[..]].concat(), 0);
+    let (screen, _) = ends(&folder, &[&["spawn", "-q", "--details"], &place[..]].concat(), 0);
     assert!(screen.contains("\nmore wrong sides on  "), "{screen}");
     // A scene that names a kind is about it alone.
     let floor = ["--scene", "room,plane=axis-0", "-n", "500", "--point", "uv"];
@@ -297,7 +301,7 @@ static hairline_start hairline_start_of(const hairline_hit *hit) {
     // The command on the screen runs it again, and it stands beside the published ones.
     let command = ["spawn", "--scheme-cmd", "mine=./mine", "-n", "2000", "-q", "--point", "uv"];
     let (screen, _) = ends(&folder, &command, 0);
-    assert!(screen.contains("\nmine  ") && screen.contains("\npbrt-v4 "), "{screen}");
+    assert!(screen.contains("\nmine  ") && screen.contains("\nnone "), "{screen}");
     let alone = [&command[..], &["--scheme", "mine", "--scene", "room"]].concat();
     let (screen, _) = ends(&folder, &alone, 0);
     assert!(screen.contains("--scheme-cmd mine=./mine --scheme mine --point uv"), "{screen}");

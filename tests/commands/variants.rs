@@ -119,7 +119,7 @@ fn the_other_commands_take_a_variant_by_its_name() {
         0,
     );
     // Where subnormal numbers are zero, so is an epsilon below the normal ones.
-    assert!(out.contains("cramer+ftz f32, gate parallel"), "{out}");
+    assert!(out.contains("cramer+ftz f32 in extent=1,"), "{out}");
     let (out, _) = ends(
         &folder,
         &[

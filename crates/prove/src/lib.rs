@@ -48,7 +48,7 @@ pub use permanent::{Relative, Roundings, relative};
 pub use run::{Number, run};
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
-pub use statement::{Published, Statement, Triangles, about_edges, in_short, statements, units};
+pub use statement::{Published, Statement, Triangles, about_edges, statements, units};
 pub use summary::{
     Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
 };

@@ -1,9 +1,9 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
 use super::sizes::BySize;
-use super::summary::{GateSummary, Summary, Witness, format_of, paths_of};
+use super::summary::{GateSummary, Summary, Witness};
 use super::witness::Searched;
-use super::{Domain, Proof, Quantity, Relative, Scene, Shape, Supposed, Symmetry, Uses};
+use super::{Domain, Relative, Scene, Shape, Supposed, Symmetry};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// A sentence about a gate.
@@ -336,26 +336,6 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              may still refuse: t does near t_min or t_max."
         }
     }
-}
-
-/// The statement that is proved of a gate's epsilons in the unit domain, in one sentence; none where the proof
-/// supposes more than sizes of differences and directions.
-pub fn in_short<F: Scalar>(entry: &Entry, gate: usize) -> Option<String> {
-    let paths = paths_of::<F>(entry).ok()?;
-    let proof = Proof::new(paths, Some(gate), Domain::UNIT, format_of::<F>());
-    let beta = proof.gate(gate)?.ok()?.bound.as_ref().ok()?.error.to_f64();
-    let uses = proof.quantities.iter().map(Quantity::uses).fold(Uses::default(), Uses::or);
-    let is_margin = proof.quantities.iter().all(|quantity| quantity.is_margin);
-    if uses.floor || uses.world || uses.extent || !is_margin {
-        return None;
-    }
-    let of = if uses.edge { "edges" } else { "vectors from the origin to the vertices" };
-    let what = match entry.info.gates[gate].role {
-        Role::Parallel => format!("an e above {} refuses every exactly parallel ray", above(beta)),
-        Role::Edge => format!("an e below {} loses no hit at an edge", signed(-beta, false)),
-        _ => return None,
-    };
-    Some(format!("for every float with coordinates of {of} up to 0.999 and |d| <= 1: {what}"))
 }
 
 /// A positive number in three digits, not below it.

@@ -110,7 +110,8 @@ fn answer(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
     vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]
 }
 
-/// The rows that argue: what is recommended, no offset at all, and the best that was published with a name; of few all.
+/// The rows that argue: what is recommended, the user's own, no offset at all, and the best that was published with a
+/// name; of few all.
 fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
     if part.schemes.len() <= 4 {
         return part.schemes.iter().collect();
@@ -127,8 +128,14 @@ fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
         .filter(is_published)
         .min_by(|a, b| failed(a).cmp(&failed(b)).then(height(a).total_cmp(&height(b))));
     let none = part.schemes.iter().find(|scheme| scheme.name == "none");
+    // A scheme that is not described is the user's own.
+    let own = part.schemes.iter().filter(|scheme| describe(&scheme.name).is_empty());
     let mut rows: Vec<&SchemePart> = part.schemes.iter().filter(is_best).collect();
-    rows.extend(none.into_iter().chain(published.filter(|scheme| !is_best(scheme))));
+    for scheme in own.chain(none).chain(published) {
+        if !rows.iter().any(|row| row.name == scheme.name) {
+            rows.push(scheme);
+        }
+    }
     rows
 }
 

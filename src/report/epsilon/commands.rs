@@ -43,7 +43,7 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
 }
 
 /// The scene as `--scene` takes it.
-fn scene_words(record: &SceneRecord) -> String {
+pub(super) fn scene_words(record: &SceneRecord) -> String {
     let preset = SCENES.iter().find(|preset| preset.scene.to_string() == record.scene);
     preset.map_or_else(|| shell_word(&record.scene), |preset| preset.name.to_owned())
 }

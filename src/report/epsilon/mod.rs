@@ -4,6 +4,8 @@ mod answer;
 mod build;
 mod commands;
 mod csv;
+mod evidence;
+mod fitness;
 mod legend;
 mod notes;
 mod page;

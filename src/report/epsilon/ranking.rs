@@ -1,17 +1,14 @@
 //! Which kernel for a scene: all kernels in one table, the one that costs least first.
 
 use super::answer::{Answer, USE, answer, is_scale_free_better};
-use super::commands::of_kernel;
+use super::commands::{of_kernel, scene_words};
+use super::evidence;
+use super::fitness::{fitness, is_fine};
 use super::notes::few_rays;
-use super::page;
 use super::record::{Count, Kind, Rays, SceneKernelPart, SceneRecord, Stratum, TriedPart};
-use super::words::{human, of_unit, share, spaced};
+use super::words::{of_unit, share};
 use crate::report::page::{Block, Command, Head, Page, Row, Table};
 use crate::report::record::Rate;
-
-/// The smallest triangle is so many of a scalar's steps long, or longer, where its numbers are fine enough: then
-/// rounding moves a vertex by less than can be seen.
-const FINE: f64 = 1000.0;
 
 /// One row: kernels that answer alike.
 struct Alike<'a> {
@@ -32,9 +29,9 @@ pub(super) fn is_needed(record: &SceneRecord) -> bool {
 /// A table for each scalar, and what to run next.
 pub(super) fn page(record: &SceneRecord) -> Page {
     let scene = match &record.mesh {
-        Some(mesh) => mesh.path.as_str(),
-        None if record.has_scene() => record.scene.as_str(),
-        None => record.flags.as_str(),
+        Some(mesh) => mesh.path.clone(),
+        None if record.has_scene() => scene_words(record),
+        None => record.sources.join(", "),
     };
     let mut blocks: Vec<Block> = few_rays(record).map(Block::Text).into_iter().collect();
     let all = ["f32", "f64"].map(|scalar| (scalar, alike(record, scalar)));
@@ -59,15 +56,15 @@ pub(super) fn page(record: &SceneRecord) -> Page {
     };
     blocks.push(Block::Text(String::new()));
     blocks.push(Block::text(format!(
-        "leaks: at shared edges or vertices; lost inside: hits inside a triangle; self-hits: of shadow rays (-: the \
-         kernel has no t). Shares are of rays aimed there, not of your pixels. cost: each share times its weight; false \
-         hits and almost parallel rays count too.{forms}"
+        "leaks: at shared edges or vertices; self-hits: of shadow rays (-: the kernel has no t). Shares are of rays aimed \
+         there, not of your pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
     )));
     let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
     for (part, answer) in record.kernels.iter().zip(&answers) {
-        blocks.push(Block::Details(answer.title.clone(), page::of_kernel(record, part, answer)));
+        blocks
+            .push(Block::Details(answer.title.clone(), evidence::of_kernel(record, part, answer)));
     }
-    blocks.push(Block::Details("How to read".to_owned(), page::how_to_read(record)));
+    blocks.push(Block::Details("How to read".to_owned(), evidence::how_to_read(record)));
     let best = shown().find(|row| is_fine(record, row.part)).or(shown().next());
     let next = best.map(|best| Command {
         line: of_kernel(record, best.part),
@@ -140,31 +137,4 @@ fn row(record: &SceneRecord, Alike { part, best, names }: &Alike) -> Row {
 fn is_lost(count: &Count) -> bool {
     let inside = !matches!(count.rays, Rays::Stratum(stratum) if stratum != Stratum::Interior);
     inside && count.kind == Kind::Miss
-}
-
-/// The length of the smallest triangle's longest edge in steps of the scalar's numbers at the far end.
-fn steps(record: &SceneRecord, part: &SceneKernelPart) -> f64 {
-    record.edge[0] / part.spacing
-}
-
-/// True if the scalar's numbers are fine enough for the scene's smallest triangles.
-pub(super) fn is_fine(record: &SceneRecord, part: &SceneKernelPart) -> bool {
-    !record.has_scene() || FINE <= steps(record, part).round()
-}
-
-/// A sentence that says so, or that they are not.
-pub(super) fn fitness(record: &SceneRecord, part: &SceneKernelPart) -> String {
-    let SceneKernelPart { scalar, spacing, .. } = part;
-    let apart = format!("{}{}", human(&format!("{spacing:.1e}")), spaced(&record.unit));
-    let numbers = format!("its numbers are {apart} apart at the far end");
-    if is_fine(record, part) {
-        let smallest = "below a thousandth of the smallest triangle's longest edge";
-        return format!("{scalar} is fit for this scene: {numbers}, {smallest}.");
-    }
-    let parts = steps(record, part).round().max(1.0);
-    let wider = if scalar == "f32" { "use f64, or " } else { "" };
-    format!(
-        "{scalar} is coarse for this scene: {numbers}, 1/{parts} of the smallest triangle's longest edge: {wider}move \
-         the origin to the camera."
-    )
 }

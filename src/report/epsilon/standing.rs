@@ -1,7 +1,7 @@
 //! May these numbers be used? The sentence that stands first: good, a trade, or no good; and the rows that argue for it.
 
+use super::fitness::{fitness, is_fine};
 use super::notes::no_good;
-use super::ranking::{fitness, is_fine};
 use super::record::*;
 use super::words::share;
 use crate::report::page::Tone;
@@ -17,11 +17,16 @@ pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, S
         return (Tone::Bad, sentences(&flaws));
     }
     let trades: Vec<String> = (0..part.knobs.len()).filter_map(|knob| trade(part, knob)).collect();
-    let rest = remains(record, part);
-    let rest = rest.map_or(String::new(), |rest| format!(" What remains: {rest}."));
-    match trades.is_empty() {
-        true => (Tone::Good, format!("Good: every number is within all of its limits.{rest}")),
-        false => (Tone::Plain, format!("A trade: {}.{rest}", trades.join("; "))),
+    match (&trades[..], remains(record, part)) {
+        ([], None) => (Tone::Good, "Good: every number is within all of its limits.".to_owned()),
+        ([], Some(rest)) => {
+            let within = "Every number is within its limits, and none mends what is left";
+            (Tone::Plain, format!("{within}: {rest}."))
+        }
+        (trades, None) => (Tone::Plain, format!("A trade: {}.", trades.join("; "))),
+        (trades, Some(rest)) => {
+            (Tone::Plain, format!("A trade: {}. What is left: {rest}.", trades.join("; ")))
+        }
     }
 }
 

@@ -57,13 +57,14 @@ pub(super) fn verdict(result: &MeshResult) -> (Tone, String) {
     let leaking = rows.iter().filter(|row| 0 < row.leaks()).count();
     let is_broken = rows.iter().any(|row| row.promise().is_some_and(|(_, kept)| !kept));
     let failed = rows.iter().any(|row| 0 < row.edges.failures + row.vertices.failures);
+    let is_asked = result.scalars.iter().any(|part| part.rays != [0, 0]);
     let tone = match (is_broken, leaking) {
         (true, _) => Tone::Bad,
-        (false, 0) if !failed => Tone::Good,
+        (false, 0) if !failed && is_asked => Tone::Good,
         _ => Tone::Plain,
     };
     let title = match (leaking, rows.len()) {
-        (_, 0) => format!("Nothing to ask of {file}"),
+        _ if !is_asked => format!("Nothing to ask of {file}"),
         (0, 1) => format!("No ray slips through {file}"),
         (0, n) => format!("No ray slips through {file} with {n} kernel rows"),
         (1, 1) => format!("Rays slip through {file}"),
@@ -167,7 +168,11 @@ fn topology_terms(part: &ScalarPart) -> Vec<(String, String)> {
     let [edges, vertices] = part.rays.map(group_digits);
     terms.push((
         "aimed".to_owned(),
-        format!("{edges} rays at edges, {vertices} at vertices, in {}", part.scalar),
+        format!(
+            "{edges} rays at edges, {vertices} at vertices, in {} ({})",
+            part.scalar,
+            number_of(part.topology.points, "point", "points")
+        ),
     ));
     terms
 }
@@ -199,10 +204,8 @@ fn everything(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
     let rows = part.results.iter().map(row).collect();
     let mut blocks = vec![Block::Table(Table { heads: heads.map(Head::of).into(), rows })];
     blocks.push(Block::text(format!(
-        "{}, digest {}, {}",
-        record.provenance.tool,
-        record.result.mesh.digest,
-        number_of(part.topology.points, "point", "points")
+        "{}, digest {}",
+        record.provenance.tool, record.result.mesh.digest
     )));
     for row in &part.results {
         let count = row.edges.failures + row.vertices.failures;

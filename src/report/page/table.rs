@@ -7,6 +7,9 @@ use std::io::{self, Write};
 /// A label that is longer stands on a line of its own.
 const LONGEST_LABEL: usize = 36;
 
+/// The most lines of a head.
+const MOST_LINES: usize = 4;
+
 /// The space before a cell.
 const GAP: usize = 2;
 
@@ -96,18 +99,12 @@ impl Table {
     /// Writes the heads, in several lines if the table is too wide otherwise, then the rows; without the last of the
     /// columns that may go if it is still too wide.
     pub fn write(&self, style: Style, out: &mut dyn Write) -> io::Result<()> {
-        let (first, mut widths) = (self.label_width(), self.widths());
-        let mut heads: Vec<Vec<String>> =
-            self.heads.iter().map(|column| vec![column.head.clone()]).collect();
-        if style.width < self.width() {
-            for (i, width) in widths.iter_mut().enumerate() {
-                let head = &self.heads[i + 1].head;
-                let word = head.split_whitespace().map(|word| word.chars().count()).max();
-                let most = self.cells_width(i).max(word.unwrap_or(0));
-                heads[i + 1] = wrapped(head, most);
-                *width = most + GAP;
-            }
-        }
+        let first = self.label_width();
+        // As few lines of heads as leave room for every column.
+        let (widths, heads) = (1..=MOST_LINES)
+            .map(|lines| self.narrowed(lines))
+            .find(|(widths, _)| first + widths.iter().sum::<usize>() <= style.width)
+            .unwrap_or_else(|| self.narrowed(MOST_LINES));
         let optional = (0..widths.len()).rev().filter(|i| self.heads[i + 1].is_optional);
         let mut hidden = Vec::new();
         for column in optional {
@@ -128,14 +125,14 @@ impl Table {
             }
         };
         let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-        let lines = shown.iter().map(|i| heads[i + 1].len()).chain([1]).max().unwrap_or(1);
+        let lines = shown.iter().map(|i| heads[*i].len()).chain([1]).max().unwrap_or(1);
         for line in 0..lines {
             // The last lines of all heads stand beside each other.
-            let of = |head: &Vec<String>| {
-                (line + head.len()).checked_sub(lines).map(|i| head[i].clone())
+            let of = |head: &[String]| {
+                (line + head.len()).checked_sub(lines).map_or(String::new(), |i| head[i].clone())
             };
-            let mut text = format!("{:<first$}", of(&heads[0]).unwrap_or_default());
-            shown.iter().for_each(|i| text += &padded(*i, &of(&heads[i + 1]).unwrap_or_default()));
+            let mut text = format!("{:<first$}", of(&[self.heads[0].head.clone()]));
+            shown.iter().for_each(|i| text += &padded(*i, &of(&heads[*i])));
             writeln!(out, "{bold}{}{plain}", text.trim_end())?;
         }
         for row in &self.rows {
@@ -171,8 +168,20 @@ impl Table {
     }
 
     fn widths(&self) -> Vec<usize> {
-        let heads = self.heads[1..].iter().map(|column| column.head.chars().count());
-        heads.enumerate().map(|(i, head)| self.cells_width(i).max(head) + GAP).collect()
+        self.narrowed(1).0
+    }
+
+    /// By column but the first: the width that it needs if its head takes at most so many lines, and these.
+    fn narrowed(&self, lines: usize) -> (Vec<usize>, Vec<Vec<String>>) {
+        let column = |(i, head): (usize, &Head)| {
+            let word = head.head.split_whitespace().map(|word| word.chars().count()).max();
+            let least = self.cells_width(i).max(word.unwrap_or(0));
+            let wide = |width: usize| (width, wrapped(&head.head, width));
+            let fits = |(_, head): &(usize, Vec<String>)| head.len() <= lines;
+            let (width, head) = (least..).map(wide).find(fits).expect("a wide one fits");
+            (width + GAP, head)
+        };
+        self.heads[1..].iter().enumerate().map(column).unzip()
     }
 }
 
@@ -225,8 +234,8 @@ mod tests {
         );
         assert_eq!(
             at(30),
-            "knob        at most\n      rays  so many  seen\nt     far   1 in 10    12\n"
+            "            at most\nknob  rays  so many  seen\nt     far   1 in 10    12\n"
         );
-        assert_eq!(at(20), "knob        at most\n      rays  so many\nt     far   1 in 10\n");
+        assert_eq!(at(20), "            at most\nknob  rays  so many\nt     far   1 in 10\n");
     }
 }

@@ -139,10 +139,10 @@ fn vertices_doubled_at_seams_are_one_point() {
     let folder = scratch("mesh-seams");
     fs::write(folder.join("a.glb"), apart.glb()).unwrap();
     let (out, _) = ends(&folder, &["mesh", "a.glb", "--kernel", "woop-watertight"], 0);
-    for line in
-        ["f32, 6 points", "  edges      12 between two faces", "  vertices   6 inside a closed fan"]
+    for part in
+        ["in f32 (6 points)", "\nedges     12 between two faces\n", "\nvertices  6 inside a"]
     {
-        assert!(out.lines().any(|other| other == line), "{line}\n{out}");
+        assert!(out.contains(part), "{part}\n{out}");
     }
 }
 

@@ -91,6 +91,11 @@ pub fn grid<F: Scalar>(
         for (k, knob) in setting.knobs.iter().enumerate() {
             let margins = trial.margins.iter().map(|margins| margins[k]);
             let margin = margins.fold(-F::infinity(), |most, m| if most < m { m } else { most });
+            let is_of_scene = matches!(setting.counts[trial.count].rays, Rays::Stratum(_));
+            if margin.is_zero() && is_refused && trial.guards[k] && !is_of_scene {
+                // Any number above zero refuses it; a scene's own almost parallel rays show such numbers.
+                widen(&mut ranges.above[k], smallest_normal::<F>());
+            }
             if !margin.is_finite() || margin.is_zero() {
                 continue;
             }
@@ -105,9 +110,9 @@ pub fn grid<F: Scalar>(
             // No ray of a scene hits nearer than its least distance, so every other false hit nearer than that
             // would speak for a least t as large: for a property of these rays, and not of the kernel.
             let is_of_t = knob.role(gates) == Role::T;
-            let is_in_reach = match setting.counts[trial.count].rays {
-                Rays::Stratum(_) => !is_of_t || is_self_hit || kind == Kind::Miss,
-                _ => trial.guards[k] || kind == Kind::Miss,
+            let is_in_reach = match is_of_scene {
+                true => !is_of_t || is_self_hit || kind == Kind::Miss,
+                false => trial.guards[k] || kind == Kind::Miss,
             };
             if F::zero() < margin && is_refused && is_in_reach {
                 widen(&mut ranges.above[k], size);

@@ -10,6 +10,9 @@ pub const MOST_KNOBS: usize = 3;
 /// The largest epsilon of each knob at which one triangle is accepted; +inf beyond the last knob.
 pub type Margins<F> = [F; MOST_KNOBS];
 
+/// By knob: if it is there to refuse a ray.
+pub(super) type Guards = [bool; MOST_KNOBS];
+
 /// One number that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Knob {

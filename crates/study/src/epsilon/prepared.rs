@@ -1,7 +1,6 @@
 //! Rays of a scene with what the kernel makes of them, kept between the passes over them.
 
-use super::knob::Margins;
-use super::trials::Guards;
+use super::knob::{Guards, Margins};
 use crate::arith::Float;
 use crate::case::Case;
 use crate::kernel::Hit;

@@ -1,7 +1,7 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
 use super::duty::Duty;
-use super::knob::{Knob, MOST_KNOBS, Margins};
+use super::knob::{Guards, Knob, MOST_KNOBS, Margins};
 use super::prepared::{Part, Prepared, Store};
 use super::rays::{Count, Kind, Rays};
 use super::relative::Scales;
@@ -65,7 +65,7 @@ pub struct Trial<'a, F: Float> {
     /// Which of the setting's counts it is for.
     pub count: usize,
     /// By knob: true if it is there to refuse such a ray, where refusing it is right.
-    pub guards: [bool; MOST_KNOBS],
+    pub guards: Guards,
     /// The margins of each triangle; a hit is reported if one is accepted.
     pub margins: &'a [Margins<F>],
     /// The triangles with their ray.
@@ -80,9 +80,6 @@ impl<F: Float> Trial<'_, F> {
         self.margins.iter().any(|margins| accepts(margins, epsilons))
     }
 }
-
-/// By knob: if it is there to refuse a ray.
-pub(super) type Guards = [bool; MOST_KNOBS];
 
 /// The triangles of each ray that crosses a surface at an edge or vertex which they share.
 fn crossings<'a, F: Scalar>(

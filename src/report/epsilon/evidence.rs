@@ -1,0 +1,103 @@
+//! One kernel in one scalar: what to use, what argues for it, and everything else folded.
+
+use super::answer::{Answer, LimitRow};
+use super::legend::legend;
+use super::plot::{footer, panels};
+use super::record::{SceneKernelPart, SceneRecord};
+use super::standing::{coarse, standing, telling};
+use super::words::{label, share};
+use crate::case::{Scene, SceneKind};
+use crate::report::elsewhere::{self, Compared};
+use crate::report::page::{Block, Command, Head, Row, Table};
+
+/// So many rows argue for what to use.
+const MOST_ROWS: usize = 3;
+
+/// What the words of the tables mean.
+pub(super) fn how_to_read(record: &SceneRecord) -> Vec<Block> {
+    vec![Block::Notes(legend(record))]
+}
+
+/// One kernel in one scalar: the answer, what argues for it, and everything else folded.
+pub(super) fn of_kernel(
+    record: &SceneRecord,
+    part: &SceneKernelPart,
+    answer: &Answer,
+) -> Vec<Block> {
+    let mut blocks = vec![Block::text(standing(record, part).1)];
+    blocks.extend(coarse(record, part).map(Block::Text));
+    blocks.extend(answer.used.iter().cloned().map(Block::Use));
+    let title = match record.has_scene() {
+        true => format!("wrong on fresh rays (seed {})", record.fresh_seed),
+        false => format!("wrong (seed {})", record.fresh_seed),
+    };
+    let heads = |title: &str| -> Vec<Head> {
+        [title].into_iter().chain(answer.columns.iter().map(String::as_str)).map(Head::of).collect()
+    };
+    let table = |title: &str, rows: &[(String, Vec<String>)]| {
+        let rows =
+            rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
+        Block::Table(Table { heads: heads(title), rows })
+    };
+    let places = telling(record, part, MOST_ROWS);
+    let is_telling = |row: &&(String, Vec<String>)| {
+        places.iter().any(|place| label(&part.counts[*place]) == row.0)
+    };
+    let rows: Vec<_> = answer.rows.iter().filter(is_telling).cloned().collect();
+    blocks.push(table(&title, &rows));
+    blocks.extend(panels(record, part, answer).into_iter().map(Block::Picture));
+    let mut all = vec![table(&title, &answer.rows)];
+    if !answer.errors.is_empty() {
+        all.push(table("errors: half below, 99 % below, worst", &answer.errors));
+    }
+    all.extend(of_elsewhere(record, answer.name, part));
+    all.extend(limits(answer));
+    blocks.push(Block::Details(format!("Everything about {} {}", part.kernel, part.scalar), {
+        all.push(Block::Notes(footer(record, part).into()));
+        all
+    }));
+    let mut commands: Vec<Command> =
+        answer.next.1.iter().map(|line| Command { line: line.clone(), what: "" }).collect();
+    let everything = "the same with --details, or --format html -o epsilon.html".to_owned();
+    commands.push(Command { line: everything, what: "" });
+    blocks.push(Block::Commands(answer.next.0, commands));
+    blocks
+}
+
+/// Where the recommended epsilons are more often wrong on planes, or with rays, of other kinds.
+fn of_elsewhere(record: &SceneRecord, name: &str, part: &SceneKernelPart) -> Vec<Block> {
+    let own = Scene::parse(&record.scene).map_or(SceneKind::ALL[0], |(scene, _)| scene.kind());
+    let others = part.elsewhere.iter().map(|other| other.plane.clone());
+    let kinds: Vec<String> = [own.to_string()].into_iter().chain(others).collect();
+    let rows: Vec<Compared> = (part.counts.iter().zip(&part.tried[0].wrong).enumerate())
+        .map(|(place, (count, own))| Compared {
+            label: label(count),
+            own,
+            others: part.elsewhere.iter().map(|other| &other.wrong[place]).collect(),
+        })
+        .collect();
+    elsewhere::blocks(&format!("{name}: more often wrong"), &kinds, &rows, share)
+}
+
+fn limits(answer: &Answer) -> Vec<Block> {
+    if answer.limits.is_empty() {
+        return Vec::new();
+    }
+    let heads = vec![
+        Head::of("limits"),
+        Head::text("the other numbers fixed"),
+        Head::text("95 %: 1 in 20 fails"),
+        Head::of("at most"),
+        Head::of("fresh rays").optional(),
+    ];
+    let row = |row: &LimitRow| {
+        let star = if row.is_of_scene { " *" } else { "" };
+        let what = format!("{}{star}", row.what);
+        Row::new(&row.knob, [row.bound.clone(), what, row.most.clone(), row.fresh.clone()])
+    };
+    let mut blocks =
+        vec![Block::Table(Table { heads, rows: answer.limits.iter().map(row).collect() })];
+    blocks.extend(answer.conflicts.iter().map(|conflict| Block::text(conflict.join(" "))));
+    blocks.push(Block::Notes(answer.prices.clone()));
+    blocks
+}
