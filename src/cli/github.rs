@@ -1,7 +1,8 @@
 //! GitHub Actions: annotations on the run, and its summary, when the program runs there.
 
 use super::exit::Failure;
-use crate::report::{Conformance, Deviation, MARKDOWN_LIMIT, Record, Unproved, markdown_within};
+use crate::report::page::{MARKDOWN_LIMIT, Paged, markdown_within};
+use crate::report::{Conformance, Deviation, Record, Style, Unproved};
 use std::fs::{self, File};
 use std::io::{self, Write};
 
@@ -24,7 +25,8 @@ pub fn announce(record: &Record) -> Result<(), Failure> {
 /// Appends the record as Markdown: the file as a whole may have a mebibyte.
 fn append(file: &str, record: &Record) -> io::Result<()> {
     let used = fs::metadata(file).map_or(0, |metadata| metadata.len()) as usize;
-    let text = markdown_within(record, MARKDOWN_LIMIT.saturating_sub(used));
+    let text =
+        markdown_within(&record.page(), Style::default(), MARKDOWN_LIMIT.saturating_sub(used));
     File::options().create(true).append(true).open(file)?.write_all(text.as_bytes())
 }
 

@@ -83,16 +83,19 @@ impl OutputArguments {
     ) -> Result<(), Failure> {
         let OutputArguments { color, .. } = *self;
         write_results(pairs, |format, path, out| {
-            let style = Style { color: color.enabled(path == "-"), details, width: width(path) };
+            let style =
+                Style { color: color.enabled(path == "-"), details, width: width(path, details) };
             (format.write)(record, style, out)
         })
     }
 }
 
-/// The width of an output: of a terminal its own, within what can be read; of anything else 80.
-fn width(path: &str) -> usize {
+/// The width of an output: of a terminal its own, within what can be read; of anything else 80,
+/// or where everything is asked for, as much as a table needs.
+fn width(path: &str, details: bool) -> usize {
     let terminal = (path == "-" && io::stdout().is_terminal()).then(terminal_size).flatten();
-    terminal.map_or(Style::WIDTH, |(width, _)| usize::from(width.0).clamp(60, 160))
+    let otherwise = if details { Style::WIDEST } else { Style::WIDTH };
+    terminal.map_or(otherwise, |(width, _)| usize::from(width.0).clamp(60, Style::WIDEST))
 }
 
 /// A format, which has a name on the command line.

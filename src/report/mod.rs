@@ -24,7 +24,7 @@ mod json;
 #[cfg(feature = "studies")]
 pub mod mesh;
 #[cfg(feature = "studies")]
-pub(crate) mod page;
+pub mod page;
 mod rate;
 mod record;
 #[cfg(feature = "studies")]
@@ -37,7 +37,7 @@ pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
-pub use formats::{FORMATS, Format, HTML, MARKDOWN_LIMIT, Style, markdown_within};
+pub use formats::{FORMATS, Format, HTML, Style};
 #[cfg(feature = "cli")]
 pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate};

@@ -8,7 +8,7 @@ use crate::audit::Trials;
 use crate::plot::{Decades, decades_around, group_digits};
 use crate::report::Style;
 use crate::report::chart::{Chart, Frame, LINE, Mark, file, text_at, wrapped};
-use crate::report::page::Picture;
+use crate::report::page::{Drawing, Picture};
 use crate::report::rate::percent;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -40,8 +40,9 @@ pub fn write(record: &SceneRecord, _: Style, out: &mut dyn Write) -> io::Result<
             drawing += &text_at(12.0, y, class, &text);
         }
         for panel in panels(record, part, &answer) {
-            let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{}</g>", panel.drawing);
-            y += panel.size[1];
+            let Drawing::Chart(panel, [_, height]) = panel.drawing else { continue };
+            let _ = write!(drawing, "<g transform=\"translate(0 {y:.0})\">{panel}</g>");
+            y += height;
         }
         for text in footer(record, part).iter().flat_map(|text| wrapped(text, WIDTH)) {
             y += LINE;
@@ -259,7 +260,8 @@ impl<'a> Draft<'a> {
         let legend = self.legend();
         chart.legend(&legend);
         let about = legend.iter().fold(title, |about, (_, text)| format!("{about}; {text}"));
-        Picture { about, drawing: chart.drawing, size: [WIDTH, chart.height] }
+        let drawing = Drawing::Chart(chart.drawing, [WIDTH, chart.height]);
+        Picture { about, caption: String::new(), drawing }
     }
 
     /// Marks with their texts: the lines, then the limits.

@@ -1,13 +1,12 @@
 //! The three worst findings of a record, in words, each with the command that shows it.
 
 use super::columns::Column;
+use super::group_digits;
 use super::lines::Line;
 use super::record::*;
 use super::worst::severity_of;
-use super::{Style, group_digits};
 use crate::audit::Attribution;
-use crate::report::page::write_wrapped;
-use std::io::{self, Write};
+use crate::report::page::{Block, Item};
 
 /// The worst case of one class of findings.
 struct Extreme<'a> {
@@ -18,39 +17,27 @@ struct Extreme<'a> {
     cause: Option<Attribution>,
 }
 
-/// Writes a promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
-pub(super) fn write(
-    columns: &[Column],
-    lines: &[Line],
-    most: usize,
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+/// A promise across triangles that was broken, and the worst verdicts in ordinary sizes; at most so many.
+pub(super) fn blocks(columns: &[Column], lines: &[Line], most: usize) -> Vec<Block> {
     let broken = lines.iter().find_map(|line| Some((line, broken_promise(line)?)));
     let worst = chosen(all(columns, lines), most - usize::from(broken.is_some()));
-    if broken.is_none() && worst.is_empty() {
-        return Ok(());
-    }
     let is_all = columns.iter().all(|column| column.is_ordinary());
     let place = if is_all { "" } else { " in ordinary sizes" };
     let head = match most {
-        1 => format!("{bold}Worst{plain}{place}, in longest edges of the triangle:"),
-        _ => {
-            format!("{bold}Worst{plain}{place}, in longest edges, of different causes and kernels:")
-        }
+        1 => format!("Worst{place}, in longest edges of the triangle:"),
+        _ => format!("Worst{place}, in longest edges, of different causes and kernels:"),
     };
-    writeln!(out, "{head}")?;
     let commands = broken.into_iter().map(|(line, (text, command))| {
         (format!("{}, {}: {text}", line.label(), line.row.scalar), command)
     });
     let worst =
         worst.iter().map(|extreme| (extreme.describe(), extreme.part.worst.command.clone()));
-    for (number, (text, command)) in commands.chain(worst).enumerate() {
-        write_wrapped(&format!("{}. {text}", number + 1), style.width, out)?;
-        writeln!(out, "   {command}")?;
-    }
-    Ok(())
+    let item = |(number, (text, command)): (usize, (String, String))| Item {
+        text: format!("{}. {text}", number + 1),
+        lines: vec![command],
+        ..Item::default()
+    };
+    Block::items(&head, most, commands.chain(worst).enumerate().map(item).collect())
 }
 
 /// The promise across triangles that a row broke, and the command that shows the first case.

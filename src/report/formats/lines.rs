@@ -1,11 +1,10 @@
-//! The lines of the screen and of the summary in Markdown: rows with their cells, and words wrapped.
+//! The lines of the tables: rows with their cells; and notes on kernels.
 
 use super::columns::{Across, Cell, Column, kinds};
+use super::group_digits;
 use super::record::*;
 use super::row_view::RowView;
-use super::{Style, group_digits};
-use crate::report::page::write_wrapped;
-use std::io::{self, Write};
+use crate::report::page::Block;
 
 /// One row in one scalar.
 pub(super) struct Line<'a> {
@@ -51,37 +50,33 @@ pub(super) fn column_legend(columns: &[Column], lines: &[Line]) -> String {
     parts.join("; ")
 }
 
-/// Writes notes on the kernels besides their verdicts, and says if their values are good for anything.
-pub(super) fn write_notes(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
-    for (kernel, notes) in &record.provenance.kernel_notes {
-        for note in notes {
-            write_wrapped(&format!("{kernel}: {note}."), style.width, out)?;
-        }
-    }
+/// Notes on the kernels besides their verdicts, and on values that are good for nothing.
+pub(super) fn notes(record: &Record) -> Vec<Block> {
+    let of_kernels = record.provenance.kernel_notes.iter();
+    let of_kernels = of_kernels
+        .flat_map(|(kernel, notes)| notes.iter().map(move |note| format!("{kernel}: {note}.")));
+    let mut all: Vec<String> = of_kernels.collect();
     let scalars = record.result.plan.scalars.iter();
     for row in scalars.flat_map(|scalar| RowView::all(record, scalar)) {
+        let label = format!("{} ({}), {}", row.part.kernel, row.part.set, row.scalar);
         let [bad, of] = row.total(|result| Some(&result.total.bad_values)).counts();
         // Of more than half of them something is wrong with the adapter, not with the arithmetic.
         if of < bad.saturating_mul(2) {
             let [bad, of] = [bad, of].map(group_digits);
-            let text = format!(
-                "{} ({}), {}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, \
-                 or with the wrong side (bad-value). Does it write all that it says that it gives?",
-                row.part.kernel, row.part.set, row.scalar
-            );
-            write_wrapped(&text, style.width, out)?;
+            all.push(format!(
+                "{label}: of {of} hits that are not false {bad} come with a t, u or v that is not finite, or with the \
+                 wrong side (bad-value). Does it write all that it says that it gives?"
+            ));
         }
         let [wrong, of] = row.total(|result| Some(&result.total.wrong_values)).counts();
         if of < wrong.saturating_mul(2) {
             let [wrong, of] = [wrong, of].map(group_digits);
-            let text = format!(
-                "{} ({}), {}: of {of} hits that are not false {wrong} come with a t, u or v that is not the exact one, \
-                 by more than rounding explains (wrong-value). t is in units of the direction as given, u is the \
-                 weight of b, v that of c.",
-                row.part.kernel, row.part.set, row.scalar
-            );
-            write_wrapped(&text, style.width, out)?;
+            all.push(format!(
+                "{label}: of {of} hits that are not false {wrong} come with a t, u or v that is not the exact one, by more \
+                 than rounding explains (wrong-value). t is in units of the direction as given, u is the weight of b, v \
+                 that of c."
+            ));
         }
     }
-    Ok(())
+    all.into_iter().map(Block::Text).collect()
 }

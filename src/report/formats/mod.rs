@@ -5,15 +5,16 @@
 
 mod close_up;
 mod columns;
+mod details;
 mod extremes;
-#[cfg(feature = "cli")]
-pub(in crate::report) mod html;
 mod jsonl;
 mod junit;
+mod kernel;
 mod lines;
-mod markdown;
 mod net;
 mod next;
+mod page;
+mod pictures;
 mod pool;
 mod questions;
 mod ranking;
@@ -21,12 +22,9 @@ mod row_view;
 mod sarif;
 mod screen;
 mod standing;
-pub(in crate::report) mod text;
 mod verdict;
 mod why;
 mod worst;
-
-pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 
 use super::disagreement::kinds_of;
 use super::*;
@@ -54,6 +52,8 @@ impl Default for Style {
 impl Style {
     /// The width where there is no terminal.
     pub const WIDTH: usize = 80;
+    /// The most that is used of a terminal's.
+    pub const WIDEST: usize = 160;
 }
 
 /// A format that a record can be written in.
@@ -75,12 +75,12 @@ pub const HTML: &str = "html";
 
 /// One row per format.
 pub const FORMATS: &[Format] = &[
-    Format { name: "text", write: text::write },
+    Format::TEXT,
     Format::JSON,
     Format { name: "jsonl", write: jsonl::write },
     Format { name: "junit", write: junit::write },
     Format { name: "sarif", write: sarif::write },
-    Format { name: "markdown", write: markdown::write },
+    Format::MARKDOWN,
     #[cfg(feature = "cli")]
-    Format { name: HTML, write: html::write },
+    Format::HTML,
 ];

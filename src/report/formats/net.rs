@@ -80,7 +80,7 @@ fn signed(number: i64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::formats::html::tests::{conformance, deviation};
+    use crate::report::page::html::tests::{conformance, deviation};
 
     #[test]
     fn a_trade_is_a_line() {

@@ -1,25 +1,21 @@
 //! The end of what `hairline audit` prints: the commands that lead on.
 
-use super::Style;
 use super::lines::Line;
 use super::record::{Record, RowPart};
 use crate::kernel;
-use std::io::{self, Write};
+use crate::report::page::Command;
 
-/// Writes them.
-pub(super) fn write(
-    record: &Record,
-    best: Option<&RowPart>,
-    lines: &[Line],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
+/// The commands.
+pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) -> Vec<Command> {
+    let everything = Command {
+        line: "--details, or --format html -o report.html".to_owned(),
+        what: "everything",
+    };
     // The product of `verify` cannot be chosen by a flag.
     let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
     let rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
     let Some(first) = rows.first() else {
-        return writeln!(out, "{bold}next:{plain} --details  # everything");
+        return vec![everything];
     };
     let tells_margins = |row: &&&RowPart| {
         let entry = kernel::find(&row.kernel);
@@ -29,10 +25,11 @@ pub(super) fn write(
     let sources = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.sources.as_str());
     let sources = if sources.is_empty() { String::new() } else { format!(" {sources}") };
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
-    let mut commands: Vec<(String, &str)> = Vec::new();
+    let mut commands: Vec<Command> = Vec::new();
     if !is_alone {
         let one = tuned.unwrap_or(first);
-        commands.push((format!("hairline audit {}{sources}", one.selector), "one kernel"));
+        let line = format!("hairline audit {}{sources}", one.selector);
+        commands.push(Command { line, what: "one kernel" });
     }
     let all_sources = sources.clone();
     if let Some(tuned) = tuned {
@@ -43,21 +40,15 @@ pub(super) fn write(
         } else {
             sources.to_owned()
         };
-        let command = format!("hairline epsilon {}{sources}", tuned.selector);
-        commands.push((command, "choose an epsilon"));
+        let line = format!("hairline epsilon {}{sources}", tuned.selector);
+        commands.push(Command { line, what: "choose an epsilon" });
     }
     let kernels = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.kernels.as_str());
     let kernels = if kernels.is_empty() { String::new() } else { format!(" {kernels}") };
-    commands.push((format!("hairline check{kernels}{all_sources} --bless"), "gate a CI"));
-    commands.push(("--details, or --format html -o report.html".to_owned(), "everything"));
-    for (i, (command, what)) in commands.iter().enumerate() {
-        let lead = if i == 0 { format!("{bold}next:{plain}") } else { "     ".to_owned() };
-        match "next:   # ".len() + command.chars().count() + what.len() <= style.width {
-            true => writeln!(out, "{lead} {command}  # {what}")?,
-            false => writeln!(out, "{lead} {command}")?,
-        }
-    }
-    Ok(())
+    let line = format!("hairline check{kernels}{all_sources} --bless");
+    commands.push(Command { line, what: "gate a CI" });
+    commands.push(everything);
+    commands
 }
 
 /// Flags without the families among them.

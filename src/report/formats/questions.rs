@@ -1,22 +1,16 @@
 //! Every question in a column, row by row in the order of the plan: the first table of `--details`.
 
 use super::columns::{Cell, Column, short_percent};
+use super::group_digits;
 use super::lines::{Line, column_legend};
-use super::{Style, group_digits};
-use crate::report::page::{self, Head, Row, Table, write_wrapped};
+use crate::report::page::{self, Block, Head, Row, Table};
 use std::collections::BTreeSet;
-use std::io::{self, Write};
 
-/// Writes a table for each scalar, and what stands in it.
-pub(super) fn write(
-    scalars: &[String],
-    columns: &[Column],
-    lines: &[Line],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+/// A table for each scalar, and what stands in it.
+pub(super) fn blocks(scalars: &[String], columns: &[Column], lines: &[Line]) -> Vec<Block> {
     let has_groups = lines.iter().any(|line| line.across.is_some());
     let groups = if has_groups { &["cracks ", "doubles ", "promised"][..] } else { &[] };
+    let mut blocks = Vec::new();
     for scalar in scalars {
         let mut heads = vec![format!("{scalar} kernel (epsilons)")];
         heads.extend(columns.iter().map(|column| format!("{} ", column.label())));
@@ -24,44 +18,43 @@ pub(super) fn write(
         heads.extend(groups.iter().map(|head| (*head).to_owned()));
         let of_scalar = lines.iter().filter(|line| line.row.scalar == scalar);
         let rows = of_scalar.map(|line| row(columns, line, has_groups)).collect();
-        writeln!(out)?;
         let heads = heads.into_iter().map(Head::of).collect();
-        Table { heads, rows }.write(style, out)?;
+        blocks.push(Block::Table(Table { heads, rows }));
     }
-    write_cell_legend(columns, lines, style, out)?;
-    write_wrapped(&column_legend(columns, lines), style.width, out)
+    blocks.push(Block::Text(cell_legend(columns, lines)));
+    blocks.push(Block::Text(column_legend(columns, lines)));
+    blocks
 }
 
 fn row(columns: &[Column], line: &Line, has_groups: bool) -> Row {
     let text =
         |share: String, cell: &Cell| format!("{share}{}", if cell.is_far() { '*' } else { ' ' });
-    let share = |cell: &Cell| text(short_percent([cell.wrong.count, cell.wrong.of]), cell);
+    let share = |cell: &Cell| page::Cell {
+        text: text(short_percent([cell.wrong.count, cell.wrong.of]), cell),
+        share: cell.wrong.share(),
+        ..page::Cell::default()
+    };
     let mut cells: Vec<page::Cell> = Vec::new();
     for (column, cell) in columns.iter().zip(&line.cells) {
         let [count, of] = [cell.wrong.count, cell.wrong.of].map(group_digits);
         cells.push(match column.complete && 0 < cell.wrong.of {
             true => text(format!("{count}/{of}"), cell).into(),
-            false => share(cell).into(),
+            false => share(cell),
         });
     }
-    cells.push(share(&line.values).into());
+    cells.push(share(&line.values));
     if let Some(across) = line.across.as_ref().filter(|_| has_groups) {
         let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
         cells.extend([format!("{cracks} "), format!("{doubles} ")].map(page::Cell::from));
-        cells.push(page::Cell { text: across.words(), is_broken: across.is_broken() });
+        cells.push(page::Cell { text: across.words(), is_broken: across.is_broken(), share: None });
     } else if has_groups {
         cells.extend(["- ", "- ", "-"].map(|text| page::Cell::from(text.to_owned())));
     }
     Row { label: line.label(), cells, below: Vec::new() }
 }
 
-/// Writes the legend of a cell.
-fn write_cell_legend(
-    columns: &[Column],
-    lines: &[Line],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+/// The legend of a cell.
+fn cell_legend(columns: &[Column], lines: &[Line]) -> String {
     let sampled = lines.iter().flat_map(|line| columns.iter().zip(&line.cells));
     let wide = sampled
         .filter(|(column, cell)| !column.complete && 0 < cell.wrong.of)
@@ -81,9 +74,8 @@ fn write_cell_legend(
     let free = if free { "; - nothing demanded" } else { "" };
     let stored = columns.iter().any(|column| column.complete);
     let stored = if stored { "; of whole sets: wrong/all" } else { "" };
-    let text = format!(
+    format!(
         "Cells: % of wrong verdicts, false misses and false hits, by {contract}, on cases chosen to be \
          hard{within}; * over 0.1 % are wrong by over 1/1000 of the longest edge{stored}{free}."
-    );
-    write_wrapped(&text, style.width, out)
+    )
 }

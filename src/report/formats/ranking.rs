@@ -4,12 +4,11 @@ use super::columns::{Column, short_percent};
 use super::record::*;
 use super::standing::Standing;
 use super::{Style, group_digits};
-use crate::report::page::{Cell, Head, Row, Table, write_wrapped};
+use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::BTreeSet;
-use std::io::{self, Write};
 
 /// The most rows; more do not fit on a screen.
-const MOST: usize = 15;
+const MOST: usize = 14;
 
 /// The most names in a sentence.
 const MOST_NAMES: usize = 4;
@@ -127,14 +126,8 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
     text.join(" ")
 }
 
-/// Writes the table, and what its columns hold.
-pub(super) fn write(
-    record: &Record,
-    columns: &[Column],
-    standings: &[Standing],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+/// The table, and what its columns hold.
+pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]) -> Vec<Block> {
     let place = |column: &Column| ORDER.iter().position(|name| *name == column.label());
     let mut order: Vec<usize> = (0..columns.len()).collect();
     order.sort_by_key(|i| (!columns[*i].is_ordinary(), place(&columns[*i]).unwrap_or(ORDER.len())));
@@ -145,7 +138,7 @@ pub(super) fn write(
     let mut table = Table::default();
     table.heads.push(Head::of("kernel"));
     table.heads.extend(before.iter().map(|head| Head::of(*head)));
-    table.heads.extend(order.iter().map(|i| Head::of(columns[*i].label())));
+    table.heads.extend(order.iter().map(|i| Head::of(columns[*i].label()).optional()));
     table.heads.extend(scalars.iter().map(|scalar| Head::of(format!("ns {scalar}"))));
     let rows = ranked(standings);
     let more: usize = rows.iter().skip(MOST).map(|row| 1 + row.alike.len()).sum();
@@ -155,7 +148,8 @@ pub(super) fn write(
             let text = standing.leaks().map_or("-".to_owned(), short_percent);
             let is_broken = standing.breaks_promise();
             let mark = if is_broken { "!" } else { "" };
-            cells.push(Cell { text: format!("{text}{mark}"), is_broken });
+            let share = standing.leaks().map(|[count, of]| count as f64 / of.max(1) as f64);
+            cells.push(Cell { text: format!("{text}{mark}"), is_broken, share });
         }
         cells.push(group_digits(standing.all_far()).into());
         let values = standing.worse(|line| line.values).wrong;
@@ -165,7 +159,11 @@ pub(super) fn write(
             cells.push(match columns[i].complete {
                 true if wrong.of == 0 => "-".to_owned().into(),
                 true => format!("{}/{}", group_digits(wrong.count), group_digits(wrong.of)).into(),
-                false => short_percent([wrong.count, wrong.of]).into(),
+                false => Cell {
+                    text: short_percent([wrong.count, wrong.of]),
+                    share: wrong.share(),
+                    ..Cell::default()
+                },
             });
         }
         for scalar in scalars {
@@ -181,29 +179,17 @@ pub(super) fn write(
             below: alike.into_iter().collect(),
         });
     }
-    let mut shown = order.clone();
-    while style.width < table.width() && !shown.is_empty() {
-        shown.pop();
-        table.remove(before.len() + shown.len());
-    }
-    table.write(style, out)?;
+    let mut blocks = vec![Block::Table(table)];
     if 0 < more {
-        writeln!(out, "… {more} more rows: --details")?;
+        blocks.push(Block::Text(format!("… {more} more rows: --details")));
     }
-    let left_out: Vec<&str> = order[shown.len()..].iter().map(|i| columns[*i].label()).collect();
-    let shown: Vec<Column> = shown.iter().map(|i| columns[*i]).collect();
-    legend(record, &shown, &left_out, has_leaks, style, out)
+    let shown: Vec<Column> = order.iter().map(|i| columns[*i]).collect();
+    blocks.push(Block::Text(legend(record, &shown, has_leaks)));
+    blocks
 }
 
 /// The meaning of the columns in a few lines.
-fn legend(
-    record: &Record,
-    shown: &[Column],
-    left_out: &[&str],
-    has_leaks: bool,
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+fn legend(record: &Record, shown: &[Column], has_leaks: bool) -> String {
     let mut parts = Vec::new();
     if has_leaks {
         parts.push("leaks: % of rays at shared edges and vertices that hit nothing".to_owned());
@@ -219,8 +205,5 @@ fn legend(
     parts.push(format!(
         "other cells: % wrong{worse} on rays aimed at hard places, not of your pixels"
     ));
-    if !left_out.is_empty() {
-        parts.push(format!("--details has {} too", left_out.join(", ")));
-    }
-    write_wrapped(&parts.join("; "), style.width, out)
+    parts.join("; ")
 }

@@ -4,7 +4,6 @@ use super::group_digits;
 use super::pool::Pool;
 use super::record::*;
 use std::collections::HashMap;
-use std::io::{self, Write};
 
 /// All families of one kernel row in one scalar.
 pub(super) struct RowView<'a> {
@@ -45,17 +44,6 @@ impl<'a> RowView<'a> {
         self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()
     }
 
-    /// A family's first groups that no triangle reported, by id.
-    pub(super) fn first_cracks(&self) -> Vec<(&KernelResult, &str)> {
-        self.results
-            .iter()
-            .filter_map(|result| {
-                let across = result.across.as_ref()?;
-                Some((*result, across.first_cracks.first()?.as_str()))
-            })
-            .collect()
-    }
-
     /// The family with the largest share.
     pub(super) fn worst_family(&self, rate: impl Fn(&KernelResult) -> &Rate) -> &str {
         let share = |result: &KernelResult| rate(result).rate.unwrap_or(0.0);
@@ -79,9 +67,9 @@ pub(super) fn is_all_invalid(rows: &[RowView], cases: u64) -> bool {
     })
 }
 
-/// The kernels that gave no verdict on some cases.
-pub(super) fn write_failures(rows: &[&RowView], out: &mut dyn Write) -> io::Result<()> {
-    for row in rows {
+/// The kernels that gave no verdict on some cases, a sentence each.
+pub(super) fn failures(rows: &[&RowView]) -> Vec<String> {
+    let failures = |row: &&RowView| {
         let sum = |count: fn(&Counts) -> u64| -> u64 {
             row.results.iter().map(|result| count(&result.total)).sum()
         };
@@ -93,11 +81,10 @@ pub(super) fn write_failures(rows: &[&RowView], out: &mut dyn Write) -> io::Resu
         let words = counts.iter().filter(|(_, count)| *count > 0);
         let words: Vec<String> =
             words.map(|(what, count)| format!("{} {what}", group_digits(*count))).collect();
-        if !words.is_empty() {
-            let cases = group_digits(sum(|counts| counts.cases));
-            let (kernel, set) = (&row.part.kernel, &row.part.set);
-            writeln!(out, "{kernel} ({set}): {} in {cases} cases", words.join(", "))?;
-        }
-    }
-    Ok(())
+        let cases = group_digits(sum(|counts| counts.cases));
+        let (kernel, set) = (&row.part.kernel, &row.part.set);
+        (!words.is_empty())
+            .then(|| format!("{kernel} ({set}): {} in {cases} cases", words.join(", ")))
+    };
+    rows.iter().filter_map(failures).collect()
 }

@@ -3,58 +3,51 @@
 
 use super::columns::{Cell, Column, kinds, shared_in_scenes, short_percent};
 use super::disagreement::family_of;
-use super::lines::{Line, lines, write_notes};
+use super::lines::{Line, notes};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, is_all_invalid, write_failures};
-use super::standing::{Standing, other_findings, standings};
-use super::{Style, close_up, extremes, group_digits, next, number_of, ranking};
+use super::row_view::{ALL_INVALID, RowView, failures, is_all_invalid};
+use super::standing::{Standing, standings};
+use super::{close_up, extremes, group_digits, next, number_of, ranking};
 use crate::case::SceneKind;
 use crate::report::elsewhere::is_worse;
-use crate::report::page::write_wrapped;
+use crate::report::page::{Block, Head, Row, Table};
 use crate::report::percent;
+
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, Write};
 
 /// The most rows that the screen shows each by itself.
 const MOST_CLOSE_UPS: usize = 2;
 
-/// Writes the screen.
-pub(super) fn write(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
-    let columns = Column::all(record);
-    let lines = lines(record, &columns);
-    let standings = standings(record, &columns, &lines);
-    write_head(record, style, out)?;
-    write_notes(record, style, out)?;
-    write_answer(record, &columns, &standings, style, out)?;
-    if let Some(note) = shared_in_scenes(record) {
-        write_wrapped(note, style.width, out)?;
-    }
+/// The answer, and everything below it on the screen.
+pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> (String, Vec<Block>) {
+    let standings = standings(record, columns, lines);
+    let (title, rest) = answer(record, columns, &standings);
+    let mut blocks = vec![Block::Text(rest), Block::Text(head(record))];
+    blocks.extend(notes(record));
+    blocks.extend(shared_in_scenes(record).map(Block::text));
     for scalar in &record.result.plan.scalars {
         let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);
         let cases = cases.map(|source| source.cases).sum();
         if 0 < cases && is_all_invalid(&RowView::all(record, scalar), cases) {
-            writeln!(out, "{scalar}: {ALL_INVALID}")?;
+            blocks.push(Block::Text(format!("{scalar}: {ALL_INVALID}")));
         }
     }
-    if is_close_up(record) {
-        close_up::write(record, &columns, &lines, style, out)?;
-    } else {
-        writeln!(out)?;
-        ranking::write(record, &columns, &standings, style, out)?;
-    }
-    write_elsewhere(record, &columns, &lines, style, out)?;
-    for scalar in &record.result.plan.scalars {
-        let rows = lines.iter().filter(|line| line.row.scalar == scalar).map(|line| &line.row);
-        write_failures(&rows.collect::<Vec<_>>(), out)?;
-    }
-    writeln!(out)?;
+    blocks.extend(match is_close_up(record) {
+        true => close_up::blocks(record, columns, lines),
+        false => ranking::blocks(record, columns, &standings),
+    });
+    blocks.extend(of_elsewhere(record, columns, lines));
+    let rows: Vec<&RowView> = lines.iter().map(|line| &line.row).collect();
+    blocks.extend(failures(&rows).into_iter().map(Block::Text));
     let worst = if is_close_up(record) { 3 } else { 1 };
-    extremes::write(&columns, &lines, worst, style, out)?;
-    next::write(record, ranking::best(&standings), &lines, style, out)
+    blocks.extend(extremes::blocks(columns, lines, worst));
+    let next = next::commands(record, ranking::best(&standings), lines);
+    blocks.push(Block::Commands("next", next));
+    (title, blocks)
 }
 
-/// Writes which kernels ran, and on how many cases.
-fn write_head(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<()> {
+/// Which kernels ran, and on how many cases.
+fn head(record: &Record) -> String {
     let (result, provenance) = (&record.result, &record.provenance);
     let cases = |scalar: &String| {
         let sources = result.sources.iter().filter(|source| source.scalar == *scalar);
@@ -83,7 +76,7 @@ fn write_head(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<
         several => format!(" in {several} kinds of planes and rays"),
     };
     let kernels: BTreeSet<&str> = result.plan.rows.iter().map(|row| &*row.kernel).collect();
-    let text = format!(
+    format!(
         "{}: {} ({}) on {sources}{kinds}, {}, {:.1} s, plan {}",
         provenance.tool,
         number_of(result.plan.rows.len() as u64, "row", "rows"),
@@ -91,8 +84,7 @@ fn write_head(record: &Record, style: Style, out: &mut dyn Write) -> io::Result<
         counts.collect::<Vec<_>>().join(", "),
         provenance.seconds,
         result.plan.hash,
-    );
-    write_wrapped(&text, style.width, out)
+    )
 }
 
 /// True if there are so few kernels that each has a table of its own.
@@ -100,14 +92,8 @@ fn is_close_up(record: &Record) -> bool {
     record.result.plan.rows.len() <= MOST_CLOSE_UPS
 }
 
-/// The answer in words.
-fn write_answer(
-    record: &Record,
-    columns: &[Column],
-    standings: &[Standing],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+/// The answer in words: its first sentence, and the others.
+fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (String, String) {
     let special: Vec<&str> = columns
         .iter()
         .filter(|column| !column.is_ordinary())
@@ -152,14 +138,13 @@ fn write_answer(
         ),
         all => ranking::answer(all, judged(record), &place),
     };
-    let broken: BTreeMap<FindingKind, u64> =
-        record.result.plan.rows.iter().flat_map(|part| other_findings(record, part)).fold(
-            BTreeMap::new(),
-            |mut sums, (finding, count)| {
-                *sums.entry(finding).or_default() += count;
-                sums
-            },
-        );
+    let broken: BTreeMap<FindingKind, u64> = standings
+        .iter()
+        .flat_map(|standing| standing.others.clone())
+        .fold(BTreeMap::new(), |mut sums, (finding, count)| {
+            *sums.entry(finding).or_default() += count;
+            sums
+        });
     let others = match (standings.len(), broken.is_empty()) {
         (2.., _) | (_, true) => String::new(),
         _ => {
@@ -168,13 +153,14 @@ fn write_answer(
             format!(" Other broken promises: {}.", counts.collect::<Vec<_>>().join(", "))
         }
     };
-    write_wrapped(&(text + &others), style.width, out)?;
+    let mut text = text + &others;
     if let Some(partial) = &record.result.partial {
-        let text =
-            format!("A part of a run: {}; all numbers are of this part.", partial.in_words());
-        write_wrapped(&text, style.width, out)?;
+        text += &format!(" A part of a run: {}; all numbers are of this part.", partial.in_words());
     }
-    Ok(())
+    match text.split_once(". ") {
+        Some((first, rest)) => (format!("{first}."), rest.to_owned()),
+        None => (text, String::new()),
+    }
 }
 
 /// The cases of a record, in all scalars.
@@ -185,18 +171,12 @@ fn judged(record: &Record) -> u64 {
 /// The most rows of what is more often wrong on planes, or with rays, of other kinds.
 const MOST_ELSEWHERE: usize = 10;
 
-/// Writes which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
-fn write_elsewhere(
-    record: &Record,
-    columns: &[Column],
-    lines: &[Line],
-    style: Style,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+/// Which rows are more often wrong on planes, or with rays, of other kinds than the table's, and where most.
+fn of_elsewhere(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Block> {
     let kinds = kinds(record);
-    let [own_kind, others @ ..] = &kinds[..] else { return Ok(()) };
+    let [own_kind, others @ ..] = &kinds[..] else { return Vec::new() };
     if others.is_empty() {
-        return Ok(());
+        return Vec::new();
     }
     let rate = |cell: &Cell| Rate::new(cell.wrong, true);
     let mut rows: Vec<(String, Rate, Rate, SceneKind)> = Vec::new();
@@ -217,30 +197,37 @@ fn write_elsewhere(
     }
     let names: Vec<String> =
         others.iter().map(|kind| format!("{kind} ({})", kind.in_words())).collect();
-    writeln!(out)?;
+    let names = names.join(", ");
     if rows.is_empty() {
-        let text = format!(
-            "On no other planes or rays is a row clearly more often wrong: {}",
-            names.join(", ")
-        );
-        return write_wrapped(&text, style.width, out);
+        return vec![Block::Text(format!(
+            "On no other planes or rays is a row clearly more often wrong: {names}"
+        ))];
     }
     let excess = |(_, own, other, _): &(String, Rate, Rate, SceneKind)| {
         other.rate.unwrap_or(0.0) - own.rate.unwrap_or(0.0)
     };
     rows.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
     let more = rows.len().saturating_sub(MOST_ELSEWHERE);
-    rows.truncate(MOST_ELSEWHERE);
-    let first = rows.iter().map(|(label, ..)| label.chars().count()).max().unwrap_or(0);
-    let title = "Clearly more often wrong on other planes or rays";
-    let first = first.max(title.len());
-    writeln!(out, "{title:<first$}{:>10}{:>10}", own_kind.to_string(), "most")?;
-    for (label, own, other, kind) in &rows {
+    let heads = vec![
+        Head::of("Clearly more often wrong elsewhere"),
+        Head::of(own_kind.to_string()),
+        Head::of("most"),
+        Head::text("on"),
+    ];
+    let row = |(label, own, other, kind): &(String, Rate, Rate, SceneKind)| {
         let [own, other] = [own, other].map(|rate| rate.rate.map_or("-".to_owned(), percent));
-        writeln!(out, "{label:<first$}{own:>10}{other:>10} on {kind}")?;
-    }
+        Row::new(label, [own, other, kind.to_string()])
+    };
+    let all: Vec<Row> = rows.iter().map(row).collect();
+    let rows = all[..all.len() - more].to_vec();
+    let mut blocks = vec![Block::Table(Table { heads: heads.clone(), rows })];
     if 0 < more {
-        writeln!(out, "and {more} more (--details)")?;
+        blocks.push(Block::Text(format!("and {more} more (--details)")));
     }
-    write_wrapped(&names.join(", "), style.width, out)
+    blocks.push(Block::Text(names));
+    if 0 < more {
+        let all = vec![Block::Table(Table { heads, rows: all })];
+        blocks.push(Block::Details("All that are more often wrong elsewhere".to_owned(), all));
+    }
+    blocks
 }

@@ -5,7 +5,7 @@ use super::disagreement::{Key, disagreements, is_shared_in_scene};
 use super::lines::Line;
 use super::record::*;
 use crate::audit::Trials;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// One row in all scalars.
 pub(super) struct Standing<'a> {
@@ -68,16 +68,19 @@ fn share([count, of]: [u64; 2]) -> f64 {
     count as f64 / of.max(1) as f64
 }
 
-/// How often a row broke its contract in other ways than by false misses and false hits of single cases.
-pub(super) fn other_findings(record: &Record, part: &RowPart) -> BTreeMap<FindingKind, u64> {
-    let mut others = BTreeMap::new();
+/// By kernel and set: how often it broke its contract in other ways than by false misses and false hits of single cases.
+type Others = HashMap<[String; 2], BTreeMap<FindingKind, u64>>;
+
+fn other_findings(record: &Record) -> Others {
+    let mut others = Others::new();
     for found in disagreements(&record.result) {
         let Key { kernel, set, family, finding, .. } = found.key;
         // Cracks at the shared edges and vertices of a scene are in the shares, promised or not.
         let is_in_shares = finding.is_wrong_verdict()
             || finding == FindingKind::Crack && is_shared_in_scene(&family);
-        if (&kernel, &set) == (&part.kernel, &part.set) && !is_in_shares {
-            *others.entry(finding).or_default() += found.rate.count;
+        if !is_in_shares {
+            *others.entry([kernel, set]).or_default().entry(finding).or_default() +=
+                found.rate.count;
         }
     }
     others
@@ -89,7 +92,7 @@ pub(super) fn standings<'a>(
     columns: &[Column],
     lines: &'a [Line<'a>],
 ) -> Vec<Standing<'a>> {
-    let everywhere = Column::in_all_kinds(record);
+    let (everywhere, others) = (Column::in_all_kinds(record), other_findings(record));
     let wrong_in = |columns: &[Column], line: &Line| -> u64 {
         let columns = columns.iter().filter(|column| column.is_ordinary());
         columns.map(|column| Cell::sum(&column.results(&line.row)).wrong.count).sum()
@@ -112,7 +115,10 @@ pub(super) fn standings<'a>(
             wrong: lines.iter().map(|line| wrong_in(&everywhere, line)).sum(),
             far: cells.iter().map(|(_, cell)| cell.far).sum(),
             far_values: lines.iter().map(|line| line.values.far).sum(),
-            others: other_findings(record, part),
+            others: others
+                .get(&[part.kernel.clone(), part.set.clone()])
+                .cloned()
+                .unwrap_or_default(),
             lines,
         })
     };

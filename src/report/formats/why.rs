@@ -5,18 +5,22 @@ use super::record::*;
 use crate::audit::Attribution;
 use std::collections::BTreeMap;
 
-/// The shares of causes among a kernel row's findings of a kind (of a class, unless it is empty), over
-/// all families: `rounding 61% [58, 64], epsilon 39% [36, 42]`; none without a finding that was
+/// The findings of a kind, of any class.
+pub(super) fn of_kind<'a>(
+    results: &[&'a KernelResult],
+    kind: FindingKind,
+) -> impl Iterator<Item = &'a FindingPart> {
+    let findings = results.iter().flat_map(|result| &result.findings);
+    findings.filter(move |part| part.finding == kind)
+}
+
+/// The shares of causes among findings: `rounding 61% [58, 64], epsilon 39% [36, 42]`; none without a finding that was
 /// attributed.
 ///
 /// Each class of each family is a sample of its own; their shares and the ends of their intervals are
 /// weighted by how many findings they have, which is wider than an interval of the sum would be.
-pub(super) fn causes_text(
-    results: &[&KernelResult],
-    kind: FindingKind,
-    class: &str,
-) -> Option<String> {
-    let shares = cause_shares(results, kind, class)?;
+pub(super) fn causes_text<'a>(findings: impl Iterator<Item = &'a FindingPart>) -> Option<String> {
+    let shares = cause_shares(findings)?;
     let text = |(attribution, share, interval): &CauseShare| {
         let interval =
             interval.map(|[low, high]| format!(" [{}, {}]", percent(low), percent(high)));
@@ -29,14 +33,10 @@ pub(super) fn causes_text(
 pub(super) type CauseShare = (Attribution, f64, Option<[f64; 2]>);
 
 /// The causes that occur, as [`causes_text`] lists them.
-pub(super) fn cause_shares(
-    results: &[&KernelResult],
-    kind: FindingKind,
-    class: &str,
+pub(super) fn cause_shares<'a>(
+    findings: impl Iterator<Item = &'a FindingPart>,
 ) -> Option<Vec<CauseShare>> {
-    let findings = results.iter().flat_map(|result| &result.findings);
     let chosen = findings
-        .filter(|part| part.finding == kind && (class.is_empty() || part.class == class))
         .filter_map(|part| Some((part.rate.count as f64, part.causes.as_ref()?)))
         .filter(|(_, causes)| causes.by.values().any(|rate| rate.of > 0));
     let chosen: Vec<_> = chosen.collect();

@@ -1,85 +1,76 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
 use super::disagreement::polygons;
+use super::group_digits;
 use super::pool::Pool;
 use super::rate::interval_of;
 use super::record::{FindingKind, FindingPart, Rate};
 use super::row_view::RowView;
 use super::why::{causes_text, severity_text};
-use super::{Style, group_digits};
-use std::collections::BTreeMap;
-use std::io::{self, Write};
+use crate::report::page::Item;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// For each row and kind of finding the worst example, then that of each class.
-pub(super) fn write_worst(rows: &[RowView], style: Style, out: &mut dyn Write) -> io::Result<()> {
-    let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
-    writeln!(out, "\n{bold}Worst findings of each kind and of each class{plain}")?;
-    for row in rows {
-        // The empty class stands for all.
-        let mut worst: BTreeMap<(FindingKind, &str), &FindingPart> = BTreeMap::new();
-        for finding in row.results.iter().flat_map(|result| &result.findings) {
-            for class in ["", &finding.class] {
-                let entry = worst.entry((finding.finding, class)).or_insert(finding);
-                if severity(entry) < severity(finding) {
-                    *entry = finding;
-                }
-            }
-        }
-        let label = format!("{} ({})", row.part.kernel, row.part.set);
-        let cracks = row.first_cracks();
-        let polygons = row.results.iter().flat_map(|result| polygons(result));
-        let polygons: Vec<_> = polygons.filter(|(_, rate, ..)| 0 < rate.count).collect();
-        if worst.is_empty() && cracks.is_empty() && polygons.is_empty() {
-            writeln!(out, "{label}: none\n    contract: {}", row.part.contract)?;
-            continue;
-        }
-        writeln!(out, "{label}\n    contract: {}", row.part.contract)?;
-        for ((kind, class), finding) in &worst {
-            let pool = row.found(*kind, class);
-            let rate = pool.rate();
-            let share = interval_of(rate);
-            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
-            let apart =
-                pool.apart().map_or(String::new(), |apart| format!(", stored cases {apart}"));
-            let distance = describe_severity(finding);
-            let (named, worst) = match *class {
-                "" => (String::new(), format!("{}, ", finding.class)),
-                class => (format!(" {class}"), String::new()),
-            };
-            writeln!(
-                out,
-                "    {kind}{named}: {count} of {of}{share}{apart}; worst {worst}{distance}"
-            )?;
-            let severity = row.total.and_then(|total| total.severity.get(kind));
-            match severity {
-                Some(severity) if class.is_empty() => {
-                    writeln!(out, "        {}", severity_text(severity))?;
-                }
-                _ => {}
-            }
-            if let Some(causes) = causes_text(&row.results, *kind, class) {
-                writeln!(out, "        why: {causes}")?;
-            }
-            writeln!(out, "        {}", finding.worst.command)?;
-            writeln!(out, "        {}", finding.worst.bits)?;
-        }
-        for (result, id) in cracks {
-            let family = &result.family;
-            writeln!(
-                out,
-                "    crack, first of {family}: no triangle of the group reports the hit"
-            )?;
-            writeln!(out, "        {}", row.part.explain_group(result, id))?;
-        }
-        for (kind, rate, _, first) in polygons {
-            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
-            writeln!(out, "    {kind}: {count} of {of} whole polygons")?;
-            for id in first.iter().take(1) {
-                writeln!(out, "        {}", row.part.explain_command(id))?;
-            }
+/// The findings of a row in a scalar, of each kind and of each class: how many, how far off, why, and the worst with so
+/// many of the first; then cracks and whole polygons.
+pub(super) fn findings(row: &RowView, examples: usize) -> Vec<Item> {
+    // The empty class stands for all.
+    let mut parts: BTreeMap<(FindingKind, &str), Vec<&FindingPart>> = BTreeMap::new();
+    for finding in row.results.iter().flat_map(|result| &result.findings) {
+        for class in ["", &finding.class] {
+            parts.entry((finding.finding, class)).or_default().push(finding);
         }
     }
-    Ok(())
+    let scalar = row.scalar;
+    let mut items = Vec::new();
+    for ((kind, class), parts) in &parts {
+        let first = parts[0];
+        let finding = parts
+            .iter()
+            .fold(first, |worst, part| if severity(worst) < severity(part) { part } else { worst });
+        let pool = row.found(*kind, class);
+        let rate = pool.rate();
+        let share = interval_of(rate);
+        let (count, of) = (group_digits(rate.count), group_digits(rate.of));
+        let apart = pool.apart().map_or(String::new(), |apart| format!(", stored cases {apart}"));
+        let distance = describe_severity(finding);
+        let (named, worst) = match *class {
+            "" => (String::new(), format!("{}, ", finding.class)),
+            class => (format!(" {class}"), String::new()),
+        };
+        let text = format!(
+            "{scalar} {kind}{named}: {count} of {of}{share}{apart}; worst {worst}{distance}"
+        );
+        let mut notes = Vec::new();
+        let severity = row.total.and_then(|total| total.severity.get(kind));
+        notes.extend(severity.filter(|_| class.is_empty()).map(severity_text));
+        let causes = causes_text(parts.iter().copied());
+        notes.extend(causes.map(|causes| format!("why: {causes}")));
+        let mut lines = vec![finding.worst.command.clone(), finding.worst.bits.clone()];
+        if !class.is_empty() {
+            let first =
+                parts.iter().flat_map(|part| part.first.iter().take(examples).chain([&part.worst]));
+            for example in first.filter(|_| 0 < examples) {
+                lines.extend([example.command.clone(), example.bits.clone()]);
+            }
+        }
+        let mut seen = BTreeSet::new();
+        lines.retain(|line| !line.is_empty() && seen.insert(line.clone()));
+        items.push(Item { text, notes, lines, url: None });
+    }
+    for result in &row.results {
+        let groups = super::disagreement::across(result).into_iter().chain(polygons(result));
+        for (kind, rate, _, first) in groups.filter(|(_, rate, ..)| 0 < rate.count) {
+            let (count, of) = (group_digits(rate.count), group_digits(rate.of));
+            let promised = result.across.as_ref().map_or(String::new(), |across| {
+                format!("; promised across triangles: {}", across.promised)
+            });
+            let text = format!("{scalar} {kind} in {}: {count} of {of}{promised}", result.family);
+            let ids = first.iter().take(examples.max(1));
+            let lines = ids.map(|id| row.part.explain_group(result, id)).collect();
+            items.push(Item { text, lines, ..Item::default() });
+        }
+    }
+    items
 }
 
 impl RowView<'_> {

@@ -5,9 +5,9 @@ use super::record::*;
 use super::screen::{topology_lines, verdict};
 use super::shown::{Shown, shown};
 use super::stage;
-use crate::report::formats::html::words::{counts, interval, percent, shortened};
-use crate::report::formats::html::{SHARED, STYLE, head_of, made, policy, shade};
 use crate::report::page::Tone;
+use crate::report::page::html::words::{counts, interval, percent, shortened};
+use crate::report::page::html::{SHARED, STYLE, head_of, policy, shade};
 use crate::report::{Promised, Rate, Style, group_digits, number_of};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{self, Write};
@@ -26,7 +26,7 @@ pub(super) fn write(report: &MeshReport, _: Style, out: &mut dyn Write) -> io::R
     let (class, mark) = match tone {
         Tone::Good => ("good", "✓ "),
         Tone::Bad => ("bad", "✕ "),
-        Tone::Plain => ("plain", ""),
+        Tone::Plain | Tone::Stale => ("plain", ""),
     };
     let page = html! {
         (DOCTYPE)
@@ -184,7 +184,11 @@ fn foot(record: &MeshRecord) -> Markup {
                         @for (name, line) in topology_lines(&part.topology) { br; (name) " " (line) }
                     }
                 }
-                (made(provenance))
+                dt { "Target" } dd { (shortened(&provenance.target, 200)) }
+                dt { "Time" } dd { (format!("{:.1} s", provenance.seconds)) " on " (number_of(provenance.threads as u64, "thread", "threads")) }
+                @for (kernel, notes) in &provenance.kernel_notes {
+                    @for note in notes { dt { "Note" } dd { (shortened(kernel, 200)) ": " (shortened(note, 400)) } }
+                }
             }
             p {
                 "Every number of this page is in the JSON record: add "

@@ -132,6 +132,7 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         let share = |rate: &Rate, is_promised: bool| Cell {
             text: rate.rate.map_or("-".to_owned(), percent),
             is_broken: is_promised && 0 < rate.count,
+            share: rate.rate,
         };
         let cells = [
             share(&row.edges.total.cracks, promised),

@@ -3,7 +3,7 @@
 use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
 use super::screen::label;
-use crate::report::formats::html::room::Room;
+use crate::report::page::html::room::Room;
 
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
 const MARKS: usize = 3_500_000;

@@ -6,7 +6,7 @@ use super::record::*;
 use super::screen::label;
 use super::shown::{Shown, lines};
 use crate::mesh::Part;
-use crate::report::formats::html::words::{code, shortened};
+use crate::report::page::html::words::{code, shortened};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, html};
 

@@ -1,75 +1,112 @@
 //! A page as Markdown.
 
-use super::{Block, Page, Table, Use};
+use super::{Block, Head, Item, Items, Page, Table, Use};
+use crate::report::Style;
 use std::io::{self, Write};
 
-/// Writes a page; what only some read is folded.
-pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
-    if !page.title.is_empty() {
-        writeln!(out, "## {}", words(&page.title))?;
+/// A forge's summary holds less than a mebibyte.
+pub const LIMIT: usize = (1 << 20) - 1024;
+
+const REST: &str = "\nThe rest is left out here: `--format json` has everything.\n";
+
+/// Writes a page, within what a forge takes; what only some read is folded, and there only where everything is asked
+/// for.
+pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(within(page, style, LIMIT).as_bytes())
+}
+
+/// The page in at most so many bytes, cut after a line, with a note of it.
+pub fn within(page: &Page, style: Style, limit: usize) -> String {
+    let mut writer = Writer { text: String::new(), style };
+    writer.page(page);
+    let text = writer.text;
+    if text.len() <= limit {
+        return text;
     }
-    blocks(&page.blocks, out)
+    let Some(room) = limit.checked_sub(REST.len()) else { return String::new() };
+    let end = text.as_bytes()[..room].iter().rposition(|byte| *byte == b'\n').map_or(0, |i| i + 1);
+    format!("{}{REST}", &text[..end])
 }
 
-fn blocks(all: &[Block], out: &mut dyn Write) -> io::Result<()> {
-    all.iter().try_for_each(|block| self::block(block, out))
+struct Writer {
+    text: String,
+    style: Style,
 }
 
-fn block(block: &Block, out: &mut dyn Write) -> io::Result<()> {
-    match block {
-        Block::Heading(text) => writeln!(out, "\n### {}", words(text)),
-        Block::Text(text) => writeln!(out, "\n{}", words(text)),
-        Block::Notes(notes) => list(notes, out),
-        Block::Use(Use { lead, text, notes }) => {
-            let parts: Vec<String> = text.split("  and  ").map(code).collect();
-            writeln!(out, "\n**{}** {}", words(lead), parts.join(" and "))?;
-            list(notes, out)
+impl Writer {
+    fn page(&mut self, page: &Page) {
+        if !page.title.is_empty() {
+            self.text += &format!("## {}\n", words(&page.title));
         }
-        Block::Table(all) => table(all, out),
-        Block::Commands(lead, commands) => {
-            let lines: Vec<&str> = commands.iter().map(|command| command.line.as_str()).collect();
-            writeln!(out, "\n{lead}:\n\n```\n{}\n```", lines.join("\n"))
-        }
-        Block::Terms(terms) => {
-            let terms = terms.iter().map(|(term, meaning)| format!("{term}: {meaning}"));
-            list(&terms.collect::<Vec<_>>(), out)
-        }
-        Block::Listing(text) => writeln!(out, "\n```\n{}\n```", text.trim_end()),
-        Block::Picture(_) => Ok(()),
-        Block::Details(title, all) => {
-            writeln!(out, "\n<details><summary>{}</summary>", words(title))?;
-            blocks(all, out)?;
-            writeln!(out, "\n</details>")
-        }
+        self.blocks(&page.blocks);
+    }
+
+    fn blocks(&mut self, blocks: &[Block]) {
+        blocks.iter().for_each(|block| self.block(block));
+    }
+
+    fn block(&mut self, block: &Block) {
+        let text = match block {
+            Block::Heading(text) => format!("\n### {}\n", words(text)),
+            Block::Text(text) if text.is_empty() => String::new(),
+            Block::Text(text) => format!("\n{}\n", words(text)),
+            Block::Notes(notes) => list(notes),
+            Block::Use(Use { lead, text, notes }) => {
+                let parts: Vec<String> = text.split("  and  ").map(code).collect();
+                format!("\n**{}** {}\n{}", words(lead), parts.join(" and "), list(notes))
+            }
+            Block::Table(all) => table(all),
+            Block::Commands(lead, commands) => {
+                let lines: Vec<&str> =
+                    commands.iter().map(|command| command.line.as_str()).collect();
+                format!("\n{lead}:\n\n```\n{}\n```\n", lines.join("\n"))
+            }
+            Block::Terms(terms) => {
+                let terms = terms.iter().map(|(term, meaning)| format!("{term}: {meaning}"));
+                list(&terms.collect::<Vec<_>>())
+            }
+            Block::Listing(text) => format!("\n```\n{}\n```\n", text.trim_end()),
+            Block::Items(Items { items, .. }) => {
+                let item = |item: &Item| {
+                    let notes = item.notes.iter().chain(&item.url).map(|note| words(note));
+                    let all = notes.chain(item.lines.iter().map(|line| code(line)));
+                    let more: String = all.map(|line| format!("<br>{line}")).collect();
+                    format!("- {}{more}\n", words(&item.text))
+                };
+                format!("\n{}", items.iter().map(item).collect::<String>())
+            }
+            Block::Picture(_) => String::new(),
+            Block::Details(title, all) if self.style.details => {
+                self.text += &format!("\n<details><summary>{}</summary>\n", words(title));
+                self.blocks(all);
+                "\n</details>\n".to_owned()
+            }
+            Block::Details(..) => String::new(),
+        };
+        self.text += &text;
     }
 }
 
-fn list(lines: &[String], out: &mut dyn Write) -> io::Result<()> {
-    if lines.is_empty() {
-        return Ok(());
-    }
-    writeln!(out)?;
-    lines.iter().try_for_each(|line| writeln!(out, "- {}", words(line)))
+fn list(lines: &[String]) -> String {
+    let lines: String = lines.iter().map(|line| format!("- {}\n", words(line))).collect();
+    if lines.is_empty() { lines } else { format!("\n{lines}") }
 }
 
-fn table(table: &Table, out: &mut dyn Write) -> io::Result<()> {
+fn table(table: &Table) -> String {
     let line = |cells: &mut dyn Iterator<Item = String>| {
-        format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
+        format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
     };
-    let rules = table
-        .heads
-        .iter()
-        .enumerate()
-        .map(|(i, column)| if i == 0 || column.is_text { "---" } else { "---:" });
-    writeln!(out, "\n{}", line(&mut table.heads.iter().map(|column| words(&column.head))))?;
-    writeln!(out, "{}", line(&mut rules.map(str::to_owned)))?;
+    let rule = |(i, head): (usize, &Head)| if i == 0 || head.is_text { "---" } else { "---:" };
+    let rules = table.heads.iter().enumerate().map(rule);
+    let mut text = format!("\n{}", line(&mut table.heads.iter().map(|head| words(&head.head))));
+    text += &line(&mut rules.map(str::to_owned));
     for row in &table.rows {
-        let below: String = row.below.iter().map(|below| format!("<br>{}", words(below))).collect();
-        let first = [words(&row.label) + &below];
+        let below = row.below.iter().map(|below| format!("<br>{}", words(below)));
+        let first = [words(&row.label) + &below.collect::<String>()];
         let cells = row.cells.iter().map(|cell| words(&cell.text));
-        writeln!(out, "{}", line(&mut first.into_iter().chain(cells)))?;
+        text += &line(&mut first.into_iter().chain(cells));
     }
-    Ok(())
+    text
 }
 
 /// Text outside of code.
@@ -78,12 +115,12 @@ fn words(text: &str) -> String {
 }
 
 /// Text inside a table's cell.
-pub(crate) fn cell(text: &str) -> String {
+fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
 /// Code; a command holds no backtick unless a file's name does.
-pub(crate) fn code(text: &str) -> String {
+fn code(text: &str) -> String {
     let fence = if text.contains('`') { "``" } else { "`" };
     format!("{fence}{}{fence}", cell(text))
 }
@@ -108,10 +145,11 @@ mod tests {
             ],
             ..Page::default()
         };
-        let mut out = Vec::new();
-        write(&page, &mut out).unwrap();
+        let text = within(&page, Style { details: true, ..Style::default() }, LIMIT);
         let expected = "## t\n\n| kernel | n | what |\n| --- | ---: | --- |\n| a&lt;b><br>as often: b\\|c | 1 &lt; 2 | x |\n\n\
                         <details><summary>all</summary>\n\nx\n\n</details>\n";
-        assert_eq!(String::from_utf8(out).unwrap(), expected);
+        assert_eq!(text, expected);
+        let folded = within(&page, Style::default(), LIMIT);
+        assert!(!folded.contains("details"), "{folded}");
     }
 }

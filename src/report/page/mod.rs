@@ -3,14 +3,13 @@
 //! A study's record implements [`Paged`], and is then text, Markdown and HTML.
 
 #[cfg(feature = "cli")]
-mod html;
+pub(in crate::report) mod html;
 mod markdown;
 mod table;
 mod text;
 
-pub(crate) use markdown::{cell as markdown_cell, code as markdown_code};
+pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use table::{Cell, Head, Row, Table};
-pub(crate) use text::write_wrapped;
 
 use super::Format;
 
@@ -37,6 +36,8 @@ pub enum Tone {
     Good,
     /// A promise is broken.
     Bad,
+    /// Better than expected.
+    Stale,
 }
 
 /// A part of a page.
@@ -58,6 +59,8 @@ pub enum Block {
     Terms(Vec<(String, String)>),
     /// Code, line by line as it is.
     Listing(String),
+    /// Things one after the other, each with lines to paste.
+    Items(Items),
     /// A drawing, where a format has pictures.
     Picture(Picture),
     /// What only those read who want everything, with its title.
@@ -84,15 +87,48 @@ pub struct Command {
     pub what: &'static str,
 }
 
+/// Things one after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Items {
+    /// The things.
+    pub items: Vec<Item>,
+    /// So many stand on a screen; all where everything is told.
+    pub most: usize,
+}
+
+/// A thing with what is said of it.
+#[derive(Clone, Debug, Default)]
+pub struct Item {
+    /// A sentence.
+    pub text: String,
+    /// Further sentences.
+    pub notes: Vec<String>,
+    /// An address of the web where more is to be read.
+    pub url: Option<String>,
+    /// Lines to paste: commands, bits.
+    pub lines: Vec<String>,
+}
+
 /// A drawing.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Its content, for those who do not see it.
     pub about: String,
-    /// Elements of SVG.
-    pub drawing: String,
-    /// Its width and its height.
-    pub size: [f64; 2],
+    /// A caption; may be empty.
+    pub caption: String,
+    /// The drawing itself.
+    pub drawing: Drawing,
+}
+
+/// The data of a drawing.
+#[derive(Clone, Debug)]
+pub enum Drawing {
+    /// Elements of SVG, in a width and a height.
+    Chart(String, [f64; 2]),
+    /// A whole SVG.
+    Svg(String),
+    /// A PNG in base64, with its width and height on the page.
+    Png(String, [u32; 2]),
 }
 
 /// A record that is a page.
@@ -108,8 +144,10 @@ impl<R: Paged> Format<R> {
         write: |record, style, out| text::write(&record.page(), style, out),
     };
     /// For a forge or a chat.
-    pub const MARKDOWN: Format<R> =
-        Format { name: "markdown", write: |record, _, out| markdown::write(&record.page(), out) };
+    pub const MARKDOWN: Format<R> = Format {
+        name: "markdown",
+        write: |record, style, out| markdown::write(&record.page(), style, out),
+    };
     /// One file that needs nothing else: light and dark, wide and narrow, without scripts and without a network.
     #[cfg(feature = "cli")]
     pub const HTML: Format<R> =
@@ -120,5 +158,13 @@ impl Block {
     /// A sentence.
     pub fn text(text: impl Into<String>) -> Block {
         Block::Text(text.into())
+    }
+
+    /// A title, and things below it; nothing if there are none.
+    pub fn items(title: &str, most: usize, items: Vec<Item>) -> Vec<Block> {
+        match items.is_empty() {
+            true => Vec::new(),
+            false => vec![Block::Heading(title.to_owned()), Block::Items(Items { items, most })],
+        }
     }
 }

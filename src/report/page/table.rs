@@ -1,6 +1,6 @@
 //! Tables: a label on the left, cells on the right.
 
-use super::text::wrapped;
+use super::text::{indented, wrapped};
 use crate::report::Style;
 use std::io::{self, Write};
 
@@ -20,11 +20,13 @@ pub struct Cell {
     pub text: String,
     /// True if it breaks a promise: red on a terminal with colours.
     pub is_broken: bool,
+    /// A share of wrong answers, by which a table is shaded and sorted where it can be.
+    pub share: Option<f64>,
 }
 
 impl From<String> for Cell {
     fn from(text: String) -> Cell {
-        Cell { text, is_broken: false }
+        Cell { text, ..Cell::default() }
     }
 }
 
@@ -124,6 +126,7 @@ impl Table {
                 false => format!("{text:>width$}"),
             }
         };
+        let mut after = String::new();
         let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
         let lines = shown.iter().map(|i| heads[*i].len()).chain([1]).max().unwrap_or(1);
         for line in 0..lines {
@@ -134,6 +137,11 @@ impl Table {
             let mut text = format!("{:<first$}", of(&[self.heads[0].head.clone()]));
             shown.iter().for_each(|i| text += &padded(*i, &of(&heads[*i])));
             writeln!(out, "{bold}{}{plain}", text.trim_end())?;
+        }
+        if !hidden.is_empty() {
+            hidden.sort_unstable();
+            let names: Vec<&str> = hidden.iter().map(|i| self.heads[i + 1].head.trim()).collect();
+            after = format!("no room here for: {}", names.join(", "));
         }
         for row in &self.rows {
             let mut line = format!("{:<first$}", row.label);
@@ -151,10 +159,10 @@ impl Table {
             }
             writeln!(out, "{}", line.trim_end())?;
             for below in &row.below {
-                writeln!(out, "  {below}")?;
+                indented(below, ["  ", "    "], style.width, out)?;
             }
         }
-        Ok(())
+        indented(&after, ["", ""], style.width, out)
     }
 
     fn label_width(&self) -> usize {
@@ -236,6 +244,9 @@ mod tests {
             at(30),
             "            at most\nknob  rays  so many  seen\nt     far   1 in 10    12\n"
         );
-        assert_eq!(at(20), "            at most\nknob  rays  so many\nt     far   1 in 10\n");
+        assert_eq!(
+            at(20),
+            "            at most\nknob  rays  so many\nt     far   1 in 10\nno room here for:\nseen\n"
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! A page on a terminal: no line is longer than the terminal is wide, but for what is to be pasted.
 
-use super::{Block, Command, Page, Use};
+use super::{Block, Command, Items, Page, Use};
 use crate::report::Style;
+use crate::report::group_digits;
 use std::io::{self, Write};
 
 /// Writes a page; what only those read who want everything if the style says so.
@@ -82,6 +83,20 @@ impl Writer<'_> {
                 })
             }
             Block::Listing(text) => writeln!(out, "{}", text.trim_end()),
+            Block::Items(Items { items, most }) => {
+                let most = if self.style.details { items.len() } else { items.len().min(*most) };
+                for item in &items[..most] {
+                    write_wrapped(&item.text, width, out)?;
+                    for note in item.notes.iter().chain(&item.url) {
+                        indented(note, ["    ", "      "], width, out)?;
+                    }
+                    item.lines.iter().try_for_each(|line| writeln!(out, "    {line}"))?;
+                }
+                match (items.len() - most) as u64 {
+                    0 => Ok(()),
+                    more => writeln!(out, "and {} more (--details lists all)", group_digits(more)),
+                }
+            }
             Block::Picture(_) => Ok(()),
             Block::Details(title, blocks) if self.style.details => {
                 self.blocks(&[Block::Heading(title.clone())])?;
@@ -98,7 +113,7 @@ pub(crate) fn write_wrapped(text: &str, width: usize, out: &mut dyn Write) -> io
 }
 
 /// The same after some space, and after other space in the lines below the first.
-fn indented(
+pub(super) fn indented(
     text: &str,
     [first, rest]: [&str; 2],
     width: usize,

@@ -1,7 +1,6 @@
 //! Numbers, links and code in the report.
 
-use crate::report::formats::pool::Pool;
-use crate::report::record::Rate;
+use crate::report::Rate;
 use crate::report::{group_digits, rate};
 use maud::{Markup, html};
 
@@ -17,27 +16,9 @@ pub(in crate::report) fn interval([low, high]: [f64; 2]) -> String {
     format!("{}–{}", number(low), number(high))
 }
 
-/// `15.8 % [15.1–16.6]`, or what there is of it.
-pub(super) fn share(rate: &Rate) -> String {
-    match (rate.rate, rate.interval) {
-        (None, _) => "–".to_owned(),
-        (Some(share), None) => percent(share),
-        // Word joiners keep the interval on one line.
-        (Some(share), Some(ends)) => {
-            let interval = interval(ends).replace('–', "\u{2060}–\u{2060}");
-            format!("{} [{interval}]", percent(share))
-        }
-    }
-}
-
 /// `1,597 of 10,092`.
 pub(in crate::report) fn counts(rate: &Rate) -> String {
     format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
-}
-
-/// `; stored cases 3 of 57`, where a sum holds a sample and whole sets.
-pub(super) fn apart(sum: &Pool) -> String {
-    sum.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"))
 }
 
 /// Text that people wrote, as a link if it is an address of the web.

@@ -1,0 +1,270 @@
+//! One row of a record, folded: what it promises, its gates and what is proved of them, its rates, why it is wrong, and
+//! every class of its findings.
+
+use super::pictures;
+use super::pool::Pool;
+use super::rate::interval_of;
+use super::record::*;
+use super::row_view::RowView;
+use super::why::{causes_text, of_kind, short};
+use super::worst::findings;
+use super::{ProofPart, ProvedGate, group_digits};
+use crate::kernel::{self, Gate, Tunable};
+use crate::prove::units;
+use crate::report::page::{Block, Cell, Head, Row, Table};
+use std::collections::HashMap;
+
+/// A row with its views in each scalar.
+pub(super) fn blocks(
+    record: &Record,
+    part: &RowPart,
+    views: &[RowView],
+    examples: usize,
+) -> Vec<Block> {
+    let mut blocks = vec![Block::Terms(facts(record, part, views))];
+    blocks.extend(gates(record, part));
+    blocks.push(Block::Table(rates(record, part, views)));
+    blocks.extend(quantiles_of(views));
+    blocks.extend(pictures::blocks(record, part, views));
+    let families = Block::Table(by_family(record, views));
+    let name = format!("{} ({}), family by family", part.kernel, part.set);
+    blocks.push(Block::Details(name, vec![families]));
+    let items: Vec<_> = views.iter().flat_map(|view| findings(view, examples)).collect();
+    match items.is_empty() {
+        true => blocks.push(Block::text("No findings.")),
+        false => blocks.extend(Block::items(
+            "Findings of each kind and of each class",
+            usize::MAX,
+            items,
+        )),
+    }
+    blocks
+}
+
+/// The promise, where it comes from, what is proved of its edges, and how it runs again.
+fn facts(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<(String, String)> {
+    let plan_flags = record.provenance.plan_flags.clone().unwrap_or_default();
+    let mut facts = vec![("contract", part.contract.clone())];
+    facts.extend(info(part).map(|info| ("source", info.source.to_owned())));
+    let notes = record.provenance.kernel_notes.get(&part.kernel).into_iter().flatten();
+    facts.extend(notes.map(|note| ("note", note.clone())));
+    let proofs = proofs(record, part);
+    for alike in proofs.chunk_by(|one, other| one.edges == other.edges) {
+        let of = if alike.len() < proofs.len() {
+            format!("{}: ", alike[0].scalar)
+        } else {
+            String::new()
+        };
+        facts.push(("edges", format!("{of}{}", alike[0].edges)));
+    }
+    for view in views {
+        for (kind, what) in [(FindingKind::FalseMiss, "misses"), (FindingKind::FalseHit, "hits")] {
+            let causes = causes_text(of_kind(&view.results, kind));
+            facts.extend(
+                causes.map(|causes| ("why", format!("{} false {what}: {causes}", view.scalar))),
+            );
+        }
+    }
+    if !part.selector.is_empty() {
+        facts.push(("run again", plan_flags.command(&part.flags())));
+        if !part.epsilons.is_empty() {
+            let command =
+                format!("hairline epsilon {} --format html -o epsilon.html", part.selector);
+            facts.push(("every epsilon", command));
+        }
+    }
+    facts.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect()
+}
+
+/// The kernel, if it runs here: answers from elsewhere have no selector, whatever their product is called.
+fn info(part: &RowPart) -> Option<&'static kernel::KernelInfo> {
+    let entry = kernel::find(&part.kernel).filter(|_| !part.selector.is_empty())?;
+    Some(entry.info)
+}
+
+fn proofs<'a>(record: &'a Record, part: &RowPart) -> Vec<&'a ProofPart> {
+    let all = record.illustrations.iter().flat_map(|all| &all.proofs);
+    all.filter(|proof| proof.kernel == part.kernel).collect()
+}
+
+/// The gates in the order of the test, with what is proved of each.
+fn gates(record: &Record, part: &RowPart) -> Vec<Block> {
+    let gates: &[Gate] = info(part).map_or(&[], |info| info.gates);
+    let proofs = proofs(record, part);
+    let mut heads = vec![
+        Head::of("gate"),
+        Head::text("refuses where"),
+        Head::of("epsilon e"),
+        Head::of("dimension").optional(),
+    ];
+    heads.extend(
+        proofs.iter().map(|proof| Head::of(format!("proved, {} (known)", proof.scalar)).optional()),
+    );
+    let row = |gate: &Gate| {
+        let epsilon = match (gate.epsilon, part.epsilons.get(gate.name)) {
+            (Tunable::Fixed, _) => "takes none".to_owned(),
+            (_, Some(value)) => value.clone(),
+            (_, None) => "-".to_owned(),
+        };
+        let dimension =
+            format!("length^{} |d|^{}", gate.dimension.length, gate.dimension.direction);
+        let mut cells = vec![gate.refuses.to_owned(), epsilon, dimension];
+        cells.extend(proofs.iter().map(|proof| proved(proof, gate.name)));
+        Row::new(gate.name, cells)
+    };
+    let mut rows: Vec<Row> = gates.iter().map(row).collect();
+    let is_unknown = |name: &String| gates.iter().all(|gate| gate.name != name.as_str());
+    for (name, value) in part.epsilons.iter().filter(|(name, _)| is_unknown(name)) {
+        let mut cells = vec!["-".to_owned(), value.clone()];
+        cells.resize(heads.len() - 1, "-".to_owned());
+        rows.push(Row::new(name, cells));
+    }
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let mut blocks = vec![Block::Table(Table { heads, rows })];
+    if !proofs.is_empty() {
+        blocks.push(Block::text(
+            "Proved: in the unit domain (every number at most 1, divisors at least 1/2) what the gate compares is never \
+             wrong by more; u is 2^-24 in f32 and 2^-53 in f64. Known: the worst case found. `hairline prove` says what \
+             each bound supposes.",
+        ));
+    }
+    blocks
+}
+
+/// How wrong at most what a gate compares is, and the worst that is known.
+fn proved(proof: &ProofPart, gate: &str) -> String {
+    let units = |error: f64, up: bool| format!("{} u", units(error, up));
+    match proof.gates.get(gate) {
+        None => "-".to_owned(),
+        Some(ProvedGate { bound: None, .. }) => "no bound".to_owned(),
+        Some(ProvedGate { bound: Some(bound), known: None }) => units(*bound, true),
+        Some(ProvedGate { bound: Some(bound), known: Some(known) }) => {
+            format!("{} ({})", units(*bound, true), units(*known, false))
+        }
+    }
+}
+
+/// The sums over all sources, scalar by scalar.
+fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
+    type Get = fn(&KernelResult) -> Option<&Rate>;
+    let columns: [(&str, Get); 11] = [
+        ("false misses", |r| Some(&r.total.false_misses)),
+        ("false hits", |r| Some(&r.total.false_hits)),
+        ("bad values", |r| Some(&r.total.bad_values)),
+        ("wrong values", |r| Some(&r.total.wrong_values)),
+        ("cracks", |r| Some(&r.across.as_ref()?.cracks)),
+        ("doubles", |r| Some(&r.across.as_ref()?.doubles)),
+        ("odd folds", |r| Some(&r.across.as_ref()?.odd_folds)),
+        ("missed folds", |r| Some(&r.across.as_ref()?.missed_folds)),
+        ("self-hits", |r| r.self_hits.as_ref()),
+        ("polygon false misses", |r| Some(&r.polygons.as_ref()?.false_misses)),
+        ("polygon false hits", |r| Some(&r.polygons.as_ref()?.false_hits)),
+    ];
+    let heads = ["all families"].into_iter().chain(views.iter().map(|view| view.scalar));
+    let mut rows = Vec::new();
+    for (name, get) in columns {
+        let pools: Vec<Pool> = views.iter().map(|view| view.total(get)).collect();
+        if pools.iter().any(|pool| 0 < pool.counts()[1]) {
+            rows.push(Row::new(name, pools.iter().map(counts)));
+        }
+    }
+    let label = format!("{} ({})", part.kernel, part.set);
+    let time = |view: &RowView| {
+        let times = record.provenance.kernel_nanoseconds.get(view.scalar)?;
+        times.get(&label).map(|time| format!("{time:.1}"))
+    };
+    rows.push(Row::new("ns a ray", views.iter().map(|view| time(view).unwrap_or("-".to_owned()))));
+    Table { heads: heads.map(Head::of).collect(), rows }
+}
+
+/// `1,597 of 10,092 (15.8% [15.1, 16.6]); stored cases 3 of 57`.
+fn counts(pool: &Pool) -> String {
+    let apart = pool.apart().map_or(String::new(), |apart| format!("; stored cases {apart}"));
+    format!("{}{apart}", of(pool.rate()))
+}
+
+fn of(rate: &Rate) -> String {
+    let (count, of) = (group_digits(rate.count), group_digits(rate.of));
+    format!("{count} of {of}{}", interval_of(rate))
+}
+
+/// How far off findings are, and the errors of right hits.
+fn quantiles_of(views: &[RowView]) -> Vec<Block> {
+    let heads = |first: &str| -> Vec<Head> {
+        [first, "half within", "90 %", "99 %", "all"].map(Head::of).into()
+    };
+    let quantiles = |part: &Distribution| {
+        [part.median, part.percent_90, part.percent_99, part.worst].map(short)
+    };
+    let (mut severities, mut accuracies) = (Vec::new(), Vec::new());
+    for view in views {
+        let Some(total) = view.total else { continue };
+        for (kind, words) in
+            [(FindingKind::FalseMiss, "false misses"), (FindingKind::FalseHit, "false hits")]
+        {
+            if let Some(part) = total.severity.get(&kind) {
+                let pairs = quantiles(&part.edges).into_iter().zip(quantiles(&part.ulps));
+                let cells = pairs.map(|(edges, ulps)| format!("{edges} ({ulps})"));
+                severities.push(Row::new(format!("{} {words}", view.scalar), cells));
+            }
+        }
+        for (key, name) in [("t", "t"), ("uv", "u and v"), ("point", "o + t*d")] {
+            if let Some(part) = total.accuracy.get(key) {
+                accuracies.push(Row::new(format!("{} {name}", view.scalar), quantiles(part)));
+            }
+        }
+    }
+    let tables = [
+        ("off by, in longest edges (ulps)", severities),
+        ("errors of right hits, in ulps", accuracies),
+    ];
+    let tables = tables.into_iter().filter(|(_, rows)| !rows.is_empty());
+    tables.map(|(title, rows)| Block::Table(Table { heads: heads(title), rows })).collect()
+}
+
+/// Every source with its counts and intervals.
+fn by_family(record: &Record, views: &[RowView]) -> Table {
+    let mut heads = vec![Head::of("family")];
+    for view in views {
+        heads.extend(
+            ["misses", "hits"].map(|what| Head::of(format!("{} false {what}", view.scalar))),
+        );
+    }
+    let results: Vec<HashMap<&str, &KernelResult>> = views
+        .iter()
+        .map(|view| view.results.iter().map(|result| (&*result.family, *result)).collect())
+        .collect();
+    let row = |source: &PlannedSource| {
+        let cells = results.iter().flat_map(|results| {
+            let result = results.get(&*source.family);
+            [|total: &Counts| total.false_misses.clone(), |total: &Counts| total.false_hits.clone()]
+                .map(|rate| {
+                    let rate = result.map(|result| rate(&result.total)).filter(|rate| 0 < rate.of);
+                    Cell {
+                        text: rate.as_ref().map_or("-".to_owned(), of),
+                        share: rate.and_then(|rate| rate.rate),
+                        ..Default::default()
+                    }
+                })
+        });
+        Row::new(&source.family, cells.collect::<Vec<_>>())
+    };
+    Table { heads, rows: record.result.plan.sources.iter().map(row).collect() }
+}
+
+/// As many examples a class as fit into some bytes, the same for all classes.
+pub(super) fn depth(record: &Record, mut room: usize) -> usize {
+    let parts = || record.result.results.iter().flat_map(|result| &result.findings);
+    let size = |example: &Example| example.command.len() + example.bits.len() + 64;
+    let deepest = parts().map(|part| part.first.len()).max().unwrap_or(0);
+    for depth in 0..deepest {
+        let further: usize = parts().filter_map(|part| part.first.get(depth)).map(size).sum();
+        match room.checked_sub(further) {
+            Some(rest) => room = rest,
+            None => return depth,
+        }
+    }
+    deepest
+}

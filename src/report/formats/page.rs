@@ -1,0 +1,75 @@
+//! A record of an audit or a check as a page: the answer, the rest of the screen, and folded everything.
+
+use super::columns::Column;
+use super::kernel;
+use super::lines::lines;
+use super::record::*;
+use super::row_view::RowView;
+use super::{Record, Verdict, details, group_digits, questions, screen, verdict};
+use crate::report::page::{Block, Page, Paged, Tone};
+
+/// Bytes for the first examples of all classes, beside the worst of each.
+const EXAMPLES: usize = 400_000;
+
+impl Paged for Record {
+    fn page(&self) -> Page {
+        let columns = Column::all(self);
+        let lines = lines(self, &columns);
+        let (title, on_screen) = screen::blocks(self, &columns, &lines);
+        let mut page = Page { command: "report", title, tone: Tone::Plain, blocks: Vec::new() };
+        match &self.conformance {
+            None => page.blocks = on_screen,
+            Some(conformance) => {
+                let title = std::mem::replace(&mut page.title, capitalised(&conformance.summary()));
+                page.tone = match conformance.verdict {
+                    Verdict::Conforms => Tone::Good,
+                    Verdict::Disagreements => Tone::Bad,
+                    Verdict::Stale => Tone::Stale,
+                };
+                page.blocks = verdict::blocks(self, conformance);
+                let run = [Block::Text(title)].into_iter().chain(on_screen).collect();
+                page.blocks.push(Block::Details("The run".to_owned(), run));
+            }
+        }
+        page.blocks.extend(broken_families(self).into_iter().map(Block::Text));
+        let scalars = &self.result.plan.scalars;
+        let all = questions::blocks(scalars, &columns, &lines);
+        page.blocks.push(Block::Details("Every question".to_owned(), all));
+        let tables = scalars.iter().flat_map(|scalar| details::blocks(self, scalar)).collect();
+        page.blocks.push(Block::Details("Every row".to_owned(), tables));
+        let examples = kernel::depth(self, EXAMPLES);
+        let rows = &self.result.plan.rows;
+        let mut views: Vec<Vec<RowView>> = rows.iter().map(|_| Vec::new()).collect();
+        for scalar in scalars {
+            // In the order of the plan, some left out.
+            let mut of_scalar = RowView::all(self, scalar).into_iter().peekable();
+            for (row, views) in rows.iter().zip(&mut views) {
+                views.extend(of_scalar.next_if(|view| std::ptr::eq(view.part, row)));
+            }
+        }
+        for (row, views) in rows.iter().zip(&views).filter(|(_, views)| !views.is_empty()) {
+            let title = format!("{} ({})", row.kernel, row.set);
+            page.blocks.push(Block::Details(title, kernel::blocks(self, row, views, examples)));
+        }
+        page
+    }
+}
+
+/// The sources that are not what their family promises.
+fn broken_families(record: &Record) -> Vec<String> {
+    let broken = record.result.sources.iter().filter(|source| 0 < source.promise_broken);
+    let sentence = |source: &SourcePart| {
+        let (n, of) = (group_digits(source.promise_broken), group_digits(source.indices));
+        let first = source.first_broken.as_deref().unwrap_or("-");
+        format!(
+            "{} {}: {n} of {of} indices are not what the family's promise says, first {first}",
+            source.scalar, source.family
+        )
+    };
+    broken.map(sentence).collect()
+}
+
+fn capitalised(text: &str) -> String {
+    let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}", first.to_uppercase())
+}

@@ -1,0 +1,291 @@
+//! A page as one HTML file that needs nothing else: light and dark, wide and narrow, on paper, by keyboard, without
+//! scripts (which sort tables, no more) and without a network.
+//!
+//! Whatever a page says is escaped by the templates; the file's own policy lets only its own style and script run.
+
+pub(in crate::report) mod room;
+pub(in crate::report) mod words;
+
+use super::{Block, Drawing, Head, Item, Items, Page, Picture, Row, Table, Tone, Use};
+use crate::report::chart;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use hmac_sha256::Hash;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use room::Room;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+use words::{code, link, shortened};
+
+/// A file has fewer bytes.
+const LIMIT: usize = 1_950_000;
+
+/// The most characters of a title, and of a sentence.
+const LONGEST: usize = 2_000;
+
+pub(in crate::report) const STYLE: &str = include_str!("style.css");
+/// Makes tables sortable, and opens what a link leads to.
+pub(in crate::report) const SHARED: &str = include_str!("shared.js");
+const SCRIPT: &str = concat!(
+    include_str!("shared.js"),
+    "for (const table of document.querySelectorAll(\"table.heat\")) sortable(table);\n"
+);
+
+/// Writes a page; what only some read is folded.
+pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(within(page, LIMIT).as_bytes())
+}
+
+/// The page in fewer bytes than a limit.
+fn within(page: &Page, limit: usize) -> String {
+    let style = format!("{STYLE}{}", chart::STYLE);
+    let (class, mark) = match page.tone {
+        Tone::Plain => ("plain", ""),
+        Tone::Good => ("good", "✓ "),
+        Tone::Bad => ("bad", "✕ "),
+        Tone::Stale => ("stale", "△ "),
+    };
+    let title = shortened(&page.title, LONGEST);
+    let mut anchors = BTreeSet::new();
+    add_anchors(&page.blocks, &mut anchors);
+    // For what stands around the blocks.
+    let around = style.len() + SCRIPT.len() + 4 * LONGEST + 4_000;
+    let mut room = Room::new(limit.saturating_sub(around));
+    let writer = Writer { anchors: &anchors, used: RefCell::default() };
+    let blocks = writer.blocks(&page.blocks, &mut room);
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            (head_of(&title, &policy(&style, SCRIPT), &style))
+            body {
+                a.skip href="#main" { "Skip to the report" }
+                header class={ "top " (class) } {
+                    p.mark { "hairline" span { " " (page.command) } }
+                    h1 { (mark) (title) }
+                }
+                main #main { section { (PreEscaped(blocks)) } }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// The head of a page that needs nothing else, by a policy that holds it to that.
+pub(in crate::report) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            meta http-equiv="Content-Security-Policy" content=(policy);
+            title { "hairline: " (title) }
+            style { (PreEscaped(style)) }
+        }
+    }
+}
+
+/// Nothing from elsewhere, no script and no style but the page's own, pictures from the page itself.
+pub(in crate::report) fn policy(style: &str, script: &str) -> String {
+    let digest = |text: &str| BASE64_STANDARD.encode(Hash::hash(text.as_bytes()));
+    format!(
+        "default-src 'none'; img-src data:; style-src 'sha256-{}'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'",
+        digest(style),
+        digest(script)
+    )
+}
+
+/// From 0 for nothing to 5.
+pub(in crate::report) fn shade(share: f64) -> usize {
+    const SHADES: [f64; 4] = [0.001, 0.01, 0.1, 0.5];
+    if share == 0.0 { 0 } else { 1 + SHADES.iter().filter(|start| **start <= share).count() }
+}
+
+/// The fragments that lead to parts which are folded.
+fn add_anchors(blocks: &[Block], anchors: &mut BTreeSet<String>) {
+    for block in blocks {
+        if let Block::Details(title, blocks) = block {
+            anchors.insert(anchor(title));
+            add_anchors(blocks, anchors);
+        }
+    }
+}
+
+/// The fragment of a title.
+fn anchor(title: &str) -> String {
+    title.chars().take(80).map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
+}
+
+struct Writer<'a> {
+    anchors: &'a BTreeSet<String>,
+    /// How many parts have begun at each anchor.
+    used: RefCell<BTreeMap<String, usize>>,
+}
+
+impl Writer<'_> {
+    /// Some blocks, as many as there is room for. Each folded part has its share of the room.
+    fn blocks(&self, all: &[Block], room: &mut Room) -> String {
+        let mut text = String::new();
+        let mut folded = all.iter().filter(|block| matches!(block, Block::Details(..))).count();
+        for block in all {
+            match block {
+                Block::Details(title, inner) => {
+                    let mut own = room.part(room.left() / folded);
+                    folded -= 1;
+                    let head =
+                        html! { summary { h3 { (shortened(title, LONGEST)) } } }.into_string();
+                    let id = self.id(title);
+                    let start = format!("<details class=\"kernel\" id=\"{id}\">");
+                    let end = "</div></details>";
+                    let around = start.len() + head.len() + end.len() + 32;
+                    if own.left() < around {
+                        room.left_out += 1;
+                    } else {
+                        let mut rest = own.part(own.left() - around);
+                        let body = self.blocks(inner, &mut rest);
+                        text += &format!("{start}{head}<div class=\"body\">{body}{end}");
+                        own.take_back(rest);
+                    }
+                    room.take_back(own);
+                }
+                Block::Items(Items { items, .. }) => {
+                    text += "<ul class=\"cards\">";
+                    let left_out = room.left_out;
+                    text += &room.fill(items.iter(), |one| item(one).into_string());
+                    text += "</ul>";
+                    text += &note(room.left_out - left_out);
+                }
+                Block::Table(table) => {
+                    let left_out = room.left_out;
+                    let head = heads(table).into_string();
+                    text += "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"A table\"><table class=\"heat\">";
+                    room.add(&mut text, &head);
+                    text += "<tbody>";
+                    text += &room.fill(table.rows.iter(), |row| self.row(table, row).into_string());
+                    text += "</tbody></table></div>";
+                    text += &note(room.left_out - left_out);
+                }
+                block => {
+                    let left_out = room.left_out;
+                    room.add(&mut text, &self::block(block).into_string());
+                    text += &note(room.left_out - left_out);
+                }
+            }
+        }
+        text
+    }
+
+    /// The anchor of a title, and a number after it where it is not the first.
+    fn id(&self, title: &str) -> String {
+        let anchor = anchor(title);
+        let mut used = self.used.borrow_mut();
+        let number = used.entry(anchor.clone()).or_insert(0);
+        *number += 1;
+        if *number == 1 { anchor } else { format!("{anchor}.{number}") }
+    }
+
+    fn row(&self, table: &Table, row: &Row) -> Markup {
+        let anchor = anchor(&row.label);
+        html! {
+            tr {
+                th scope="row" {
+                    @if self.anchors.contains(&anchor) { a href={ "#" (anchor) } { (row.label) } } @else { (row.label) }
+                    @for below in &row.below { span.what { (below) } }
+                }
+                @for (cell, head) in row.cells.iter().zip(&table.heads[1..]) {
+                    @let class = cell.share.map_or(String::new(), |share| format!("m{} ", shade(share)));
+                    @let class = format!("{class}{}{}", if head.is_text { "text " } else { "" }, if cell.is_broken { "broken" } else { "" });
+                    td class=[Some(class.trim()).filter(|class| !class.is_empty())] data-v=[sort_key(cell.share, &cell.text)] { (cell.text) }
+                }
+            }
+        }
+    }
+}
+
+fn note(left_out: u64) -> String {
+    match left_out {
+        0 => String::new(),
+        _ => {
+            html! { p.note { (left_out) " left out here; the JSON record has all." } }.into_string()
+        }
+    }
+}
+
+fn heads(table: &Table) -> Markup {
+    let head = |(i, head): (usize, &Head)| {
+        html! { th.text[head.is_text && 0 < i] scope="col" data-sort=[(0 < i).then_some("")] { (head.head) } }
+    };
+    html! { thead { tr { @for (i, column) in table.heads.iter().enumerate() { (head((i, column))) } } } }
+}
+
+/// A number to sort by: a share, or the first number of a text.
+fn sort_key(share: Option<f64>, text: &str) -> Option<String> {
+    let number = |word: &str| {
+        let plain = word
+            .trim_matches(|c: char| !c.is_ascii_digit() && c != '.' && c != '-')
+            .replace(',', "");
+        plain.parse::<f64>().ok().filter(|number| 0.0 <= *number)
+    };
+    let one_in = || Some(1.0 / text.strip_prefix("1 in ").and_then(number)?);
+    let number = share.or_else(one_in).or_else(|| number(text.split_whitespace().next()?))?;
+    Some(format!("{number:.3e}"))
+}
+
+fn block(block: &Block) -> Markup {
+    match block {
+        Block::Heading(text) => html! { h2 { (shortened(text, LONGEST)) } },
+        Block::Text(text) => html! { @if !text.is_empty() { p { (shortened(text, LONGEST)) } } },
+        Block::Notes(notes) => list(notes),
+        Block::Use(Use { lead, text, notes }) => html! {
+            p.use {
+                b { (lead) } " "
+                @for (i, part) in text.split("  and  ").enumerate() { @if 0 < i { " and " } (code(part)) }
+            }
+            (list(notes))
+        },
+        Block::Commands(lead, commands) => html! {
+            p { (lead) ":" }
+            @for command in commands {
+                pre { (command.line) @if !command.what.is_empty() { "  # " (command.what) } }
+            }
+        },
+        Block::Terms(terms) => html! {
+            dl.guide { @for (term, meaning) in terms { dt { (term) } dd { (shortened(meaning, LONGEST)) } } }
+        },
+        Block::Listing(text) => html! { pre { (text) } },
+        Block::Picture(Picture { about, caption, drawing }) => html! {
+            figure {
+                @match drawing {
+                    Drawing::Chart(elements, [width, height]) => {
+                        svg.chart viewBox=(format!("0 0 {width} {height}")) role="img" aria-label=(about) { (PreEscaped(elements)) }
+                    },
+                    Drawing::Svg(svg) => { div.drawing role="group" aria-label=(about) tabindex="0" { (PreEscaped(svg)) } },
+                    Drawing::Png(png, [width, height]) => {
+                        img.map src={ "data:image/png;base64," (png) } alt=(about) width=(width) height=(height) loading="lazy";
+                    },
+                }
+                @if !caption.is_empty() { figcaption { (caption) } }
+            }
+        },
+        Block::Table(_) | Block::Items(_) | Block::Details(..) => html! {},
+    }
+}
+
+fn item(Item { text, notes, url, lines }: &Item) -> Markup {
+    html! {
+        li {
+            p { (shortened(text, LONGEST)) }
+            @for note in notes { p.why { (shortened(note, LONGEST)) } }
+            @if let Some(url) = url { p.why { (link(url)) } }
+            @for line in lines { p.example { (code(line)) } }
+        }
+    }
+}
+
+fn list(lines: &[String]) -> Markup {
+    html! { @if !lines.is_empty() { ul { @for line in lines { li { (shortened(line, LONGEST)) } } } } }
+}
+
+#[cfg(test)]
+pub(in crate::report) mod tests;
