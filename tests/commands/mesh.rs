@@ -288,8 +288,8 @@ fn the_screen_has_a_meshs_edges_in_its_column_and_a_command_for_a_crack() {
     let audit = ["audit", "--quiet", "--mesh", &file, "-n", "10", "--scalar", "f32"];
     let (out, _) = ends(&folder, &[&audit[..], &["--kernel", "plucker"]].concat(), 0);
     assert!(out.lines().any(|line| line.starts_with("mesh ")) && !out.contains("stored"), "{out}");
-    let mut lines = out.lines().skip_while(|line| !line.contains("no triangle reports"));
-    let command = lines.find(|line| line.starts_with("   hairline explain ")).expect(&out);
+    assert!(flat(&out).contains("broken promise, no triangle reports "), "{out}");
+    let command = out.lines().find(|line| line.starts_with("    hairline explain ")).expect(&out);
     let words: Vec<&str> = command.split_whitespace().skip(1).collect();
     let words: Vec<&str> = words.iter().map(|word| word.trim_matches('\'')).collect();
     let (shown, _) = ends(&folder, &words, 0);

@@ -39,6 +39,45 @@ pub fn ends(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
     (out, error)
 }
 
+/// The same; of text the words, whatever the lines were.
+pub fn ends_flat(folder: &Path, arguments: &[&str], code: i32) -> (Flat, String) {
+    let (out, error) = ends(folder, arguments, code);
+    let is_text = !arguments.contains(&"--format") && !arguments.contains(&"-o");
+    (Flat(if is_text { flat(&out) } else { out }), error)
+}
+
+/// What was printed, each word after one space.
+#[derive(Debug)]
+pub struct Flat(String);
+
+impl Flat {
+    /// True if these words stand in it, in other lines perhaps.
+    pub fn contains(&self, part: impl AsRef<str>) -> bool {
+        self.0.contains(part.as_ref()) || self.0.contains(&flat(part.as_ref()))
+    }
+}
+
+impl Flat {
+    /// The words.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl std::ops::Deref for Flat {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl std::fmt::Display for Flat {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
 /// A text's words, each after one space, whatever the lines were.
 pub fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")

@@ -5,7 +5,7 @@ use super::kernel;
 use super::lines::lines;
 use super::record::*;
 use super::row_view::RowView;
-use super::{Record, Verdict, details, group_digits, questions, screen, verdict};
+use super::{Record, Verdict, details, group_digits, number_of, questions, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
 
 /// Bytes for the first examples of all classes, beside the worst of each.
@@ -51,8 +51,33 @@ impl Paged for Record {
             let title = format!("{} ({})", row.kernel, row.set);
             page.blocks.push(Block::Details(title, kernel::blocks(self, row, views, examples)));
         }
+        page.blocks.push(Block::Details("About this run".to_owned(), about(self)));
         page
     }
+}
+
+/// How the record was made, and how it is made again.
+fn about(record: &Record) -> Vec<Block> {
+    let provenance = &record.provenance;
+    let mut terms = vec![
+        ("plan", record.result.plan.hash.clone()),
+        ("target", provenance.target.clone()),
+        (
+            "time",
+            format!(
+                "{:.1} s on {}",
+                provenance.seconds,
+                number_of(provenance.threads as u64, "thread", "threads")
+            ),
+        ),
+    ];
+    terms.extend(provenance.plan_flags.as_ref().map(|flags| {
+        let words = [flags.kernels.as_str(), flags.sources.as_str()];
+        let words: Vec<&str> = words.into_iter().filter(|words| !words.is_empty()).collect();
+        ("again", format!("hairline audit {}", words.join(" ")))
+    }));
+    let terms = terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning));
+    vec![Block::Terms(terms.collect())]
 }
 
 /// The sources that are not what their family promises.

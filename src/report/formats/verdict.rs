@@ -84,12 +84,7 @@ fn deviation(conformance: &Conformance, found: &Deviation) -> Item {
         text: format!("{place}{}", found.describe()),
         notes: found.why.iter().cloned().collect(),
         url: found.url.clone(),
-        lines: found
-            .command
-            .iter()
-            .chain(&found.bits)
-            .filter(|line| !line.is_empty())
-            .cloned()
-            .collect(),
+        lines: found.command.iter().cloned().collect(),
+        more: found.bits.iter().filter(|bits| !bits.is_empty()).cloned().collect(),
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn findings(row: &RowView, examples: usize) -> Vec<Item> {
         }
         let mut seen = BTreeSet::new();
         lines.retain(|line| !line.is_empty() && seen.insert(line.clone()));
-        items.push(Item { text, notes, lines, url: None });
+        items.push(Item { text, notes, lines, ..Item::default() });
     }
     for result in &row.results {
         let groups = super::disagreement::across(result).into_iter().chain(polygons(result));

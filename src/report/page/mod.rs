@@ -105,8 +105,10 @@ pub struct Item {
     pub notes: Vec<String>,
     /// An address of the web where more is to be read.
     pub url: Option<String>,
-    /// Lines to paste: commands, bits.
+    /// Lines to paste: commands.
     pub lines: Vec<String>,
+    /// More lines, for those who want everything: bits.
+    pub more: Vec<String>,
 }
 
 /// A drawing.

@@ -90,7 +90,9 @@ impl Writer<'_> {
                     for note in item.notes.iter().chain(&item.url) {
                         indented(note, ["    ", "      "], width, out)?;
                     }
-                    item.lines.iter().try_for_each(|line| writeln!(out, "    {line}"))?;
+                    let more = item.more.iter().filter(|_| self.style.details);
+                    let mut lines = item.lines.iter().chain(more);
+                    lines.try_for_each(|line| writeln!(out, "    {line}"))?;
                 }
                 match (items.len() - most) as u64 {
                     0 => Ok(()),

@@ -272,13 +272,13 @@ fn block(block: &Block) -> Markup {
     }
 }
 
-fn item(Item { text, notes, url, lines }: &Item) -> Markup {
+fn item(Item { text, notes, url, lines, more }: &Item) -> Markup {
     html! {
         li {
             p { (shortened(text, LONGEST)) }
             @for note in notes { p.why { (shortened(note, LONGEST)) } }
             @if let Some(url) = url { p.why { (link(url)) } }
-            @for line in lines { p.example { (code(line)) } }
+            @for line in lines.iter().chain(more) { p.example { (code(line)) } }
         }
     }
 }
