@@ -113,9 +113,7 @@ pub(crate) fn counts_alone(part: &KernelResult, kind: FindingKind) -> bool {
 
 /// The counts of all that the contract rules out across triangles. In a scene cracks count even where nothing is promised.
 pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
-    let Some(across) = &part.across else { return Vec::new() };
-    let cracks: Together =
-        (FindingKind::Crack, &across.cracks, &across.crack_digest, across.first_cracks.as_slice());
+    let (Some(across), Some(cracks)) = (&part.across, cracks(part)) else { return Vec::new() };
     let doubles: Together = (
         FindingKind::Double,
         &across.doubles,
@@ -131,6 +129,12 @@ pub(super) fn across(part: &KernelResult) -> Vec<Together<'_>> {
             all.filter(|(is_ruled_out, _)| *is_ruled_out).map(|(_, found)| found).collect()
         }
     }
+}
+
+/// The count of cracks, whatever is promised.
+pub(super) fn cracks(part: &KernelResult) -> Option<Together<'_>> {
+    let across = part.across.as_ref()?;
+    Some((FindingKind::Crack, &across.cracks, &across.crack_digest, &across.first_cracks))
 }
 
 /// The findings on whole polygons.

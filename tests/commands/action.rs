@@ -202,8 +202,11 @@ fn a_year_of_a_kernel_in_c() {
 
     // Its record, which CI keeps, is judged in the same way on a machine without the library.
     fs::rename(folder.join("hairline.toml"), folder.join("kept.toml")).unwrap();
-    let (out, _) =
-        ends(&folder, &["check", "-q", "--record", "runner/hairline-report/check.json"], 1);
+    let (out, _) = program::ends(
+        &folder,
+        &["check", "-q", "--record", "runner/hairline-report/check.json"],
+        1,
+    );
     assert_eq!(out, ran.text);
     fs::rename(folder.join("kept.toml"), folder.join("hairline.toml")).unwrap();
 
@@ -323,7 +326,7 @@ fn a_class_that_is_gone_is_shown_with_the_new_library() {
             [&run.split(' ').collect::<Vec<_>>()[..], &["--kernel-lib", &library, "-o", &record]];
         ends(&folder, &words.concat(), 0);
     }
-    let (out, _) = ends(&folder, &["diff", "first.json", "better.json"], 0);
+    let (out, _) = program::ends(&folder, &["diff", "first.json", "better.json"], 0);
     let gone: Vec<&str> = out
         .lines()
         .skip_while(|line| !line.contains("interior: false-miss") || !line.contains(", 0 of"))

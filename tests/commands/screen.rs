@@ -3,7 +3,7 @@
 
 use crate::program;
 
-use program::{ends, scratch};
+use program::{ends, flat, scratch};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -107,10 +107,7 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
     let longest = words.max_by_key(|line| line.chars().count()).unwrap();
     assert!(longest.chars().count() <= 80, "{longest}");
     let head = lines.iter().position(|line| line.starts_with("kernel  ")).unwrap();
-    assert!(
-        lines[head].ends_with("leaks  visible  values  sizes  flat  ns f32  ns f64"),
-        "{screen}"
-    );
+    assert!(lines[head].contains("leaks  visible  values  sizes  flat"), "{screen}");
     let rows = record["result"]["plan"]["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 21);
     let (mut shown, mut order) = (0, Vec::new());
@@ -119,7 +116,7 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
         let line = lines[head..].iter().find(|line| line.starts_with(&format!("{label}  ")));
         let Some(line) = line else {
             // Like a row above it, or one of those for which there is no room.
-            if screen.contains(" more rows: --details") {
+            if flat(&screen).contains(" more rows: --details") {
                 continue;
             }
             let alike = |line: &&&str| {
@@ -155,7 +152,7 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
         let place = lines.iter().position(|other| other == line).unwrap();
         order.push((place, cells[0] != "0", visible));
     }
-    assert!(13 < shown, "{screen}");
+    assert!(12 < shown, "{screen}");
     order.sort();
     assert!(order.iter().map(|(_, leaks, visible)| (leaks, visible)).is_sorted(), "{screen}");
     // Each question has a column behind the flag.
@@ -205,7 +202,9 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
             assert_eq!(cells[11..].join(" "), promised, "{label} {scalar}");
         }
     }
-    for expected in ["ns/ray", "values in ulps", "on NaN", "bad-value", "half within", " why: "] {
+    for expected in
+        ["ns/ray", "values in ulps", "on NaN", "bad-value", "half within", "\n    why: "]
+    {
         assert!(everything.contains(expected), "{expected}");
     }
     assert!(500 < everything.lines().count());
@@ -216,7 +215,7 @@ fn the_worst_findings_are_of_ordinary_sizes_and_their_commands_show_them() {
     let folder = scratch("screen-worst");
     let (screen, record) = audit(&folder, &["-n", "300"]);
     let commands: Vec<&str> =
-        screen.lines().filter_map(|line| line.strip_prefix("   hairline explain ")).collect();
+        screen.lines().filter_map(|line| line.strip_prefix("    hairline explain ")).collect();
     assert_eq!(commands.len(), 1, "{screen}");
     for command in commands {
         for family in ["range-ends", "mixed-scale", "invalid", "degenerate"] {
@@ -273,7 +272,8 @@ fn cracks_under_a_promise_are_marked_and_shown_first() {
         + sum(&[&record["result"]["results"][0]], &["/across/cracks/count"]);
     assert!(0 < cracks);
     assert!(
-        alone.contains("100 % cracks and 0 % doubles; promised across triangles: >= 1: BROKEN"),
+        flat(&alone)
+            .contains("100 % cracks and 0 % doubles; promised across triangles: >= 1: BROKEN"),
         "{alone}"
     );
     let others = ["--kernel", "holes,cramer,half-space,woop-watertight,plucker"];
@@ -282,13 +282,12 @@ fn cracks_under_a_promise_are_marked_and_shown_first() {
     let leaks = |name: &str| row(name).split_whitespace().nth(1).unwrap().to_owned();
     assert_eq!(["holes  ", "woop-watertight"].map(leaks), ["100!", "0"], "{table}");
     let promise = "Breaks what its documentation promises there: holes.";
-    let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(squeezed(&table).contains(promise), "{table}");
+    assert!(flat(&table).contains(promise), "{table}");
     for screen in [alone, table] {
         let expected = format!(
             " 1. holes (own), f64: broken promise, no triangle reports {cracks} of {cracks} crossings "
         );
-        assert!(squeezed(&screen).contains(&expected), "{screen}");
+        assert!(flat(&screen).contains(&expected), "{screen}");
     }
 }
 
@@ -328,18 +327,12 @@ fn stored_cases_are_counted_apart_and_have_no_interval() {
     let details = print(&["--details"]);
     let (_, details) = details.split_once("cases for each kernel\n").unwrap();
     assert!(line(details, "cramer (source)").contains(&format!("[{low}, {high}]")), "{details}");
-    let apart = format!("    stored or exhaustive cases, apart: false misses {count} of {of}\n");
+    let apart = format!("\n  stored or exhaustive cases, apart: false misses {count} of {of}\n");
     assert!(details.contains(&apart), "{details}");
     let html = print(&["--format", "html", "--illustrate", "never"]);
     assert!(html.contains(&format!("; stored cases {count} of {of}")));
     let markdown = print(&["--format", "markdown"]);
-    let [wrong, demanded] = ["count", "of"].map(|key| {
-        sum(
-            &[stored],
-            &[&format!("/total/false_misses/{key}"), &format!("/total/false_hits/{key}")],
-        )
-    });
-    assert!(markdown.contains(&format!("| {wrong} of {demanded} |")), "{markdown}");
+    assert!(markdown.contains(&format!("| {count} of {of} |")), "{markdown}");
 }
 
 #[test]
@@ -355,6 +348,6 @@ fn bad_values_are_counted_of_hits_whose_values_are_judged_and_keep_a_kernel_from
     let total = &result["total"]["bad_values"];
     assert!(0 < total["count"].as_u64().unwrap());
     assert_eq!(total["of"].as_u64().unwrap(), of);
-    assert!(screen.contains("Other broken promises: bad-value "), "{screen}");
+    assert!(screen.contains(" bad-values."), "{screen}");
     assert!(!screen.contains("every verdict is right"), "{screen}");
 }

@@ -4,6 +4,7 @@ use super::pool::Pool;
 use super::rate::{interval_of, percent};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, is_all_invalid};
+use super::screen::cases_in;
 use super::why::{accuracy_text, causes_text, of_kind};
 use super::{group_digits, number_of};
 use crate::audit::Trials;
@@ -12,8 +13,7 @@ use crate::report::page::{Block, Cell, Head, Row, Table};
 /// The rows of a scalar, as a table with notes below each row.
 pub(super) fn blocks(record: &Record, scalar: &str) -> Vec<Block> {
     let rows = RowView::all(record, scalar);
-    let cases: u64 =
-        record.result.sources.iter().filter(|s| s.scalar == scalar).map(|s| s.cases).sum();
+    let cases = cases_in(record, scalar);
     let of_cases = number_of(cases, "case", "cases");
     let mut blocks = vec![Block::Heading(format!("{scalar}, {of_cases} for each kernel"))];
     if cases == 0 {

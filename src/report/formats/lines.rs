@@ -4,6 +4,7 @@ use super::columns::{Across, Cell, Column, kinds};
 use super::group_digits;
 use super::record::*;
 use super::row_view::RowView;
+use super::screen::cases_in;
 use crate::report::page::Block;
 
 /// One row in one scalar.
@@ -23,7 +24,7 @@ impl Line<'_> {
     }
 }
 
-/// Every row in every scalar.
+/// Every row in every scalar that has cases.
 pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>> {
     let own = kinds(record)[0];
     let in_scalar = |scalar: &'a String| {
@@ -35,7 +36,8 @@ pub(super) fn lines<'a>(record: &'a Record, columns: &[Column]) -> Vec<Line<'a>>
             row,
         })
     };
-    record.result.plan.scalars.iter().flat_map(in_scalar).collect()
+    let scalars = record.result.plan.scalars.iter();
+    scalars.filter(|scalar| 0 < cases_in(record, scalar)).flat_map(in_scalar).collect()
 }
 
 /// The contents of the columns.

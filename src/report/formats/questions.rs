@@ -17,9 +17,11 @@ pub(super) fn blocks(scalars: &[String], columns: &[Column], lines: &[Line]) -> 
         heads.push("values ".to_owned());
         heads.extend(groups.iter().map(|head| (*head).to_owned()));
         let of_scalar = lines.iter().filter(|line| line.row.scalar == scalar);
-        let rows = of_scalar.map(|line| row(columns, line, has_groups)).collect();
+        let rows: Vec<Row> = of_scalar.map(|line| row(columns, line, has_groups)).collect();
         let heads = heads.into_iter().map(Head::of).collect();
-        blocks.push(Block::Table(Table { heads, rows }));
+        if !rows.is_empty() {
+            blocks.push(Block::Table(Table { heads, rows }));
+        }
     }
     blocks.push(Block::Text(cell_legend(columns, lines)));
     blocks.push(Block::Text(column_legend(columns, lines)));

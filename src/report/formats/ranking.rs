@@ -1,14 +1,14 @@
 //! Every row on one line, the one that is visibly wrong least often first: the table of the screen, and its answer.
 
 use super::columns::{Column, short_percent};
+use super::group_digits;
 use super::record::*;
 use super::standing::Standing;
-use super::{Style, group_digits};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 use std::collections::BTreeSet;
 
 /// The most rows; more do not fit on a screen.
-const MOST: usize = 14;
+const MOST: usize = 13;
 
 /// The most names in a sentence.
 const MOST_NAMES: usize = 4;
@@ -119,8 +119,7 @@ pub(super) fn answer(standings: &[Standing], cases: u64, place: &str) -> String 
     let contracts: BTreeSet<&str> = standings.iter().map(|it| &*it.part.contract).collect();
     if 1 < contracts.len() {
         text.push(
-            "Each is judged by its own promises; --contract closed-ray judges all by the same."
-                .to_owned(),
+            "Each is judged by its own promises (all by one: --contract closed-ray).".to_owned(),
         );
     }
     text.join(" ")
@@ -132,13 +131,15 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
     let mut order: Vec<usize> = (0..columns.len()).collect();
     order.sort_by_key(|i| (!columns[*i].is_ordinary(), place(&columns[*i]).unwrap_or(ORDER.len())));
     let has_leaks = standings.iter().any(|it| it.leaks().is_some());
-    let before: Vec<&str> =
-        if has_leaks { vec!["leaks", "visible", "values"] } else { vec!["visible", "values"] };
     let scalars = &record.result.plan.scalars;
     let mut table = Table::default();
     table.heads.push(Head::of("kernel"));
-    table.heads.extend(before.iter().map(|head| Head::of(*head)));
-    table.heads.extend(order.iter().map(|i| Head::of(columns[*i].label()).optional()));
+    let leaks = Head::of("leaks").about("% of rays at shared edges and vertices that hit nothing");
+    table.heads.extend(has_leaks.then_some(leaks));
+    table.heads.push(Head::of("visible").about("answers off by over 1/1000 of an edge"));
+    table.heads.push(Head::of("values").about("% of right hits with a wrong t, u or v"));
+    let question = |i: &usize| Head::of(columns[*i].label()).about(columns[*i].about()).optional();
+    table.heads.extend(order.iter().map(question));
     table.heads.extend(scalars.iter().map(|scalar| Head::of(format!("ns {scalar}"))));
     let rows = ranked(standings);
     let more: usize = rows.iter().skip(MOST).map(|row| 1 + row.alike.len()).sum();
@@ -179,31 +180,14 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
             below: alike.into_iter().collect(),
         });
     }
-    let mut blocks = vec![Block::Table(table)];
-    if 0 < more {
-        blocks.push(Block::Text(format!("… {more} more rows: --details")));
-    }
-    let shown: Vec<Column> = order.iter().map(|i| columns[*i]).collect();
-    blocks.push(Block::Text(legend(record, &shown, has_leaks)));
-    blocks
-}
-
-/// The meaning of the columns in a few lines.
-fn legend(record: &Record, shown: &[Column], has_leaks: bool) -> String {
-    let mut parts = Vec::new();
-    if has_leaks {
-        parts.push("leaks: % of rays at shared edges and vertices that hit nothing".to_owned());
-    }
-    parts.push("visible: answers off by over 1/1000 of an edge".to_owned());
-    parts.push("values: % of right hits with a wrong t, u or v".to_owned());
-    let told = shown.iter().filter(|column| !column.about().is_empty());
-    parts.extend(told.map(|column| format!("{}: {}", column.label(), column.about())));
-    let worse = match record.result.plan.scalars.len() {
+    let worse = match scalars.len() {
         1 => "",
         _ => " in the worse of the scalars",
     };
-    parts.push(format!(
-        "other cells: % wrong{worse} on rays aimed at hard places, not of your pixels"
-    ));
-    parts.join("; ")
+    let mut others =
+        format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
+    if 0 < more {
+        others += &format!(" {more} more rows: --details.");
+    }
+    vec![Block::Table(table), Block::Text(others)]
 }

@@ -26,8 +26,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> (St
     blocks.extend(notes(record));
     blocks.extend(shared_in_scenes(record).map(Block::text));
     for scalar in &record.result.plan.scalars {
-        let cases = record.result.sources.iter().filter(|source| source.scalar == *scalar);
-        let cases = cases.map(|source| source.cases).sum();
+        let cases = cases_in(record, scalar);
         if 0 < cases && is_all_invalid(&RowView::all(record, scalar), cases) {
             blocks.push(Block::Text(format!("{scalar}: {ALL_INVALID}")));
         }
@@ -49,10 +48,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> (St
 /// Which kernels ran, and on how many cases.
 fn head(record: &Record) -> String {
     let (result, provenance) = (&record.result, &record.provenance);
-    let cases = |scalar: &String| {
-        let sources = result.sources.iter().filter(|source| source.scalar == *scalar);
-        sources.map(|source| source.cases).sum::<u64>()
-    };
+    let cases = |scalar: &String| cases_in(record, scalar);
     // Usually as many in each scalar.
     let mut counts: Vec<(u64, Vec<&str>)> = Vec::new();
     for scalar in &result.plan.scalars {
@@ -148,8 +144,10 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     let others = match (standings.len(), broken.is_empty()) {
         (2.., _) | (_, true) => String::new(),
         _ => {
-            let counts =
-                broken.iter().map(|(finding, count)| format!("{finding} {}", group_digits(*count)));
+            let counts = broken.iter().map(|(finding, count)| {
+                let ending = if finding.name().ends_with(['s', 'h']) { "es" } else { "s" };
+                number_of(*count, finding.name(), &format!("{finding}{ending}"))
+            });
             format!(" Other broken promises: {}.", counts.collect::<Vec<_>>().join(", "))
         }
     };
@@ -161,6 +159,12 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
         Some((first, rest)) => (format!("{first}."), rest.to_owned()),
         None => (text, String::new()),
     }
+}
+
+/// The cases of a record in a scalar.
+pub(super) fn cases_in(record: &Record, scalar: &str) -> u64 {
+    let sources = record.result.sources.iter().filter(|source| source.scalar == scalar);
+    sources.map(|source| source.cases).sum()
 }
 
 /// The cases of a record, in all scalars.

@@ -1,6 +1,6 @@
 //! The worst examples in words: by how much a verdict is wrong, and the command that shows it.
 
-use super::disagreement::polygons;
+use super::disagreement::{across, cracks, polygons};
 use super::group_digits;
 use super::pool::Pool;
 use super::rate::interval_of;
@@ -58,8 +58,13 @@ pub(super) fn findings(row: &RowView, examples: usize) -> Vec<Item> {
         items.push(Item { text, notes, lines, ..Item::default() });
     }
     for result in &row.results {
-        let groups = super::disagreement::across(result).into_iter().chain(polygons(result));
-        for (kind, rate, _, first) in groups.filter(|(_, rate, ..)| 0 < rate.count) {
+        let mut groups = across(result);
+        // Those that leak are shown, whether they promise not to or not.
+        if groups.iter().all(|(kind, ..)| *kind != FindingKind::Crack) {
+            groups.extend(cracks(result));
+        }
+        groups.extend(polygons(result));
+        for (kind, rate, _, first) in groups.into_iter().filter(|(_, rate, ..)| 0 < rate.count) {
             let (count, of) = (group_digits(rate.count), group_digits(rate.of));
             let promised = result.across.as_ref().map_or(String::new(), |across| {
                 format!("; promised across triangles: {}", across.promised)

@@ -106,7 +106,10 @@ fn table(table: &Table) -> String {
         let cells = row.cells.iter().map(|cell| words(&cell.text));
         text += &line(&mut first.into_iter().chain(cells));
     }
-    text
+    match Table::legend(table.heads.iter()) {
+        legend if legend.is_empty() => text,
+        legend => format!("{text}\n{}\n", words(&legend)),
+    }
 }
 
 /// Text outside of code.

@@ -39,6 +39,8 @@ pub struct Head {
     pub is_text: bool,
     /// True if a narrow terminal does without it.
     pub is_optional: bool,
+    /// Its meaning, told below the table where the column is shown; may be empty.
+    pub about: String,
 }
 
 impl Head {
@@ -50,6 +52,11 @@ impl Head {
     /// A column of words.
     pub fn text(head: impl Into<String>) -> Head {
         Head { is_text: true, ..Head::of(head) }
+    }
+
+    /// The same, explained below the table.
+    pub fn about(self, about: impl Into<String>) -> Head {
+        Head { about: about.into(), ..self }
     }
 
     /// The same, which a narrow terminal does without.
@@ -96,6 +103,13 @@ impl Table {
     pub fn remove(&mut self, column: usize) {
         self.heads.remove(column + 1);
         self.rows.iter_mut().for_each(|row| drop(row.cells.remove(column)));
+    }
+
+    /// What the columns mean, of those that are shown.
+    pub fn legend<'a>(shown: impl Iterator<Item = &'a Head>) -> String {
+        let told = shown.filter(|head| !head.about.is_empty());
+        let told = told.map(|head| format!("{}: {}", head.head.trim(), head.about));
+        told.collect::<Vec<_>>().join("; ")
     }
 
     /// Writes the heads, in several lines if the table is too wide otherwise, then the rows; without the last of the
@@ -162,7 +176,9 @@ impl Table {
                 indented(below, ["  ", "    "], style.width, out)?;
             }
         }
-        indented(&after, ["", ""], style.width, out)
+        indented(&after, ["", ""], style.width, out)?;
+        let legend = Table::legend(shown.iter().map(|i| &self.heads[i + 1]));
+        indented(&legend, ["", ""], style.width, out)
     }
 
     fn label_width(&self) -> usize {
@@ -231,18 +247,18 @@ mod tests {
             Head::of("knob"),
             Head::text("rays"),
             Head::of("at most so many"),
-            Head::of("seen").optional(),
+            Head::of("seen").optional().about("the worst met"),
         ];
         let table =
             Table { heads, rows: vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))] };
         let at = |width: usize| text(&table, Style { width, ..Style::default() });
         assert_eq!(
             at(40),
-            "knob  rays  at most so many  seen\nt     far           1 in 10    12\n"
+            "knob  rays  at most so many  seen\nt     far           1 in 10    12\nseen: the worst met\n"
         );
         assert_eq!(
             at(30),
-            "            at most\nknob  rays  so many  seen\nt     far   1 in 10    12\n"
+            "            at most\nknob  rays  so many  seen\nt     far   1 in 10    12\nseen: the worst met\n"
         );
         assert_eq!(
             at(20),

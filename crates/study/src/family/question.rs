@@ -44,7 +44,7 @@ impl Question {
         match self {
             Question::Inside | Question::Edges | Question::Vertices => "",
             Question::Flat => "in or near the plane",
-            Question::Ends => "start or end of the ray",
+            Question::Ends => "of the ray",
             Question::Grid => "small integers",
             Question::Sizes => "tiny, huge, far, thin",
             Question::Range => "extreme exponents",

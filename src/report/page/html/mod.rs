@@ -117,6 +117,9 @@ fn anchor(title: &str) -> String {
     title.chars().take(80).map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
 }
 
+/// Before the head of a table.
+const TABLE: &str = "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"A table\"><table class=\"heat\">";
+
 struct Writer<'a> {
     anchors: &'a BTreeSet<String>,
     /// How many parts have begun at each anchor.
@@ -126,53 +129,47 @@ struct Writer<'a> {
 impl Writer<'_> {
     /// Some blocks, as many as there is room for. Each folded part has its share of the room.
     fn blocks(&self, all: &[Block], room: &mut Room) -> String {
+        let Some(mut own) = room.within(note(u64::MAX).len()) else { return String::new() };
         let mut text = String::new();
         let mut folded = all.iter().filter(|block| matches!(block, Block::Details(..))).count();
         for block in all {
             match block {
                 Block::Details(title, inner) => {
-                    let mut own = room.part(room.left() / folded);
+                    let mut part = own.part(own.left() / folded);
                     folded -= 1;
                     let head =
                         html! { summary { h3 { (shortened(title, LONGEST)) } } }.into_string();
-                    let id = self.id(title);
-                    let start = format!("<details class=\"kernel\" id=\"{id}\">");
-                    let end = "</div></details>";
-                    let around = start.len() + head.len() + end.len() + 32;
-                    if own.left() < around {
-                        room.left_out += 1;
-                    } else {
-                        let mut rest = own.part(own.left() - around);
-                        let body = self.blocks(inner, &mut rest);
-                        text += &format!("{start}{head}<div class=\"body\">{body}{end}");
-                        own.take_back(rest);
-                    }
-                    room.take_back(own);
+                    let start = format!(
+                        "<details class=\"kernel\" id=\"{}\">{head}<div class=\"body\">",
+                        self.id(title)
+                    );
+                    text +=
+                        &part.frame(&start, "</div></details>", |part| self.blocks(inner, part));
+                    own.take_back(part);
                 }
                 Block::Items(Items { items, .. }) => {
-                    text += "<ul class=\"cards\">";
-                    let left_out = room.left_out;
-                    text += &room.fill(items.iter(), |one| item(one).into_string());
-                    text += "</ul>";
-                    text += &note(room.left_out - left_out);
+                    text += &own.frame("<ul class=\"cards\">", "</ul>", |room| {
+                        room.fill(items.iter(), |one| item(one).into_string())
+                    });
                 }
                 Block::Table(table) => {
-                    let left_out = room.left_out;
-                    let head = heads(table).into_string();
-                    text += "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"A table\"><table class=\"heat\">";
-                    room.add(&mut text, &head);
-                    text += "<tbody>";
-                    text += &room.fill(table.rows.iter(), |row| self.row(table, row).into_string());
-                    text += "</tbody></table></div>";
-                    text += &note(room.left_out - left_out);
+                    let start = format!("{TABLE}{}<tbody>", heads(table).into_string());
+                    let legend = Table::legend(table.heads.iter());
+                    let legend = html! { @if !legend.is_empty() { p.note { (legend) } } };
+                    let end = format!("</tbody></table></div>{}", legend.into_string());
+                    text += &own.frame(&start, &end, |room| {
+                        room.fill(table.rows.iter(), |row| self.row(table, row).into_string())
+                    });
                 }
-                block => {
-                    let left_out = room.left_out;
-                    room.add(&mut text, &self::block(block).into_string());
-                    text += &note(room.left_out - left_out);
-                }
+                block => _ = own.add(&mut text, &self::block(block).into_string()),
             }
         }
+        // Said here, and not again around it.
+        match std::mem::take(&mut own.left_out) {
+            0 => {}
+            left_out => text += &note(left_out),
+        }
+        room.take_back(own);
         text
     }
 
@@ -204,12 +201,7 @@ impl Writer<'_> {
 }
 
 fn note(left_out: u64) -> String {
-    match left_out {
-        0 => String::new(),
-        _ => {
-            html! { p.note { (left_out) " left out here; the JSON record has all." } }.into_string()
-        }
-    }
+    html! { p.note { (left_out) " left out here; the JSON record has all." } }.into_string()
 }
 
 fn heads(table: &Table) -> Markup {

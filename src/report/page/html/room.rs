@@ -20,9 +20,33 @@ impl Room {
         Room::new(part)
     }
 
-    /// Takes back what a part leaves.
+    /// Takes back what a part leaves, and its count of what was left out.
     pub fn take_back(&mut self, part: Room) {
         self.left += part.left;
+        self.left_out += part.left_out;
+    }
+
+    /// All but so many bytes, which stay for what stands around; none if there are not so many.
+    pub fn within(&mut self, around: usize) -> Option<Room> {
+        let most = self.left.checked_sub(around)?;
+        self.left = 0;
+        Some(Room::new(most))
+    }
+
+    /// What fits between a start and an end; nothing, and one more left out, if not even those fit.
+    pub fn frame(
+        &mut self,
+        start: &str,
+        end: &str,
+        fill: impl FnOnce(&mut Room) -> String,
+    ) -> String {
+        let Some(mut inner) = self.within(start.len() + end.len()) else {
+            self.left_out += 1;
+            return String::new();
+        };
+        let text = format!("{start}{}{end}", fill(&mut inner));
+        self.take_back(inner);
+        text
     }
 
     /// Bytes left.
