@@ -194,7 +194,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// What is counted of a kernel: in a scene only of the strata that are named, if some are.
+    /// The counts of a kernel: in a scene only of the strata that are named, if some are.
     fn counts(&self, knobs: &[Knob], row: &Row) -> Vec<Count> {
         let StudiedRays { scene, sources, strata, .. } = self.studied;
         if scene.is_none() {

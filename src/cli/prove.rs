@@ -187,16 +187,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     }
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
-    let job = Job {
-        scene: scene.clone(),
-        shapes,
-        domain,
-        parts,
-        effort,
-        epsilons,
-        stored: &stored,
-        shared,
-    };
+    let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
     let results = job.run_all(&entries, scalars);
     let mut record = Record {
         schema: "hairline/proof-1",

@@ -272,12 +272,9 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
     edit(&folder, |text| text.replacen("findings = [\n", &format!("findings = [\n{new}"), 1));
     let (line, _) = line_with(&folder, FILE, "an old bug");
     let (out, _) = ends(&folder, &["check", "--quiet"], 3);
-    assert!(
-        out.contains(&format!("{FILE}:{line}: moller-trumbore (source) f32 interior")),
-        "{out}"
-    );
+    assert!(out.contains(format!("{FILE}:{line}: moller-trumbore (source) f32 interior")), "{out}");
     assert!(out.contains("    an old bug\n") && out.contains("are stale: 0 unexpected"), "{out}");
-    assert!(out.contains(&format!(
+    assert!(out.contains(format!(
         "{LOCK} is missing (--bless writes it): counts by family are compared, not cases"
     )));
     // An unexpected one beside it wins.

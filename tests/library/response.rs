@@ -99,7 +99,7 @@ fn counts_agree_with_running<F: Scalar>() {
                 let epsilon = |knob: &Knob| {
                     let size = F::from_f64(10f64.powi(draw.integer(-16, 1) as i32));
                     let signed = knob.takes_negative(row.entry.info.gates);
-                    [size, F::zero(), if signed { -size } else { size }][draw.below(3) as usize]
+                    [size, F::zero(), if signed { -size } else { size }][draw.below(3)]
                 };
                 let epsilons: Vec<F> = knobs.iter().map(epsilon).collect();
                 let attempt = [Attempt::new(epsilons.clone())];

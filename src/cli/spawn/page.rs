@@ -63,7 +63,7 @@ fn of_points(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
     blocks
 }
 
-/// What to use, or that nothing here is good.
+/// The offset to use, or a sentence that nothing here is good.
 fn answer(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
     let hits = group_digits(part.hits);
     let Some(best) = &part.best else {

@@ -13,7 +13,7 @@ use crate::report::page::{Block, Command, Head, Row, Table};
 /// So many rows argue for what to use.
 const MOST_ROWS: usize = 3;
 
-/// What the words of the tables mean.
+/// The meaning of the words in the tables.
 pub(super) fn how_to_read(record: &SceneRecord) -> Vec<Block> {
     vec![Block::Notes(legend(record))]
 }

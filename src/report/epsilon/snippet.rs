@@ -1,4 +1,4 @@
-//! What to use as code to paste, in the language of a kernel.
+//! The advice as code to paste, in the language of a kernel.
 
 use super::answer::is_scale_free_better;
 use super::record::*;

@@ -40,7 +40,7 @@ fn sentences(lines: &[String]) -> String {
     lines.iter().map(sentence).collect::<Vec<_>>().join(" ")
 }
 
-/// What no value of a knob does at once, or that its value is outside its limits; none if all are kept.
+/// The limits that no value of a knob keeps at once, or a note that its value is outside them; none if all are kept.
 fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
     let name = &part.knobs[knob].name;
     let conflict = part.conflicts.iter().find(|conflict| part.limits[conflict.lower].knob == knob);

@@ -3,8 +3,7 @@
 use super::pool::Pool;
 use super::rate::{interval_of, percent};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, is_all_invalid};
-use super::screen::cases_in;
+use super::row_view::{ALL_INVALID, RowView, cases_in, is_all_invalid};
 use super::why::{accuracy_text, causes_text, of_kind};
 use super::{group_digits, number_of};
 use crate::audit::Trials;

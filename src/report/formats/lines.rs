@@ -3,8 +3,7 @@
 use super::columns::{Across, Cell, Column, kinds};
 use super::group_digits;
 use super::record::*;
-use super::row_view::RowView;
-use super::screen::cases_in;
+use super::row_view::{RowView, cases_in};
 use crate::report::page::Block;
 
 /// One row in one scalar.

@@ -63,7 +63,7 @@ fn map_picture(map: &MapPart) -> Option<Block> {
     );
     let is_base64 = |c: char| c.is_ascii_alphanumeric() || "+/=".contains(c);
     let drawing = Drawing::Png(map.png.clone(), [408, 192]);
-    map.png.chars().all(is_base64).then(|| Block::Picture(Picture { about, caption, drawing }))
+    map.png.chars().all(is_base64).then_some(Block::Picture(Picture { about, caption, drawing }))
 }
 
 /// In each scalar the worst of each kind that can be drawn, if the kernel is known here.

@@ -88,3 +88,9 @@ pub(super) fn failures(rows: &[&RowView]) -> Vec<String> {
     };
     rows.iter().filter_map(failures).collect()
 }
+
+/// The cases of a record in a scalar.
+pub(super) fn cases_in(record: &Record, scalar: &str) -> u64 {
+    let sources = record.result.sources.iter().filter(|source| source.scalar == scalar);
+    sources.map(|source| source.cases).sum()
+}

@@ -5,7 +5,7 @@ use super::columns::{Cell, Column, kinds, shared_in_scenes, short_percent};
 use super::disagreement::family_of;
 use super::lines::{Line, notes};
 use super::record::*;
-use super::row_view::{ALL_INVALID, RowView, failures, is_all_invalid};
+use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
 use super::standing::{Standing, standings};
 use super::{close_up, extremes, group_digits, next, number_of, ranking};
 use crate::case::SceneKind;
@@ -159,12 +159,6 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
         Some((first, rest)) => (format!("{first}."), rest.to_owned()),
         None => (text, String::new()),
     }
-}
-
-/// The cases of a record in a scalar.
-pub(super) fn cases_in(record: &Record, scalar: &str) -> u64 {
-    let sources = record.result.sources.iter().filter(|source| source.scalar == scalar);
-    sources.map(|source| source.cases).sum()
 }
 
 /// The cases of a record, in all scalars.

@@ -12,7 +12,7 @@ const MOST_LISTED: usize = 3;
 const CLASSES: &str = "of interior/back/within: where the line meets the triangle, which side it comes from, where on the \
                        ray (within, before its start, beyond its end)";
 
-/// What `check` has to say below its verdict.
+/// The blocks below the verdict of a `check`.
 pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
     let how = match (conformance.method, &conformance.expectations) {
         (_, None) => "nothing is expected: there is no file of expectations".to_owned(),

@@ -182,7 +182,7 @@ fn topology_terms(part: &ScalarPart) -> Vec<(String, String)> {
 fn first_places(result: &MeshResult) -> Vec<Command> {
     let mut rows: Vec<&MeshRowResult> =
         result.scalars.iter().flat_map(|part| &part.results).collect();
-    rows.sort_by_key(|row| (!row.promise().is_some_and(|(_, kept)| !kept), row.leaks()));
+    rows.sort_by_key(|row| (row.promise().is_none_or(|(_, kept)| kept), row.leaks()));
     let examples = rows.iter().flat_map(|row| examples(row, 1, false).into_iter().take(1));
     let command =
         |(_, example): (String, &MeshExample)| Command { line: example.command.clone(), what: "" };

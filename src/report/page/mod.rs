@@ -1,4 +1,4 @@
-//! What a command says, in the order in which people read it: one value, from which every format for people is drawn.
+//! The answer of a command in the order in which people read it: one value, from which every format for people is drawn.
 //!
 //! A study's record implements [`Paged`], and is then text, Markdown and HTML.
 
@@ -13,7 +13,7 @@ pub use table::{Cell, Head, Row, Table};
 
 use super::Format;
 
-/// What one command says.
+/// The answer of one command.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
     /// The command: `epsilon`.
@@ -63,7 +63,7 @@ pub enum Block {
     Items(Items),
     /// A drawing, where a format has pictures.
     Picture(Picture),
-    /// What only those read who want everything, with its title.
+    /// Blocks for those who want everything, with a title.
     Details(String, Vec<Block>),
 }
 
@@ -72,7 +72,7 @@ pub enum Block {
 pub struct Use {
     /// `use`, `or`, `not`.
     pub lead: String,
-    /// What is pasted; `  and  ` stands between parts.
+    /// The text to paste; `  and  ` stands between parts.
     pub text: String,
     /// Its meaning, a sentence each.
     pub notes: Vec<String>,

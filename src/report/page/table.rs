@@ -105,7 +105,7 @@ impl Table {
         self.rows.iter_mut().for_each(|row| drop(row.cells.remove(column)));
     }
 
-    /// What the columns mean, of those that are shown.
+    /// The meanings of the columns, of those that are shown.
     pub fn legend<'a>(shown: impl Iterator<Item = &'a Head>) -> String {
         let told = shown.filter(|head| !head.about.is_empty());
         let told = told.map(|head| format!("{}: {}", head.head.trim(), head.about));

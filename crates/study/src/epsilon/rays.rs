@@ -1,4 +1,4 @@
-//! What is counted: the rays that belong together, and how answers on them are wrong.
+//! The counts: rays that belong together, and the ways in which answers on them are wrong.
 
 use super::duty::Duty;
 use super::knob::Knob;

@@ -33,7 +33,7 @@ impl Room {
         Some(Room::new(most))
     }
 
-    /// What fits between a start and an end; nothing, and one more left out, if not even those fit.
+    /// A start, as much as fits, and an end; nothing, and one more left out, if not even those two fit.
     pub fn frame(
         &mut self,
         start: &str,
