@@ -65,7 +65,7 @@ struct Arguments {
 enum Command {
     /// Run kernels on families of cases, a mesh or a corpus, and report where they are wrong
     Audit(Box<audit::AuditArguments>),
-    /// Recommend a kernel's epsilons for a scene, or show what every value of one would do
+    /// Recommend a kernel's epsilons, all together, for a scene, a mesh or families of cases
     Epsilon(Box<epsilon::EpsilonArguments>),
     /// Show which offset new rays, such as shadow rays, need to leave their own surface
     Spawn(Box<spawn::SpawnArguments>),

@@ -25,8 +25,7 @@ pub struct ReportArguments {
     #[command(flatten)]
     pub output: OutputArguments,
 
-    /// When to compute the data of the HTML report's pictures, on a few cases of each source; auto: for
-    /// --format html
+    /// When to compute the maps of the HTML report; auto: for --format html
     #[arg(long, value_enum, default_value_t, help_heading = OUTPUT)]
     illustrate: IllustrateChoice,
 }

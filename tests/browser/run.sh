@@ -3,8 +3,8 @@
 # for the printed page as a picture, and the program (HAIRLINE=path, target/release/hairline if not said).
 # Screenshots go to tests/browser/out. With SITE=folder the pages of league/site in it are looked at too.
 set -euo pipefail
+hairline=$(realpath "${HAIRLINE:-$(dirname "$0")/../../target/release/hairline}")
 cd "$(dirname "$0")"
-hairline=$(realpath "${HAIRLINE:-../../target/release/hairline}")
 rm -rf out && mkdir out
 "$hairline" audit --quiet --kernel moller-trumbore,plane-unit-normal,woop-watertight \
     --family interior,outside,edge-near,edge-exact,parallel-off,tiny,fan,secondary-ray,invalid,direction-length \
@@ -17,8 +17,10 @@ for mesh in icosphere torus; do
         --format html,json -o "out/$mesh.html" -o "out/$mesh.json"
 done
 "$hairline" epsilon --quiet --kernel moller-trumbore --scene room --scalar f32 -n 10000 --format html -o out/scene.html
+"$hairline" spawn --quiet --scene room --format html -o out/spawn.html
+"$hairline" prove --quiet --kernel moller-trumbore,plane-unit-normal --format html -o out/prove.html
 test -d node_modules || npm ci
-node --test --test-reporter=spec report.test.mjs mesh.test.mjs scene.test.mjs
+node --test --test-reporter=spec page.test.mjs mesh.test.mjs
 if [[ -n ${SITE-} ]]; then
     node --test --test-reporter=spec site.test.mjs
 fi

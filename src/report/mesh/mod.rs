@@ -3,8 +3,6 @@
 mod build;
 mod drawing;
 #[cfg(feature = "cli")]
-mod page;
-#[cfg(feature = "cli")]
 mod picture;
 mod record;
 mod screen;
@@ -17,8 +15,6 @@ pub use build::build;
 pub use drawing::places;
 pub use record::*;
 
-#[cfg(feature = "cli")]
-use super::HTML;
 use super::{Format, write_json};
 
 /// One row per format.
@@ -27,5 +23,5 @@ pub const MESH_FORMATS: &[Format<MeshReport>] = &[
     Format::MARKDOWN,
     Format { name: "json", write: |report, _, out| write_json(&report.record, out) },
     #[cfg(feature = "cli")]
-    Format { name: HTML, write: page::write },
+    Format::HTML,
 ];

@@ -29,6 +29,8 @@ impl Paged for MeshReport {
             record.provenance.seconds
         ))];
         result.scalars.iter().for_each(|part| blocks.extend(of_scalar(record, part)));
+        #[cfg(feature = "cli")]
+        blocks.extend(super::stage::block(self));
         let places = first_places(result);
         if !places.is_empty() {
             blocks.push(Block::Commands("shown by", places));

@@ -12,7 +12,6 @@ const MARKS: usize = 3_500_000;
 pub(super) struct Shown<'a> {
     pub scalar: &'static str,
     pub result: &'a MeshRowResult,
-    pub nanoseconds: Option<f64>,
     pub drawn: &'a DrawnRow,
     /// Its marks as the script reads them, and how many there are.
     pub marks: String,
@@ -36,9 +35,7 @@ pub(super) fn shown<'a>(record: &'a MeshRecord, drawing: &'a Drawing) -> Vec<Sho
         let marks = own.fill(drawn.marks.iter(), mark_text);
         let marked = drawn.marks.len() - own.left_out as usize;
         room.take_back(own);
-        let times = record.provenance.kernel_nanoseconds.get(part.scalar);
-        let nanoseconds = times.and_then(|times| times.get(&label(result))).copied();
-        rows.push(Shown { scalar: part.scalar, result, nanoseconds, drawn, marks, marked });
+        rows.push(Shown { scalar: part.scalar, result, drawn, marks, marked });
     }
     rows
 }

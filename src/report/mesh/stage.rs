@@ -1,12 +1,14 @@
-//! The part of a page that shows where: the drawing with its controls, and the first places of each row.
+//! The part of a page that shows where: the drawing with its controls, and the first places of each row. A script turns the
+//! mesh; without it a picture stands still.
 
 use super::drawing::{AROUND, Drawing, Mark, PLACES};
 use super::picture;
 use super::record::*;
 use super::screen::label;
-use super::shown::{Shown, lines};
+use super::shown::{Shown, lines, shown};
 use crate::mesh::Part;
 use crate::report::page::html::words::{code, shortened};
+use crate::report::page::{Block, Stage};
 use crate::report::{group_digits, number_of};
 use maud::{Markup, html};
 
@@ -15,8 +17,26 @@ const LISTED: usize = 20;
 /// The words for a fault, in the order of [`crate::audit::mesh::Wrong`].
 const WRONG: [&str; 3] = ["crack", "double", "wrong at a fold"];
 
+/// The drawing and the places of a report that has a drawing.
+pub(super) fn block(report: &MeshReport) -> Option<Block> {
+    let drawing = report.drawing.as_ref()?;
+    let rows = shown(&report.record, drawing);
+    let markup = html! {
+        (self::drawing(&report.record.result, drawing, &rows))
+        h2 { "Row by row" }
+        p {
+            "The first places of each row, with the first ray that shows each. Vertices have their numbers in the "
+            "file (those with equal coordinates the number of the first), faces "
+            @if drawing.has_lines { "the lines of the file." } @else { "are counted from 1." }
+        }
+        @for (i, row) in rows.iter().enumerate() { (places(i, drawing, row)) }
+    };
+    let (style, script) = (include_str!("view.css"), include_str!("view.js"));
+    Some(Block::Stage(Stage { markup: markup.into_string(), style, script }))
+}
+
 /// The drawing: a canvas for the script, and a picture without it.
-pub(super) fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
+fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
     let numbers = |values: &mut dyn Iterator<Item = i64>| {
         values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
     };
@@ -28,8 +48,8 @@ pub(super) fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) ->
     let badness = |row: &Shown| (row.result.promise().is_some_and(|(_, kept)| !kept), row.marked);
     let worst = (0..rows.len()).rev().max_by_key(|i| badness(&rows[*i])).unwrap_or(0);
     html! {
-        section #where aria-labelledby="where-title" {
-            h2 #where-title { "Where" }
+        h2 { "Where" }
+        div {
             @if drawing.triangles.is_empty() {
                 p { "No row has a place to mark, and the mesh is too large to be drawn whole." }
             } @else {
@@ -88,7 +108,7 @@ fn has_kind(rows: &[Shown], kind: usize) -> bool {
 }
 
 /// A row's first places, with its marks for the script.
-pub(super) fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
+fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
     let [edges, vertices] = &row.drawn.commands;
     let MeshRowResult { edges: at_edges, vertices: at_vertices, .. } = row.result;
     let number = |mark: &Mark, end: usize| drawing.points[mark.ends[end] as usize].0;

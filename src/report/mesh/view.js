@@ -1,7 +1,5 @@
 // The mesh, turned by pointer, touch and keys. Without this a picture stands still, and tables hold the first places.
 (() => {
-  const table = document.getElementById("rates-table");
-  if (table) sortable(table);
   const canvas = document.getElementById("view");
   const brush = canvas && canvas.getContext("2d");
   if (!brush) return;

@@ -75,7 +75,7 @@ impl Writer {
                 };
                 format!("\n{}", items.iter().map(item).collect::<String>())
             }
-            Block::Picture(_) => String::new(),
+            Block::Picture(_) | Block::Stage(_) => String::new(),
             Block::Details(title, all) if self.style.details => {
                 self.text += &format!("\n<details><summary>{}</summary>\n", words(title));
                 self.blocks(all);

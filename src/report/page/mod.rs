@@ -63,6 +63,8 @@ pub enum Block {
     Items(Items),
     /// A drawing, where a format has pictures.
     Picture(Picture),
+    /// A drawing that moves, where a format has scripts.
+    Stage(Stage),
     /// Blocks for those who want everything, with a title.
     Details(String, Vec<Block>),
 }
@@ -120,6 +122,17 @@ pub struct Picture {
     pub caption: String,
     /// The drawing itself.
     pub drawing: Drawing,
+}
+
+/// A drawing with controls, in HTML.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// Its elements.
+    pub markup: String,
+    /// The style that they need beside the page's.
+    pub style: &'static str,
+    /// The script that moves it.
+    pub script: &'static str,
 }
 
 /// The data of a drawing.

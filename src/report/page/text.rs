@@ -38,7 +38,8 @@ impl Writer<'_> {
             }
             after_heading = matches!(block, Block::Heading(_));
             self.block(block)?;
-            self.is_first &= matches!(block, Block::Picture(_) | Block::Details(..));
+            self.is_first &=
+                matches!(block, Block::Picture(_) | Block::Stage(_) | Block::Details(..));
         }
         Ok(())
     }
@@ -99,7 +100,7 @@ impl Writer<'_> {
                     more => writeln!(out, "and {} more (--details lists all)", group_digits(more)),
                 }
             }
-            Block::Picture(_) => Ok(()),
+            Block::Picture(_) | Block::Stage(_) => Ok(()),
             Block::Details(title, blocks) if self.style.details => {
                 self.blocks(&[Block::Heading(title.clone())])?;
                 self.blocks(blocks)

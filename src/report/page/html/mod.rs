@@ -24,13 +24,9 @@ const LIMIT: usize = 1_950_000;
 /// The most characters of a title, and of a sentence.
 const LONGEST: usize = 2_000;
 
-pub(in crate::report) const STYLE: &str = include_str!("style.css");
+const STYLE: &str = include_str!("style.css");
 /// Makes tables sortable, and opens what a link leads to.
-pub(in crate::report) const SHARED: &str = include_str!("shared.js");
-const SCRIPT: &str = concat!(
-    include_str!("shared.js"),
-    "for (const table of document.querySelectorAll(\"table.heat\")) sortable(table);\n"
-);
+const SCRIPT: &str = include_str!("script.js");
 
 /// Writes a page; what only some read is folded.
 pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
@@ -38,8 +34,21 @@ pub(super) fn write(page: &Page, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The page in fewer bytes than a limit.
-fn within(page: &Page, limit: usize) -> String {
-    let style = format!("{STYLE}{}", chart::STYLE);
+fn within(page: &Page, mut limit: usize) -> String {
+    let stages = page.blocks.iter().filter_map(|block| match block {
+        Block::Stage(stage) => Some(stage),
+        _ => None,
+    });
+    let mut style = format!("{STYLE}{}", chart::STYLE);
+    let mut script = SCRIPT.to_owned();
+    let mut around = 4 * LONGEST + 4_000;
+    for stage in stages {
+        style += stage.style;
+        script += stage.script;
+        // It has a limit of its own.
+        limit += stage.markup.len();
+    }
+    around += style.len() + script.len();
     let (class, mark) = match page.tone {
         Tone::Plain => ("plain", ""),
         Tone::Good => ("good", "✓ "),
@@ -49,15 +58,20 @@ fn within(page: &Page, limit: usize) -> String {
     let title = shortened(&page.title, LONGEST);
     let mut anchors = BTreeSet::new();
     add_anchors(&page.blocks, &mut anchors);
-    // For what stands around the blocks.
-    let around = style.len() + SCRIPT.len() + 4 * LONGEST + 4_000;
     let mut room = Room::new(limit.saturating_sub(around));
     let writer = Writer { anchors: &anchors, used: RefCell::default() };
     let blocks = writer.blocks(&page.blocks, &mut room);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            (head_of(&title, &policy(&style, SCRIPT), &style))
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta http-equiv="Content-Security-Policy" content=(policy(&style, &script));
+                title { "hairline: " (title) }
+                style { (PreEscaped(style)) }
+            }
             body {
                 a.skip href="#main" { "Skip to the report" }
                 header class={ "top " (class) } {
@@ -65,29 +79,15 @@ fn within(page: &Page, limit: usize) -> String {
                     h1 { (mark) (title) }
                 }
                 main #main { section { (PreEscaped(blocks)) } }
-                script { (PreEscaped(SCRIPT)) }
+                script { (PreEscaped(script)) }
             }
         }
     };
     page.into_string()
 }
 
-/// The head of a page that needs nothing else, by a policy that holds it to that.
-pub(in crate::report) fn head_of(title: &str, policy: &str, style: &str) -> Markup {
-    html! {
-        head {
-            meta charset="utf-8";
-            meta name="viewport" content="width=device-width, initial-scale=1";
-            meta name="color-scheme" content="light dark";
-            meta http-equiv="Content-Security-Policy" content=(policy);
-            title { "hairline: " (title) }
-            style { (PreEscaped(style)) }
-        }
-    }
-}
-
 /// Nothing from elsewhere, no script and no style but the page's own, pictures from the page itself.
-pub(in crate::report) fn policy(style: &str, script: &str) -> String {
+fn policy(style: &str, script: &str) -> String {
     let digest = |text: &str| BASE64_STANDARD.encode(Hash::hash(text.as_bytes()));
     format!(
         "default-src 'none'; img-src data:; style-src 'sha256-{}'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'",
@@ -97,7 +97,7 @@ pub(in crate::report) fn policy(style: &str, script: &str) -> String {
 }
 
 /// From 0 for nothing to 5.
-pub(in crate::report) fn shade(share: f64) -> usize {
+fn shade(share: f64) -> usize {
     const SHADES: [f64; 4] = [0.001, 0.01, 0.1, 0.5];
     if share == 0.0 { 0 } else { 1 + SHADES.iter().filter(|start| **start <= share).count() }
 }
@@ -260,6 +260,7 @@ fn block(block: &Block) -> Markup {
                 @if !caption.is_empty() { figcaption { (caption) } }
             }
         },
+        Block::Stage(stage) => PreEscaped(stage.markup.clone()),
         Block::Table(_) | Block::Items(_) | Block::Details(..) => html! {},
     }
 }

@@ -1,25 +1,6 @@
-//! Numbers, links and code in the report.
+//! Links and code in a page.
 
-use crate::report::Rate;
-use crate::report::{group_digits, rate};
 use maud::{Markup, html};
-
-/// `15.8 %`.
-pub(in crate::report) fn percent(share: f64) -> String {
-    let number = rate::percent(share);
-    format!("{}\u{a0}%", number.trim_end_matches('%'))
-}
-
-/// `15.1–16.6`, in percent.
-pub(in crate::report) fn interval([low, high]: [f64; 2]) -> String {
-    let number = |share: f64| rate::percent(share).trim_end_matches('%').to_owned();
-    format!("{}–{}", number(low), number(high))
-}
-
-/// `1,597 of 10,092`.
-pub(in crate::report) fn counts(rate: &Rate) -> String {
-    format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
-}
 
 /// Text that people wrote, as a link if it is an address of the web.
 pub(super) fn link(url: &str) -> Markup {

@@ -1,4 +1,4 @@
-// What the pages share.
+// Of every page.
 "use strict";
 // Makes a table's columns sortable by a button in each head that has data-sort. `changed` is told the order in words.
 // Returns what puts the rows back into their own order.
@@ -46,3 +46,4 @@ const open_target = () => {
 };
 addEventListener("hashchange", open_target);
 open_target();
+for (const table of document.querySelectorAll("table.heat")) sortable(table);
