@@ -63,13 +63,13 @@ fn the_pictures_are_the_same_whatever_the_threads_and_the_shards() {
     // All but times and threads.
     let kept = |name: &str| -> String {
         let text = page(name);
-        let end = text.find("<h3>About this run").unwrap();
-        let start = text.find("<h3>Every question").unwrap();
+        let end = text.find("<h2>About this run").unwrap();
+        let start = text.find("<h2>Every question").unwrap();
         let times = text[start..end].split("ns a ray</th>");
         let kept: String =
             times.map(|part| part.split_once("</tr>").map_or(part, |pair| pair.1)).collect();
         // The last cell of a row of the table of every row.
-        let (every, rest) = kept.split_once("<h3>moller-trumbore").unwrap();
+        let (every, rest) = kept.split_once("<h2>moller-trumbore").unwrap();
         let rows = every.split("</tr>");
         let rows = rows.map(|row| row.rsplit_once("<td").map_or(row, |(before, _)| before));
         rows.collect::<String>() + rest
@@ -118,7 +118,7 @@ fn the_page_holds_the_numbers_and_the_commands_of_the_record() {
     for kernel in ["moller-trumbore", "havel-herout"] {
         let (proofs, _) = ends(&folder, &["prove", "--format", "json", "--kernel", kernel], 0);
         let proofs: Value = serde_json::from_str(&proofs).unwrap();
-        let section = page.split_once(&format!("<h3>{kernel} ")).unwrap().1;
+        let section = page.split_once(&format!("<h2>{kernel} ")).unwrap().1;
         let mut cells: BTreeMap<&str, String> = BTreeMap::new();
         for gate in proofs["gates"].as_array().unwrap() {
             let hundredths = |x: &Value| x.as_f64().unwrap() * 100.0;

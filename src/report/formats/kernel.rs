@@ -27,8 +27,7 @@ pub(super) fn blocks(
     blocks.extend(quantiles_of(views));
     blocks.extend(pictures::blocks(record, part, views));
     let families = Block::Table(by_family(record, views));
-    let name = format!("{} ({}), family by family", part.kernel, part.set);
-    blocks.push(Block::Details(name, vec![families]));
+    blocks.push(Block::Details("Family by family".to_owned(), vec![families]));
     let items: Vec<_> = views.iter().flat_map(|view| findings(view, examples)).collect();
     match items.is_empty() {
         true => blocks.push(Block::text("No findings.")),

@@ -16,7 +16,7 @@ impl Paged for Record {
         let columns = Column::all(self);
         let lines = lines(self, &columns);
         let (title, on_screen) = screen::blocks(self, &columns, &lines);
-        let mut page = Page { command: "report", title, tone: Tone::Plain, blocks: Vec::new() };
+        let mut page = Page { command: "audit", title, ..Page::default() };
         match &self.conformance {
             None => page.blocks = on_screen,
             Some(conformance) => {
@@ -26,6 +26,7 @@ impl Paged for Record {
                     Verdict::Disagreements => Tone::Bad,
                     Verdict::Stale => Tone::Stale,
                 };
+                page.command = "check";
                 page.blocks = verdict::blocks(self, conformance);
                 let run = [Block::Text(title)].into_iter().chain(on_screen).collect();
                 page.blocks.push(Block::Details("The run".to_owned(), run));

@@ -52,7 +52,7 @@ fn row(columns: &[Column], line: &Line, has_groups: bool) -> Row {
     } else if has_groups {
         cells.extend(["- ", "- ", "-"].map(|text| page::Cell::from(text.to_owned())));
     }
-    Row { label: line.label(), cells, below: Vec::new() }
+    Row::new(line.label(), cells)
 }
 
 /// The legend of a cell.

@@ -178,6 +178,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
             label: label(standing.part),
             cells,
             below: alike.into_iter().collect(),
+            about: Some(format!("{} ({})", standing.part.kernel, standing.part.set)),
         });
     }
     let worse = match scalars.len() {

@@ -120,6 +120,31 @@ pub struct MeshRowResult {
     pub vertices: MeshPartResult,
 }
 
+impl MeshRowResult {
+    /// `kernel (epsilons)`.
+    pub fn label(&self) -> String {
+        format!("{} ({})", self.kernel, self.set)
+    }
+
+    /// How many edges and vertices leak.
+    pub fn leaks(&self) -> u64 {
+        self.edges.cracked + self.vertices.cracked
+    }
+
+    /// The sum of a rate over edges and vertices.
+    pub fn both(&self, rate: fn(&AcrossRates) -> &Rate) -> Rate {
+        Rate::sum([&self.edges.total, &self.vertices.total].map(rate))
+    }
+
+    /// How many hits are promised, and whether that was kept; none if nothing is promised.
+    pub fn promise(&self) -> Option<(&'static str, bool)> {
+        let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
+        let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
+        let is_kept = 0 == self.leaks() && !(more && self.promised == Promised::ExactlyOne);
+        self.promised.in_short().map(|hits| (hits, is_kept))
+    }
+}
+
 /// The results of a row at the edges, or at the vertices.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeshPartResult {

@@ -75,26 +75,6 @@ pub(super) fn verdict(result: &MeshResult) -> (Tone, String) {
     (tone, title)
 }
 
-impl MeshRowResult {
-    /// How many edges and vertices leak.
-    pub fn leaks(&self) -> u64 {
-        self.edges.cracked + self.vertices.cracked
-    }
-
-    /// The sum of a rate over edges and vertices.
-    pub fn both(&self, rate: fn(&AcrossRates) -> &Rate) -> Rate {
-        Rate::sum([&self.edges.total, &self.vertices.total].map(rate))
-    }
-
-    /// How many hits are promised, and whether that was kept; none if nothing is promised.
-    pub fn promise(&self) -> Option<(&'static str, bool)> {
-        let wrong = |rate: fn(&AcrossRates) -> &Rate| 0 < self.both(rate).count;
-        let more = wrong(|rates| &rates.doubles) || wrong(|rates| &rates.odd_folds);
-        let is_kept = 0 == self.leaks() && !(more && self.promised == Promised::ExactlyOne);
-        self.promised.in_short().map(|hits| (hits, is_kept))
-    }
-}
-
 /// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
 fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
     let mut blocks = vec![Block::Terms(topology_terms(part))];
@@ -128,7 +108,7 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
     ];
     let times = record.provenance.kernel_nanoseconds.get(part.scalar);
     let row = |(row, alike): &(&MeshRowResult, Vec<String>)| {
-        let time = times.and_then(|times| times.get(&label(row)));
+        let time = times.and_then(|times| times.get(&row.label()));
         let promised = row.promised != Promised::Nothing;
         let exactly = row.promised == Promised::ExactlyOne;
         let share = |rate: &Rate, is_promised: bool| Cell {
@@ -153,7 +133,7 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
             let kept = if is_kept { "kept" } else { "BROKEN" };
             below.push(format!("promises hits {hits} where a ray crosses: {kept}"));
         }
-        Row { label: short_label(row), cells: cells.into(), below }
+        Row { below, ..Row::new(short_label(row), cells) }
     };
     let rows = shown.iter().take(MOST_ROWS).map(row).collect();
     blocks.push(Block::Table(Table { heads, rows }));
@@ -202,7 +182,7 @@ fn everything(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
             rate(&row.vertices.total.cracks),
             group_digits(elsewhere),
         ];
-        Row::new(label(row), cells)
+        Row::new(row.label(), cells)
     };
     let rows = part.results.iter().map(row).collect();
     let mut blocks = vec![Block::Table(Table { heads: heads.map(Head::of).into(), rows })];
@@ -214,17 +194,17 @@ fn everything(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         let count = row.edges.failures + row.vertices.failures;
         if 0 < count {
             let count = group_digits(count);
-            let text = format!("{}: no verdict on some triangle of {count} rays", label(row));
+            let text = format!("{}: no verdict on some triangle of {count} rays", row.label());
             blocks.push(Block::Text(text));
         }
         let first = row.edges.first_failures.iter().chain(&row.vertices.first_failures).next();
         blocks.extend(first.map(|first| Block::Listing(format!("    {}", first.command))));
         let examples = examples(row, usize::MAX, true);
         if examples.is_empty() {
-            blocks.push(Block::Text(format!("{}: nowhere", label(row))));
+            blocks.push(Block::Text(format!("{}: nowhere", row.label())));
             continue;
         }
-        blocks.push(Block::Text(label(row)));
+        blocks.push(Block::Text(row.label()));
         let line = |(what, example): (String, &MeshExample)| {
             format!("    {what}: {}\n        {}", place(example), example.command)
         };
@@ -292,13 +272,9 @@ const VERTEX_WORDS: &[(&str, &str)] = &[
     ("irregular", "at edges or faces not asked about"),
 ];
 
-pub(super) fn label(row: &MeshRowResult) -> String {
-    format!("{} ({})", row.kernel, row.set)
-}
-
 /// The label without the set of published epsilons.
 fn short_label(row: &MeshRowResult) -> String {
-    if row.set == "source" { row.kernel.clone() } else { label(row) }
+    if row.set == "source" { row.kernel.clone() } else { row.label() }
 }
 
 /// So many findings of each kind and class: cracks, and what else the row's contract speaks of; what

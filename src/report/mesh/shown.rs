@@ -2,7 +2,6 @@
 
 use super::drawing::{Drawing, DrawnRow, Mark};
 use super::record::*;
-use super::screen::label;
 use crate::report::page::html::room::Room;
 
 /// Bytes for all marks. A row that leaves some of its share leaves them to the next.
@@ -16,12 +15,6 @@ pub(super) struct Shown<'a> {
     /// Its marks as the script reads them, and how many there are.
     pub marks: String,
     pub marked: usize,
-}
-
-impl Shown<'_> {
-    pub fn failures(&self) -> u64 {
-        self.result.edges.failures + self.result.vertices.failures
-    }
 }
 
 /// The rows with as many marks as fit.

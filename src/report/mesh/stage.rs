@@ -4,7 +4,6 @@
 use super::drawing::{AROUND, Drawing, Mark, PLACES};
 use super::picture;
 use super::record::*;
-use super::screen::label;
 use super::shown::{Shown, lines, shown};
 use crate::mesh::Part;
 use crate::report::page::html::words::{code, shortened};
@@ -65,7 +64,7 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
                     label { "Kernel row "
                         select #row autocomplete="off" {
                             @for (i, row) in rows.iter().enumerate() {
-                                option value=(i) selected[i == worst] { (shortened(&label(row.result), 80)) " " (row.scalar) }
+                                option value=(i) selected[i == worst] { (shortened(&row.result.label(), 80)) " " (row.scalar) }
                             }
                         }
                     }
@@ -96,7 +95,7 @@ fn drawing(result: &MeshResult, drawing: &Drawing, rows: &[Shown]) -> Markup {
                         "reset; n and p for the next and the previous place."
                     }
                 }
-                noscript { p.note { "Drawn are the places of " (shortened(&label(rows[worst].result), 80)) " " (rows[worst].scalar) ". With scripts every row is drawn, and the mesh can be turned." } }
+                noscript { p.note { "Drawn are the places of " (shortened(&rows[worst].result.label(), 80)) " " (rows[worst].scalar) ". With scripts every row is drawn, and the mesh can be turned." } }
             }
         }
     }
@@ -116,7 +115,7 @@ fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
     html! {
         details.row id={ "r" (i) } data-marks=(row.marks) data-edges=(edges[0]) data-vertices=(vertices[0]) data-after=(edges[1]) {
             summary {
-                b { (label(row.result)) " " (row.scalar) } ": "
+                b { (row.result.label()) " " (row.scalar) } ": "
                 span.sum {
                     (number_of(at_edges.cracked, "edge leaks", "edges leak")) ", "
                     (number_of(at_vertices.cracked, "vertex leaks", "vertices leak")) "; "
@@ -125,7 +124,7 @@ fn places(i: usize, drawing: &Drawing, row: &Shown) -> Markup {
                 }
             }
             @if 0 < row.marked {
-                div.scroll role="group" aria-label={ "Places of " (label(row.result)) } tabindex="0" {
+                div.scroll role="group" aria-label={ "Places of " (row.result.label()) } tabindex="0" {
                     table {
                         thead { tr { th scope="col" { "place" } th.text scope="col" { "what" } th scope="col" { "rays" } th.text scope="col" { (drawing.faces()) } th.text scope="col" { "the first ray again" } } }
                         tbody {

@@ -74,13 +74,15 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// Lines that belong to it, indented below.
     pub below: Vec<String>,
+    /// The title of the folded part that has all about it, if that is not the label.
+    pub about: Option<String>,
 }
 
 impl Row {
     /// A row without lines below it.
     pub fn new<C: Into<Cell>>(label: impl Into<String>, cells: impl IntoIterator<Item = C>) -> Row {
         let cells = cells.into_iter().map(Into::into).collect();
-        Row { label: label.into(), cells, below: Vec::new() }
+        Row { label: label.into(), cells, ..Row::default() }
     }
 }
 

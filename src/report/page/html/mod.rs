@@ -60,7 +60,7 @@ fn within(page: &Page, mut limit: usize) -> String {
     add_anchors(&page.blocks, &mut anchors);
     let mut room = Room::new(limit.saturating_sub(around));
     let writer = Writer { anchors: &anchors, used: RefCell::default() };
-    let blocks = writer.blocks(&page.blocks, &mut room);
+    let blocks = writer.blocks(&page.blocks, 0, &mut room);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -128,7 +128,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     /// Some blocks, as many as there is room for. Each folded part has its share of the room.
-    fn blocks(&self, all: &[Block], room: &mut Room) -> String {
+    fn blocks(&self, all: &[Block], depth: usize, room: &mut Room) -> String {
         let Some(mut own) = room.within(note(u64::MAX).len()) else { return String::new() };
         let mut text = String::new();
         let mut folded = all.iter().filter(|block| matches!(block, Block::Details(..))).count();
@@ -137,14 +137,14 @@ impl Writer<'_> {
                 Block::Details(title, inner) => {
                     let mut part = own.part(own.left() / folded);
                     folded -= 1;
-                    let head =
-                        html! { summary { h3 { (shortened(title, LONGEST)) } } }.into_string();
+                    let head = html! { summary { (heading(title, depth)) } }.into_string();
                     let start = format!(
                         "<details class=\"kernel\" id=\"{}\">{head}<div class=\"body\">",
                         self.id(title)
                     );
-                    text +=
-                        &part.frame(&start, "</div></details>", |part| self.blocks(inner, part));
+                    text += &part.frame(&start, "</div></details>", |part| {
+                        self.blocks(inner, depth + 1, part)
+                    });
                     own.take_back(part);
                 }
                 Block::Items(Items { items, .. }) => {
@@ -160,6 +160,9 @@ impl Writer<'_> {
                     text += &own.frame(&start, &end, |room| {
                         room.fill(table.rows.iter(), |row| self.row(table, row).into_string())
                     });
+                }
+                Block::Heading(title) => {
+                    own.add(&mut text, &heading(title, depth).into_string());
                 }
                 block => _ = own.add(&mut text, &self::block(block).into_string()),
             }
@@ -183,7 +186,7 @@ impl Writer<'_> {
     }
 
     fn row(&self, table: &Table, row: &Row) -> Markup {
-        let anchor = anchor(&row.label);
+        let anchor = anchor(row.about.as_ref().unwrap_or(&row.label));
         html! {
             tr {
                 th scope="row" {
@@ -224,9 +227,18 @@ fn sort_key(share: Option<f64>, text: &str) -> Option<String> {
     Some(format!("{number:.3e}"))
 }
 
+/// A heading, the deeper the smaller.
+fn heading(title: &str, depth: usize) -> Markup {
+    let title = shortened(title, LONGEST);
+    match depth {
+        0 => html! { h2 { (title) } },
+        1 => html! { h3 { (title) } },
+        _ => html! { h4 { (title) } },
+    }
+}
+
 fn block(block: &Block) -> Markup {
     match block {
-        Block::Heading(text) => html! { h2 { (shortened(text, LONGEST)) } },
         Block::Text(text) => html! { @if !text.is_empty() { p { (shortened(text, LONGEST)) } } },
         Block::Notes(notes) => list(notes),
         Block::Use(Use { lead, text, notes }) => html! {
@@ -261,7 +273,7 @@ fn block(block: &Block) -> Markup {
             }
         },
         Block::Stage(stage) => PreEscaped(stage.markup.clone()),
-        Block::Table(_) | Block::Items(_) | Block::Details(..) => html! {},
+        Block::Heading(_) | Block::Table(_) | Block::Items(_) | Block::Details(..) => html! {},
     }
 }
 
