@@ -2,13 +2,16 @@
 
 use super::exit::{Failure, Status};
 use super::input::read_record;
-use super::output::write_result;
-use crate::expect::{Trend, difference};
-use crate::report::write_json;
-use clap::{Args, ValueEnum};
+use super::output::OutputArguments;
+use crate::expect::{Comparison, Trend, difference};
+use crate::report::{Format, write_json};
+use clap::Args;
 
 /// The arguments of `diff`: the records to compare, and how to report.
 #[derive(Args)]
+#[command(mut_arg("format", |format| {
+    format.help("text, json, markdown or html, or several separated by commas")
+}))]
 pub struct DiffArguments {
     /// The earlier record, as `--format json` wrote it
     old: String,
@@ -20,34 +23,26 @@ pub struct DiffArguments {
     #[arg(long)]
     exit_code: bool,
 
-    /// The format of the output
-    #[arg(long, value_enum, default_value_t)]
-    format: DiffFormat,
-
-    /// Where to write; - is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: String,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum DiffFormat {
-    #[default]
-    Text,
-    Json,
-}
+const FORMATS: &[Format<Comparison>] = &[
+    Format::TEXT,
+    Format { name: "json", write: |comparison, _, out| write_json(comparison, out) },
+    Format::MARKDOWN,
+    Format::HTML,
+];
 
 /// Runs the command.
 pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
+    let pairs = arguments.output.pairs(FORMATS)?;
     let (old, new) = (read_record(&arguments.old)?, read_record(&arguments.new)?);
     let comparison = difference(&old.result, &new.result);
     let nothing = comparison.common == 0;
     // It is printed, but no file becomes a comparison of nothing.
-    if !nothing || arguments.output == "-" {
-        write_result(&arguments.output, |out| match arguments.format {
-            DiffFormat::Text => comparison.write(out),
-            DiffFormat::Json => write_json(&comparison, out),
-        })?;
-    }
+    let is_printed = |(_, output): &(_, &str)| !nothing || *output == "-";
+    arguments.output.write(pairs.into_iter().filter(is_printed).collect(), &comparison)?;
     if nothing {
         let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));

@@ -3,13 +3,13 @@
 use super::changed::{Change, UNSURE, changed_case};
 use super::compare::tail;
 use crate::audit::Digest;
+use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
     Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
     group_digits, rate_of,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, Write};
 
 /// The trend of a class of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -234,64 +234,68 @@ impl Judge {
     }
 }
 
-impl Comparison {
-    /// Writes it for people.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let how = if self.same_cases {
-            "the same cases: every difference counts"
-        } else {
-            "other cases, of some families at least: their rates differ if their Clopper-Pearson intervals at 0.05 / comparisons are disjoint"
+/// So many of each trend stand on the screen.
+const MOST: usize = 3;
+
+impl Paged for Comparison {
+    fn page(&self) -> Page {
+        let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
+        let [worse, better, other, same] =
+            [Trend::Worse, Trend::Better, Trend::Other, Trend::Insignificant].map(count);
+        let tone = match (worse, better) {
+            (0, 0) => Tone::Plain,
+            (0, _) => Tone::Good,
+            _ => Tone::Bad,
         };
-        writeln!(
-            out,
-            "{} classes of disagreement compared, on {how}",
-            group_digits(self.compared as u64)
-        )?;
-        for ContractChange { row, old, new } in &self.contracts {
-            writeln!(
-                out,
-                "{row} is judged by another contract, so its rates answer another question"
-            )?;
-            writeln!(out, "    before: {old}\n    now:    {new}")?;
+        let [shown_worse, shown_better, other, same] =
+            [worse, better, other, same].map(group_digits);
+        let answer = format!(
+            "{shown_worse} worse, {shown_better} better, {other} on other cases, {same} too little to tell"
+        );
+        let how = match self.same_cases {
+            true => "the same cases: every difference counts",
+            false => {
+                "other cases, of some families at least: their rates differ if their Clopper-Pearson intervals at 0.05 / \
+                 comparisons are disjoint"
+            }
+        };
+        let compared = group_digits(self.compared as u64);
+        let mut blocks =
+            vec![Block::Text(format!("{compared} classes of disagreement compared, on {how}"))];
+        let contract = |ContractChange { row, old, new }: &ContractChange| Item {
+            text: row.clone(),
+            notes: vec![format!("before: {old}"), format!("now: {new}")],
+            ..Item::default()
+        };
+        let title = "Judged by another contract, so that the rates answer another question";
+        blocks.extend(Block::items(title, 1, self.contracts.iter().map(contract).collect()));
+        for (count, whose) in [(self.only_old, "old"), (self.only_new, "new")] {
+            if 0 < count {
+                blocks.push(Block::Text(format!(
+                    "{} are of kernels, epsilons, scalars or families that only the {whose} record has",
+                    group_digits(count as u64)
+                )));
+            }
         }
         for (title, change) in [
             ("Worse", Trend::Worse),
             ("Better", Trend::Better),
             ("Other cases, as many", Trend::Other),
         ] {
-            let list: Vec<_> = self.differences.iter().filter(|d| d.change == change).collect();
-            if !list.is_empty() {
-                writeln!(out, "\n{title}")?;
-            }
-            for difference in list {
-                let share = |rate: &Rate| {
-                    format!("{} of {}", group_digits(rate.count), group_digits(rate.of))
-                };
-                let (old, new) = (share(&difference.old), share(&difference.new));
-                writeln!(out, "{}: {old} before, {new} now{}", difference.what, difference.shown)?;
-                if let Some(command) = &difference.command {
-                    writeln!(out, "    {command}")?;
-                }
-            }
+            let of_change = self.differences.iter().filter(|d| d.change == change);
+            blocks.extend(Block::items(title, MOST, of_change.map(Difference::item).collect()));
         }
-        let count = |change| self.differences.iter().filter(|d| d.change == change).count() as u64;
-        let [worse, better, other, same] =
-            [Trend::Worse, Trend::Better, Trend::Other, Trend::Insignificant]
-                .map(|change| group_digits(count(change)));
-        writeln!(
-            out,
-            "{worse} worse, {better} better, {other} on other cases, {same} too little to tell"
-        )?;
-        for (count, whose) in [(self.only_old, "old"), (self.only_new, "new")] {
-            if 0 < count {
-                writeln!(
-                    out,
-                    "{} are of kernels, epsilons, scalars or families that only the {whose} record has",
-                    group_digits(count as u64)
-                )?;
-            }
-        }
-        Ok(())
+        Page { command: "diff", title: answer, tone, blocks }
+    }
+}
+
+impl Difference {
+    fn item(&self) -> Item {
+        let share =
+            |rate: &Rate| format!("{} of {}", group_digits(rate.count), group_digits(rate.of));
+        let (old, new) = (share(&self.old), share(&self.new));
+        let text = format!("{}: {old} before, {new} now{}", self.what, self.shown);
+        Item { text, lines: self.command.iter().cloned().collect(), ..Item::default() }
     }
 }
 

@@ -15,6 +15,7 @@ pub(crate) mod elsewhere;
 #[cfg(feature = "studies")]
 pub mod epsilon;
 #[cfg(feature = "studies")]
+pub mod explain;
 pub mod formats;
 #[cfg(feature = "cli")]
 mod illustrate;

@@ -326,7 +326,7 @@ fn a_class_that_is_gone_is_shown_with_the_new_library() {
             [&run.split(' ').collect::<Vec<_>>()[..], &["--kernel-lib", &library, "-o", &record]];
         ends(&folder, &words.concat(), 0);
     }
-    let (out, _) = program::ends(&folder, &["diff", "first.json", "better.json"], 0);
+    let (out, _) = program::ends(&folder, &["diff", "first.json", "better.json", "--details"], 0);
     let gone: Vec<&str> = out
         .lines()
         .skip_while(|line| !line.contains("interior: false-miss") || !line.contains(", 0 of"))

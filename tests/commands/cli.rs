@@ -568,29 +568,29 @@ fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
 #[test]
 fn exact_margins_are_right_where_a_factor_leaves_the_range_of_f64() {
     let explain = |case: &str| {
-        let output = hairline(&["explain", case, "--kernel", "plane-unit-normal"]);
+        let arguments = ["explain", case, "--kernel", "plane-unit-normal", "--format", "json"];
+        let output = hairline(&arguments);
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-        let lines = text(&output.stdout);
-        let words = lines.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
-        words.collect::<Vec<_>>().join("\n")
+        json(&output)["triangles"][0]["rows"][0]["gates"].clone()
     };
-    let gate = |out: &str, gate: &str| {
-        let start = format!("{gate} margin ");
-        out.lines().find(|line| line.starts_with(&start)).expect("a line a gate").to_owned()
+    let exact = |gates: &serde_json::Value, name: &str| {
+        let gate = gates.as_array().unwrap().iter().find(|gate| gate["gate"] == name).unwrap();
+        gate["exact"].as_str().unwrap().to_owned()
     };
     // The normal has length 1e-320, a double with few digits, and n·d is still 1.
     let case = r#"{"scalar":"f64","origin":[0,0,1],"direction":[0,0,-1],"a":[0,0,0],"b":[1e-160,0,0],"c":[0,1e-160,0]}"#;
-    let out = explain(case);
-    assert!(gate(&out, "parallel").contains("(exactly 1.000000e0)"), "{out}");
+    assert_eq!(exact(&explain(case), "parallel"), "1.000000e0");
     // One of `range-ends`.
     let out = explain(
         r#"{"scalar":"f64","origin":[0,1.307417906300652e-147,9.357568648109375e-129],"direction":[-2.010587294856603e68,1.2786583404417773e-26,-9.357568648109375e-129],"a":[-2.010587294856603e68,1.2786583404417773e-26,4.278987726543438e-183],"b":[7.135326654204777e-221,-2.2667036188029826e212,6.997413646268349e274],"c":[-1.0055630559043359e-44,6.4704406234944485e-93,-2.696317217341118e-112]}"#,
     );
-    assert!(out.contains("(exactly 6.470441e-93)") && !out.contains("NaN)"), "{out}");
+    let all: Vec<String> = ["parallel", "t", "edge"].iter().map(|gate| exact(&out, gate)).collect();
+    assert!(all.iter().any(|exact| exact == "6.470441e-93"), "{all:?}");
+    assert!(all.iter().all(|exact| exact != "NaN"), "{all:?}");
     // The product of two edges is beyond the doubles.
     let wide = case.replace("1e-160", "1e200").replace("[0,0,1]", "[1e199,1e199,1]");
     let out = explain(&wide);
-    assert!(gate(&out, "edge").contains("e399)"), "{out}");
+    assert!(exact(&out, "edge").ends_with("e399"), "{out}");
 }
 
 #[test]
@@ -601,27 +601,14 @@ fn explain_shows_on_which_side_of_the_epsilon_a_margin_lies() {
         let epsilon = format!("parallel={epsilon}");
         let out =
             text(&hairline(&["explain", case, "--kernel", kernel, "--epsilon", &epsilon]).stdout);
-        let line = out.lines().find(|line| line.starts_with("    parallel"));
-        line.expect("a gate").split("   [").next().unwrap().to_owned()
+        out.lines().find(|line| line.starts_with("parallel")).expect("a gate").to_owned()
     };
     for (kernel, epsilon, expected) in [
-        (
-            "moller-trumbore",
-            "2.9955555e-19",
-            "margin 2.9955555e-19 (exactly 2.9955555e-19) at e = 2.9955555e-19: passes",
-        ),
-        (
-            "moller-trumbore",
-            "2.9955552e-19",
-            "margin 2.99555549e-19 (exactly 2.99555549e-19) at e = 2.9955552e-19: passes",
-        ),
+        ("moller-trumbore", "2.9955555e-19", "2.9955555e-19 2.9955555e-19 2.9955555e-19 passes"),
+        ("moller-trumbore", "2.9955552e-19", "2.99555549e-19 2.99555549e-19 2.9955552e-19 passes"),
         // A gate that refuses x <= e accepts what is below x.
-        (
-            "cramer",
-            "2.9955555e-19",
-            "margin 2.995555e-19 (exactly below 2.9955555e-19) at e = 2.9955555e-19: refuses",
-        ),
-        ("moller-trumbore", "1e-6", "margin 2.995555e-19 (exactly 2.995555e-19) at e = 1e-6: ref"),
+        ("cramer", "2.9955555e-19", "2.995555e-19 below 2.9955555e-19 2.9955555e-19 refuses"),
+        ("moller-trumbore", "1e-6", "2.995555e-19 2.995555e-19 1e-6 ref"),
     ] {
         let line = parallel(kernel, epsilon);
         let words = line.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -114,7 +114,7 @@ fn a_file_may_hold_both_and_a_case_is_explained_as_it_is_judged() {
         ends(&folder, &[&before[..], &[corpus], rest].concat(), 0);
     }
     ends(&folder, &["merge", "0.json", "1.json", "-q"], 0);
-    let told = [&["explain", "secondary-ray@1/f32/-/1/0"], &flags[..2]].concat();
+    let told = [&["explain", "secondary-ray@1/f32/-/1/0", "--details"], &flags[..2]].concat();
     assert!(ends(&folder, &told, 0).0.contains(r#""starts":"on-triangle""#));
     // Where the exact ray crosses its triangle, the mark decides what is owed.
     let owed = |name: &str| {

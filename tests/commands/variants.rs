@@ -3,7 +3,7 @@
 
 use crate::program;
 
-use program::{ends, scratch};
+use program::{ends, flat, scratch};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
@@ -97,7 +97,8 @@ fn findings_of_a_variant_are_shown_again_and_attributed_in_its_arithmetic() {
     };
     assert!(explain("woop-watertight").contains("1 of 2 triangles hit"));
     assert!(
-        explain("woop-watertight+fma").contains("0 of 2 triangles hit; one hit is right: CRACK")
+        flat(&explain("woop-watertight+fma"))
+            .contains("0 of 2 triangles hit; one hit is right: CRACK")
     );
     // A triangle whose normal is small, and not yet subnormal, is hit in both.
     let tiny = r#"{"scalar":"f32","origin":[1,1,4],"direction":[0,0,-1],"a":[0,0,0],"b":["0x1p-40",0,0],"c":[0,"0x1p-40",0]}"#;

@@ -1,0 +1,387 @@
+//! An explanation from the case itself: every kernel runs here once more, as it is and without rounding.
+
+use super::advice::{advice, group_advice, of_line};
+use super::margin::margin_text;
+use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
+use crate::arith::{Exact, Float};
+use crate::audit::{
+    Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
+};
+use crate::case::Case;
+use crate::contract::Extent;
+use crate::corpus::lines::{self, StoredCase};
+use crate::family::Grouping;
+use crate::judge::{
+    ALLOWANCE, Finding, GroupTruth, Obligation, ValueErrors, asked, group_obligation, judge,
+    may_be_elsewhere, polygon_obligation, polygon_truth,
+};
+use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict, verdicts_of};
+use crate::oracle;
+use crate::report::epsilon::shortest;
+use crate::truth::{Feature, Truth};
+use serde_json::value::RawValue;
+use std::slice;
+
+/// One case, or the triangles of a group with one ray.
+#[derive(Clone, Copy)]
+pub struct Together<'a, F: Scalar> {
+    /// The ray and each triangle.
+    pub cases: &'a [Case<F>],
+    /// How they belong together.
+    pub grouping: Grouping,
+    /// The triangles of a mesh around those of the group; none if they are too many to be asked.
+    pub neighbours: Option<&'a [Case<F>]>,
+}
+
+/// Explains a case or a group with some rows.
+pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Explanation {
+    let is_secondary = group.grouping == Grouping::SecondaryRay;
+    let triangle = |case: &Case<F>| TrianglePart {
+        rows: rows.iter().map(|row| row_part(case, is_secondary, row)).collect(),
+        ..of_case(case, is_secondary)
+    };
+    let triangles = group.cases.iter().map(triangle).collect();
+    let mut together = Vec::new();
+    if 1 < group.cases.len() {
+        for row in rows {
+            together.extend(group_part(group, row));
+            if group.grouping == Grouping::Polygon && row.entry.info.polygons {
+                together.extend(polygon_part(group.cases, row));
+            }
+        }
+    }
+    let case = if name.trim_start().starts_with('{') { "as given" } else { name };
+    let schema = "hairline-explanation/1";
+    Explanation { schema, case: case.to_owned(), scalar: F::NAME, triangles, together }
+}
+
+/// A number that reads back, without an exponent of 0.
+pub(super) fn number(x: f64) -> String {
+    let text = format!("{x:e}");
+    text.strip_suffix("e0").map_or(text.clone(), str::to_owned)
+}
+
+/// The inputs and the truth.
+fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
+    let labels = ["origin", "direction", "a", "b", "c"];
+    let vector = |(label, vector): (&str, [F; 3])| {
+        let [x, y, z] = vector.map(|x| number(x.to_f64()));
+        [label.to_owned(), x, y, z, vector.map(F::hex).join(" ")]
+    };
+    let inputs = labels.into_iter().zip(case.vectors()).map(vector).collect();
+    let stored = StoredCase { is_secondary, ..StoredCase::of(*case) };
+    let line = lines::write_case(&stored);
+    let from_boundary = exact_severity(case, Extent::Interval)
+        .map(|severity| [severity.in_space, severity.in_space * severity.edge_in_ulps]);
+    TrianglePart {
+        case: RawValue::from_string(line).expect("a case is written as JSON"),
+        truth: stored.truth_line(true),
+        from_boundary,
+        rows: Vec::new(),
+        in_words: oracle::define(case).truth.to_string(),
+        inputs,
+        interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t.to_f64()), t.hex()]),
+    }
+}
+
+/// The contract's demand on the triangles together, and the kernel's answer.
+fn group_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> {
+    let subject = F::subject(row.entry)?;
+    let (count, label) = (group.cases.len(), row.label());
+    let part =
+        |judged: String, is_wrong| Some(TogetherPart { row: label.clone(), judged, is_wrong });
+    match group_verdict(group, row, subject) {
+        Err(failure) => part(format!("{failure}; the group is not judged"), false),
+        Ok((hits, judged, is_wrong)) => {
+            let mut text = format!("{hits} of {count} triangles hit; {judged}");
+            if is_wrong {
+                text += &group_advice(group, row);
+            }
+            part(text, is_wrong)
+        }
+    }
+}
+
+/// How many triangles are hit, the judgement in words, and if it is wrong; or why there is none.
+pub(super) fn group_verdict<F: Scalar>(
+    group: Together<F>,
+    row: &Row,
+    subject: &dyn Subject<F>,
+) -> Result<(usize, &'static str, bool), String> {
+    let cases = group.cases;
+    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let mut verdicts = vec![Verdict::miss(None); cases.len()];
+    verdicts_of(subject, cases, &row.epsilons::<F>(), &mut verdicts);
+    if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
+        return Err(failure.to_string());
+    }
+    let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
+    let asked = group_obligation(cases, &truths, &row.contract, group.grouping);
+    let (judged, is_wrong) = match (asked, hits) {
+        (GroupTruth::Free, _) => ("nothing is asked of the group", false),
+        (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
+            ("one hit is right, and rounding may have moved it to a neighbour: elsewhere", false)
+        }
+        (GroupTruth::Crossing, 0) => ("one hit is right: CRACK", true),
+        (GroupTruth::Crossing, 1) => ("one hit is right", false),
+        (GroupTruth::Crossing, _) => ("one hit is right: DOUBLE", true),
+        (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) == odd => {
+            ("at a fold: the parity is right", false)
+        }
+        (GroupTruth::Fold { .. }, _) => ("at a fold: the parity is WRONG", true),
+    };
+    Ok((hits, judged, is_wrong))
+}
+
+/// True if a hit that a group lacks may be among the triangles around it, or these are too many.
+fn is_elsewhere<F: Scalar>(truth: &Truth, group: Together<F>, row: &Row) -> bool {
+    let Some(crossing) = truth.crossing() else { return false };
+    let Some(neighbours) = group.neighbours else { return true };
+    let Some(subject) = F::subject(row.entry) else { return false };
+    let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
+    let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
+    verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
+    may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
+}
+
+/// The kernel's answer on a polygon as a whole.
+fn polygon_part<F: Scalar>(cases: &[Case<F>], row: &Row) -> Option<TogetherPart> {
+    let subject = F::subject(row.entry)?;
+    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let owed = polygon_obligation(cases, &truths, &row.contract);
+    let verdict = polygon_verdict(subject, cases, &row.epsilons());
+    let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(&truths)));
+    let finding = judge(asked, union, row.entry.info.gives, &verdict);
+    let judged = answered(owed, &verdict, finding).judged();
+    Some(TogetherPart {
+        row: row.label(),
+        judged: format!("the polygon of {} corners as a whole: {judged}", cases.len() + 2),
+        is_wrong: finding.is_some(),
+    })
+}
+
+/// A verdict beside what is asked.
+fn answered<F>(owed: Obligation, verdict: &Verdict<F>, finding: Option<Finding>) -> RowPart {
+    let said = match verdict.failure {
+        Some(failure) => failure.to_string(),
+        None => if verdict.hit { "hit" } else { "miss" }.to_owned(),
+    };
+    let asked = match owed {
+        Obligation::MustHit => "a hit",
+        Obligation::MustMiss => "a miss",
+        Obligation::Free => "nothing",
+    };
+    RowPart { said, asked, finding: finding.map(Finding::name), ..RowPart::default() }
+}
+
+/// The answer of a row, and all that explains it.
+fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart {
+    let (kernel, set) = (row.entry.info.name.to_owned(), row.set.clone());
+    let contract = row.contract.describe();
+    let Some(subject) = F::subject(row.entry) else {
+        let said = format!("does not run in {}", F::NAME);
+        return RowPart { kernel, set, contract, said, ..RowPart::default() };
+    };
+    let truth = oracle::define(case).truth;
+    let epsilons: Vec<F> = row.epsilons();
+    let verdict = verdict_of(subject, case, &epsilons);
+    let owed = asked(case, &truth, &row.contract, is_secondary);
+    let gives = row.entry.info.gives;
+    let finding = judge((&row.contract, owed), (case, &truth), gives, &verdict);
+    let mut part = RowPart { kernel, set, contract, ..answered(owed, &verdict, finding) };
+    if verdict.failure.is_some() {
+        return part;
+    }
+    match subject.gated() {
+        Some(gated) => add_gates(&mut part, case, gated, &verdict, row),
+        None => add_epsilons(&mut part, case, subject, &verdict, row),
+    }
+    if let Some(finding) = finding {
+        let info = row.entry.info;
+        let asked = (&row.contract, owed);
+        let cause = match subject.gated() {
+            Some(_) => attribute(subject, case, &epsilons, &truth, asked),
+            None => attribute_by_running(subject, info, case, &epsilons, &truth, asked),
+        };
+        part.why = Some(in_words(cause, subject.gated().is_some()).to_owned());
+        part.advice = advice(case, is_secondary, row, (finding, cause), &verdict);
+    }
+    part.notes.extend(of_line(case, row, &verdict));
+    if verdict.hit {
+        part.values.push(values(gives, &verdict));
+        let tolerance = row.contract.value_tolerance;
+        part.values.extend(errors(case, &truth, finding, (gives, tolerance), &verdict));
+    }
+    part
+}
+
+/// The verdict of a kernel.
+pub(super) fn verdict_of<F: Scalar>(
+    subject: &dyn Subject<F>,
+    case: &Case<F>,
+    epsilons: &[F],
+) -> Verdict<F> {
+    let mut verdict = [Verdict::miss(None)];
+    verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
+    let [verdict] = verdict;
+    verdict
+}
+
+fn in_words(cause: Option<Attribution>, shows_gates: bool) -> &'static str {
+    match (cause, shows_gates) {
+        (Some(Attribution::Epsilon), false) => {
+            "epsilon (with every epsilon 0 it is right, and wrong with these)"
+        }
+        (Some(cause), _) => cause.describe(),
+        (None, true) => "cannot be told: it does not run in exact arithmetic",
+        (None, false) => {
+            "cannot be told: it does not show its formula, and has no epsilons at which it could be run otherwise"
+        }
+    }
+}
+
+/// The epsilons that the kernel was given, where it does not show its gates, and the margins that runs at other
+/// epsilons find.
+fn add_epsilons<F: Scalar>(
+    part: &mut RowPart,
+    case: &Case<F>,
+    subject: &dyn Subject<F>,
+    verdict: &Verdict<F>,
+    row: &Row,
+) {
+    let info = row.entry.info;
+    let epsilons: Vec<F> = row.epsilons();
+    let mut margins = vec![F::from_f64(f64::NAN); info.gates.len()];
+    if subject.tells_margins() {
+        subject.margins(info, slice::from_ref(case), &mut margins, &mut []);
+    }
+    if margins.iter().any(|margin| *margin == -F::infinity()) {
+        let note = "a miss whatever its epsilons are: none of its gates explains it";
+        part.notes.push(note.to_owned());
+    }
+    for (i, gate) in info.gates.iter().enumerate().filter(|(_, g)| g.epsilon != Tunable::Fixed) {
+        let (margin, e) = (margins[i], epsilons[i]);
+        let accepted = if margin == F::infinity() {
+            Some("at every e".to_owned())
+        } else if margin.is_nan() || margin == -F::infinity() {
+            None
+        } else {
+            Some(margin_text(&Exact::from_f64(margin.to_f64()), e, false))
+        };
+        let decides = !verdict.hit && margin.to_f64().is_finite() && margin < e;
+        part.gates.push(GatePart {
+            gate: gate.name,
+            refuses: gate.refuses,
+            epsilon: Some(shortest(e)),
+            margin: accepted,
+            decision: decides.then_some("refuses"),
+            decides,
+            ..GatePart::default()
+        });
+    }
+    let note = "it does not show its formula: no exact margins, no run without rounding";
+    part.notes.push(note.to_owned());
+}
+
+/// Each gate's margin, computed and exact, and what it decided.
+fn add_gates<F: Scalar>(
+    part: &mut RowPart,
+    case: &Case<F>,
+    gated: &dyn Gated<F>,
+    verdict: &Verdict<F>,
+    row: &Row,
+) {
+    let epsilons: Vec<F> = row.epsilons();
+    let measured = gated.measure(case);
+    let exact = gated.measure_exact(case);
+    let exact_run = gated.run_exact(case, &epsilons);
+    let word = |passes: bool| if passes { "passes" } else { "refuses" };
+    for (i, gate) in row.entry.info.gates.iter().enumerate() {
+        let (margin, e) = (measured.margins[i], epsilons[i]);
+        let exactly = exact_run.as_ref().map(|run| word(run.passed[i]));
+        let numbers = (gate.epsilon != Tunable::Fixed).then(|| {
+            let computed = margin_text(&Exact::from_f64(margin.to_f64()), e, false);
+            let exact = margin_text(&exact.margins[i], e, exactly == Some(word(false)));
+            [shortest(e), computed, exact]
+        });
+        let [epsilon, computed, exact] = numbers.map_or([None, None, None], |all| all.map(Some));
+        part.gates.push(GatePart {
+            gate: gate.name,
+            refuses: gate.refuses,
+            epsilon,
+            margin: computed,
+            exact,
+            decision: Some(word(margin >= e)),
+            exactly,
+            decides: verdict.refused_by == Some(i as u8),
+        });
+    }
+    part.without_rounding = exact_run.map(|run| if run.hit() { "hit" } else { "miss" });
+}
+
+/// The values that a hit reports.
+fn values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> String {
+    let mut values = Vec::new();
+    if gives.t {
+        values.push(format!("t = {}", number(verdict.t.to_f64())));
+    }
+    if gives.uv {
+        let [u, v] = [verdict.u, verdict.v].map(|x| number(x.to_f64()));
+        values.push(format!("u = {u}, v = {v}"));
+    }
+    if gives.facing {
+        values.push(format!("facing {}", verdict.facing.map_or("unknown", |facing| facing.name())));
+    }
+    if values.is_empty() {
+        values.push("the hit alone".to_owned());
+    }
+    format!("reports {}", values.join(", "))
+}
+
+/// How far the values of a right hit are from the exact ones.
+fn errors<F: Scalar>(
+    case: &Case<F>,
+    truth: &Truth,
+    finding: Option<Finding>,
+    (gives, tolerance): (Gives, f64),
+    verdict: &Verdict<F>,
+) -> Vec<String> {
+    let Some(crossing) = truth.crossing() else { return Vec::new() };
+    if crossing.feature == Feature::Outside || finding == Some(Finding::FalseHit) {
+        return Vec::new();
+    }
+    let mut all = Vec::new();
+    if finding == Some(Finding::WrongValue) {
+        let errors = ValueErrors::of(case, truth, gives, verdict);
+        all = wrong_values(&errors, verdict, tolerance);
+    }
+    let Errors { t, uv, point } = Errors::of(case, crossing, gives, verdict);
+    let named = [("t", t), ("u, v", uv), ("o + t d", point)];
+    let parts: Vec<String> = named
+        .iter()
+        .filter_map(|(name, error)| error.map(|error| format!("{name} by {error:.3e}")))
+        .collect();
+    if !parts.is_empty() {
+        all.push(format!("off by ulps: {}", parts.join(", ")));
+    }
+    all
+}
+
+/// Each value beside its exact one, and how many times the error of rounding it is off.
+fn wrong_values<F: Scalar>(
+    errors: &ValueErrors,
+    verdict: &Verdict<F>,
+    tolerance: f64,
+) -> Vec<String> {
+    let reported = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
+    let wrong = (0..3).filter(|which| errors.is_wrong(*which, tolerance)).map(|which| {
+        let (name, times) = (["t", "u", "v"][which], errors.times[which].unwrap_or_default());
+        let (reported, exact) = (reported[which], errors.exact[which]);
+        format!(
+            "wrong {name}: reported {reported:e}, exactly {exact:.9e}; off by {times:.3e} u·κ, the size of one rounding \
+             (up to {ALLOWANCE} is allowed)"
+        )
+    });
+    let point = format!("the point is off by {:.3e} longest edges", errors.edges);
+    wrong.chain([point]).collect()
+}

@@ -1,0 +1,140 @@
+//! One case explained: its exact truth, the verdict of each kernel with every gate behind it, the cause where it is wrong,
+//! and the changes that make it right here.
+
+mod advice;
+mod build;
+mod margin;
+mod page;
+
+pub use build::{Together, explain};
+
+use super::{Format, write_json};
+use crate::corpus::truth_json::TruthLine;
+use serde::Serialize;
+use serde_json::value::RawValue;
+
+/// A case or a group explained.
+#[derive(Debug, Serialize)]
+pub struct Explanation {
+    /// `hairline-explanation/1`.
+    pub schema: &'static str,
+    /// Its id or name, or `as given`.
+    pub case: String,
+    /// `f32` or `f64`.
+    pub scalar: &'static str,
+    /// Each triangle with the ray.
+    pub triangles: Vec<TrianglePart>,
+    /// The rows on all triangles together; none of a single one.
+    pub together: Vec<TogetherPart>,
+}
+
+/// A triangle and the ray.
+#[derive(Debug, Serialize)]
+pub struct TrianglePart {
+    /// As a corpus stores it.
+    pub case: Box<RawValue>,
+    /// The exact answer, fractions included.
+    pub truth: TruthLine,
+    /// How far the line passes from the triangle's boundary, in longest edges and in ulps of the largest coordinate; none
+    /// where there is no such distance.
+    pub from_boundary: Option<[f64; 2]>,
+    /// Every row.
+    pub rows: Vec<RowPart>,
+    /// The exact answer in words.
+    #[serde(skip)]
+    pub in_words: String,
+    /// The vectors in numbers and in bits, each with its name.
+    #[serde(skip)]
+    pub inputs: Vec<[String; 5]>,
+    /// The least and the greatest t, each with its bits.
+    #[serde(skip)]
+    pub interval: [[String; 2]; 2],
+}
+
+/// The answer of a row on one triangle.
+#[derive(Debug, Default, Serialize)]
+pub struct RowPart {
+    /// The kernel.
+    pub kernel: String,
+    /// The name of its epsilons.
+    pub set: String,
+    /// `hit`, `miss`, or why it has no verdict.
+    pub said: String,
+    /// What its contract asks: `a hit`, `a miss` or `nothing`.
+    pub asked: &'static str,
+    /// The finding, if it is wrong.
+    pub finding: Option<&'static str>,
+    /// The contract.
+    pub contract: String,
+    /// Its gates, in the order of the test.
+    pub gates: Vec<GatePart>,
+    /// The verdict of the same formula without rounding.
+    pub without_rounding: Option<&'static str>,
+    /// The cause, if it is wrong.
+    pub why: Option<String>,
+    /// The changes that make it right here, each tried.
+    pub advice: Vec<String>,
+    /// The values of a hit, and how far they are off.
+    pub values: Vec<String>,
+    /// What else there is to say.
+    pub notes: Vec<String>,
+}
+
+/// A gate of a row on one triangle.
+#[derive(Debug, Default, Serialize)]
+pub struct GatePart {
+    /// Its name.
+    pub gate: &'static str,
+    /// Its comparison, `e` standing for the epsilon.
+    pub refuses: &'static str,
+    /// The epsilon; none if it takes none.
+    pub epsilon: Option<String>,
+    /// What it compares, as computed.
+    pub margin: Option<String>,
+    /// The same without rounding.
+    pub exact: Option<String>,
+    /// `passes` or `refuses`; none where the kernel does not show it.
+    pub decision: Option<&'static str>,
+    /// The decision without rounding.
+    pub exactly: Option<&'static str>,
+    /// True if this gate made the verdict.
+    pub decides: bool,
+}
+
+/// The answer of a row on all triangles.
+#[derive(Debug, Serialize)]
+pub struct TogetherPart {
+    /// `kernel (epsilons)`.
+    pub row: String,
+    /// A sentence.
+    pub judged: String,
+    /// True if it breaks what is asked of them together.
+    pub is_wrong: bool,
+}
+
+/// One row per format.
+pub const EXPLAIN_FORMATS: &[Format<Explanation>] = &[
+    Format::TEXT,
+    Format { name: "json", write: |record, _, out| write_json(record, out) },
+    Format::MARKDOWN,
+    #[cfg(feature = "cli")]
+    Format::HTML,
+];
+
+impl RowPart {
+    /// `kernel (epsilons)`.
+    pub fn label(&self) -> String {
+        format!("{} ({})", self.kernel, self.set)
+    }
+
+    /// The verdict beside what is asked, in words.
+    pub fn judged(&self) -> String {
+        let judged = self.finding.map_or("as it should".to_owned(), str::to_uppercase);
+        format!("{}; its contract asks {}: {judged}", self.said, self.asked)
+    }
+
+    /// The gate that made the verdict.
+    pub fn decisive(&self) -> Option<&GatePart> {
+        self.gates.iter().find(|gate| gate.decides)
+    }
+}

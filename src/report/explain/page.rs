@@ -1,0 +1,225 @@
+//! The page of an explanation: the verdict, the gates that made it, the cause, what makes it right; then the truth and the
+//! inputs.
+
+use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
+use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
+
+/// With so many rows each is shown by itself.
+const MOST_ROWS: usize = 2;
+
+/// The most names in the title.
+const MOST_NAMES: usize = 3;
+
+impl Paged for Explanation {
+    fn page(&self) -> Page {
+        let (title, is_wrong) = self.answer();
+        let tone = if is_wrong { Tone::Bad } else { Tone::Plain };
+        let mut blocks = Vec::new();
+        // The title has the first.
+        for TogetherPart { row, judged, .. } in self.together.iter().skip(1) {
+            blocks.push(Block::Text(format!("{row}: {judged}")));
+        }
+        let several = 1 < self.triangles.len();
+        for (i, triangle) in self.triangles.iter().enumerate() {
+            if several {
+                blocks.push(Block::Heading(format!("triangle {i} of {}", self.triangles.len())));
+            }
+            let is_in_title = !several && triangle.rows.len() == 1;
+            blocks.extend(of_triangle(triangle, is_in_title));
+        }
+        let inputs = self
+            .triangles
+            .iter()
+            .flat_map(|triangle| [Block::Listing(format!("{}\n", triangle.case.get()))]);
+        blocks.push(Block::Details("The case as JSON".to_owned(), inputs.collect()));
+        let line = "the same with --format json, or --details".to_owned();
+        let what = "the case to store, and its exact fractions";
+        blocks.push(Block::Commands("next", vec![Command { line, what }]));
+        Page { command: "explain", title, tone, blocks }
+    }
+}
+
+impl Explanation {
+    /// The first sentence, and if something is wrong.
+    fn answer(&self) -> (String, bool) {
+        if let Some(TogetherPart { row, judged, is_wrong }) = self.together.first() {
+            let text = format!("{row} {}, all triangles together: {judged}", self.scalar);
+            return (text, *is_wrong);
+        }
+        let rows: Vec<&RowPart> =
+            self.triangles.iter().flat_map(|triangle| &triangle.rows).collect();
+        if let [row] = rows[..] {
+            let text = match row.said.starts_with("does not run") {
+                true => format!("{}: {}", row.label(), row.said),
+                false => format!("{}: {}", row.label(), row.judged()),
+            };
+            return (text, row.finding.is_some());
+        }
+        let wrong: Vec<String> =
+            rows.iter().filter(|row| row.finding.is_some()).map(|row| row.label()).collect();
+        let more = match wrong.len().saturating_sub(MOST_NAMES) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let names = wrong[..wrong.len().min(MOST_NAMES)].join(", ");
+        let (case, scalar) = (&self.case, self.scalar);
+        match wrong.len() {
+            0 => {
+                (format!("All {} rows do as they should on {case} in {scalar}.", rows.len()), false)
+            }
+            count => {
+                let text = format!(
+                    "{count} of {} rows are wrong on {case} in {scalar}: {names}{more}.",
+                    rows.len()
+                );
+                (text, true)
+            }
+        }
+    }
+}
+
+/// The rows on a triangle, its truth and its inputs.
+fn of_triangle(triangle: &TrianglePart, is_in_title: bool) -> Vec<Block> {
+    let rows = &triangle.rows;
+    let mut blocks = Vec::new();
+    if rows.len() <= MOST_ROWS {
+        for row in rows {
+            if !is_in_title {
+                blocks.push(Block::Heading(sentence(row)));
+            }
+            blocks.extend(of_row(row));
+        }
+    } else {
+        blocks.push(Block::Table(all_rows(rows)));
+        let each =
+            rows.iter().flat_map(|row| [vec![Block::Heading(sentence(row))], of_row(row)].concat());
+        blocks.push(Block::Details("Each row".to_owned(), each.collect()));
+    }
+    blocks.push(Block::Text(format!("truth {}{}", triangle.in_words, exact(triangle))));
+    if let Some([edges, ulps]) = triangle.from_boundary {
+        blocks.push(Block::Text(format!(
+            "the line passes {edges:.3e} of the longest edge ({ulps:.3e} ulps) from the boundary"
+        )));
+    }
+    blocks.push(Block::Table(inputs(triangle)));
+    let [[t_min, low], [t_max, high]] = &triangle.interval;
+    blocks.push(Block::Text(format!("t in [{t_min}, {t_max}] ({low} {high})")));
+    blocks
+}
+
+/// The exact values, where there are any: fractions are approximated.
+fn exact(triangle: &TrianglePart) -> String {
+    let truth = &triangle.truth;
+    let values = [("t", &truth.t_exact), ("u", &truth.u_exact), ("v", &truth.v_exact)];
+    let number = |text: &str| -> Option<f64> {
+        let (p, q) = text.split_once('/')?;
+        Some(p.parse::<f64>().ok()? / q.parse::<f64>().ok()?)
+    };
+    let values = values.iter().filter_map(|(name, value)| {
+        let text = value.as_ref()?.as_ref()?;
+        let number = number(text).filter(|number| number.is_finite())?;
+        Some(format!("{name} = {}", super::build::number(number)))
+    });
+    let values: Vec<String> = values.collect();
+    if values.is_empty() { String::new() } else { format!("; {}", values.join(", ")) }
+}
+
+fn sentence(row: &RowPart) -> String {
+    match row.said.starts_with("does not run") {
+        true => format!("{}: {}", row.label(), row.said),
+        false => format!("{}: {}", row.label(), row.judged()),
+    }
+}
+
+/// Why, what to do, and the gates.
+fn of_row(row: &RowPart) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let finding = row.finding.unwrap_or_default();
+    blocks.extend(row.why.iter().map(|why| Block::Text(format!("why the {finding}: {why}"))));
+    if !row.advice.is_empty() {
+        blocks.push(Block::text("what to do:"));
+        blocks.push(Block::Notes(row.advice.clone()));
+    }
+    blocks.extend(row.notes.iter().cloned().map(Block::Text));
+    if !row.gates.is_empty() {
+        blocks.push(Block::Table(gates(row)));
+    }
+    if let Some(verdict) = row.without_rounding {
+        blocks.push(Block::Text(format!("the same formula without rounding: {verdict}")));
+    }
+    blocks.extend(row.values.iter().cloned().map(Block::Text));
+    if !row.contract.is_empty() {
+        blocks.push(Block::Text(format!("contract: {}", row.contract)));
+    }
+    blocks
+}
+
+/// The gates in the order of the test; the comparison of each below it.
+fn gates(row: &RowPart) -> Table {
+    let runs = row.gates.iter().all(|gate| gate.exact.is_none() && gate.exactly.is_none());
+    let mut heads = vec![Head::of("gate")];
+    heads.push(Head::of(if runs { "accepts up to e =" } else { "compares" }));
+    if !runs {
+        heads.push(Head::of("exactly"));
+    }
+    heads.push(Head::of("e"));
+    heads.push(Head::text("decision"));
+    let text = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
+    let table_row = |gate: &GatePart| {
+        let mut decision = gate.decision.unwrap_or("-").to_owned();
+        let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);
+        if is_wrong {
+            decision += &format!(", WRONG: exactly {}", gate.exactly.unwrap_or_default());
+        }
+        if gate.decides {
+            decision += " <- decides";
+        }
+        let mut cells: Vec<Cell> = vec![text(&gate.margin).into()];
+        if !runs {
+            cells.push(text(&gate.exact).into());
+        }
+        cells.push(text(&gate.epsilon).into());
+        cells.push(Cell { text: decision, is_broken: is_wrong, share: None });
+        let below = vec![format!("refuses where {}", gate.refuses)];
+        Row { below, ..Row::new(gate.gate, cells) }
+    };
+    Table { heads, rows: row.gates.iter().map(table_row).collect() }
+}
+
+/// Many rows: the verdict of each, the gate that made it, and the cause.
+fn all_rows(rows: &[RowPart]) -> Table {
+    let heads = vec![
+        Head::of("kernel (epsilons)"),
+        Head::text("says"),
+        Head::text("is"),
+        Head::text("decided by"),
+        Head::text("cause"),
+    ];
+    let row = |row: &RowPart| {
+        let judged = match (row.asked, row.finding) {
+            ("", _) => "-".to_owned(),
+            (_, Some(finding)) => finding.to_uppercase(),
+            _ => "right".to_owned(),
+        };
+        let cause = row.why.as_ref().and_then(|why| why.split(" (").next()).unwrap_or_default();
+        let gate = row.decisive().map_or("", |gate| gate.gate);
+        let is_broken = row.finding.is_some();
+        let cells: [Cell; 4] = [
+            row.said.clone().into(),
+            Cell { text: judged, is_broken, share: None },
+            gate.to_owned().into(),
+            cause.to_owned().into(),
+        ];
+        Row::new(row.label(), cells)
+    };
+    Table { heads, rows: rows.iter().map(row).collect() }
+}
+
+/// The ray and the triangle, in numbers and in bits.
+fn inputs(triangle: &TrianglePart) -> Table {
+    let heads = ["", "x", "y", "z"].map(Head::of);
+    let heads = heads.into_iter().chain([Head::text("bits").optional()]).collect();
+    let row =
+        |[label, x, y, z, bits]: &[String; 5]| Row::new(label, [x, y, z, bits].map(String::clone));
+    Table { heads, rows: triangle.inputs.iter().map(row).collect() }
+}
