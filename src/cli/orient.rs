@@ -1,10 +1,10 @@
 //! `hairline orient`: orientation predicates on families of points, one case again, known cases.
 
-mod text;
+mod page;
 
 use super::exit::{Failure, Status};
 use super::flags::{case_count, chosen_scalars, unknown};
-use super::output::write_result;
+use super::output::OutputArguments;
 use super::progress::Progress;
 use crate::arith::Float;
 use crate::audit::EpsilonText;
@@ -13,12 +13,14 @@ use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
     Scalar, build, default_rows, find_family, find_known, show,
 };
-use crate::report::write_json;
-use clap::{Args, ValueEnum};
-use serde::Serialize;
+use clap::Args;
+use page::{CASE_FORMATS, Cases, FORMATS};
 
 /// The flags of `orient`: the run, and how it is reported.
 #[derive(Args)]
+#[command(mut_arg("format", |format| {
+    format.help("text, json, markdown or html, or several separated by commas")
+}))]
 pub struct OrientArguments {
     /// Dimension of the points: 2, 3 or both
     #[arg(long, value_delimiter = ',', value_name = "2|3", default_value = "2,3")]
@@ -62,37 +64,13 @@ pub struct OrientArguments {
     #[arg(long, conflicts_with_all = ["dimension", "scalar", "count", "seed"])]
     known: bool,
 
-    /// The format of the output
-    #[arg(long, value_enum, default_value_t)]
-    format: OutputFormat,
-
-    /// Where to write; - is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "-")]
-    output: String,
-
-    /// Print no progress
-    #[arg(long, short)]
-    quiet: bool,
-}
-
-#[derive(Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum OutputFormat {
-    /// For people; not stable
-    #[default]
-    Text,
-    /// One object, its schema versioned
-    Json,
-}
-
-/// Single cases as JSON.
-#[derive(Serialize)]
-struct CasesRecord<'a> {
-    schema: &'static str,
-    cases: &'a [CasePart],
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
+    let pairs = arguments.output.pairs(FORMATS)?;
     let scalars = chosen_scalars(&arguments.scalar)?;
     let rows = arguments.rows()?;
     if arguments.known {
@@ -119,15 +97,12 @@ pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
         count: arguments.count,
         seed: arguments.seed,
     };
-    let progress = Progress::new(plan.cases(), "cases", arguments.quiet);
+    let progress = Progress::new(plan.cases(), "cases", arguments.output.quiet);
     let sums = orientation::run(&plan, &progress);
     progress.finish();
     let record = build(&plan, &sums, progress.seconds(), rayon::current_num_threads());
     self_check(&record)?;
-    write_result(&arguments.output, |out| match arguments.format {
-        OutputFormat::Text => text::write(&record, out),
-        OutputFormat::Json => write_json(&record, out),
-    })?;
+    arguments.output.write(pairs, &record)?;
     Ok(Status::Success)
 }
 
@@ -207,19 +182,10 @@ fn shown<F: Scalar>(id: String, points: &Points<F>, rows: &[Row]) -> Result<Case
 
 impl OrientArguments {
     fn write_cases(&self, cases: &[(CasePart, Option<&Known>)]) -> Result<Status, Failure> {
-        write_result(&self.output, |out| match self.format {
-            OutputFormat::Text => cases.iter().try_for_each(|(case, known)| {
-                if let Some(known) = known {
-                    writeln!(out, "{}", known.why)?;
-                }
-                text::write_case(case, "", out)?;
-                if cases.len() > 1 { writeln!(out) } else { Ok(()) }
-            }),
-            OutputFormat::Json => {
-                let cases: Vec<CasePart> = cases.iter().map(|(case, _)| case.clone()).collect();
-                write_json(&CasesRecord { schema: SCHEMA, cases: &cases }, out)
-            }
-        })?;
+        let pairs = self.output.pairs(CASE_FORMATS)?;
+        let notes = cases.iter().map(|(_, known)| known.map_or("", |known| known.why)).collect();
+        let cases = cases.iter().map(|(case, _)| case.clone()).collect();
+        self.output.write(pairs, &Cases { schema: SCHEMA, cases, notes })?;
         Ok(Status::Success)
     }
 

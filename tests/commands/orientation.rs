@@ -279,7 +279,13 @@ fn the_command_reports_every_row_and_its_examples_show_again() {
 #[test]
 fn the_text_has_tables_and_cases() {
     let table = text(&hairline(&["-n", "500", "--dimension", "3", "--scalar", "f64", "-q"]));
-    for part in ["orient3d, f64, 500 cases", "robust::orient3d", "range-low", "First findings"] {
+    for part in [
+        "500 cases of each family",
+        "orient3d, f64",
+        "robust::orient3d",
+        "range-low",
+        "First findings",
+    ] {
         assert!(table.contains(part), "{part}: {table}");
     }
     assert!(!table.contains("orient2d") && !table.contains("f32"), "{table}");

@@ -1,4 +1,4 @@
-//! What makes a wrong verdict right: other epsilons, a comparison of t, more precision, another kernel. Each is tried on the
+//! Ways to make a wrong verdict right: other epsilons, a comparison of t, more precision, another kernel. Each is tried on the
 //! case before it is said.
 
 use super::build::{Together, group_verdict, number, verdict_of};

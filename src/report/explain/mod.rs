@@ -60,7 +60,7 @@ pub struct RowPart {
     pub set: String,
     /// `hit`, `miss`, or why it has no verdict.
     pub said: String,
-    /// What its contract asks: `a hit`, `a miss` or `nothing`.
+    /// The demand of its contract: `a hit`, `a miss` or `nothing`.
     pub asked: &'static str,
     /// The finding, if it is wrong.
     pub finding: Option<&'static str>,
@@ -76,7 +76,7 @@ pub struct RowPart {
     pub advice: Vec<String>,
     /// The values of a hit, and how far they are off.
     pub values: Vec<String>,
-    /// What else there is to say.
+    /// Further sentences.
     pub notes: Vec<String>,
 }
 
@@ -89,7 +89,7 @@ pub struct GatePart {
     pub refuses: &'static str,
     /// The epsilon; none if it takes none.
     pub epsilon: Option<String>,
-    /// What it compares, as computed.
+    /// The number that it compares, as computed.
     pub margin: Option<String>,
     /// The same without rounding.
     pub exact: Option<String>,
