@@ -33,6 +33,8 @@ mod secondary;
 mod shards;
 mod shrink;
 mod spawn;
+#[cfg(unix)]
+mod terminal;
 mod variants;
 mod vectors;
 mod worst;

@@ -1,7 +1,7 @@
 //! Orientation predicates as a page: which are right, one table a dimension and scalar, the first findings; and single cases.
 
 use crate::orientation::{AnswerPart, CasePart, Rate, Record, RowResult};
-use crate::report::page::{Block, Cell, Command, Head, Item, Page, Paged, Row, Table, Tone};
+use crate::report::page::{Block, Cell, Head, Item, Page, Paged, Row, Table, Tone};
 use crate::report::{Format, group_digits, percent, write_json};
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -74,8 +74,6 @@ impl Paged for Record {
             let title = format!("orient{}d, {}: each finding", head.0, head.1);
             blocks.push(Block::Details(title, vec![Block::Table(everything(self, *head))]));
         }
-        let line = "the same with --details, or --format html -o orient.html".to_owned();
-        blocks.push(Block::Commands("next", vec![Command { line, what: "each finding" }]));
         let (title, is_right) = answer(self);
         let tone = if is_right { Tone::Good } else { Tone::Plain };
         Page { command: "orient", title, tone, blocks }

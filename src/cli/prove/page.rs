@@ -74,16 +74,8 @@ fn of_one(report: &Report) -> Page {
     }
     blocks.push(Block::Details("What is supposed".to_owned(), vec![Block::text(SUPPOSED)]));
     let line = format!("hairline epsilon --kernel {name} {}", report.rays);
-    blocks.push(Block::Commands(
-        "next",
-        vec![
-            Command { line, what: "which epsilons to use" },
-            Command {
-                line: "the same with --details".to_owned(),
-                what: "everything that is proved",
-            },
-        ],
-    ));
+    let command = Command { line, what: "which epsilons to use" };
+    blocks.push(Block::Commands("next", vec![command]));
     let title = format!("{name}: what holds for every float");
     Page { command: "prove", title, tone: Tone::Plain, blocks }
 }

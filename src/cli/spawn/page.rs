@@ -25,13 +25,13 @@ impl Paged for SpawnRecord {
         self.points.iter().for_each(|part| blocks.extend(of_points(self, part)));
         blocks.push(Block::Terms(words(self)));
         blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
-        let everything = "the same with --details, or --format html -o spawn.html".to_owned();
         let commands = self.points.iter().filter_map(|part| part.best.as_ref()).take(1);
-        let mut commands: Vec<Command> = commands
-            .map(|best| Command { line: best.command.clone(), what: "this one alone" })
-            .collect();
-        commands.push(Command { line: everything, what: "" });
-        blocks.push(Block::Commands("next", commands));
+        let command =
+            |best: &BestPart| Command { line: best.command.clone(), what: "this one alone" };
+        let commands: Vec<Command> = commands.map(command).collect();
+        if !commands.is_empty() {
+            blocks.push(Block::Commands("next", commands));
+        }
         let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
         let title = format!("Where new rays must start in {}{unit}", self.scene);
         Page { command: "spawn", title, blocks, ..Page::default() }
@@ -102,9 +102,6 @@ fn answer(record: &SpawnRecord, part: &PointsPart) -> Vec<Block> {
     let one_in = group_digits(best.one_in);
     notes.push(format!(
         "no wrong side or self-hit on two seeds: 0 of {hits}, at most 1 in {one_in} (95 % sure){kinds}"
-    ));
-    notes.push(format!(
-        "half of the new rays start at most {median} of their triangle's longest edge above it"
     ));
     let text = format!("{}{}", best.scheme, describe(&best.scheme));
     vec![Block::Use(Use { lead: "use".to_owned(), text, notes })]

@@ -56,10 +56,8 @@ pub(super) fn of_kernel(
         all.push(Block::Notes(footer(record, part).into()));
         all
     }));
-    let mut commands: Vec<Command> =
+    let commands =
         answer.next.1.iter().map(|line| Command { line: line.clone(), what: "" }).collect();
-    let everything = "the same with --details, or --format html -o epsilon.html".to_owned();
-    commands.push(Command { line: everything, what: "" });
     blocks.push(Block::Commands(answer.next.0, commands));
     blocks
 }

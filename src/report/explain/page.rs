@@ -2,7 +2,7 @@
 //! inputs.
 
 use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
-use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
+use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 
 /// With so many rows each is shown by itself.
 const MOST_ROWS: usize = 2;
@@ -32,9 +32,6 @@ impl Paged for Explanation {
             .iter()
             .flat_map(|triangle| [Block::Listing(format!("{}\n", triangle.case.get()))]);
         blocks.push(Block::Details("The case as JSON".to_owned(), inputs.collect()));
-        let line = "the same with --format json, or --details".to_owned();
-        let what = "the case to store, and its exact fractions";
-        blocks.push(Block::Commands("next", vec![Command { line, what }]));
         Page { command: "explain", title, tone, blocks }
     }
 }

@@ -14,31 +14,31 @@ use crate::audit::Attribution;
 use crate::kernel;
 use crate::report::page::{Block, Cell, Head, Row, Table};
 
-/// Each row in each scalar.
+/// Each row in all scalars.
 pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Block> {
     let mut blocks = Vec::new();
-    let mut part: Option<&RowPart> = None;
-    let mut sorted: Vec<&Line> = lines.iter().collect();
-    sorted.sort_by_key(|line| {
-        record.result.plan.rows.iter().position(|row| std::ptr::eq(row, line.row.part))
-    });
-    for line in sorted {
-        if !part.is_some_and(|part| std::ptr::eq(part, line.row.part)) {
-            part = Some(line.row.part);
-            blocks.push(Block::Heading(format!(
-                "{}, contract: {}",
-                line.label(),
-                line.row.part.contract
-            )));
-            blocks.push(Block::Notes(gates(line)));
-        }
-        blocks.push(Block::Table(table(columns, line)));
-        blocks.push(Block::Notes(others(line)));
+    for part in &record.result.plan.rows {
+        let of_part = lines.iter().filter(|line| std::ptr::eq(line.row.part, part));
+        let of_part: Vec<&Line> = of_part.collect();
+        let Some(first) = of_part.first() else { continue };
+        blocks.push(Block::Heading(format!("{}, contract: {}", first.label(), part.contract)));
+        blocks.push(Block::Notes(gates(first)));
+        blocks.push(Block::Table(table(columns, &of_part)));
+        let notes = of_part.iter().flat_map(|line| {
+            let scalar = if of_part.len() == 1 { "" } else { line.row.scalar };
+            let lead = if scalar.is_empty() { String::new() } else { format!("{scalar}: ") };
+            others(line).into_iter().map(move |note| format!("{lead}{note}"))
+        });
+        blocks.push(Block::Notes(notes.collect()));
     }
-    blocks.push(Block::text(
-        "Shares of the cases that must be hit, and that must be missed, with 95 % intervals, on cases chosen to be hard; \
-         far off: a verdict wrong by over 1/1000 of the longest edge.",
-    ));
+    let intervals = match record.result.plan.scalars.len() {
+        1 => " with 95 % intervals,",
+        _ => "",
+    };
+    blocks.push(Block::Text(format!(
+        "Shares of the cases that must be hit, and that must be missed,{intervals} on cases chosen to be hard; far off: a \
+         verdict wrong by over 1/1000 of the longest edge."
+    )));
     let has_other_causes = |line: &Line| {
         let mut shares = [FindingKind::FalseMiss, FindingKind::FalseHit]
             .into_iter()
@@ -67,52 +67,70 @@ fn gates(line: &Line) -> Vec<String> {
     part.epsilons.iter().map(gate).collect()
 }
 
-/// A row of the table for each question.
-fn table(columns: &[Column], line: &Line) -> Table {
-    let heads = vec![
-        Head::of(line.row.scalar),
-        Head::of("false misses, %"),
-        Head::text("cause of most").optional(),
-        Head::of("false hits, %"),
-        Head::text("cause of most").optional(),
-        Head::of("far off, %").optional(),
-    ];
-    let mut rows = Vec::new();
-    for (column, cell) in columns.iter().zip(&line.cells) {
-        if cell.wrong.of == 0 {
-            continue;
+/// A row of the table for each question, and a column for each scalar.
+fn table(columns: &[Column], lines: &[&Line]) -> Table {
+    let scalars = || lines.iter().map(|line| line.row.scalar);
+    let mut heads = vec![Head::of(if lines.len() == 1 { lines[0].row.scalar } else { "" })];
+    for what in ["false misses", "false hits"] {
+        match lines.len() {
+            1 => heads.push(Head::of(format!("{what}, %"))),
+            _ => heads.extend(scalars().map(|scalar| Head::of(format!("{what}, % {scalar}")))),
         }
-        let results = column.results(&line.row);
-        // There a neighbour may take a ray that a triangle leaves, so only cracks are wrong.
-        if results.iter().all(|result| is_shared_in_scene(&result.family)) {
-            let across = results.iter().filter_map(|result| result.across.as_ref());
-            let cracks = Pool::of(across.map(|across| &across.cracks));
-            let words = if cracks.rate().count == 0 { "no cracks" } else { "cracks" };
-            let cells = [share_cell(cracks.rate()), words.to_owned().into()];
-            let empty = [(); 3].map(|()| Cell::default());
-            rows.push(Row::new(column.label(), cells.into_iter().chain(empty)));
-            continue;
-        }
-        let mut cells: Vec<Cell> = Vec::new();
-        for (kind, rate) in [
-            (FindingKind::FalseMiss, (|total| &total.false_misses) as fn(&Counts) -> &Rate),
-            (FindingKind::FalseHit, |total| &total.false_hits),
-        ] {
-            let pool = Pool::of(results.iter().map(|result| rate(&result.total)));
-            cells.push(match column.complete {
-                true => count_of(pool.counts()).into(),
-                false => share_cell(pool.rate()),
-            });
-            cells.push(cause(&results, kind).into());
-        }
-        let far: u64 = results
-            .iter()
-            .map(|r| far(r, FindingKind::FalseMiss) + far(r, FindingKind::FalseHit))
-            .sum();
-        cells.push(short_percent([far, cell.wrong.of]).into());
-        rows.push(Row::new(column.label(), cells));
+        heads.push(Head::text("cause of most").optional());
     }
-    Table { heads, rows }
+    heads.push(Head::of("far off, %").optional());
+    let rows = columns.iter().enumerate().filter_map(|(i, column)| row(column, i, lines));
+    Table { heads, rows: rows.collect() }
+}
+
+/// The row of a question; none if it demands nothing.
+fn row(column: &Column, place: usize, lines: &[&Line]) -> Option<Row> {
+    let cells: Vec<&super::columns::Cell> = lines.iter().map(|line| &line.cells[place]).collect();
+    if cells.iter().all(|cell| cell.wrong.of == 0) {
+        return None;
+    }
+    let results: Vec<Vec<&KernelResult>> =
+        lines.iter().map(|line| column.results(&line.row)).collect();
+    let mut row = Row::new::<Cell>(column.label(), []);
+    // There is no room for the intervals of several.
+    let share = |rate: &Rate| match lines.len() {
+        1 => share_cell(rate),
+        _ => share_cell(&Rate { interval: None, ..rate.clone() }),
+    };
+    // There a neighbour may take a ray that a triangle leaves, so only cracks are wrong.
+    if results.iter().flatten().all(|result| is_shared_in_scene(&result.family)) {
+        let cracks = results.iter().map(|results| {
+            let across = results.iter().filter_map(|result| result.across.as_ref());
+            Pool::of(across.map(|across| &across.cracks))
+        });
+        let cracks: Vec<Pool> = cracks.collect();
+        let has_cracks = cracks.iter().any(|pool| 0 < pool.rate().count);
+        row.cells.extend(cracks.iter().map(|pool| share(pool.rate())));
+        row.cells.push(if has_cracks { "cracks" } else { "no cracks" }.to_owned().into());
+        row.cells.resize_with(2 * lines.len() + 3, Cell::default);
+        return Some(row);
+    }
+    for (kind, rate) in [
+        (FindingKind::FalseMiss, (|total| &total.false_misses) as fn(&Counts) -> &Rate),
+        (FindingKind::FalseHit, |total| &total.false_hits),
+    ] {
+        let pools = results
+            .iter()
+            .map(|results| Pool::of(results.iter().map(|result| rate(&result.total))));
+        row.cells.extend(pools.map(|pool| match column.complete {
+            true => count_of(pool.counts()).into(),
+            false => share(pool.rate()),
+        }));
+        row.cells.push(cause(&results.concat(), kind).into());
+    }
+    let far: u64 = results
+        .iter()
+        .flatten()
+        .map(|r| far(r, FindingKind::FalseMiss) + far(r, FindingKind::FalseHit))
+        .sum();
+    let of = cells.iter().map(|cell| cell.wrong.of).sum();
+    row.cells.push(short_percent([far, of]).into());
+    Some(row)
 }
 
 /// Cracks and doubles, whole polygons, bad and wrong values, where there are any to count; and why no causes are told.
@@ -129,10 +147,11 @@ fn others(line: &Line) -> Vec<String> {
     if let Some(across) = &line.across {
         let [cracks, doubles] = [across.cracks, across.doubles].map(short_percent);
         let of = group_digits(across.cracks[1]);
-        let words = across.words();
-        all.push(format!(
-            "of {of} crossings {cracks} % cracks and {doubles} % doubles; promised across triangles: {words}"
-        ));
+        let promised = match across.words().as_str() {
+            "nothing" => String::new(),
+            words => format!("; promised across triangles: {words}"),
+        };
+        all.push(format!("of {of} crossings {cracks} % cracks and {doubles} % doubles{promised}"));
     }
     let polygons = |rate: fn(&PolygonPart) -> &Rate| {
         Pool::of(line.row.results.iter().filter_map(|result| result.polygons.as_ref()).map(rate))
@@ -150,14 +169,11 @@ fn others(line: &Line) -> Vec<String> {
     }
     let values = &line.values.wrong;
     if 0 < values.count {
-        let text = format!(
-            "wrong values in ordinary sizes: the t, u or v of {} hits that are not false is off by more than rounding \
-             explains, of {} by over 1/1000 of the longest edge; most: {}",
+        all.push(format!(
+            "wrong t, u or v: {} right hits, {} by over 1/1000 of an edge",
             count_of([values.count, values.of]),
             group_digits(line.values.far),
-            cause(&line.row.results, FindingKind::WrongValue).trim_end(),
-        );
-        all.push(text.trim_end_matches("; most: ").to_owned());
+        ));
     }
     all
 }

@@ -7,15 +7,11 @@ use crate::report::page::Command;
 
 /// The commands.
 pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) -> Vec<Command> {
-    let everything = Command {
-        line: "--details, or --format html -o report.html".to_owned(),
-        what: "everything",
-    };
     // The product of `verify` cannot be chosen by a flag.
     let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
     let rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
     let Some(first) = rows.first() else {
-        return vec![everything];
+        return Vec::new();
     };
     let tells_margins = |row: &&&RowPart| {
         let entry = kernel::find(&row.kernel);
@@ -47,7 +43,6 @@ pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) 
     let kernels = if kernels.is_empty() { String::new() } else { format!(" {kernels}") };
     let line = format!("hairline check{kernels}{all_sources} --bless");
     commands.push(Command { line, what: "gate a CI" });
-    commands.push(everything);
     commands
 }
 

@@ -38,10 +38,12 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> (St
     blocks.extend(of_elsewhere(record, columns, lines));
     let rows: Vec<&RowView> = lines.iter().map(|line| &line.row).collect();
     blocks.extend(failures(&rows).into_iter().map(Block::Text));
-    let worst = if is_close_up(record) { 3 } else { 1 };
+    let worst = if is_close_up(record) { 2 } else { 1 };
     blocks.extend(extremes::blocks(columns, lines, worst));
     let next = next::commands(record, ranking::best(&standings), lines);
-    blocks.push(Block::Commands("next", next));
+    if !next.is_empty() {
+        blocks.push(Block::Commands("next", next));
+    }
     (title, blocks)
 }
 
@@ -107,9 +109,7 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     let mean = match &special[..] {
         _ if meant <= 1 => place.clone(),
         [] => " (the mean of the rows)".to_owned(),
-        special => {
-            format!(" in ordinary sizes (the mean of all rows but {})", special.join(" and "))
-        }
+        special => format!(" in ordinary sizes (the mean without {})", special.join(" and ")),
     };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);
     let label = |standing: &Standing| format!("{} ({})", standing.part.kernel, standing.part.set);
@@ -127,7 +127,7 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             format!("{}: no false miss and no false hit{place}.", label(only))
         }
         [only] => format!(
-            "{} is wrong on {} % of the cases{mean}, {} times by over 1/1000 of the triangle's longest edge.",
+            "{} is wrong on {} % of the cases{mean}, {} times by over 1/1000 of an edge.",
             label(only),
             percent(only.share.unwrap_or_default()),
             group_digits(only.far),

@@ -43,10 +43,6 @@ impl Paged for MeshReport {
             let title = format!("Everything in {}", part.scalar);
             blocks.push(Block::Details(title, everything(record, part)));
         }
-        if asked {
-            let line = "the same with --details, or --format html -o mesh.html".to_owned();
-            blocks.push(Block::Commands("next", vec![Command { line, what: "the mesh, drawn" }]));
-        }
         Page { command: "mesh", title, tone, blocks }
     }
 }

@@ -11,7 +11,17 @@ pub(super) fn write(page: &Page, style: Style, out: &mut dyn Write) -> io::Resul
         write_wrapped(&page.title, style.width, out)?;
     }
     let mut writer = Writer { style, is_first: page.title.is_empty(), out };
-    writer.blocks(&page.blocks)
+    writer.blocks(&page.blocks)?;
+    let has_more = page.blocks.iter().any(|block| matches!(block, Block::Details(..)));
+    if style.details || !has_more {
+        return Ok(());
+    }
+    let last = page.blocks.iter().rev().find(|block| !matches!(block, Block::Details(..)));
+    let lead = match last {
+        Some(Block::Commands(lead, commands)) if !commands.is_empty() => " ".repeat(lead.len() + 1),
+        _ => "\nnext:".to_owned(),
+    };
+    writeln!(out, "{lead} the same with --details, or --format html -o {}.html", page.command)
 }
 
 struct Writer<'a> {
