@@ -39,14 +39,11 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
     let pairs = arguments.output.pairs(FORMATS)?;
     let (old, new) = (read_record(&arguments.old)?, read_record(&arguments.new)?);
     let comparison = difference(&old.result, &new.result);
-    let nothing = comparison.common == 0;
-    // It is printed, but no file becomes a comparison of nothing.
-    let is_printed = |(_, output): &(_, &str)| !nothing || *output == "-";
-    arguments.output.write(pairs.into_iter().filter(is_printed).collect(), &comparison)?;
-    if nothing {
+    if comparison.common == 0 {
         let message = "nothing to compare: the records have no kernel with its epsilons on a family in common";
         return Err(Failure::Message(Status::NothingSelected, message.to_owned()));
     }
+    arguments.output.write(pairs, &comparison)?;
     let is_worse = comparison.differences.iter().any(|found| found.change == Trend::Worse);
     Ok(if arguments.exit_code && is_worse { Status::Disagreements } else { Status::Success })
 }

@@ -6,7 +6,7 @@ use crate::audit::Digest;
 use crate::report::page::{Block, Item, Page, Paged, Tone};
 use crate::report::{
     Disagreement, KernelResult, Key, PartialPart, Rate, ResultPart, RowPart, disagreements,
-    group_digits, rate_of,
+    group_digits, number_of, rate_of,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,6 +57,8 @@ pub struct ContractChange {
 /// The comparison of two records: what they have in common, and where they differ.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
+    /// `hairline-diff/1`.
+    pub schema: &'static str,
     /// True if the cases of all families compared are the same, so that any difference counts.
     pub same_cases: bool,
     /// Kernels, epsilons, scalars and families, taken together, that both records have.
@@ -85,8 +87,10 @@ pub fn difference(old: &ResultPart, new: &ResultPart) -> Comparison {
     let judge = Judge { same_parts: old.partial == new.partial, tail: tail(common.len()) };
     let mut differences: Vec<Difference> =
         common.iter().filter_map(|key| judge.difference(key, &old, &new)).collect();
-    differences.sort_by_key(|difference| difference.change as u8);
+    let size = |it: &Difference| it.old.count.abs_diff(it.new.count);
+    differences.sort_by_key(|it| (it.change as u8, std::cmp::Reverse(size(it))));
     Comparison {
+        schema: "hairline-diff/1",
         same_cases: common.iter().all(|key| judge.same_cases(key, &old, &new)),
         common: old.results.keys().filter(|place| new.results.contains_key(*place)).count(),
         compared: common.len(),
@@ -249,8 +253,16 @@ impl Paged for Comparison {
         };
         let [shown_worse, shown_better, other, same] =
             [worse, better, other, same].map(group_digits);
+        let contracts = match self.contracts.len() as u64 {
+            0 => String::new(),
+            rows => {
+                let rows = number_of(rows, "row is", "rows are");
+                format!("; {rows} judged by another contract")
+            }
+        };
         let answer = format!(
-            "{shown_worse} worse, {shown_better} better, {other} on other cases, {same} too little to tell"
+            "{shown_worse} worse, {shown_better} better, {other} as often but on other cases, {same} too little to tell\
+             {contracts}"
         );
         let how = match self.same_cases {
             true => "the same cases: every difference counts",

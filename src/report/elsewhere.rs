@@ -52,7 +52,7 @@ pub(crate) fn blocks(
         let rates = [row.own].into_iter().chain(shown.iter().map(|place| row.others[*place]));
         Row::new(&row.label, rates.map(share))
     };
-    let mut blocks = vec![Block::Table(Table { heads, rows: worse.iter().map(row).collect() })];
+    let mut blocks = vec![Block::Table(Table::new(heads, worse.iter().map(row).collect()))];
     if !more.is_empty() {
         let more: Vec<&str> = more.iter().map(|place| others[*place].as_str()).collect();
         blocks.push(Block::text(format!("(also on {})", more.join(", "))));

@@ -40,23 +40,27 @@ for (const name of PAGES) {
     const table = page.locator("table.heat").first();
     const names = () => table.locator("tbody th").allTextContents();
     const values = (column) => table.locator("tbody tr").evaluateAll((all, column) =>
-      all.map((row) => Number(row.cells[column].dataset.v ?? -1)), column);
+      all.map((row) => Number(row.cells[column].dataset.v ?? NaN)), column);
     const before = await names();
     const columns = await table.locator("thead th").count();
-    assert.equal(await table.locator("thead button").count(), columns - 1);
     for (let column = 1; column < columns; column++) {
       const head = table.locator("thead th").nth(column);
+      // Words are not sorted.
+      if (await head.evaluate((head) => head.classList.contains("text"))) continue;
       await head.getByRole("button").focus();
       await page.keyboard.press("Enter");
       assert.equal(await head.getAttribute("aria-sort"), "descending");
+      const sorted = (all, order) => {
+        const numbers = all.filter((value) => !Number.isNaN(value));
+        return [...numbers.sort(order), ...all.filter((value) => Number.isNaN(value))];
+      };
       const down = await values(column);
-      assert.deepEqual(down, [...down].sort((a, b) => b - a));
+      assert.deepEqual(down, sorted(down, (a, b) => b - a), "dashes stand last");
       assert.equal(await table.locator("[aria-sort]").count(), 1);
       await page.keyboard.press("Space");
       assert.equal(await head.getAttribute("aria-sort"), "ascending");
       const up = await values(column);
-      const numbers = up.filter((share) => share !== -1);
-      assert.deepEqual(up, [...numbers.sort((a, b) => a - b), ...up.filter((share) => share === -1)], "dashes stand last");
+      assert.deepEqual(up, sorted(up, (a, b) => a - b), "dashes stand last");
       await page.keyboard.press("Enter");
       assert.equal(await head.getAttribute("aria-sort"), null);
       assert.deepEqual(await names(), before);

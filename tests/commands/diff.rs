@@ -21,12 +21,14 @@ fn the_same_cases_differ_by_count_and_other_cases_by_intervals() {
     let (same, _) = ends(&folder, &["diff", "one.json", "one.json"], 0);
     assert!(same.contains("the same cases"), "{same}");
     assert!(
-        same.starts_with("0 worse, 0 better, 0 on other cases, 0 too little to tell\n"),
+        same.starts_with(
+            "0 worse, 0 better, 0 as often but on other cases, 0 too little to tell\n"
+        ),
         "{same}"
     );
     let (seed, _) = ends(&folder, &["diff", "one.json", "seed.json"], 0);
     assert!(
-        seed.contains("intervals") && seed.starts_with("0 worse, 0 better, 0 on other"),
+        seed.contains("intervals") && seed.starts_with("0 worse, 0 better, 0 as often"),
         "{seed}"
     );
     assert!(!seed.contains(" 0 too little"), "{seed}");
@@ -111,7 +113,10 @@ fn triangles_of_one_ray_that_are_wrong_together_are_no_difference() {
     }
     // As independent trials, 162 of 166 false misses at a vertex differ from 122 of 145.
     let (out, _) = ends(&folder, &["diff", "27.json", "77.json"], 0);
-    assert!(out.starts_with("0 worse, 0 better, 0 on other cases, 4 too little"), "{out}");
+    assert!(
+        out.starts_with("0 worse, 0 better, 0 as often but on other cases, 4 too little"),
+        "{out}"
+    );
     // Trials with a ray of their own have nothing to say about it.
     let record = fs::read_to_string(folder.join("27.json")).unwrap();
     let record: serde_json::Value = serde_json::from_str(&record).unwrap();

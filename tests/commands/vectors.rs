@@ -334,8 +334,8 @@ fn every_report_of_an_audit_is_one_of_results_and_each_case_in_it_is_explained()
     assert!(text.contains(&format!("{group}: 0, expected exactly-one (")), "{text}");
     let (_, error) = ends(&scratch("verify-unknown"), &["explain", "edges-0000000000000000"], 2);
     assert!(error.contains("no test of the core set of vectors"), "{error}");
-    for (id, line) in [(single, "truth transversal"), (group, "together"), (end, ", t at_m")] {
-        let (explained, _) = ends(&scratch("verify-explain"), &["explain", &id], 0);
+    for (id, line) in [(single, "truth  transversal"), (group, "together"), (end, ", t at_m")] {
+        let (explained, _) = ends(&scratch("verify-explain"), &["explain", &id, "--details"], 0);
         assert!(explained.contains(line), "{explained}");
     }
     // One wrong answer less: better, and nothing worse.

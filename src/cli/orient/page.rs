@@ -54,9 +54,13 @@ impl Paged for Record {
             blocks.push(Block::Table(table(self, *head)));
         }
         blocks.push(Block::text(
-            "% of cases with a wrong answer: the opposite sign, 0 where it is not 0, or not 0 where it is. near: a point \
-             about 1 ulp off; range-low and range-high: products that underflow and overflow",
+            "% of cases with a wrong answer; in brackets of these the opposite sign: the others are 0 where it is not, or \
+             not 0 where it is. near: a point about 1 ulp off; range-low and range-high: products that underflow and \
+             overflow",
         ));
+        // Of the adaptive predicates first: these are thought to be right.
+        let mut examples: Vec<_> = result.examples.iter().collect();
+        examples.sort_by_key(|example| example.epsilon.is_some());
         let item = |example: &crate::orientation::ExamplePart| Item {
             text: format!(
                 "{}, {}: {} ({})",
@@ -68,7 +72,7 @@ impl Paged for Record {
             lines: vec![command(&example.case.id, example.epsilon.as_deref())],
             ..Item::default()
         };
-        let items = result.examples.iter().map(item).collect();
+        let items = examples.into_iter().map(item).collect();
         blocks.extend(Block::items("First findings", MOST, items));
         for head in &heads {
             let title = format!("orient{}d, {}: each finding", head.0, head.1);
@@ -136,27 +140,29 @@ fn rows_of<'a>(
 /// Predicates in rows, families in columns.
 fn table(record: &Record, head: (usize, &str)) -> Table {
     let mut heads = vec![Head::of(format!("orient{}d, {}", head.0, head.1))];
-    let mut rows: Vec<(Row, f64)> = Vec::new();
-    for (result, time) in rows_of(record, head) {
+    let mut rows: Vec<Row> = Vec::new();
+    for (result, _) in rows_of(record, head) {
         if heads.iter().all(|head| head.head != result.family) {
-            heads.push(Head::of(result.family));
+            let head = Head::of(result.family);
+            // Seldom met.
+            let is_of_range = result.family.starts_with("range-");
+            heads.push(if is_of_range { head.optional() } else { head });
         }
         let label = label(result.predicate, result.epsilon.as_deref());
-        let place = rows.iter().position(|(row, _)| row.label == label).unwrap_or(rows.len());
+        let place = rows.iter().position(|row| row.label == label).unwrap_or(rows.len());
         if place == rows.len() {
-            rows.push((Row::new::<Cell>(label, []), time));
+            rows.push(Row::new::<Cell>(label, []));
         }
         let [count, of] = wrong(result);
-        let share = count as f64 / of.max(1) as f64;
-        let text = percent(share).trim_end_matches('%').to_owned();
-        rows[place].0.cells.push(Cell { text, share: Some(share), ..Cell::default() });
+        let share = |count: u64| count as f64 / of.max(1) as f64;
+        let number = |count: u64| percent(share(count)).trim_end_matches('%').to_owned();
+        let opposite = result.wrong_sign.count;
+        let bracket =
+            if opposite == 0 { String::new() } else { format!(" ({})", number(opposite)) };
+        let (text, share) = (number(count) + &bracket, share(count));
+        rows[place].cells.push(Cell { text, share: Some(share), ..Cell::default() });
     }
-    heads.push(Head::of("ns a call"));
-    let rows = rows.into_iter().map(|(mut row, time)| {
-        row.cells.push(format!("{time:.1}").into());
-        row
-    });
-    Table { heads, rows: rows.collect() }
+    Table::new(heads, rows)
 }
 
 /// Each kind of finding with its interval.
@@ -174,7 +180,7 @@ fn everything(record: &Record, head: (usize, &str)) -> Table {
         let cells = rates.into_iter().chain([format!("{time:.1}")]);
         Row::new(format!("{label}, {}", result.family), cells)
     };
-    Table { heads: heads.map(Head::of).into(), rows: rows_of(record, head).map(row).collect() }
+    Table::new(heads.map(Head::of).into(), rows_of(record, head).map(row).collect())
 }
 
 fn label(predicate: &str, epsilon: Option<&str>) -> String {
@@ -242,7 +248,7 @@ fn of_case(case: &CasePart) -> Vec<Block> {
     vec![
         Block::Listing(points.collect::<Vec<_>>().join("\n")),
         Block::Text(format!("exact: {}  det = {}", case.sign, case.determinant)),
-        Block::Table(Table { heads, rows: case.answers.iter().map(answer).collect() }),
+        Block::Table(Table::new(heads, case.answers.iter().map(answer).collect())),
     ]
 }
 

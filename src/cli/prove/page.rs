@@ -30,7 +30,7 @@ fn of_all(report: &Report) -> Page {
             let why = gate.why.as_ref().map(|why| format!("no bound: {why}"));
             Row { below: why.into_iter().collect(), ..Row::new(&gate.kernel, cells) }
         };
-        blocks.push(Block::Table(Table { heads, rows: gates.iter().map(row).collect() }));
+        blocks.push(Block::Table(Table::new(heads, gates.iter().map(row).collect())));
     }
     let watertight = record.kernels.iter().filter(|kernel| kernel.watertight);
     let watertight: Vec<String> =
@@ -90,7 +90,7 @@ fn table(kernel: &KernelPart, gates: &[&GatePart]) -> Table {
         let compares = gate.compares.split(" (printed").next().unwrap_or_default();
         Row::new(gate.gate, [bound, known, factor, compares.to_owned()])
     };
-    Table { heads, rows: gates.iter().map(row).collect() }
+    Table::new(heads, gates.iter().map(row).collect())
 }
 
 fn numbers() -> [Head; 3] {

@@ -202,7 +202,7 @@ fn table(record: &SpawnRecord, schemes: Vec<&SchemePart>, is_whole: bool) -> Tab
     };
     let rows = schemes.iter().map(row).collect();
     let heads = [Head::of("offset")].into_iter().chain(columns.into_iter().map(|(head, _)| head));
-    Table { heads: heads.collect(), rows }
+    Table::new(heads.collect(), rows)
 }
 
 /// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.

@@ -37,7 +37,7 @@ pub(super) fn of_kernel(
     let table = |title: &str, rows: &[(String, Vec<String>)]| {
         let rows =
             rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
-        Block::Table(Table { heads: heads(title), rows })
+        Block::Table(Table::new(heads(title), rows))
     };
     let places = telling(record, part, MOST_ROWS);
     let is_telling = |row: &&(String, Vec<String>)| {
@@ -93,8 +93,7 @@ fn limits(answer: &Answer) -> Vec<Block> {
         let what = format!("{}{star}", row.what);
         Row::new(&row.knob, [row.bound.clone(), what, row.most.clone(), row.fresh.clone()])
     };
-    let mut blocks =
-        vec![Block::Table(Table { heads, rows: answer.limits.iter().map(row).collect() })];
+    let mut blocks = vec![Block::Table(Table::new(heads, answer.limits.iter().map(row).collect()))];
     blocks.extend(answer.conflicts.iter().map(|conflict| Block::text(conflict.join(" "))));
     blocks.push(Block::Notes(answer.prices.clone()));
     blocks

@@ -37,27 +37,24 @@ pub(super) fn page(record: &SceneRecord) -> Page {
     let all = ["f32", "f64"].map(|scalar| (scalar, alike(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     // About as many lines as a screen has.
-    let most = if scalars == 1 { 7 } else { 3 };
+    let most = if scalars == 1 { 6 } else { 3 };
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         blocks.extend(record.has_scene().then(|| Block::text(fitness(record, best.part))));
         let heads = [*scalar, "cost", "leaks", "lost inside", "self-hits"].map(Head::of).into();
-        let rows_of = |rows: &[Alike]| rows.iter().map(|alike| row(record, alike)).collect();
-        blocks.push(Block::Table(Table { heads, rows: rows_of(&rows[..most.min(rows.len())]) }));
-        let more: usize = rows.iter().skip(most).map(|row| 1 + row.names.len()).sum();
-        if 0 < more {
-            blocks.push(Block::text(format!("… {more} more kernels, none cheaper: --details")));
-        }
+        let all = rows.iter().map(|alike| row(record, alike)).collect();
+        blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
     }
     let shown = || all.iter().flat_map(|(_, rows)| rows.iter().take(most));
     let forms = match shown().any(|row| is_scale_free_better(record, row.part)) {
         true => " L: the triangle's longest edge; M: the largest coordinate.",
         false => "",
     };
-    blocks.push(Block::Text(String::new()));
+    let has_no_t = |part: &SceneKernelPart| part.counts.iter().all(|it| it.kind != Kind::SelfHit);
+    let no_t = if shown().any(|row| has_no_t(row.part)) { " (-: the kernel has no t)" } else { "" };
     blocks.push(Block::text(format!(
-        "leaks: at shared edges or vertices; self-hits: of shadow rays (-: the kernel has no t). Shares are of rays aimed \
-         there, not of your pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
+        "leaks: at shared edges or vertices; self-hits: of shadow rays{no_t}. Shares are of rays aimed there, not of your \
+         pixels. cost: each share times its weight, false hits and almost parallel rays too.{forms}"
     )));
     let answers: Vec<Answer> = record.kernels.iter().map(|part| answer(record, part)).collect();
     for (part, answer) in record.kernels.iter().zip(&answers) {

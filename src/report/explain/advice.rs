@@ -27,29 +27,32 @@ pub(super) fn advice<F: Scalar>(
     let mut all = Vec::new();
     if cause == Some(Attribution::Convention) && is_off_the_ray(case, row, verdict) {
         let end = if verdict.t < case.ray.t_min { "t >= t_min" } else { "t <= t_max" };
-        all.push(format!("it has no gate on t: let the caller count a hit only if {end}"));
+        all.push(format!("counting a hit only if {end}: it has no gate on t"));
     } else if cause == Some(Attribution::Convention) {
         let promised = row.entry.info.contract;
         let is_back = oracle::truth(case).crossing().map(|it| it.facing) == Some(Facing::Back);
+        if finding == Finding::FalseHit {
+            all.extend(other_epsilons(case, is_secondary, row, (finding, cause)));
+        }
         if promised.sides == Sides::Front && is_back && finding == Finding::FalseMiss {
             all.push(
-                "it counts front faces only, as it promises: use a kernel of both sides".to_owned(),
+                "a kernel of both sides: it counts front faces only, as it promises".to_owned(),
             );
         }
     } else {
-        all.extend(other_epsilons(case, is_secondary, row, finding));
+        all.extend(other_epsilons(case, is_secondary, row, (finding, cause)));
     }
     if F::NAME == f32::NAME && row.entry.scalars()[1] {
         let wide = case.widen();
         let epsilons: Vec<f64> = row.epsilons();
         if is_right(&wide, is_secondary, row, f64::subject(row.entry), &epsilons) {
-            all.push("in f64 it is right".to_owned());
+            all.push("in f64".to_owned());
         }
     }
     let is_right_of = |other: &Row| {
         is_right(case, is_secondary, other, F::subject(other.entry), &other.epsilons::<F>())
     };
-    all.extend(others(row, is_right_of).map(|names| format!("right on this case: {names}")));
+    all.extend(others(row, is_right_of).map(|names| format!("other kernels: {names}")));
     all
 }
 
@@ -128,7 +131,7 @@ fn other_epsilons<F: Scalar>(
     case: &Case<F>,
     is_secondary: bool,
     row: &Row,
-    finding: Finding,
+    (finding, cause): (Finding, Option<Attribution>),
 ) -> Option<String> {
     let subject = F::subject(row.entry)?;
     let info = row.entry.info;
@@ -145,9 +148,10 @@ fn other_epsilons<F: Scalar>(
         }
         None => return None,
     };
-    // Those that refuse a hit, or those that should have refused one.
+    // Those that refuse a hit, or those that should have refused one; of a formula that should not have hit, any.
     let is_to_blame = |i: usize| match finding {
         Finding::FalseMiss => margins[i] < old[i],
+        Finding::FalseHit if cause == Some(Attribution::Convention) => true,
         Finding::FalseHit => {
             exact.as_ref().is_some_and(|exact| exact[i].approximate() < old[i].to_f64())
         }
@@ -157,23 +161,38 @@ fn other_epsilons<F: Scalar>(
         .filter(|i| info.gates[*i].epsilon != Tunable::Fixed && margins[*i].to_f64().is_finite())
         .filter(|i| is_to_blame(*i))
         .collect();
-    let with = |value: &dyn Fn(F) -> F| {
+    let is_lower = finding == Finding::FalseMiss;
+    let with = |gates: &[usize], value: &dyn Fn(F) -> F| {
         let mut new = old.clone();
-        tuned.iter().for_each(|i| new[*i] = value(margins[*i]));
+        gates.iter().for_each(|i| new[*i] = value(margins[*i]));
         let fits = |i: &usize| info.gates[*i].epsilon == Tunable::Signed || F::zero() <= new[*i];
-        let is_right =
-            tuned.iter().all(fits) && is_right(case, is_secondary, row, Some(subject), &new);
+        let is_right = !gates.is_empty()
+            && gates.iter().all(fits)
+            && is_right(case, is_secondary, row, Some(subject), &new);
         is_right.then_some(new)
     };
-    let down = finding == Finding::FalseMiss;
-    let new = with(&|margin| in_two_digits(margin, down))
-        .or_else(|| with(&|margin| if down { margin } else { margin.offset_ulps(1) }))?;
-    let words = tuned.iter().map(|i| {
+    let nearest = |gates: &[usize]| {
+        let rounded = with(gates, &|margin| in_two_digits(margin, is_lower));
+        rounded.or_else(|| {
+            with(gates, &|margin| if is_lower { margin } else { margin.offset_ulps(1) })
+        })
+    };
+    // All that refuse must let it pass, and one of those that should refuse it is enough: the smallest.
+    let size = |new: &Vec<F>, i: usize| new[i].to_f64().abs();
+    let (gates, new) = match is_lower {
+        true => (tuned.clone(), nearest(&tuned)?),
+        false => {
+            let each = tuned.iter().filter_map(|i| Some((*i, nearest(&[*i])?)));
+            let least = each.min_by(|(i, a), (k, b)| size(a, *i).total_cmp(&size(b, *k)))?;
+            (vec![least.0], least.1)
+        }
+    };
+    let words = gates.iter().map(|i| {
         let (name, old, new) = (info.gates[*i].name, shortest(old[*i]), shortest(new[*i]));
         format!("{name} = {new} in place of {old}")
     });
-    let words: Vec<String> = words.collect();
-    (!words.is_empty()).then(|| format!("right on this case with {}", words.join(" and ")))
+    let words = words.collect::<Vec<_>>().join(" and ");
+    Some(format!("{words} (`hairline epsilon` weighs all cases)"))
 }
 
 /// The nearest number of two digits that is not above, or not below.

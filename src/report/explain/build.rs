@@ -71,14 +71,17 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
     let inputs = labels.into_iter().zip(case.vectors()).map(vector).collect();
     let stored = StoredCase { is_secondary, ..StoredCase::of(*case) };
     let line = lines::write_case(&stored);
+    let truth = oracle::define(case).truth;
+    // In the plane of the triangle there is no such distance.
     let from_boundary = exact_severity(case, Extent::Interval)
+        .filter(|_| truth.crossing().is_some())
         .map(|severity| [severity.in_space, severity.in_space * severity.edge_in_ulps]);
     TrianglePart {
         case: RawValue::from_string(line).expect("a case is written as JSON"),
         truth: stored.truth_line(true),
         from_boundary,
         rows: Vec::new(),
-        in_words: oracle::define(case).truth.to_string(),
+        in_words: truth.to_string(),
         inputs,
         interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t.to_f64()), t.hex()]),
     }
@@ -179,7 +182,10 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart
     let (kernel, set) = (row.entry.info.name.to_owned(), row.set.clone());
     let contract = row.contract.describe();
     let Some(subject) = F::subject(row.entry) else {
-        let said = format!("does not run in {}", F::NAME);
+        let others = ["f32", "f64"].into_iter().zip(row.entry.scalars());
+        let others = others.filter(|(_, runs)| *runs).map(|(scalar, _)| scalar);
+        let others = others.collect::<Vec<_>>().join(", ");
+        let said = format!("does not run in {} (it does in {others})", F::NAME);
         return RowPart { kernel, set, contract, said, ..RowPart::default() };
     };
     let truth = oracle::define(case).truth;

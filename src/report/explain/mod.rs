@@ -130,7 +130,11 @@ impl RowPart {
     /// The verdict beside what is asked, in words.
     pub fn judged(&self) -> String {
         let judged = self.finding.map_or("as it should".to_owned(), str::to_uppercase);
-        format!("{}; its contract asks {}: {judged}", self.said, self.asked)
+        let of_hits = match self.finding {
+            Some("wrong-value" | "bad-value") => ", and of a hit right values",
+            _ => "",
+        };
+        format!("{}; its contract asks {}{of_hits}: {judged}", self.said, self.asked)
     }
 
     /// The gate that made the verdict.

@@ -25,7 +25,7 @@ impl Paged for Explanation {
                 blocks.push(Block::Heading(format!("triangle {i} of {}", self.triangles.len())));
             }
             let is_in_title = !several && triangle.rows.len() == 1;
-            blocks.extend(of_triangle(triangle, is_in_title));
+            blocks.extend(of_triangle(triangle, i == 0, is_in_title));
         }
         let inputs = self
             .triangles
@@ -65,8 +65,9 @@ impl Explanation {
                 (format!("All {} rows do as they should on {case} in {scalar}.", rows.len()), false)
             }
             count => {
+                let are = if count == 1 { "is" } else { "are" };
                 let text = format!(
-                    "{count} of {} rows are wrong on {case} in {scalar}: {names}{more}.",
+                    "{count} of {} rows {are} wrong on {case} in {scalar}: {names}{more}.",
                     rows.len()
                 );
                 (text, true)
@@ -76,7 +77,7 @@ impl Explanation {
 }
 
 /// The rows on a triangle, its truth and its inputs.
-fn of_triangle(triangle: &TrianglePart, is_in_title: bool) -> Vec<Block> {
+fn of_triangle(triangle: &TrianglePart, is_first: bool, is_in_title: bool) -> Vec<Block> {
     let rows = &triangle.rows;
     let mut blocks = Vec::new();
     if rows.len() <= MOST_ROWS {
@@ -84,23 +85,32 @@ fn of_triangle(triangle: &TrianglePart, is_in_title: bool) -> Vec<Block> {
             if !is_in_title {
                 blocks.push(Block::Heading(sentence(row)));
             }
-            blocks.extend(of_row(row));
+            blocks.extend(of_row(row, is_first));
         }
     } else {
         blocks.push(Block::Table(all_rows(rows)));
-        let each =
-            rows.iter().flat_map(|row| [vec![Block::Heading(sentence(row))], of_row(row)].concat());
+        let each = rows
+            .iter()
+            .flat_map(|row| [vec![Block::Heading(sentence(row))], of_row(row, is_first)].concat());
         blocks.push(Block::Details("Each row".to_owned(), each.collect()));
     }
-    blocks.push(Block::Text(format!("truth {}{}", triangle.in_words, exact(triangle))));
-    if let Some([edges, ulps]) = triangle.from_boundary {
-        blocks.push(Block::Text(format!(
-            "the line passes {edges:.3e} of the longest edge ({ulps:.3e} ulps) from the boundary"
-        )));
-    }
-    blocks.push(Block::Table(inputs(triangle)));
     let [[t_min, low], [t_max, high]] = &triangle.interval;
-    blocks.push(Block::Text(format!("t in [{t_min}, {t_max}] ({low} {high})")));
+    let mut terms = vec![("truth", format!("{}{}", triangle.in_words, exact(triangle)))];
+    if let Some([edges, ulps]) = triangle.from_boundary {
+        let passes = match edges {
+            0.0 => "meets the boundary exactly".to_owned(),
+            _ => format!(
+                "passes {edges:.3e} of the longest edge ({ulps:.3e} ulps) from the boundary"
+            ),
+        };
+        terms.push(("line", passes));
+    }
+    if is_first {
+        terms.push(("t", format!("in [{t_min}, {t_max}] ({low} {high})")));
+    }
+    let terms = terms.into_iter().map(|(term, meaning)| (term.to_owned(), meaning)).collect();
+    blocks.push(Block::Terms(terms));
+    blocks.push(Block::Table(inputs(triangle, is_first)));
     blocks
 }
 
@@ -129,30 +139,30 @@ fn sentence(row: &RowPart) -> String {
 }
 
 /// Why, what to do, and the gates.
-fn of_row(row: &RowPart) -> Vec<Block> {
+fn of_row(row: &RowPart, is_first: bool) -> Vec<Block> {
     let mut blocks = Vec::new();
     let finding = row.finding.unwrap_or_default();
     blocks.extend(row.why.iter().map(|why| Block::Text(format!("why the {finding}: {why}"))));
     if !row.advice.is_empty() {
-        blocks.push(Block::text("what to do:"));
+        blocks.push(Block::text("right on this case (tried):"));
         blocks.push(Block::Notes(row.advice.clone()));
     }
     blocks.extend(row.notes.iter().cloned().map(Block::Text));
     if !row.gates.is_empty() {
-        blocks.push(Block::Table(gates(row)));
+        blocks.push(Block::Table(gates(row, is_first)));
     }
     if let Some(verdict) = row.without_rounding {
         blocks.push(Block::Text(format!("the same formula without rounding: {verdict}")));
     }
     blocks.extend(row.values.iter().cloned().map(Block::Text));
-    if !row.contract.is_empty() {
+    if is_first && !row.contract.is_empty() {
         blocks.push(Block::Text(format!("contract: {}", row.contract)));
     }
     blocks
 }
 
 /// The gates in the order of the test; the comparison of each below it.
-fn gates(row: &RowPart) -> Table {
+fn gates(row: &RowPart, is_first: bool) -> Table {
     let runs = row.gates.iter().all(|gate| gate.exact.is_none() && gate.exactly.is_none());
     let mut heads = vec![Head::of("gate")];
     heads.push(Head::of(if runs { "accepts up to e =" } else { "compares" }));
@@ -166,7 +176,8 @@ fn gates(row: &RowPart) -> Table {
         let mut decision = gate.decision.unwrap_or("-").to_owned();
         let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);
         if is_wrong {
-            decision += &format!(", WRONG: exactly {}", gate.exactly.unwrap_or_default());
+            decision +=
+                &format!(", WRONG: without rounding it {}", gate.exactly.unwrap_or_default());
         }
         if gate.decides {
             decision += " <- decides";
@@ -175,12 +186,13 @@ fn gates(row: &RowPart) -> Table {
         if !runs {
             cells.push(text(&gate.exact).into());
         }
-        cells.push(text(&gate.epsilon).into());
+        cells.push(gate.epsilon.clone().unwrap_or_else(|| "fixed".to_owned()).into());
         cells.push(Cell { text: decision, is_broken: is_wrong, share: None });
-        let below = vec![format!("refuses where {}", gate.refuses)];
+        let below =
+            if is_first { vec![format!("refuses where {}", gate.refuses)] } else { Vec::new() };
         Row { below, ..Row::new(gate.gate, cells) }
     };
-    Table { heads, rows: row.gates.iter().map(table_row).collect() }
+    Table::new(heads, row.gates.iter().map(table_row).collect())
 }
 
 /// Many rows: the verdict of each, the gate that made it, and the cause.
@@ -209,14 +221,19 @@ fn all_rows(rows: &[RowPart]) -> Table {
         ];
         Row::new(row.label(), cells)
     };
-    Table { heads, rows: rows.iter().map(row).collect() }
+    // The wrong ones first.
+    let wrong = rows.iter().filter(|row| row.finding.is_some());
+    let others = rows.iter().filter(|row| row.finding.is_none());
+    Table::new(heads, wrong.chain(others).map(row).collect())
 }
 
 /// The ray and the triangle, in numbers and in bits.
-fn inputs(triangle: &TrianglePart) -> Table {
+fn inputs(triangle: &TrianglePart, is_first: bool) -> Table {
     let heads = ["", "x", "y", "z"].map(Head::of);
     let heads = heads.into_iter().chain([Head::text("bits").optional()]).collect();
     let row =
         |[label, x, y, z, bits]: &[String; 5]| Row::new(label, [x, y, z, bits].map(String::clone));
-    Table { heads, rows: triangle.inputs.iter().map(row).collect() }
+    // The ray is that of the first triangle.
+    let before = if is_first { 0 } else { 2 };
+    Table::new(heads, triangle.inputs.iter().skip(before).map(row).collect())
 }

@@ -32,12 +32,11 @@ pub(super) fn blocks(record: &Record, columns: &[Column], lines: &[Line]) -> Vec
         blocks.push(Block::Notes(notes.collect()));
     }
     let intervals = match record.result.plan.scalars.len() {
-        1 => " with 95 % intervals,",
+        1 => ", with 95 % intervals",
         _ => "",
     };
     blocks.push(Block::Text(format!(
-        "Shares of the cases that must be hit, and that must be missed,{intervals} on cases chosen to be hard; far off: a \
-         verdict wrong by over 1/1000 of the longest edge."
+        "On cases chosen to be hard, % of those that must be hit, and missed{intervals}."
     )));
     let has_other_causes = |line: &Line| {
         let mut shares = [FindingKind::FalseMiss, FindingKind::FalseHit]
@@ -78,9 +77,10 @@ fn table(columns: &[Column], lines: &[&Line]) -> Table {
         }
         heads.push(Head::text("cause of most").optional());
     }
-    heads.push(Head::of("far off, %").optional());
+    let far_off = Head::of("far off, %").about("wrong by over 1/1000 of the longest edge");
+    heads.push(far_off.optional());
     let rows = columns.iter().enumerate().filter_map(|(i, column)| row(column, i, lines));
-    Table { heads, rows: rows.collect() }
+    Table::new(heads, rows.collect())
 }
 
 /// The row of a question; none if it demands nothing.

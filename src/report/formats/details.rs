@@ -59,7 +59,7 @@ pub(super) fn blocks(record: &Record, scalar: &str) -> Vec<Block> {
         ];
         Row { below: below(row, &misses, &hits), ..Row::new(label, cells) }
     };
-    blocks.push(Block::Table(Table { heads, rows: rows.iter().map(row).collect() }));
+    blocks.push(Block::Table(Table::new(heads, rows.iter().map(row).collect())));
     if rows.iter().any(|row| row.part.kernel.contains('+')) {
         blocks.push(Block::text(
             "ns/ray of a kernel in another arithmetic (NAME+fma) is the time of its emulation",

@@ -121,7 +121,7 @@ fn gates(record: &Record, part: &RowPart) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
-    let mut blocks = vec![Block::Table(Table { heads, rows })];
+    let mut blocks = vec![Block::Table(Table::new(heads, rows))];
     if !proofs.is_empty() {
         blocks.push(Block::text(
             "Proved: in the unit domain (every number at most 1, divisors at least 1/2) what the gate compares is never \
@@ -175,7 +175,7 @@ fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
         times.get(&label).map(|time| format!("{time:.1}"))
     };
     rows.push(Row::new("ns a ray", views.iter().map(|view| time(view).unwrap_or("-".to_owned()))));
-    Table { heads: heads.map(Head::of).collect(), rows }
+    Table::new(heads.map(Head::of).collect(), rows)
 }
 
 /// `1,597 of 10,092 (15.8% [15.1, 16.6]); stored cases 3 of 57`.
@@ -220,7 +220,7 @@ fn quantiles_of(views: &[RowView]) -> Vec<Block> {
         ("errors of right hits, in ulps", accuracies),
     ];
     let tables = tables.into_iter().filter(|(_, rows)| !rows.is_empty());
-    tables.map(|(title, rows)| Block::Table(Table { heads: heads(title), rows })).collect()
+    tables.map(|(title, rows)| Block::Table(Table::new(heads(title), rows))).collect()
 }
 
 /// Every source with its counts and intervals.
@@ -250,7 +250,7 @@ fn by_family(record: &Record, views: &[RowView]) -> Table {
         });
         Row::new(&source.family, cells.collect::<Vec<_>>())
     };
-    Table { heads, rows: record.result.plan.sources.iter().map(row).collect() }
+    Table::new(heads, record.result.plan.sources.iter().map(row).collect())
 }
 
 /// As many examples a class as fit into some bytes, the same for all classes.

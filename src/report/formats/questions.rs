@@ -20,7 +20,7 @@ pub(super) fn blocks(scalars: &[String], columns: &[Column], lines: &[Line]) -> 
         let rows: Vec<Row> = of_scalar.map(|line| row(columns, line, has_groups)).collect();
         let heads = heads.into_iter().map(Head::of).collect();
         if !rows.is_empty() {
-            blocks.push(Block::Table(Table { heads, rows }));
+            blocks.push(Block::Table(Table::new(heads, rows)));
         }
     }
     blocks.push(Block::Text(cell_legend(columns, lines)));

@@ -142,8 +142,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
     table.heads.extend(order.iter().map(question));
     table.heads.extend(scalars.iter().map(|scalar| Head::of(format!("ns {scalar}"))));
     let rows = ranked(standings);
-    let more: usize = rows.iter().skip(MOST).map(|row| 1 + row.alike.len()).sum();
-    for Ranked { standing, alike } in rows.into_iter().take(MOST) {
+    for Ranked { standing, alike } in rows {
         let mut cells: Vec<Cell> = Vec::new();
         if has_leaks {
             let text = standing.leaks().map_or("-".to_owned(), short_percent);
@@ -185,10 +184,7 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
         1 => "",
         _ => " in the worse of the scalars",
     };
-    let mut others =
+    let others =
         format!("Other cells: % wrong{worse} on rays aimed at hard places, not of your pixels.");
-    if 0 < more {
-        others += &format!(" {more} more rows: --details.");
-    }
-    vec![Block::Table(table), Block::Text(others)]
+    vec![Block::Table(table.at_most(MOST)), Block::Text(others)]
 }

@@ -141,16 +141,23 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             *sums.entry(finding).or_default() += count;
             sums
         });
-    let others = match (standings.len(), broken.is_empty()) {
-        (2.., _) | (_, true) => String::new(),
-        _ => {
-            let counts = broken.iter().map(|(finding, count)| {
-                let ending = if finding.name().ends_with(['s', 'h']) { "es" } else { "s" };
-                number_of(*count, finding.name(), &format!("{finding}{ending}"))
-            });
-            format!(" Other broken promises: {}.", counts.collect::<Vec<_>>().join(", "))
+    // Of several the table tells.
+    let is_across = |kind: &FindingKind| {
+        matches!(kind, FindingKind::Crack | FindingKind::Double | FindingKind::OddFold)
+    };
+    let told = |lead: &str, of_across: bool| {
+        let chosen = broken.iter().filter(|(kind, _)| is_across(kind) == of_across);
+        let counts = chosen.map(|(finding, count)| {
+            let ending = if finding.name().ends_with(['s', 'h']) { "es" } else { "s" };
+            number_of(*count, finding.name(), &format!("{finding}{ending}"))
+        });
+        let counts: Vec<String> = counts.collect();
+        match standings.len() == 1 && !counts.is_empty() {
+            true => format!(" {lead}: {}.", counts.join(", ")),
+            false => String::new(),
         }
     };
+    let others = told("Breaks its promise across triangles", true) + &told("Besides", false);
     let mut text = text + &others;
     if let Some(partial) = &record.result.partial {
         text += &format!(" A part of a run: {}; all numbers are of this part.", partial.in_words());
@@ -205,7 +212,6 @@ fn of_elsewhere(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Bloc
         other.rate.unwrap_or(0.0) - own.rate.unwrap_or(0.0)
     };
     rows.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
-    let more = rows.len().saturating_sub(MOST_ELSEWHERE);
     let heads = vec![
         Head::of("Clearly more often wrong elsewhere"),
         Head::of(own_kind.to_string()),
@@ -216,16 +222,6 @@ fn of_elsewhere(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Bloc
         let [own, other] = [own, other].map(|rate| rate.rate.map_or("-".to_owned(), percent));
         Row::new(label, [own, other, kind.to_string()])
     };
-    let all: Vec<Row> = rows.iter().map(row).collect();
-    let rows = all[..all.len() - more].to_vec();
-    let mut blocks = vec![Block::Table(Table { heads: heads.clone(), rows })];
-    if 0 < more {
-        blocks.push(Block::Text(format!("and {more} more (--details)")));
-    }
-    blocks.push(Block::Text(names));
-    if 0 < more {
-        let all = vec![Block::Table(Table { heads, rows: all })];
-        blocks.push(Block::Details("All that are more often wrong elsewhere".to_owned(), all));
-    }
-    blocks
+    let table = Table::new(heads, rows.iter().map(row).collect()).at_most(MOST_ELSEWHERE);
+    vec![Block::Table(table), Block::Text(names)]
 }

@@ -91,7 +91,6 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
             None => shown.push((row, Vec::new())),
         }
     }
-    let more: usize = shown.iter().skip(MOST_ROWS).map(|(_, alike)| 1 + alike.len()).sum();
     let heads = vec![
         Head::of(format!("{} kernel", part.scalar)),
         Head::of("cracks at edges"),
@@ -131,11 +130,8 @@ fn of_scalar(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         }
         Row { below, ..Row::new(short_label(row), cells) }
     };
-    let rows = shown.iter().take(MOST_ROWS).map(row).collect();
-    blocks.push(Block::Table(Table { heads, rows }));
-    blocks.extend(
-        (0 < more).then(|| Block::text(format!("… {more} more rows leak more: --details"))),
-    );
+    let rows = shown.iter().map(row).collect();
+    blocks.push(Block::Table(Table::new(heads, rows).at_most(MOST_ROWS)));
     blocks
 }
 
@@ -181,7 +177,7 @@ fn everything(record: &MeshRecord, part: &ScalarPart) -> Vec<Block> {
         Row::new(row.label(), cells)
     };
     let rows = part.results.iter().map(row).collect();
-    let mut blocks = vec![Block::Table(Table { heads: heads.map(Head::of).into(), rows })];
+    let mut blocks = vec![Block::Table(Table::new(heads.map(Head::of).into(), rows))];
     blocks.push(Block::text(format!(
         "{}, digest {}",
         record.provenance.tool, record.result.mesh.digest

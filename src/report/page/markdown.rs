@@ -62,7 +62,10 @@ impl Writer {
                 format!("\n{lead}:\n\n```\n{}\n```\n", lines.join("\n"))
             }
             Block::Terms(terms) => {
-                let terms = terms.iter().map(|(term, meaning)| format!("{term}: {meaning}"));
+                let terms = terms.iter().map(|(term, meaning)| match term.is_empty() {
+                    true => meaning.clone(),
+                    false => format!("{term}: {meaning}"),
+                });
                 list(&terms.collect::<Vec<_>>())
             }
             Block::Listing(text) => format!("\n```\n{}\n```\n", text.trim_end()),
@@ -143,7 +146,7 @@ mod tests {
         let page = Page {
             title: "t".to_owned(),
             blocks: vec![
-                Block::Table(Table { heads, rows: vec![row] }),
+                Block::Table(Table::new(heads, vec![row])),
                 Block::Details("all".to_owned(), vec![Block::text("x")]),
             ],
             ..Page::default()

@@ -1,7 +1,7 @@
 //! Tables: a label on the left, cells on the right.
 
 use super::text::{indented, wrapped};
-use crate::report::Style;
+use crate::report::{Style, number_of};
 use std::io::{self, Write};
 
 /// A label that is longer stands on a line of its own.
@@ -93,9 +93,21 @@ pub struct Table {
     pub heads: Vec<Head>,
     /// The rows.
     pub rows: Vec<Row>,
+    /// So many stand on a screen, where not everything is told; all if 0.
+    pub most: usize,
 }
 
 impl Table {
+    /// A table of which all stands on a screen.
+    pub fn new(heads: Vec<Head>, rows: Vec<Row>) -> Table {
+        Table { heads, rows, most: 0 }
+    }
+
+    /// The same, of which only so many rows stand there.
+    pub fn at_most(self, most: usize) -> Table {
+        Table { most, ..self }
+    }
+
     /// Its width in characters.
     pub fn width(&self) -> usize {
         self.label_width() + self.widths().iter().sum::<usize>()
@@ -142,7 +154,7 @@ impl Table {
                 false => format!("{text:>width$}"),
             }
         };
-        let mut after = String::new();
+        let mut after = Vec::new();
         let (bold, plain) = if style.color { ("\x1b[1m", "\x1b[0m") } else { ("", "") };
         let lines = shown.iter().map(|i| heads[*i].len()).chain([1]).max().unwrap_or(1);
         for line in 0..lines {
@@ -157,9 +169,14 @@ impl Table {
         if !hidden.is_empty() {
             hidden.sort_unstable();
             let names: Vec<&str> = hidden.iter().map(|i| self.heads[i + 1].head.trim()).collect();
-            after = format!("no room here for: {}", names.join(", "));
+            after.push(format!("no room here for: {}", names.join("; ")));
         }
-        for row in &self.rows {
+        let most = if style.details || self.most == 0 { usize::MAX } else { self.most };
+        if most < self.rows.len() {
+            let more = number_of((self.rows.len() - most) as u64, "more row", "more rows");
+            after.push(format!("{more}: --details"));
+        }
+        for row in self.rows.iter().take(most) {
             let mut line = format!("{:<first$}", row.label);
             if first < row.label.chars().count() {
                 writeln!(out, "{}", row.label)?;
@@ -178,7 +195,7 @@ impl Table {
                 indented(below, ["  ", "    "], style.width, out)?;
             }
         }
-        indented(&after, ["", ""], style.width, out)?;
+        indented(&after.join("; "), ["", ""], style.width, out)?;
         let legend = Table::legend(shown.iter().map(|i| &self.heads[i + 1]));
         indented(&legend, ["", ""], style.width, out)
     }
@@ -227,6 +244,7 @@ mod tests {
         let mut table = Table {
             heads: ["kernel", "leaks", "ns"].map(Head::of).into(),
             rows: vec![row("a", ["0", "1234"]), row(&"b".repeat(40), ["12.5", "7"])],
+            most: 0,
         };
         table.rows[0].below.push("as often: c".to_owned());
         table.rows[1].cells[0].is_broken = true;
@@ -239,6 +257,8 @@ mod tests {
         let style = Style { color: true, ..Style::default() };
         assert!(text(&table, style).contains("\x1b[31m   12.5\x1b[0m     7"));
         table.remove(0);
+        let fewer = text(&table.clone().at_most(1), Style::default());
+        assert_eq!(fewer, "kernel    ns\na       1234\n  as often: c\n1 more row: --details\n");
         assert_eq!(table.width(), 12);
         assert!(text(&table, Style::default()).starts_with("kernel    ns\na       1234\n"));
     }
@@ -252,7 +272,7 @@ mod tests {
             Head::of("seen").optional().about("the worst met"),
         ];
         let table =
-            Table { heads, rows: vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))] };
+            Table::new(heads, vec![Row::new("t", ["far", "1 in 10", "12"].map(str::to_owned))]);
         let at = |width: usize| text(&table, Style { width, ..Style::default() });
         assert_eq!(
             at(40),

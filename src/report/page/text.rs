@@ -175,10 +175,8 @@ mod tests {
 
     #[test]
     fn blocks_stand_in_order_and_details_only_on_demand() {
-        let table = Table {
-            heads: ["kernel", "leaks"].map(Head::of).into(),
-            rows: vec![Row::new("a", vec![Cell::from("0".to_owned())])],
-        };
+        let rows = vec![Row::new("a", vec![Cell::from("0".to_owned())])];
+        let table = Table::new(["kernel", "leaks"].map(Head::of).into(), rows);
         let page = Page {
             title: "a title of several words".to_owned(),
             blocks: vec![

@@ -196,7 +196,8 @@ impl Writer<'_> {
                 @for (cell, head) in row.cells.iter().zip(&table.heads[1..]) {
                     @let class = cell.share.map_or(String::new(), |share| format!("m{} ", shade(share)));
                     @let class = format!("{class}{}{}", if head.is_text { "text " } else { "" }, if cell.is_broken { "broken" } else { "" });
-                    td class=[Some(class.trim()).filter(|class| !class.is_empty())] data-v=[sort_key(cell.share, &cell.text)] { (cell.text) }
+                    @let key = sort_key(cell.share, &cell.text).filter(|_| !head.is_text);
+                    td class=[Some(class.trim()).filter(|class| !class.is_empty())] data-v=[key] { (cell.text) }
                 }
             }
         }
@@ -209,7 +210,7 @@ fn note(left_out: u64) -> String {
 
 fn heads(table: &Table) -> Markup {
     let head = |(i, head): (usize, &Head)| {
-        html! { th.text[head.is_text && 0 < i] scope="col" data-sort=[(0 < i).then_some("")] { (head.head) } }
+        html! { th.text[head.is_text && 0 < i] scope="col" data-sort=[(0 < i && !head.is_text).then_some("")] { (head.head) } }
     };
     html! { thead { tr { @for (i, column) in table.heads.iter().enumerate() { (head((i, column))) } } } }
 }
@@ -220,7 +221,7 @@ fn sort_key(share: Option<f64>, text: &str) -> Option<String> {
         let plain = word
             .trim_matches(|c: char| !c.is_ascii_digit() && c != '.' && c != '-')
             .replace(',', "");
-        plain.parse::<f64>().ok().filter(|number| 0.0 <= *number)
+        plain.parse::<f64>().ok()
     };
     let one_in = || Some(1.0 / text.strip_prefix("1 in ").and_then(number)?);
     let number = share.or_else(one_in).or_else(|| number(text.split_whitespace().next()?))?;

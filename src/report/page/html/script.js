@@ -8,7 +8,7 @@ const sortable = (table, changed = () => {}) => {
   const heads = [...table.tHead.rows[0].cells].filter((head) => "sort" in head.dataset);
   const value = (row, column) => {
     const text = row.cells[column].dataset.v;
-    return text === undefined ? -1 : Number(text);
+    return text === undefined ? null : Number(text);
   };
   const unsort = () => {
     for (const head of heads) head.removeAttribute("aria-sort");
@@ -30,7 +30,7 @@ const sortable = (table, changed = () => {}) => {
       body.append(...[...rows].sort((a, b) => {
         const [x, y] = [value(a, column), value(b, column)];
         // What has no share stands last either way.
-        if (x < 0 || y < 0) return y - x;
+        if (x === null || y === null) return (x === null) - (y === null);
         return down ? y - x : x - y;
       }));
       head.setAttribute("aria-sort", down ? "descending" : "ascending");
