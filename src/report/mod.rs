@@ -16,6 +16,7 @@ pub(crate) mod elsewhere;
 pub mod epsilon;
 #[cfg(feature = "studies")]
 pub mod explain;
+#[cfg(feature = "studies")]
 pub mod formats;
 #[cfg(feature = "cli")]
 mod illustrate;
