@@ -4,21 +4,26 @@ mod report;
 mod values;
 
 use super::exit::{Failure, Status};
-use super::flags::{OUTPUT, unknown};
+use super::flags::unknown;
 use super::input::read_text;
-use super::output::{paired_outputs, write_results};
+use super::output::OutputArguments;
 use crate::corpus::{InputError, json};
-use crate::report::{FORMATS, Style, write_json};
 use crate::vectors::profile::{Answered, Profile, is_right};
 use crate::vectors::{Test, core, digest, json::topic_file};
 use clap::Args;
-use report::{Judged, Sheet};
+use report::{FORMATS, Judged, Judgement, Sheet};
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
 use values::Answer;
 
 /// Which results, and by what they are judged.
 #[derive(Args)]
+#[command(mut_arg("format", |format| {
+    format.help(
+        "text; json: every wrong answer and every missing id; record: what `hairline diff` compares; or jsonl, junit, \
+         sarif, markdown or html; or several separated by commas",
+    )
+}))]
 pub struct VerifyArguments {
     /// The results file: {"vectors": SHA-256, "product": TEXT, "results": {ID: "hit", "miss" or, of a
     /// group, the number of hits}}; a hit may be {"hit": true, "t": 1.5, "u": 0.25, "v": 0.5}, whose values are
@@ -31,22 +36,13 @@ pub struct VerifyArguments {
     #[arg(long, value_name = "NAME")]
     profile: Option<String>,
 
-    /// text; json: every wrong answer and every missing id; record: what `hairline diff` compares; or jsonl,
-    /// junit, sarif, markdown or html, as of an audit; or several separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "FORMAT", default_value = "text", help_heading = OUTPUT)]
-    format: Vec<String>,
-
-    /// Where to write, once for each format; - is standard output
-    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
-    output: Vec<String>,
+    #[command(flatten)]
+    output: OutputArguments,
 }
-
-/// The formats by name: two of the answers, the others of their record.
-const NAMES: &[&str] = &["text", "json", "record", "jsonl", "junit", "sarif", "markdown", "html"];
 
 /// Runs the command.
 pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
-    let outputs = paired_outputs(NAMES, &arguments.format, &arguments.output)?;
+    let outputs = arguments.output.pairs(FORMATS)?;
     let profile =
         match arguments.profile.as_deref() {
             None => None,
@@ -107,15 +103,8 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
         let message = format!("{}: no results in it", arguments.file);
         return Err(Failure::Message(Status::NothingSelected, message));
     }
-    write_results(outputs, |name, _, out| match *name {
-        "text" => sheet.report().write_text(out),
-        "json" => write_json(&sheet.report(), out),
-        "record" => write_json(&sheet.record(), out),
-        name => {
-            let format = FORMATS.iter().find(|format| format.name == name);
-            (format.expect("every other name is one").write)(&sheet.record(), Style::default(), out)
-        }
-    })?;
+    let judgement = Judgement { report: sheet.report(), record: sheet.record() };
+    arguments.output.write(outputs, &judgement)?;
     Ok(if sheet.has_wrong() { Status::Disagreements } else { Status::Success })
 }
 

@@ -51,8 +51,8 @@ struct Answer<T> {
 }
 
 impl<T> Answer<T> {
-    fn saying(&self, word: &'static str) -> Saying<'_> {
-        Saying { word, section: self.section.as_deref(), sentence: &self.sentence }
+    fn saying(&self, word: &'static str) -> Saying {
+        Saying { word, section: self.section.clone(), sentence: self.sentence.clone() }
     }
 }
 
@@ -133,14 +133,14 @@ impl Profile {
 }
 
 /// Where a profile says what is demanded of tests.
-#[derive(Clone, Copy, PartialEq, Serialize)]
-pub struct Saying<'a> {
+#[derive(Clone, PartialEq, Serialize)]
+pub struct Saying {
     /// A word of `free_because`, or `groups`.
     pub word: &'static str,
     /// The section of the specification, where it says something.
-    pub section: Option<&'a str>,
+    pub section: Option<String>,
     /// Its words, or why the answer is what it is.
-    pub sentence: &'a str,
+    pub sentence: String,
 }
 
 impl Answers {
@@ -163,7 +163,7 @@ impl Profile {
     }
 
     /// The sentences of the specification that decide a test; none if it is decided without them.
-    pub fn sayings(&self, test: &Test) -> Vec<Saying<'_>> {
+    pub fn sayings(&self, test: &Test) -> Vec<Saying> {
         if test.group.is_some() {
             let decides = demanded(test, Some(self)) != demanded(test, None);
             return Vec::from_iter(decides.then(|| self.answers.groups.saying("groups")));

@@ -3,14 +3,43 @@
 
 use super::values::Wrong as WrongValues;
 use crate::judge::{GroupTruth, Obligation};
-use crate::report::{AnsweredTest, Asked, Product, Promised, Record, answered, number_of};
+use crate::report::page::{Block, Head, Item, Page, Paged, Row, Table, Tone};
+use crate::report::{
+    AnsweredTest, Asked, FORMATS as OF_RECORD, Format, Product, Promised, Record, Style, answered,
+    number_of, write_json,
+};
 use crate::vectors::Test;
 use crate::vectors::profile::{Answered, Groups, Profile, Saying, demanded, is_right};
 use serde::Serialize;
 use std::io::{self, Write};
 
 /// How many wrong answers the text shows.
-const SHOWN: usize = 20;
+const SHOWN: usize = 5;
+
+/// One row per format: what people read and `json` are of the answers, the others of their record.
+pub const FORMATS: &[Format<Judgement>] = &[
+    Format::TEXT,
+    Format { name: "json", write: |judgement, _, out| write_json(&judgement.report, out) },
+    Format { name: "record", write: |judgement, _, out| write_json(&judgement.record, out) },
+    Format { name: "jsonl", write: |judgement, style, out| judgement.write("jsonl", style, out) },
+    Format { name: "junit", write: |judgement, style, out| judgement.write("junit", style, out) },
+    Format { name: "sarif", write: |judgement, style, out| judgement.write("sarif", style, out) },
+    Format::MARKDOWN,
+    Format::HTML,
+];
+
+/// All answers of a product, judged: for people and as a record.
+pub struct Judgement {
+    pub report: Report,
+    pub record: Record,
+}
+
+impl Judgement {
+    fn write(&self, name: &str, style: Style, out: &mut dyn Write) -> io::Result<()> {
+        let format = OF_RECORD.iter().find(|format| format.name == name);
+        (format.expect("an audit's format").write)(&self.record, style, out)
+    }
+}
 
 /// An answer that was judged.
 pub struct Judged<'a> {
@@ -39,16 +68,16 @@ struct Topic<'a> {
 
 /// The report that `--format json` writes.
 #[derive(Serialize)]
-pub struct Report<'a> {
-    product: &'a str,
-    vectors: &'a str,
-    profile: Option<&'a str>,
+pub struct Report {
+    product: String,
+    vectors: String,
+    profile: Option<String>,
     total: Counts,
     topics: Vec<(&'static str, Counts)>,
-    wrong: Vec<Wrong<'a>>,
-    missing: Vec<&'a str>,
+    wrong: Vec<Wrong>,
+    missing: Vec<String>,
     /// The sentences of the profile's specification that make an answer wrong.
-    sayings: Vec<Saying<'a>>,
+    sayings: Vec<Saying>,
 }
 
 #[derive(Clone, Copy, Default, Serialize)]
@@ -62,11 +91,11 @@ struct Counts {
 }
 
 #[derive(Serialize)]
-struct Wrong<'a> {
-    id: &'a str,
+struct Wrong {
+    id: String,
     demanded: &'static str,
     answered: String,
-    comment: &'a str,
+    comment: String,
     /// The words of the profile that demand it; none if every reading does.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     demanded_by: Vec<&'static str>,
@@ -113,21 +142,26 @@ impl<'a> Sheet<'a> {
     }
 
     /// The sentences that make an answer wrong that is not wrong by every reading.
-    fn sayings_of(&self, test: &Test, answer: Answered) -> Vec<Saying<'a>> {
+    fn sayings_of(&self, test: &Test, answer: Answered) -> Vec<Saying> {
         let profile = self.profile.filter(|_| is_right(demanded(test, None), answer) == Some(true));
         profile.map_or(Vec::new(), |profile| profile.sayings(test))
     }
 
     /// Counts, wrong answers and missing ids.
-    pub fn report(&self) -> Report<'a> {
+    pub fn report(&self) -> Report {
         let mut report = Report {
-            product: self.product,
-            vectors: self.vectors,
-            profile: self.profile.map(|profile| profile.name.as_str()),
+            product: self.product.to_owned(),
+            vectors: self.vectors.to_owned(),
+            profile: self.profile.map(|profile| profile.name.clone()),
             total: Counts::default(),
             topics: self.topics.iter().map(|topic| (topic.name, topic.counts())).collect(),
             wrong: Vec::new(),
-            missing: self.topics.iter().flat_map(|topic| &topic.missing).copied().collect(),
+            missing: self
+                .topics
+                .iter()
+                .flat_map(|topic| &topic.missing)
+                .map(|id| id.to_string())
+                .collect(),
             sayings: Vec::new(),
         };
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
@@ -138,13 +172,13 @@ impl<'a> Sheet<'a> {
                 Some(_) => Vec::new(),
             };
             report.wrong.push(Wrong {
-                id: &test.id,
+                id: test.id.clone(),
                 demanded,
                 answered: match wrong_values {
                     None => answer.to_string(),
                     Some(wrong) => format!("{answer} with {}", wrong.text),
                 },
-                comment: &test.comment,
+                comment: test.comment.clone(),
                 demanded_by: sayings.iter().map(|saying| saying.word).collect(),
             });
             let new = sayings.into_iter().filter(|saying| !report.sayings.contains(saying));
@@ -227,45 +261,54 @@ impl Counts {
     }
 }
 
-impl Report<'_> {
-    /// Counts by topic, the first wrong answers, and what demands them.
-    pub fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Counts { tests, right, wrong, free, missing } = self.total;
-        let answers = number_of(wrong as u64, "wrong answer", "wrong answers");
-        write!(out, "{}: {answers}, {right} right", self.product.escape_debug())?;
-        if let Some(profile) = self.profile {
-            write!(out, " by profile {profile}")?;
+impl Paged for Judgement {
+    fn page(&self) -> Page {
+        let Report { product, profile, total, topics, wrong, sayings, .. } = &self.report;
+        let Counts { tests, right, wrong: count, free, missing } = total;
+        let answers = number_of(*count as u64, "wrong answer", "wrong answers");
+        let by = profile.as_ref().map_or(String::new(), |name| format!(" by profile {name}"));
+        let title = format!(
+            "{}: {answers}, {right} right{by}; {free} free to be either, {missing} of {tests} tests without a result",
+            product.escape_debug()
+        );
+        let row = |(name, counts): &(&'static str, Counts)| {
+            let Counts { tests, right, wrong, free, missing } = *counts;
+            let mut row =
+                Row::new(*name, [tests, wrong, right, free, missing].map(|n| n.to_string()));
+            row.cells[1].is_broken = 0 < wrong;
+            row
+        };
+        let heads = ["topic", "tests", "wrong", "right", "free", "missing"].map(Head::of);
+        let mut blocks =
+            vec![Block::Table(Table::new(heads.into(), topics.iter().map(row).collect()))];
+        blocks.extend(Block::items(
+            "Wrong answers",
+            SHOWN,
+            wrong.iter().map(Wrong::item).collect(),
+        ));
+        let term = |Saying { word, section, sentence }: &Saying| {
+            let section = section.as_ref().map_or(String::new(), |section| format!(" ({section})"));
+            (format!("'{word}'{section}"), sentence.clone())
+        };
+        if !sayings.is_empty() {
+            blocks.push(Block::Terms(sayings.iter().map(term).collect()));
         }
-        writeln!(out, "; {free} free to be either, {missing} of {tests} tests without a result\n")?;
-        let head = ["topic", "tests", "wrong", "right", "free", "missing"];
-        let [topic, rest @ ..] = head;
-        writeln!(out, "{topic:<14}{}", rest.map(|word| format!("{word:>8}")).concat())?;
-        for (name, Counts { tests, right, wrong, free, missing }) in &self.topics {
-            let numbers = [tests, wrong, right, free, missing].map(|n| format!("{n:>8}")).concat();
-            writeln!(out, "{name:<14}{numbers}")?;
+        let tone = if *count == 0 { Tone::Good } else { Tone::Bad };
+        Page { command: "verify", title, tone, blocks }
+    }
+}
+
+impl Wrong {
+    fn item(&self) -> Item {
+        let Wrong { id, demanded, answered, comment, demanded_by } = self;
+        let by = match demanded_by.is_empty() {
+            true => String::new(),
+            false => format!(" by '{}'", demanded_by.join("' and '")),
+        };
+        Item {
+            text: format!("{id}: {answered}, expected {demanded}{by} ({comment})"),
+            lines: vec![format!("hairline explain {id}")],
+            ..Item::default()
         }
-        if !self.wrong.is_empty() {
-            writeln!(out)?;
-        }
-        for Wrong { id, demanded, answered, comment, demanded_by } in self.wrong.iter().take(SHOWN)
-        {
-            let by = match demanded_by.is_empty() {
-                true => String::new(),
-                false => format!(" by '{}'", demanded_by.join("' and '")),
-            };
-            writeln!(out, "{id}: {answered}, expected {demanded}{by} ({comment})")?;
-        }
-        let more = self.wrong.len().saturating_sub(SHOWN);
-        if 0 < more {
-            writeln!(out, "... and {more} more: --format json has them all")?;
-        }
-        if let Some(Wrong { id, .. }) = self.wrong.first() {
-            writeln!(out, "\nTo see one with its exact values: hairline explain {id}")?;
-        }
-        for Saying { word, section, sentence } in &self.sayings {
-            let section = section.map_or(String::new(), |section| format!(" ({section})"));
-            writeln!(out, "\n'{word}'{section}: {sentence}")?;
-        }
-        Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! Ways to make a wrong verdict right: other epsilons, a comparison of t, more precision, another kernel. Each is tried on the
 //! case before it is said.
 
-use super::build::{Together, group_verdict, number, verdict_of};
+use super::verdict::{Together, group_verdict, number, verdict_of};
 use crate::arith::Float;
 use crate::audit::{Attribution, Row};
 use crate::case::Case;

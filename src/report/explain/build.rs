@@ -2,6 +2,7 @@
 
 use super::advice::{advice, group_advice, of_line};
 use super::margin::margin_text;
+use super::verdict::{Together, group_verdict, number, verdict_of};
 use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
 use crate::arith::{Exact, Float};
 use crate::audit::{
@@ -12,26 +13,14 @@ use crate::contract::Extent;
 use crate::corpus::lines::{self, StoredCase};
 use crate::family::Grouping;
 use crate::judge::{
-    ALLOWANCE, Finding, GroupTruth, Obligation, ValueErrors, asked, group_obligation, judge,
-    may_be_elsewhere, polygon_obligation, polygon_truth,
+    ALLOWANCE, Finding, Obligation, ValueErrors, asked, judge, polygon_obligation, polygon_truth,
 };
-use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict, verdicts_of};
+use crate::kernel::{Gated, Gives, Scalar, Subject, Tunable, Verdict};
 use crate::oracle;
 use crate::report::epsilon::shortest;
 use crate::truth::{Feature, Truth};
 use serde_json::value::RawValue;
 use std::slice;
-
-/// One case, or the triangles of a group with one ray.
-#[derive(Clone, Copy)]
-pub struct Together<'a, F: Scalar> {
-    /// The ray and each triangle.
-    pub cases: &'a [Case<F>],
-    /// How they belong together.
-    pub grouping: Grouping,
-    /// The triangles of a mesh around those of the group; none if they are too many to be asked.
-    pub neighbours: Option<&'a [Case<F>]>,
-}
 
 /// Explains a case or a group with some rows.
 pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Explanation {
@@ -53,12 +42,6 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
     let case = if name.trim_start().starts_with('{') { "as given" } else { name };
     let schema = "hairline-explanation/1";
     Explanation { schema, case: case.to_owned(), scalar: F::NAME, triangles, together }
-}
-
-/// A number that reads back, without an exponent of 0.
-pub(super) fn number(x: f64) -> String {
-    let text = format!("{x:e}");
-    text.strip_suffix("e0").map_or(text.clone(), str::to_owned)
 }
 
 /// The inputs and the truth.
@@ -103,48 +86,6 @@ fn group_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> 
             part(text, is_wrong)
         }
     }
-}
-
-/// How many triangles are hit, the judgement in words, and if it is wrong; or why there is none.
-pub(super) fn group_verdict<F: Scalar>(
-    group: Together<F>,
-    row: &Row,
-    subject: &dyn Subject<F>,
-) -> Result<(usize, &'static str, bool), String> {
-    let cases = group.cases;
-    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
-    let mut verdicts = vec![Verdict::miss(None); cases.len()];
-    verdicts_of(subject, cases, &row.epsilons::<F>(), &mut verdicts);
-    if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
-        return Err(failure.to_string());
-    }
-    let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
-    let asked = group_obligation(cases, &truths, &row.contract, group.grouping);
-    let (judged, is_wrong) = match (asked, hits) {
-        (GroupTruth::Free, _) => ("nothing is asked of the group", false),
-        (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
-            ("one hit is right, and rounding may have moved it to a neighbour: elsewhere", false)
-        }
-        (GroupTruth::Crossing, 0) => ("one hit is right: CRACK", true),
-        (GroupTruth::Crossing, 1) => ("one hit is right", false),
-        (GroupTruth::Crossing, _) => ("one hit is right: DOUBLE", true),
-        (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) == odd => {
-            ("at a fold: the parity is right", false)
-        }
-        (GroupTruth::Fold { .. }, _) => ("at a fold: the parity is WRONG", true),
-    };
-    Ok((hits, judged, is_wrong))
-}
-
-/// True if a hit that a group lacks may be among the triangles around it, or these are too many.
-fn is_elsewhere<F: Scalar>(truth: &Truth, group: Together<F>, row: &Row) -> bool {
-    let Some(crossing) = truth.crossing() else { return false };
-    let Some(neighbours) = group.neighbours else { return true };
-    let Some(subject) = F::subject(row.entry) else { return false };
-    let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
-    let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
-    verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
-    may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
 }
 
 /// The kernel's answer on a polygon as a whole.
@@ -219,18 +160,6 @@ fn row_part<F: Scalar>(case: &Case<F>, is_secondary: bool, row: &Row) -> RowPart
         part.values.extend(errors(case, &truth, finding, (gives, tolerance), &verdict));
     }
     part
-}
-
-/// The verdict of a kernel.
-pub(super) fn verdict_of<F: Scalar>(
-    subject: &dyn Subject<F>,
-    case: &Case<F>,
-    epsilons: &[F],
-) -> Verdict<F> {
-    let mut verdict = [Verdict::miss(None)];
-    verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
-    let [verdict] = verdict;
-    verdict
 }
 
 fn in_words(cause: Option<Attribution>, shows_gates: bool) -> &'static str {

@@ -5,8 +5,10 @@ mod advice;
 mod build;
 mod margin;
 mod page;
+mod verdict;
 
-pub use build::{Together, explain};
+pub use build::explain;
+pub use verdict::Together;
 
 use super::{Format, write_json};
 use crate::corpus::truth_json::TruthLine;

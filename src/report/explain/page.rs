@@ -125,7 +125,7 @@ fn exact(triangle: &TrianglePart) -> String {
     let values = values.iter().filter_map(|(name, value)| {
         let text = value.as_ref()?.as_ref()?;
         let number = number(text).filter(|number| number.is_finite())?;
-        Some(format!("{name} = {}", super::build::number(number)))
+        Some(format!("{name} = {}", super::verdict::number(number)))
     });
     let values: Vec<String> = values.collect();
     if values.is_empty() { String::new() } else { format!("; {}", values.join(", ")) }

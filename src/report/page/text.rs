@@ -178,6 +178,7 @@ mod tests {
         let rows = vec![Row::new("a", vec![Cell::from("0".to_owned())])];
         let table = Table::new(["kernel", "leaks"].map(Head::of).into(), rows);
         let page = Page {
+            command: "x",
             title: "a title of several words".to_owned(),
             blocks: vec![
                 Block::Use(Use {
@@ -200,7 +201,8 @@ mod tests {
         let style = Style { width: 24, ..Style::default() };
         let short = "a title of several words\n  use  --epsilon parallel=1e-12345678\n       what it means\n         to you\n\n\
                      kernel  leaks\na           0\n\nnext: hairline x  # y\n      hairline x  # y\n";
-        assert_eq!(text(&page, style), short);
+        let more = "      the same with --details, or --format html -o x.html\n";
+        assert_eq!(text(&page, style), format!("{short}{more}"));
         let whole = text(&page, Style { details: true, ..style });
         assert_eq!(whole, short.replacen("0\n\nnext", "0\n\nmore\n  small print\n\nnext", 1));
     }

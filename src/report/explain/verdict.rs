@@ -1,0 +1,81 @@
+//! The verdicts of kernels on a case and on the triangles of a group, and the judgement of the latter.
+
+use crate::audit::Row;
+use crate::case::Case;
+use crate::family::Grouping;
+use crate::judge::{GroupTruth, group_obligation, may_be_elsewhere};
+use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
+use crate::oracle;
+use crate::truth::Truth;
+use std::slice;
+
+/// One case, or the triangles of a group with one ray.
+#[derive(Clone, Copy)]
+pub struct Together<'a, F: Scalar> {
+    /// The ray and each triangle.
+    pub cases: &'a [Case<F>],
+    /// How they belong together.
+    pub grouping: Grouping,
+    /// The triangles of a mesh around those of the group; none if they are too many to be asked.
+    pub neighbours: Option<&'a [Case<F>]>,
+}
+
+/// A number that reads back, without an exponent of 0.
+pub(super) fn number(x: f64) -> String {
+    let text = format!("{x:e}");
+    text.strip_suffix("e0").map_or(text.clone(), str::to_owned)
+}
+
+/// The verdict of a kernel.
+pub(super) fn verdict_of<F: Scalar>(
+    subject: &dyn Subject<F>,
+    case: &Case<F>,
+    epsilons: &[F],
+) -> Verdict<F> {
+    let mut verdict = [Verdict::miss(None)];
+    verdicts_of(subject, slice::from_ref(case), epsilons, &mut verdict);
+    let [verdict] = verdict;
+    verdict
+}
+
+/// How many triangles are hit, the judgement in words, and if it is wrong; or why there is none.
+pub(super) fn group_verdict<F: Scalar>(
+    group: Together<F>,
+    row: &Row,
+    subject: &dyn Subject<F>,
+) -> Result<(usize, &'static str, bool), String> {
+    let cases = group.cases;
+    let truths: Vec<Truth> = cases.iter().map(oracle::truth).collect();
+    let mut verdicts = vec![Verdict::miss(None); cases.len()];
+    verdicts_of(subject, cases, &row.epsilons::<F>(), &mut verdicts);
+    if let Some(failure) = verdicts.iter().find_map(|verdict| verdict.failure) {
+        return Err(failure.to_string());
+    }
+    let hits = verdicts.iter().filter(|verdict| verdict.hit).count();
+    let asked = group_obligation(cases, &truths, &row.contract, group.grouping);
+    let (judged, is_wrong) = match (asked, hits) {
+        (GroupTruth::Free, _) => ("nothing is asked of the group", false),
+        (GroupTruth::Crossing, 0) if is_elsewhere(&truths[0], group, row) => {
+            ("one hit is right, and rounding may have moved it to a neighbour: elsewhere", false)
+        }
+        (GroupTruth::Crossing, 0) => ("one hit is right: CRACK", true),
+        (GroupTruth::Crossing, 1) => ("one hit is right", false),
+        (GroupTruth::Crossing, _) => ("one hit is right: DOUBLE", true),
+        (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) == odd => {
+            ("at a fold: the parity is right", false)
+        }
+        (GroupTruth::Fold { .. }, _) => ("at a fold: the parity is WRONG", true),
+    };
+    Ok((hits, judged, is_wrong))
+}
+
+/// True if a hit that a group lacks may be among the triangles around it, or these are too many.
+fn is_elsewhere<F: Scalar>(truth: &Truth, group: Together<F>, row: &Row) -> bool {
+    let Some(crossing) = truth.crossing() else { return false };
+    let Some(neighbours) = group.neighbours else { return true };
+    let Some(subject) = F::subject(row.entry) else { return false };
+    let truths: Vec<Truth> = neighbours.iter().map(oracle::truth).collect();
+    let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
+    verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
+    may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
+}
