@@ -25,7 +25,7 @@ use std::sync::Arc;
     format.help("text, json, markdown or html, or several separated by commas; html draws the mesh with the edges and vertices where rays slip through")
 }))]
 pub struct MeshArguments {
-    /// An OBJ, PLY or glTF file (.gltf or .glb); - is standard input
+    /// An OBJ, PLY, STL or glTF file (.gltf or .glb); - is standard input
     #[arg(value_name = "FILE")]
     file: String,
 

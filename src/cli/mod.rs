@@ -23,6 +23,7 @@ mod flags;
 mod fuzz;
 mod generate;
 mod github;
+mod help;
 mod input;
 mod list;
 mod map;
@@ -44,6 +45,7 @@ mod vectors;
 mod verify;
 
 use exit::{Failure, Status};
+use help::EXAMPLES;
 
 use crate::arith::FloatEnvironment;
 use crate::kernel::{self, Entry};
@@ -55,7 +57,7 @@ use std::process::ExitCode;
 
 /// Audits ray-triangle kernels and their epsilons against exact predicates.
 #[derive(Parser)]
-#[command(name = "hairline", version, about, max_term_width = 100)]
+#[command(name = "hairline", version, about, max_term_width = 100, disable_help_subcommand = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -101,6 +103,12 @@ enum Command {
     Verify(verify::VerifyArguments),
     /// Run orientation predicates on families of points, and report wrong signs
     Orient(Box<orient::OrientArguments>),
+    /// Describe a command, or say what a word on a screen means
+    Help(help::HelpArguments),
+    /// Print a script that completes commands and flags in a shell
+    Completions(help::CompletionsArguments),
+    /// Print a page of the manual
+    Man(help::ManArguments),
     /// The old names of the commands of `fuzz`.
     #[command(flatten)]
     OfFuzz(fuzz::FuzzCommand),
@@ -116,7 +124,7 @@ enum Command {
 }
 
 /// The commands by what they are for, in the order of the help.
-const GROUPS: [(&str, &[&str]); 5] = [
+const GROUPS: [(&str, &[&str]); 6] = [
     (
         "Choose an epsilon",
         &["audit", "epsilon", "spawn", "prove", "mesh", "explain", "map", "list"],
@@ -125,11 +133,16 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Gate a CI", &["check", "merge", "diff"]),
     ("Bring your own", &["generate", "truth", "vectors", "verify"]),
     ("Trust it", &["selfcheck", "corpus", "orient"]),
+    ("Find your way", &["help", "completions", "man"]),
 ];
 
 /// The command line, its help grouped and the old names hidden.
 fn command() -> clap::Command {
     let mut command = Arguments::command();
+    for (name, example) in EXAMPLES {
+        command = command
+            .mut_subcommand(name, |command| command.before_help(format!("Example: {example}")));
+    }
     for parent in ["fuzz", "check"] {
         for name in commands_of(&command, parent) {
             command = command.mut_subcommand(name, |old| old.hide(true));
@@ -145,7 +158,7 @@ fn command() -> clap::Command {
             let about = about.map(ToString::to_string).unwrap_or_default();
             let own = commands_of(&command, name).join(", ");
             let own = if own.is_empty() { own } else { format!(" [{own}]") };
-            help.push_str(&format!("  {name_style}{name:<9}{name_style:#}  {about}{own}\n"));
+            help.push_str(&format!("  {name_style}{name:<11}{name_style:#}  {about}{own}\n"));
         }
     }
     help.push_str(&format!("\n{header}Options:{header:#}\n{{options}}\n"));
@@ -236,6 +249,9 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Vectors(arguments) => vectors::run(&arguments),
         Command::Verify(arguments) => verify::run(&arguments),
         Command::Orient(arguments) => orient::run(&arguments),
+        Command::Help(arguments) => help::run(&arguments, self::command()),
+        Command::Completions(arguments) => help::completions(&arguments, self::command()),
+        Command::Man(arguments) => help::man(&arguments, self::command()),
         Command::OfFuzz(command) => command.run(),
         Command::OfCheck(command) => command.run(),
         Command::KernelHost { file } => return plugin::serve(&file).into(),
@@ -291,7 +307,17 @@ mod tests {
         assert_eq!(visible, grouped);
         let help = command.clone().render_long_help().to_string();
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
-        assert!(help.contains("\nGate a CI:\n  check      Run the project's plan"), "{help}");
-        command.debug_assert();
+        assert!(help.contains("\nGate a CI:\n  check        Run the project's plan"), "{help}");
+        command.clone().debug_assert();
+        // Every command has an example that it takes.
+        let mut examples: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
+        examples.sort();
+        assert_eq!(visible, examples);
+        for (name, example) in EXAMPLES {
+            let words = shlex::split(example).unwrap();
+            let words = words.split(|word| [">", "|"].contains(&word.as_str())).next().unwrap();
+            let matches = super::command().try_get_matches_from(words).unwrap();
+            assert_eq!(matches.subcommand_name(), Some(*name));
+        }
     }
 }

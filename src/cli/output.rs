@@ -90,6 +90,11 @@ impl OutputArguments {
     }
 }
 
+/// The style of standard output without flags for it.
+pub fn screen_style() -> Style {
+    Style { width: width("-", false), ..Style::default() }
+}
+
 /// The width of an output: of a terminal its own, within what can be read; of anything else 80,
 /// or where everything is asked for, as much as a table needs.
 fn width(path: &str, details: bool) -> usize {

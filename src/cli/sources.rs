@@ -76,7 +76,7 @@ pub struct SourceArguments {
     #[arg(long, value_name = "SCENE")]
     scene: Option<String>,
 
-    /// Run rays at the edges, vertices and faces of an OBJ, PLY or glTF file; may be repeated
+    /// Run rays at the edges, vertices and faces of an OBJ, PLY, STL or glTF file; may be repeated
     #[arg(long, value_name = "FILE")]
     mesh: Vec<String>,
 

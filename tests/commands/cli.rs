@@ -330,7 +330,7 @@ fn bad_meshes_are_refused_with_file_and_line() {
         (&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"[..], "bad.obj:4: face names vertex 4"),
         (b"v 0 0 0\nv 1 0 nan\n", "bad.obj:2: "),
         (b"v 0 0 0\nv 1 0\n", "bad.obj:2: "),
-        (b"v 0 0 0\n\xff\xfe\n", "bad.obj:2: "),
+        (b"v 0 0 0\nv \xff\xfe 0 0\n", "bad.obj:2: "),
         (b"", "bad.obj: "),
         (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "bad.obj: "),
         (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "bad.obj:4: "),
@@ -563,6 +563,41 @@ fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
         code(&output) == 65 && error.contains(&format!("all.jsonl:{line}: scalar: ")),
         "{error}"
     );
+}
+
+#[test]
+fn help_knows_commands_and_the_words_of_the_screens() {
+    let out = |arguments: &[&str]| {
+        let output = hairline(arguments);
+        assert_eq!(code(&output), 0, "{arguments:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    assert_eq!(out(&["help"]), out(&["--help"]));
+    assert_eq!(out(&["help", "fuzz", "triage"]), out(&["fuzz", "triage", "--help"]));
+    let epsilon = out(&["help", "epsilon"]);
+    assert!(epsilon.starts_with("Example: hairline epsilon --kernel "), "{epsilon}");
+    // Any case, number and hyphen; several names of one thing.
+    let miss = out(&["help", "False-Misses"]);
+    assert!(miss.starts_with("false miss: the contract demands a hit"), "{miss}");
+    assert_eq!(out(&["help", "leaks"]), out(&["help", "crack"]));
+    let all = out(&["help", "words"]);
+    let guide =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guide/words.md"));
+    let entries = guide.unwrap().lines().filter(|line| line.starts_with("- ")).count();
+    let terms = all.lines().filter(|line| line.contains("  ") && !line.starts_with(' ')).count();
+    assert!(50 < entries && terms == entries, "{terms} of {entries}: {all}");
+    let output = hairline(&["help", "epslion"]);
+    assert_eq!(code(&output), 2);
+    assert!(text(&output.stderr).contains("unknown word 'epslion'; did you mean 'epsilon'?"));
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = out(&["completions", shell]);
+        assert!(script.contains("--kernel") && script.contains("prove"), "{shell}");
+    }
+    assert!(out(&["man"]).starts_with(".ie"), "roff");
+    assert!(out(&["man", "spawn"]).contains("\\-\\-scheme"));
+    let output = hairline(&["man", "spwan"]);
+    assert_eq!(code(&output), 2);
+    assert!(text(&output.stderr).contains("did you mean 'spawn'?"), "{}", text(&output.stderr));
 }
 
 #[test]

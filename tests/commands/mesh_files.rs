@@ -63,6 +63,106 @@ fn a_mesh_is_the_same_in_every_format() {
     assert!(refusal("a.ply", obj).contains("ply"));
 }
 
+#[test]
+fn an_stl_file_is_the_mesh_whose_equal_corners_are_one() {
+    let solid = solid();
+    let text = solid.stl_text();
+    let mut latin = text.clone();
+    // The name in another encoding: one byte for two.
+    let place = latin.iter().position(|byte| *byte == 0xc3).unwrap();
+    latin.splice(place..place + 2, [0xe9]);
+    let files = [
+        ("a.stl", text),
+        ("-", latin),
+        ("a.STL", solid.stl_binary(b"made by hand")),
+        ("b.stl", solid.stl_binary(b"solid all the same")),
+        ("-", solid.stl_binary(b"solid\nall the same\n")),
+    ];
+    for (name, bytes) in files {
+        let mesh = mesh_of(name, &bytes);
+        // Six of the eight vertices: one is used by no face, and two are one.
+        assert_eq!((mesh.positions_f64.len(), mesh.triangles.len()), (6, 8), "{name}");
+        for (face, corners) in solid.faces.iter().enumerate() {
+            let expected = corners.map(|corner| solid.vertices[corner as usize]);
+            assert_eq!(mesh.vertices::<f32>(face), expected, "{name}");
+        }
+        let joined =
+            "corners that equal an earlier one in every bit, joined with it: 18 (first at ";
+        assert!(mesh.notes[0].to_string().starts_with(joined), "{}", mesh.notes[0]);
+    }
+    // Decimals keep the digits that f32 has not.
+    let wide = mesh_of("a.stl", &solid.stl_text()).positions_f64;
+    assert_eq!(wide[0], [0.9, 0.1, 0.0]);
+    let zeros = "solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nfacet\nvertex -0 0 0\n\
+                 vertex 0 1 0\nvertex 0 0 1\nendfacet\nendsolid\n";
+    assert_eq!(mesh_of("a.stl", zeros.as_bytes()).positions_f64.len(), 4, "both zeros are one");
+
+    let folder = scratch("mesh-stl");
+    fs::write(folder.join("a.stl"), solid.stl_binary(b"")).unwrap();
+    fs::write(folder.join("a.obj"), solid.obj()).unwrap();
+    let screen = |file: &str| {
+        let flags = ["--kernel", "plucker", "--directions", "8", "--details", "-q"];
+        ends(&folder, &[&["mesh", file][..], &flags].concat(), 0).0
+    };
+    assert!(screen("a.stl").contains("edges     12 between two faces"), "{}", screen("a.stl"));
+    assert!(screen("a.obj").contains("edges     12 between two faces"));
+}
+
+#[test]
+fn what_is_wrong_with_an_stl_file_is_said_with_its_place() {
+    let head = "solid x\nfacet normal 0 0 1\nouter loop\n";
+    let corner = "vertex 0 0 0\n";
+    let binary = |count: u32, bytes: usize| {
+        let mut file = vec![b' '; 80];
+        file.extend(count.to_le_bytes());
+        file.resize(84 + bytes, 0);
+        file
+    };
+    let mut infinite = solid().stl_binary(b"");
+    infinite[84 + 12..84 + 16].copy_from_slice(&f32::INFINITY.to_le_bytes());
+    let cases: [(Vec<u8>, &str); 9] = [
+        (b"solid x\nendsolid\n".to_vec(), "a.stl: the file has no facets"),
+        (format!("{head}vertex 0 0\n").into(), "a.stl:4: vertex has 2 of 3 coordinates"),
+        (format!("{head}vertex 0 0 0 0\n").into(), "a.stl:4: vertex has 4 of 3 coordinates"),
+        (format!("{head}vertex 0 x 0\n").into(), "a.stl:4: vertex has 'x', which is not a number"),
+        (
+            format!("{head}vertex 0 nan 0\n").into(),
+            "a.stl:4: vertex has 'nan', which is not finite",
+        ),
+        (format!("{head}{corner}{corner}endfacet\n").into(), "a.stl:6: facet has 2 of 3 vertices"),
+        (
+            format!("{head}v 1 2 3\n").into(),
+            "a.stl:4: expected a line of an STL file, such as 'vertex 0 1 0', found 'v'",
+        ),
+        (binary(2, 60), "a.stl: the file ends in triangle 2 of the 2 that its header says"),
+        (infinite, "a.stl: triangle 1 has inf, which is not finite"),
+    ];
+    for (bytes, expected) in cases {
+        assert_eq!(refusal("a.stl", bytes), expected);
+    }
+    assert!(refusal("a.stl", b"abc").contains("the file ends within the header of a binary STL"));
+    assert!(refusal("a.stl", binary(u32::MAX, 0)).contains("more than 100000000 triangles"));
+    for name in ["model.fbx", "a.OFF", "b.3mf", "c.usdz"] {
+        let extension = name.split('.').next_back().unwrap().to_lowercase();
+        let expected =
+            format!("{name}: {extension} files are not read: convert it to PLY, OBJ, STL or glTF");
+        assert_eq!(refusal(name, b"x"), expected);
+    }
+}
+
+#[test]
+fn names_and_comments_may_be_in_any_encoding() {
+    let latin = |text: &str| text.chars().map(|c| c as u8).collect::<Vec<u8>>();
+    let ply = "ply\nformat ascii 1.0\ncomment caf\u{e9}\nobj_info \u{e4}\nelement vertex 3\nproperty float x\n\
+               property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n\
+               end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    assert_eq!(mesh_of("a.ply", &latin(ply)).triangles, [[0, 1, 2]]);
+    let obj = "# caf\u{e9}\no \u{e4}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl \u{fc}\nf 1 2 3\n";
+    assert_eq!(mesh_of("a.obj", &latin(obj)).triangles, [[0, 1, 2]]);
+    let number = "v 0 0 \u{e9}\n";
+    assert!(refusal("a.obj", latin(number)).starts_with("a.obj:1: vertex has "));
+}
+
 /// What a record says but for the file and the places in it.
 fn without_places(record: &mut Value) {
     match record {

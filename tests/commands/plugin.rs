@@ -862,7 +862,7 @@ while head := read.read(16):
         shown = text(&hairline(&[&["explain", &id][..], &flags[2..]].concat()).stdout);
     }
     assert!(shown.contains("binary (t=0.25): hit;"), "{shown}");
-    assert!(shown.contains("reports t = 2.5e-1, facing front"), "{shown}");
+    assert!(shown.contains("reports t = 0.25, facing front"), "{shown}");
 }
 
 /// A kernel's own right answers, and what it is wrong in: t, u, v, the side, or which call it answers.

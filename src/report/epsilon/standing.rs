@@ -18,7 +18,10 @@ pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, S
     }
     let trades: Vec<String> = (0..part.knobs.len()).filter_map(|knob| trade(part, knob)).collect();
     match (&trades[..], remains(record, part)) {
-        ([], None) => (Tone::Good, "Good: every number is within all of its limits.".to_owned()),
+        ([], None) => {
+            let within = "Good: every number is within all of its limits.";
+            (Tone::Good, format!("{within}{}", one_sided(part)))
+        }
         ([], Some(rest)) => {
             let within = "Every number is within its limits, and none mends what is left";
             (Tone::Plain, format!("{within}: {rest}."))
@@ -28,6 +31,19 @@ pub(super) fn standing(record: &SceneRecord, part: &SceneKernelPart) -> (Tone, S
             (Tone::Plain, format!("A trade: {}. What is left: {rest}.", trades.join("; ")))
         }
     }
+}
+
+/// The knobs that some rays limit on one side and no rays on the other.
+fn one_sided(part: &SceneKernelPart) -> String {
+    let side = |(i, knob): (usize, &KnobPart)| {
+        let mut lower = part.limits.iter().filter(|limit| limit.knob == i).map(|it| it.is_lower);
+        let first = lower.next()?;
+        let other = if first { "larger" } else { "smaller" };
+        lower.all(|it| it == first).then(|| {
+            format!(" No ray here argues against a {other} {}: other --family may.", knob.name)
+        })
+    };
+    part.knobs.iter().enumerate().filter_map(side).collect()
 }
 
 /// Sentences from lines without their stops.

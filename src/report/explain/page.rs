@@ -1,11 +1,15 @@
 //! The page of an explanation: the verdict, the gates that made it, the cause, what makes it right; then the truth and the
 //! inputs.
 
+use super::verdict::{self, plain};
 use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
-use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
+use crate::report::page::{Block, Cell, Head, Item, Items, Page, Paged, Row, Table, Tone};
 
 /// With so many rows each is shown by itself.
 const MOST_ROWS: usize = 2;
+
+/// So many answers on all triangles together stand on a screen.
+const MOST_TOGETHER: usize = 5;
 
 /// The most names in the title.
 const MOST_NAMES: usize = 3;
@@ -15,10 +19,7 @@ impl Paged for Explanation {
         let (title, is_wrong) = self.answer();
         let tone = if is_wrong { Tone::Bad } else { Tone::Plain };
         let mut blocks = Vec::new();
-        // The title has the first.
-        for TogetherPart { row, judged, .. } in self.together.iter().skip(1) {
-            blocks.push(Block::Text(format!("{row}: {judged}")));
-        }
+        blocks.extend(self.all_together());
         let several = 1 < self.triangles.len();
         for (i, triangle) in self.triangles.iter().enumerate() {
             if several {
@@ -39,9 +40,19 @@ impl Paged for Explanation {
 impl Explanation {
     /// The first sentence, and if something is wrong.
     fn answer(&self) -> (String, bool) {
-        if let Some(TogetherPart { row, judged, is_wrong }) = self.together.first() {
+        if let [TogetherPart { row, judged, is_wrong }] = &self.together[..] {
             let text = format!("{row} {}, all triangles together: {judged}", self.scalar);
             return (text, *is_wrong);
+        }
+        if !self.together.is_empty() {
+            let wrong = self.together.iter().filter(|part| part.is_wrong).count();
+            let text = format!(
+                "{wrong} of {} rows are wrong on {} in {}, all triangles together.",
+                self.together.len(),
+                self.case,
+                self.scalar
+            );
+            return (text, 0 < wrong);
         }
         let rows: Vec<&RowPart> =
             self.triangles.iter().flat_map(|triangle| &triangle.rows).collect();
@@ -76,6 +87,23 @@ impl Explanation {
     }
 }
 
+impl Explanation {
+    /// The rows on all triangles together, the wrong ones first; one alone stands in the title.
+    fn all_together(&self) -> Option<Block> {
+        if self.together.len() < 2 {
+            return None;
+        }
+        let mut parts: Vec<&TogetherPart> = self.together.iter().collect();
+        parts.sort_by_key(|part| !part.is_wrong);
+        let item = |part: &TogetherPart| Item {
+            text: format!("{}: {}", part.row, part.judged),
+            ..Item::default()
+        };
+        let items = parts.into_iter().map(item).collect();
+        Some(Block::Items(Items { items, most: MOST_TOGETHER }))
+    }
+}
+
 /// The rows on a triangle, its truth and its inputs.
 fn of_triangle(triangle: &TrianglePart, is_first: bool, is_in_title: bool) -> Vec<Block> {
     let rows = &triangle.rows;
@@ -99,9 +127,10 @@ fn of_triangle(triangle: &TrianglePart, is_first: bool, is_in_title: bool) -> Ve
     if let Some([edges, ulps]) = triangle.from_boundary {
         let passes = match edges {
             0.0 => "meets the boundary exactly".to_owned(),
-            _ => format!(
-                "passes {edges:.3e} of the longest edge ({ulps:.3e} ulps) from the boundary"
-            ),
+            _ => {
+                let [edges, ulps] = [edges, ulps].map(|size| plain(&format!("{size:.2e}")));
+                format!("passes {edges} of the longest edge ({ulps} ulps) from the boundary")
+            }
         };
         terms.push(("line", passes));
     }
@@ -125,7 +154,7 @@ fn exact(triangle: &TrianglePart) -> String {
     let values = values.iter().filter_map(|(name, value)| {
         let text = value.as_ref()?.as_ref()?;
         let number = number(text).filter(|number| number.is_finite())?;
-        Some(format!("{name} = {}", super::verdict::number(number)))
+        Some(format!("{name} = {}", verdict::number(number)))
     });
     let values: Vec<String> = values.collect();
     if values.is_empty() { String::new() } else { format!("; {}", values.join(", ")) }
@@ -171,7 +200,7 @@ fn gates(row: &RowPart, is_first: bool) -> Table {
     }
     heads.push(Head::of("e"));
     heads.push(Head::text("decision"));
-    let text = |value: &Option<String>| value.clone().unwrap_or_else(|| "-".to_owned());
+    let text = |value: &Option<String>| value.as_deref().map_or("-".to_owned(), plain);
     let table_row = |gate: &GatePart| {
         let mut decision = gate.decision.unwrap_or("-").to_owned();
         let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);

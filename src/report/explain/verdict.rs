@@ -20,10 +20,31 @@ pub struct Together<'a, F: Scalar> {
     pub neighbours: Option<&'a [Case<F>]>,
 }
 
-/// A number that reads back, without an exponent of 0.
+/// A number that reads back.
 pub(super) fn number(x: f64) -> String {
-    let text = format!("{x:e}");
-    text.strip_suffix("e0").map_or(text.clone(), str::to_owned)
+    plain(&format!("{x:e}"))
+}
+
+/// A number as `1.5e0` writes it, to the same digits: without an exponent where it is neither large nor small.
+pub(super) fn plain(text: &str) -> String {
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text.to_owned() };
+    let Ok(exponent) = exponent.parse::<i32>() else { return text.to_owned() };
+    let (sign, mantissa) =
+        mantissa.strip_prefix('-').map_or(("", mantissa), |digits| ("-", digits));
+    let digits = mantissa.replace('.', "");
+    let (whole, rest) = match exponent {
+        0..7 => {
+            let digits = format!("{digits:0<width$}", width = exponent as usize + 1);
+            let (whole, rest) = digits.split_at(exponent as usize + 1);
+            (whole.to_owned(), rest.to_owned())
+        }
+        -4..0 => ("0".to_owned(), format!("{}{digits}", "0".repeat(-exponent as usize - 1))),
+        _ => (digits[..1].to_owned(), digits[1..].to_owned()),
+    };
+    let rest = rest.trim_end_matches('0');
+    let point = if rest.is_empty() { "" } else { "." };
+    let end = if (-4..7).contains(&exponent) { String::new() } else { format!("e{exponent}") };
+    format!("{sign}{whole}{point}{rest}{end}")
 }
 
 /// The verdict of a kernel.
@@ -78,4 +99,28 @@ fn is_elsewhere<F: Scalar>(truth: &Truth, group: Together<F>, row: &Row) -> bool
     let mut verdicts = vec![Verdict::miss(None); neighbours.len()];
     verdicts_of(subject, neighbours, &row.epsilons::<F>(), &mut verdicts);
     may_be_elsewhere(crossing.facing, neighbours, &truths, &verdicts, &row.contract)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_digits_without_needless_exponents() {
+        for (text, expected) in [
+            ("1.000000e0", "1"),
+            ("-8.999999e0", "-8.999999"),
+            ("2.5e-1", "0.25"),
+            ("-1.2e-4", "-0.00012"),
+            ("1.2e-5", "1.2e-5"),
+            ("2.50e6", "2500000"),
+            ("1.234567e3", "1234.567"),
+            ("6.40e7", "6.4e7"),
+            ("0e0", "0"),
+            ("inf", "inf"),
+            ("below 1e-6", "below 1e-6"),
+        ] {
+            assert_eq!(plain(text), expected, "{text}");
+        }
+    }
 }

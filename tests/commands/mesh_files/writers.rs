@@ -73,6 +73,34 @@ impl Solid {
         ply.bytes
     }
 
+    /// An ASCII STL file.
+    pub fn stl_text(&self) -> Vec<u8> {
+        let mut text = "solid caf\u{e9} of names\n".to_owned();
+        for face in &self.faces {
+            text += "  facet normal 0 0 0\n    outer loop\n";
+            for [x, y, z] in face.map(|corner| self.vertices[corner as usize]) {
+                text += &format!("      vertex {x:?} {y:e} {z:?}\n");
+            }
+            text += "    endloop\n  endfacet\n";
+        }
+        (text + "endsolid caf\u{e9} of names\n").into_bytes()
+    }
+
+    /// A binary one, whose header begins with these bytes.
+    pub fn stl_binary(&self, title: &[u8]) -> Vec<u8> {
+        let mut bytes = title.to_vec();
+        bytes.resize(80, b' ');
+        bytes.extend((self.faces.len() as u32).to_le_bytes());
+        for face in &self.faces {
+            bytes.extend([0; 12]);
+            for corner in face.map(|corner| self.vertices[corner as usize]) {
+                corner.iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+            }
+            bytes.extend([0; 2]);
+        }
+        bytes
+    }
+
     /// Positions, then indices of two bytes.
     pub fn buffer(&self) -> Vec<u8> {
         let numbers = self.vertices.iter().flatten().flat_map(|number| number.to_le_bytes());

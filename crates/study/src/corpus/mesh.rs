@@ -1,4 +1,4 @@
-//! Meshes from OBJ, PLY and glTF files: triangles of `f32` and of `f64` positions.
+//! Meshes from OBJ, PLY, STL and glTF files: triangles of `f32` and of `f64` positions.
 
 mod builder;
 #[cfg(feature = "studies")]
@@ -7,6 +7,8 @@ mod counted;
 mod files;
 #[cfg(feature = "studies")]
 mod obj;
+#[cfg(feature = "studies")]
+mod text;
 
 #[cfg(feature = "files")]
 mod formats;
@@ -14,6 +16,8 @@ mod formats;
 mod gltf;
 #[cfg(feature = "files")]
 mod ply;
+#[cfg(feature = "files")]
+mod stl;
 
 use super::InputError;
 use crate::arith::Float;
@@ -44,7 +48,7 @@ pub struct Mesh {
     /// True if `places` are lines.
     pub has_lines: bool,
     /// The number of different names of groups and objects (`g`, `o`) that hold triangles in an OBJ file, of
-    /// nodes that do in a glTF file; 0 in a PLY file.
+    /// nodes that do in a glTF file; 0 in a PLY or STL file.
     pub groups: usize,
     /// Notes for the user, at most one of each kind.
     pub notes: Vec<Note>,

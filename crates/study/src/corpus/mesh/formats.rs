@@ -1,14 +1,14 @@
 //! Which format a file of a mesh has, and its reader.
 
 use super::counted::{Counted, LIMITS, Limits};
-use super::{InputError, Mesh, gltf, obj, ply};
+use super::{InputError, Mesh, gltf, obj, ply, stl};
 use std::io::{self, BufRead, Read};
 
 /// Reads at most so many bytes of a file in the folder of the mesh's own.
 pub type Beside<'a> = dyn FnMut(&str, u64) -> io::Result<Vec<u8>> + 'a;
 
-/// Reads an OBJ, PLY or glTF file (text or GLB). The name's extension says which; if it says nothing, the
-/// first bytes do, and what is neither PLY nor glTF is read as OBJ. `beside` reads the buffers that a glTF file
+/// Reads an OBJ, PLY, STL or glTF file (text or GLB). The name's extension says which; if it says nothing, the
+/// first bytes do, and what is none of the others is read as OBJ. `beside` reads the buffers that a glTF file
 /// has in files of their own. `name` is for messages and for [`Mesh::name`]; `progress` is called about every MiB
 /// with the number of bytes read so far, and once at the end.
 ///
@@ -34,7 +34,12 @@ pub(super) fn read_within<R: BufRead>(
     let mut reader = Counted::new(reader, progress);
     let mut head = Vec::new();
     let format = match Format::of_extension(name) {
-        Some(format) => format,
+        Some(Ok(format)) => format,
+        Some(Err(other)) => {
+            let message =
+                format!("{other} files are not read: convert it to PLY, OBJ, STL or glTF");
+            return Err(InputError::of(name, message));
+        }
         None => {
             let start = (&mut reader).take(HEAD).read_to_end(&mut head);
             start.map_err(|error| InputError::reading(name, None, &error))?;
@@ -45,6 +50,7 @@ pub(super) fn read_within<R: BufRead>(
     let mesh = match format {
         Format::Obj => obj::read(whole, name, limits),
         Format::Ply => ply::read(whole, name, limits),
+        Format::Stl => stl::read(whole, name, limits),
         Format::Gltf => gltf::read(whole, name, limits, beside),
     }?;
     reader.finish();
@@ -52,23 +58,35 @@ pub(super) fn read_within<R: BufRead>(
 }
 
 /// Bytes that tell a format.
-const HEAD: u64 = 64;
+const HEAD: u64 = 84;
+
+/// The extensions of other formats of meshes.
+const OTHERS: &[&str] = &[
+    "3ds", "3mf", "abc", "amf", "blend", "dae", "fbx", "ifc", "iges", "igs", "max", "mesh", "msh",
+    "off", "step", "stp", "usd", "usda", "usdc", "usdz", "vrml", "vtk", "vtp", "vtu", "wrl", "x3d",
+    "xyz",
+];
 
 enum Format {
     Obj,
     Ply,
+    /// Text or binary.
+    Stl,
     /// Text or GLB.
     Gltf,
 }
 
 impl Format {
-    fn of_extension(name: &str) -> Option<Format> {
+    /// An error with the extension if it is that of another format; none if it says nothing.
+    fn of_extension(name: &str) -> Option<Result<Format, String>> {
         let (_, extension) = name.rsplit_once('.')?;
-        match extension.to_ascii_lowercase().as_str() {
-            "obj" => Some(Format::Obj),
-            "ply" => Some(Format::Ply),
-            "gltf" | "glb" => Some(Format::Gltf),
-            _ => None,
+        let extension = extension.to_ascii_lowercase();
+        match extension.as_str() {
+            "obj" => Some(Ok(Format::Obj)),
+            "ply" => Some(Ok(Format::Ply)),
+            "stl" => Some(Ok(Format::Stl)),
+            "gltf" | "glb" => Some(Ok(Format::Gltf)),
+            other => OTHERS.contains(&other).then_some(Err(extension)),
         }
     }
 
@@ -78,6 +96,9 @@ impl Format {
             Format::Ply
         } else if head.starts_with(gltf::MAGIC) || text.starts_with(b"{") {
             Format::Gltf
+        } else if stl::is_text(head) || head.contains(&0) {
+            // An OBJ file is text.
+            Format::Stl
         } else {
             Format::Obj
         }

@@ -5,6 +5,7 @@
 
 use super::builder::{Builder, Place, quoted, shortened, vertices_text};
 use super::counted::Limits;
+use super::text::{Lines, coordinate};
 use super::{InputError, Mesh};
 use std::collections::BTreeSet;
 use std::io::{BufRead, Read, Write};
@@ -146,18 +147,10 @@ impl Source {
         let (mut count, mut weight) = (0, 1.0);
         for word in words {
             let number = |_| format!("vertex has {}, which is not a number", quoted(word));
-            let value: f64 = word.parse().map_err(number)?;
-            if count < 3 {
-                if !value.is_finite() {
-                    let overflow = word.bytes().any(|byte| byte.is_ascii_digit());
-                    let what = if overflow { "overflows f64" } else { "is not finite" };
-                    return Err(format!("vertex has {}, which {what}", quoted(word)));
-                }
-                wide[count] = value;
-                // From the text: a cast of the f64 would round twice.
-                narrow[count] = word.parse().map_err(number)?;
-            } else if count == 3 {
-                weight = value;
+            match count {
+                0..3 => (wide[count], narrow[count]) = coordinate(word)?,
+                3 => weight = word.parse().map_err(number)?,
+                _ => drop(word.parse::<f64>().map_err(number)?),
             }
             count += 1;
         }
@@ -234,83 +227,4 @@ fn face_vertex(word: &str) -> Result<i64, String> {
         }
         _ => Err(format!("face has {} for v, v/vt, v//vn or v/vt/vn", quoted(word))),
     }
-}
-
-/// Goes through a text statement by statement: a line, or lines joined by backslashes at their
-/// ends, without comment.
-struct Lines<'a, R> {
-    reader: R,
-    name: &'a str,
-    limit: usize,
-    /// Lines read so far.
-    number: usize,
-    raw: Vec<u8>,
-    statement: String,
-}
-
-impl<'a, R: BufRead> Lines<'a, R> {
-    fn new(reader: R, name: &'a str, limit: usize) -> Self {
-        Lines { reader, name, limit, number: 0, raw: Vec::new(), statement: String::new() }
-    }
-
-    /// Reads the next statement, perhaps an empty one, and gives the number of its first line.
-    fn next_statement(&mut self) -> Result<Option<usize>, InputError> {
-        self.statement.clear();
-        let first = self.number + 1;
-        while self.read_line(first)? {
-            let text = checked_line(&self.raw, self.number)
-                .map_err(|message| InputError::at(self.name, self.number, message))?;
-            let text = without_comment(text).trim_end();
-            let joined = text.strip_suffix('\\');
-            self.statement.push_str(joined.unwrap_or(text));
-            if joined.is_none() {
-                return Ok(Some(first));
-            }
-            self.statement.push(' ');
-        }
-        // The end of the file ends a line, and a backslash before it joins nothing.
-        Ok((self.number >= first).then_some(first))
-    }
-
-    /// Reads one line into `raw`, no further than the limit; false at the end of the file.
-    fn read_line(&mut self, first: usize) -> Result<bool, InputError> {
-        self.raw.clear();
-        let room = (self.limit + 1).saturating_sub(self.statement.len());
-        let read = (&mut self.reader)
-            .take(room as u64)
-            .read_until(b'\n', &mut self.raw)
-            .map_err(|error| InputError::reading(self.name, Some(self.number + 1), &error))?;
-        if read == 0 {
-            return Ok(false);
-        }
-        self.number += 1;
-        if read >= room {
-            let message = format!("a line of more than {} bytes", self.limit);
-            return Err(InputError::at(self.name, first, message));
-        }
-        if self.number > u32::MAX as usize {
-            return Err(InputError::at(self.name, self.number, "more lines than 32 bits count"));
-        }
-        Ok(true)
-    }
-}
-
-/// A line as text, without its end and without the byte order mark of a file's first line.
-fn checked_line(raw: &[u8], number: usize) -> Result<&str, &'static str> {
-    let text = std::str::from_utf8(raw).map_err(|_| "not UTF-8 text")?;
-    let text = text.strip_prefix('\u{feff}').filter(|_| number == 1).unwrap_or(text);
-    let text = text.trim_end_matches(['\n', '\r']);
-    if text.contains('\0') {
-        return Err("a zero byte: not a text file");
-    }
-    if text.contains('\r') {
-        return Err("a carriage return within a line: lines end in LF or CR LF");
-    }
-    Ok(text)
-}
-
-/// Up to a `#` that starts the line or follows a blank: `1.#INF` is not a one.
-fn without_comment(text: &str) -> &str {
-    let starts = |at: usize| at == 0 || text.as_bytes()[at - 1].is_ascii_whitespace();
-    text.match_indices('#').find(|(at, _)| starts(*at)).map_or(text, |(at, _)| &text[..at])
 }

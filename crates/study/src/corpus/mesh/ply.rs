@@ -11,11 +11,13 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 use std::borrow::Cow;
-use std::io::{BufRead, ErrorKind, Take};
+use std::io::{self, BufRead, Cursor, ErrorKind, Read, Take};
 
 /// Reads a file.
 pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
-    let mut reader = Reader::new(reader.take(limits.line as u64));
+    let (header, reader) = plain_header(reader, limits.line as u64)
+        .map_err(|error| InputError::reading(name, None, &error))?;
+    let mut reader = Reader::new(header.chain(reader).take(limits.line as u64));
     let header = match Parser::<Element>::new().read_header(&mut reader) {
         Ok(header) => header,
         Err(_) if reader.get_ref().limit() == 0 => {
@@ -36,6 +38,26 @@ pub(super) fn read(reader: impl BufRead, name: &str, limits: Limits) -> Result<M
     }
     file.finish()
 }
+
+/// The lines up to `end_header`, in which every byte that is not ASCII becomes a `?` (it stands in a comment or a name, and may be of
+/// any encoding), and the rest of the file.
+fn plain_header<R: BufRead>(mut reader: R, limit: u64) -> io::Result<(impl BufRead, R)> {
+    let (mut header, mut end) = (Vec::new(), None);
+    let mut lines = (&mut reader).take(limit);
+    while end.is_none() {
+        let start = header.len();
+        if lines.read_until(b'\n', &mut header)? == 0 {
+            break;
+        }
+        let found = header[start..].windows(END.len()).position(|bytes| bytes == END);
+        end = found.map(|place| start + place);
+    }
+    let end = end.unwrap_or(header.len());
+    header[..end].iter_mut().filter(|byte| !byte.is_ascii()).for_each(|byte| *byte = b'?');
+    Ok((Cursor::new(header), reader))
+}
+
+const END: &[u8] = b"end_header";
 
 /// The names that writers give to a face's indices.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];

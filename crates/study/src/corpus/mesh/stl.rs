@@ -1,0 +1,155 @@
+//! STL files, ASCII and binary: triangles with corners of their own, which are joined where all their bits are equal.
+//!
+//! Read here rather than by a crate: those round the numbers of the ASCII form to `f32`, and take a binary file that begins
+//! with `solid` for text.
+
+use super::builder::{Builder, Place, quoted};
+use super::counted::Limits;
+use super::text::{Lines, coordinate};
+use super::{InputError, Mesh};
+use std::collections::HashMap;
+use std::io::{BufRead, ErrorKind, Read};
+
+/// The bytes before the number of triangles in the binary form, and those of a triangle.
+const HEADER: usize = 80;
+const TRIANGLE: usize = 50;
+
+/// Reads a file. Text begins with `solid` and has no zero byte; the binary form has one in its number of triangles, unless they
+/// are more than 16 million.
+pub(super) fn read(
+    mut reader: impl BufRead,
+    name: &str,
+    limits: Limits,
+) -> Result<Mesh, InputError> {
+    let mut head = Vec::new();
+    let start = (&mut reader).take(HEADER as u64 + 4).read_to_end(&mut head);
+    start.map_err(|error| InputError::reading(name, None, &error))?;
+    if is_text(&head) {
+        return read_text(head.as_slice().chain(reader), name, limits);
+    }
+    let Some(count) = head.get(HEADER..).and_then(|bytes| bytes.try_into().ok()) else {
+        let message = "the file ends within the header of a binary STL, and is no text that begins with 'solid'";
+        return Err(InputError::of(name, message));
+    };
+    read_binary(reader, name, limits, u32::from_le_bytes(count) as usize)
+}
+
+/// True if a file that begins so is an ASCII STL.
+pub(super) fn is_text(head: &[u8]) -> bool {
+    head.trim_ascii_start().starts_with(b"solid") && !head.contains(&0)
+}
+
+const JOINED: &str = "corners that equal an earlier one in every bit, joined with it";
+
+/// The corners so far, by their bits in `f64`.
+struct Joined {
+    mesh: Builder,
+    known: HashMap<[u64; 3], u32>,
+}
+
+impl Joined {
+    fn corner(&mut self, wide: [f64; 3], narrow: [f32; 3], place: Place) -> u32 {
+        // Both zeros are one place.
+        let key = wide.map(|x| (x + 0.0).to_bits());
+        let next = self.mesh.vertices() as u32;
+        let known = *self.known.entry(key).or_insert(next);
+        match known == next {
+            true => self.mesh.vertex(wide, narrow, place),
+            false => self.mesh.note(JOINED, Some(place)),
+        }
+        known
+    }
+
+    fn finish(self, name: &str) -> Result<Mesh, InputError> {
+        if self.mesh.triangles() == 0 {
+            return Err(InputError::of(name, "the file has no facets"));
+        }
+        self.mesh.finish(name, 0)
+    }
+}
+
+/// `facet`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`, between `solid` and `endsolid`, once or more often.
+fn read_text(reader: impl BufRead, name: &str, limits: Limits) -> Result<Mesh, InputError> {
+    let mut all = Joined { mesh: Builder::default(), known: HashMap::new() };
+    let mut lines = Lines::new(reader, name, limits.line);
+    let mut corners: Vec<u32> = Vec::new();
+    let mut facet = 0;
+    while let Some(line) = lines.next_statement()? {
+        let error = |message: String| InputError::at(name, line, message);
+        let mut words = lines.statement.split_ascii_whitespace();
+        let word = words.next().unwrap_or_default().to_ascii_lowercase();
+        match word.as_str() {
+            "vertex" => {
+                let (mut wide, mut narrow, mut count) = ([0.0; 3], [0.0; 3], 0);
+                for word in words {
+                    let (value, rounded) = coordinate(word).map_err(error)?;
+                    if let (Some(x), Some(y)) = (wide.get_mut(count), narrow.get_mut(count)) {
+                        (*x, *y) = (value, rounded);
+                    }
+                    count += 1;
+                }
+                if count != 3 {
+                    return Err(error(format!("vertex has {count} of 3 coordinates")));
+                }
+                corners.push(all.corner(wide, narrow, Place::Line(line)));
+            }
+            "facet" => (corners, facet) = (Vec::new(), line),
+            "endfacet" if corners.len() == 3 => {
+                if all.mesh.triangles() >= limits.elements {
+                    return Err(error(format!("more than {} triangles", limits.elements)));
+                }
+                all.mesh.face(&corners, facet as u32);
+            }
+            "endfacet" => {
+                return Err(error(format!("facet has {} of 3 vertices", corners.len())));
+            }
+            "" | "solid" | "endsolid" | "outer" | "endloop" => {}
+            other => {
+                let expected = "expected a line of an STL file, such as 'vertex 0 1 0', found";
+                return Err(error(format!("{expected} {}", quoted(other))));
+            }
+        }
+    }
+    all.finish(name)
+}
+
+/// For each triangle a normal, three corners and two bytes, little-endian.
+fn read_binary(
+    mut reader: impl BufRead,
+    name: &str,
+    limits: Limits,
+    count: usize,
+) -> Result<Mesh, InputError> {
+    if count > limits.elements {
+        let message = format!("more than {} triangles: the header says {count}", limits.elements);
+        return Err(InputError::of(name, message));
+    }
+    let mut all = Joined { mesh: Builder::without_lines(), known: HashMap::new() };
+    for number in 1..=count {
+        let mut bytes = [0; TRIANGLE];
+        reader.read_exact(&mut bytes).map_err(|error| match error.kind() {
+            ErrorKind::UnexpectedEof => {
+                let message = format!(
+                    "the file ends in triangle {number} of the {count} that its header says"
+                );
+                InputError::of(name, message)
+            }
+            _ => InputError::reading(name, None, &error),
+        })?;
+        let float = |place: usize| {
+            let bytes = [0, 1, 2, 3].map(|i| bytes[12 + 4 * place + i]);
+            f32::from_le_bytes(bytes)
+        };
+        let corner = |k: usize| [0, 1, 2].map(|axis| float(3 * k + axis));
+        let mut corners = Vec::with_capacity(3);
+        for narrow in [0, 1, 2].map(corner) {
+            if let Some(x) = narrow.iter().find(|x| !x.is_finite()) {
+                let message = format!("triangle {number} has {x}, which is not finite");
+                return Err(InputError::of(name, message));
+            }
+            corners.push(all.corner(narrow.map(f64::from), narrow, Place::Face(number)));
+        }
+        all.mesh.face(&corners, number as u32);
+    }
+    all.finish(name)
+}
