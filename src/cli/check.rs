@@ -72,11 +72,7 @@ struct CheckFlags {
 #[derive(Subcommand)]
 pub enum CheckCommand {
     /// Print a commented hairline.toml with every setting at its default
-    Config {
-        /// The only thing that `config` does
-        #[arg(long, hide = true)]
-        print_default: bool,
-    },
+    Config,
     /// Print the JSON Schema of the record that `--format json` writes
     Schema,
 }
@@ -85,7 +81,7 @@ impl CheckCommand {
     /// Runs `check config` or `check schema`.
     pub fn run(&self) -> Result<Status, Failure> {
         let text = match self {
-            CheckCommand::Config { .. } => settings::default_file(&words_command()),
+            CheckCommand::Config => settings::default_file(&words_command()),
             CheckCommand::Schema => JSON_SCHEMA.to_owned(),
         };
         write_result("-", |out| out.write_all(text.as_bytes()))?;

@@ -109,12 +109,6 @@ enum Command {
     Completions(help::CompletionsArguments),
     /// Print a page of the manual
     Man(help::ManArguments),
-    /// The old names of the commands of `fuzz`.
-    #[command(flatten)]
-    OfFuzz(fuzz::FuzzCommand),
-    /// The old names of the commands of `check`.
-    #[command(flatten)]
-    OfCheck(check::CheckCommand),
     /// Load a library and answer cases from standard input: what --kernel-lib starts
     #[command(name = plugin::HOST_COMMAND, hide = true)]
     KernelHost {
@@ -136,17 +130,12 @@ const GROUPS: [(&str, &[&str]); 6] = [
     ("Find your way", &["help", "completions", "man"]),
 ];
 
-/// The command line, its help grouped and the old names hidden.
+/// The command line, its help grouped.
 fn command() -> clap::Command {
     let mut command = Arguments::command();
     for (name, example) in EXAMPLES {
         command = command
             .mut_subcommand(name, |command| command.before_help(format!("Example: {example}")));
-    }
-    for parent in ["fuzz", "check"] {
-        for name in commands_of(&command, parent) {
-            command = command.mut_subcommand(name, |old| old.hide(true));
-        }
     }
     let styles = Styles::default();
     let (header, name_style) = (styles.get_header(), styles.get_literal());
@@ -252,8 +241,6 @@ pub fn main_with(kernels: impl IntoIterator<Item = Entry>) -> ExitCode {
         Command::Help(arguments) => help::run(&arguments, self::command()),
         Command::Completions(arguments) => help::completions(&arguments, self::command()),
         Command::Man(arguments) => help::man(&arguments, self::command()),
-        Command::OfFuzz(command) => command.run(),
-        Command::OfCheck(command) => command.run(),
         Command::KernelHost { file } => return plugin::serve(&file).into(),
     };
     plugins::finish();

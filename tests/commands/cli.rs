@@ -429,16 +429,6 @@ fn wrong_names_suggest_the_nearest_and_wrong_numbers_say_the_range() {
         assert!(help.contains("Usage: hairline"), "{help}");
         assert_eq!(help.contains("--band"), listed, "{words:?}: {help}");
     }
-    // The old names of commands still run them, and are not listed.
-    let all = help(&[]);
-    for (old, new) in [("config --print-default", "check config"), ("schema", "check schema")] {
-        let run = |words: &str| hairline(&words.split(' ').collect::<Vec<_>>()).stdout;
-        assert_eq!(run(old), run(new));
-    }
-    for old in ["triage", "shrink", "worst", "config", "schema"] {
-        assert!(!all.contains(&format!("\n  {old} ")), "{all}");
-        assert_eq!(code(&hairline(&[old, "--help"])), 0);
-    }
     for count in ["0", "-5", "99999999999999999999"] {
         let output = hairline(&["audit", "--count", count]);
         let error = text(&output.stderr);
@@ -563,6 +553,41 @@ fn truths_are_those_of_the_definition_in_the_order_of_the_lines() {
         code(&output) == 65 && error.contains(&format!("all.jsonl:{line}: scalar: ")),
         "{error}"
     );
+}
+
+#[test]
+fn explain_says_why_a_case_is_invalid_and_which_rows_fail_on_a_group() {
+    let case = |ray: &str| {
+        let case =
+            format!("{{\"scalar\":\"f32\",{ray},\"a\":[0,0,0],\"b\":[1,0,0],\"c\":[0,1,0]}}");
+        let output = hairline(&["explain", &case, "--kernel", "moller-trumbore"]);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let start = "\"origin\":[0.25,0.25,1]";
+    for (ray, reason) in [
+        ("\"origin\":[0.25,\"nan\",1],\"direction\":[0,0,-1]".to_owned(), "a coordinate is NaN"),
+        (format!("{start},\"direction\":[0,0,\"-inf\"]"), "a coordinate is infinite"),
+        (format!("{start},\"direction\":[0,0,-0.0]"), "the direction is 0"),
+        (format!("{start},\"direction\":[0,0,-1],\"t_max\":\"nan\""), "t_min or t_max is NaN"),
+        (
+            format!("{start},\"direction\":[0,0,-1],\"t_min\":2,\"t_max\":1"),
+            "t_min is greater than t_max",
+        ),
+    ] {
+        let screen = case(&ray);
+        assert!(screen.contains(&format!("\ntruth  invalid: {reason}\n")), "{screen}");
+    }
+    assert!(case("\"origin\":[\"nan\",0,1],\"direction\":[0,0,-1]").contains("passes at every e"));
+    let output = hairline(&["explain", "shared-edge@2/f32/-/1/5"]);
+    let screen = text(&output.stdout);
+    let (title, rest) = screen.split_once("\n\n").unwrap();
+    let wrong = title.split(' ').next().unwrap().parse::<usize>().unwrap();
+    assert!(title.ends_with("together.") && 2 < wrong, "{title}");
+    let lines: Vec<&str> = rest.lines().skip(1).take(9).collect();
+    let is_wrong = |line: &&str| line.ends_with(": CRACK") || line.ends_with(": DOUBLE");
+    assert_eq!(lines.iter().filter(|line| is_wrong(line)).count(), wrong.min(8), "{screen}");
+    assert_eq!(lines[8], "13 more rows: --details");
 }
 
 #[test]

@@ -62,7 +62,7 @@ pub(super) fn group_advice<F: Scalar>(group: Together<F>, row: &Row) -> String {
         let subject = F::subject(other.entry);
         subject.is_some_and(|it| matches!(group_verdict(group, other, it), Ok((_, _, false))))
     };
-    others(row, is_right_of).map_or(String::new(), |names| format!("; right here: {names}"))
+    others(row, is_right_of).unwrap_or_default()
 }
 
 /// The names of the built-in kernels that are right by the contract of a row, with their authors' epsilons.

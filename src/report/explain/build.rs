@@ -2,13 +2,13 @@
 
 use super::advice::{advice, group_advice, of_line};
 use super::margin::margin_text;
-use super::verdict::{Together, group_verdict, number, verdict_of};
+use super::verdict::{Together, group_verdict, number, plain, short, verdict_of};
 use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
 use crate::arith::{Exact, Float};
 use crate::audit::{
     Attribution, Errors, Row, attribute, attribute_by_running, exact_severity, polygon_verdict,
 };
-use crate::case::Case;
+use crate::case::{Case, Ray};
 use crate::contract::Extent;
 use crate::corpus::lines::{self, StoredCase};
 use crate::family::Grouping;
@@ -39,7 +39,7 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
             }
         }
     }
-    let case = if name.trim_start().starts_with('{') { "as given" } else { name };
+    let case = if name.trim_start().starts_with('{') { "this case" } else { name };
     let schema = "hairline-explanation/1";
     Explanation { schema, case: case.to_owned(), scalar: F::NAME, triangles, together }
 }
@@ -64,28 +64,46 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
         truth: stored.truth_line(true),
         from_boundary,
         rows: Vec::new(),
-        in_words: truth.to_string(),
+        in_words: match why_invalid(case) {
+            Some(reason) => format!("{truth}: {reason}"),
+            None => truth.to_string(),
+        },
         inputs,
         interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t.to_f64()), t.hex()]),
     }
+}
+
+/// The reason for which no answer to a case is right; none if one is.
+fn why_invalid<F: Scalar>(case: &Case<F>) -> Option<&'static str> {
+    let (vectors, Ray { t_min, t_max, .. }) = (case.vectors(), case.ray);
+    let any = |is_so: fn(F) -> bool| vectors.iter().flatten().any(|x| is_so(*x));
+    let reasons = [
+        (any(|x| x.is_nan()), "a coordinate is NaN"),
+        (any(|x| !x.is_finite()), "a coordinate is infinite"),
+        (vectors[1].iter().all(|x| x.is_zero()), "the direction is 0"),
+        (t_min.is_nan() || t_max.is_nan(), "t_min or t_max is NaN"),
+        (t_min > t_max, "t_min is greater than t_max"),
+    ];
+    reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
 }
 
 /// The contract's demand on the triangles together, and the kernel's answer.
 fn group_part<F: Scalar>(group: Together<F>, row: &Row) -> Option<TogetherPart> {
     let subject = F::subject(row.entry)?;
     let (count, label) = (group.cases.len(), row.label());
-    let part =
-        |judged: String, is_wrong| Some(TogetherPart { row: label.clone(), judged, is_wrong });
-    match group_verdict(group, row, subject) {
-        Err(failure) => part(format!("{failure}; the group is not judged"), false),
+    let part = |said: String, judged: &str, is_wrong| TogetherPart {
+        row: label.clone(),
+        said,
+        judged: judged.to_owned(),
+        advice: if is_wrong { group_advice(group, row) } else { String::new() },
+        is_wrong,
+    };
+    Some(match group_verdict(group, row, subject) {
+        Err(failure) => part(failure, "the group is not judged", false),
         Ok((hits, judged, is_wrong)) => {
-            let mut text = format!("{hits} of {count} triangles hit; {judged}");
-            if is_wrong {
-                text += &group_advice(group, row);
-            }
-            part(text, is_wrong)
+            part(format!("{hits} of {count} triangles hit"), judged, is_wrong)
         }
-    }
+    })
 }
 
 /// The kernel's answer on a polygon as a whole.
@@ -97,9 +115,12 @@ fn polygon_part<F: Scalar>(cases: &[Case<F>], row: &Row) -> Option<TogetherPart>
     let (asked, union) = ((&row.contract, owed), (&cases[0], &polygon_truth(&truths)));
     let finding = judge(asked, union, row.entry.info.gives, &verdict);
     let judged = answered(owed, &verdict, finding).judged();
+    let (said, judged) = judged.split_once("; ").unwrap_or(("", &judged));
     Some(TogetherPart {
         row: row.label(),
-        judged: format!("the polygon of {} corners as a whole: {judged}", cases.len() + 2),
+        said: format!("the polygon of {} corners as a whole: {said}", cases.len() + 2),
+        judged: judged.to_owned(),
+        advice: String::new(),
         is_wrong: finding.is_some(),
     })
 }
@@ -294,7 +315,7 @@ fn errors<F: Scalar>(
     let named = [("t", t), ("u, v", uv), ("o + t d", point)];
     let parts: Vec<String> = named
         .iter()
-        .filter_map(|(name, error)| error.map(|error| format!("{name} by {error:.3e}")))
+        .filter_map(|(name, error)| error.map(|error| format!("{name} by {}", short(error))))
         .collect();
     if !parts.is_empty() {
         all.push(format!("off by ulps: {}", parts.join(", ")));
@@ -313,10 +334,12 @@ fn wrong_values<F: Scalar>(
         let (name, times) = (["t", "u", "v"][which], errors.times[which].unwrap_or_default());
         let (reported, exact) = (reported[which], errors.exact[which]);
         format!(
-            "wrong {name}: reported {reported:e}, exactly {exact:.9e}; off by {times:.3e} u·κ, the size of one rounding \
-             (up to {ALLOWANCE} is allowed)"
+            "wrong {name}: reported {}, exactly {}; off by {} u·κ, the size of one rounding (up to {ALLOWANCE} is allowed)",
+            number(reported),
+            plain(&format!("{exact:.9e}")),
+            short(times)
         )
     });
-    let point = format!("the point is off by {:.3e} longest edges", errors.edges);
+    let point = format!("the point is off by {} longest edges", short(errors.edges));
     wrong.chain([point]).collect()
 }

@@ -20,7 +20,7 @@ use serde_json::value::RawValue;
 pub struct Explanation {
     /// `hairline-explanation/1`.
     pub schema: &'static str,
-    /// Its id or name, or `as given`.
+    /// Its id or name, or `this case`.
     pub case: String,
     /// `f32` or `f64`.
     pub scalar: &'static str,
@@ -108,8 +108,12 @@ pub struct GatePart {
 pub struct TogetherPart {
     /// `kernel (epsilons)`.
     pub row: String,
-    /// A sentence.
+    /// `1 of 2 triangles hit`, or why there is no answer.
+    pub said: String,
+    /// The judgement in words.
     pub judged: String,
+    /// The kernels that are right here; may be empty.
+    pub advice: String,
     /// True if it breaks what is asked of them together.
     pub is_wrong: bool,
 }

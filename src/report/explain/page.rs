@@ -1,15 +1,15 @@
 //! The page of an explanation: the verdict, the gates that made it, the cause, what makes it right; then the truth and the
 //! inputs.
 
-use super::verdict::{self, plain};
+use super::verdict::{self, plain, short};
 use super::{Explanation, GatePart, RowPart, TogetherPart, TrianglePart};
-use crate::report::page::{Block, Cell, Head, Item, Items, Page, Paged, Row, Table, Tone};
+use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table, Tone};
 
 /// With so many rows each is shown by itself.
 const MOST_ROWS: usize = 2;
 
 /// So many answers on all triangles together stand on a screen.
-const MOST_TOGETHER: usize = 5;
+const MOST_TOGETHER: usize = 8;
 
 /// The most names in the title.
 const MOST_NAMES: usize = 3;
@@ -26,7 +26,7 @@ impl Paged for Explanation {
                 blocks.push(Block::Heading(format!("triangle {i} of {}", self.triangles.len())));
             }
             let is_in_title = !several && triangle.rows.len() == 1;
-            blocks.extend(of_triangle(triangle, i == 0, is_in_title));
+            blocks.extend(of_triangle(triangle, [i == 0, !several], is_in_title));
         }
         let inputs = self
             .triangles
@@ -40,9 +40,14 @@ impl Paged for Explanation {
 impl Explanation {
     /// The first sentence, and if something is wrong.
     fn answer(&self) -> (String, bool) {
-        if let [TogetherPart { row, judged, is_wrong }] = &self.together[..] {
-            let text = format!("{row} {}, all triangles together: {judged}", self.scalar);
-            return (text, *is_wrong);
+        if let [part] = &self.together[..] {
+            let text = format!(
+                "{} {}, all triangles together: {}",
+                part.row,
+                self.scalar,
+                part.sentence()
+            );
+            return (text, part.is_wrong);
         }
         if !self.together.is_empty() {
             let wrong = self.together.iter().filter(|part| part.is_wrong).count();
@@ -89,23 +94,56 @@ impl Explanation {
 
 impl Explanation {
     /// The rows on all triangles together, the wrong ones first; one alone stands in the title.
-    fn all_together(&self) -> Option<Block> {
-        if self.together.len() < 2 {
-            return None;
-        }
+    fn all_together(&self) -> Vec<Block> {
         let mut parts: Vec<&TogetherPart> = self.together.iter().collect();
         parts.sort_by_key(|part| !part.is_wrong);
-        let item = |part: &TogetherPart| Item {
-            text: format!("{}: {}", part.row, part.judged),
-            ..Item::default()
+        match parts.len() {
+            0 | 1 => Vec::new(),
+            2..=MOST_ROWS => parts
+                .into_iter()
+                .map(|part| Block::Text(format!("{}: {}", part.row, part.sentence())))
+                .collect(),
+            _ => {
+                let row = |part: &TogetherPart| {
+                    let judged = Cell {
+                        text: part.judged.clone(),
+                        is_broken: part.is_wrong,
+                        ..Cell::default()
+                    };
+                    Row::new(
+                        &part.row,
+                        [part.said.replace(" triangles hit", " hit").into(), judged],
+                    )
+                };
+                let heads = ["kernel (epsilons)", "together", "is"].map(Head::text);
+                let rows = parts.iter().map(|part| row(part)).collect();
+                let mut blocks =
+                    vec![Block::Table(Table::new(heads.into(), rows).at_most(MOST_TOGETHER))];
+                if let Some(part) = parts.iter().find(|part| !part.advice.is_empty()) {
+                    blocks.push(Block::Text(format!("right here: {}", part.advice)));
+                }
+                blocks
+            }
+        }
+    }
+}
+
+impl TogetherPart {
+    fn sentence(&self) -> String {
+        let advice = match self.advice.as_str() {
+            "" => String::new(),
+            names => format!("; right here: {names}"),
         };
-        let items = parts.into_iter().map(item).collect();
-        Some(Block::Items(Items { items, most: MOST_TOGETHER }))
+        format!("{}; {}{advice}", self.said, self.judged)
     }
 }
 
 /// The rows on a triangle, its truth and its inputs.
-fn of_triangle(triangle: &TrianglePart, is_first: bool, is_in_title: bool) -> Vec<Block> {
+fn of_triangle(
+    triangle: &TrianglePart,
+    [is_first, is_alone]: [bool; 2],
+    is_in_title: bool,
+) -> Vec<Block> {
     let rows = &triangle.rows;
     let mut blocks = Vec::new();
     if rows.len() <= MOST_ROWS {
@@ -116,7 +154,8 @@ fn of_triangle(triangle: &TrianglePart, is_first: bool, is_in_title: bool) -> Ve
             blocks.extend(of_row(row, is_first));
         }
     } else {
-        blocks.push(Block::Table(all_rows(rows)));
+        let most = if is_alone { 0 } else { MOST_TOGETHER };
+        blocks.push(Block::Table(all_rows(rows).at_most(most)));
         let each = rows
             .iter()
             .flat_map(|row| [vec![Block::Heading(sentence(row))], of_row(row, is_first)].concat());
@@ -128,7 +167,7 @@ fn of_triangle(triangle: &TrianglePart, is_first: bool, is_in_title: bool) -> Ve
         let passes = match edges {
             0.0 => "meets the boundary exactly".to_owned(),
             _ => {
-                let [edges, ulps] = [edges, ulps].map(|size| plain(&format!("{size:.2e}")));
+                let [edges, ulps] = [edges, ulps].map(short);
                 format!("passes {edges} of the longest edge ({ulps} ulps) from the boundary")
             }
         };
@@ -203,6 +242,9 @@ fn gates(row: &RowPart, is_first: bool) -> Table {
     let text = |value: &Option<String>| value.as_deref().map_or("-".to_owned(), plain);
     let table_row = |gate: &GatePart| {
         let mut decision = gate.decision.unwrap_or("-").to_owned();
+        if gate.margin.as_deref().is_some_and(|margin| margin.ends_with("inf")) {
+            decision += " at every e";
+        }
         let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);
         if is_wrong {
             decision +=

@@ -25,6 +25,11 @@ pub(super) fn number(x: f64) -> String {
     plain(&format!("{x:e}"))
 }
 
+/// A size in three digits.
+pub(super) fn short(x: f64) -> String {
+    plain(&format!("{x:.2e}"))
+}
+
 /// A number as `1.5e0` writes it, to the same digits: without an exponent where it is neither large nor small.
 pub(super) fn plain(text: &str) -> String {
     let Some((mantissa, exponent)) = text.split_once('e') else { return text.to_owned() };
