@@ -194,27 +194,7 @@ impl SourceArguments {
         let [path] = &self.mesh[..] else {
             return Err(Failure::usage("--mesh: a scene is of one mesh"));
         };
-        let text = self.scene.as_deref().unwrap_or("mesh");
-        // What is wrong with the words shows before a large mesh is read.
-        Scene::default().of_mesh(text).map_err(about_scene)?;
-        let scalars = self.scalars()?;
-        let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
-        let mesh = SceneMesh::new(Surface::new(family, scalars));
-        for (chosen, faces, name) in [
-            (scalars[0], mesh.face_count::<f32>(), f32::NAME),
-            (scalars[1], mesh.face_count::<f64>(), f64::NAME),
-        ] {
-            if chosen && faces == 0 {
-                let message = format!("no triangle has an area in {name}");
-                return Err(InputError::of(path, message).into());
-            }
-        }
-        let scene = mesh.scene().of_mesh(text).map_err(about_scene)?;
-        let held = [scene.check_range_in::<f32>(), scene.check_range_in::<f64>()];
-        for (held, _) in held.into_iter().zip(scalars).filter(|(_, chosen)| *chosen) {
-            held.map_err(|error| InputError::of(path, error))?;
-        }
-        Ok((scene, Arc::new(mesh)))
+        mesh_scene(path, self.scene.as_deref(), self.scalars()?, quiet)
     }
 
     /// The seed, and how many cases of each family.
@@ -316,7 +296,7 @@ impl SourceArguments {
         });
         let (seed, count) = self.seed_and_count();
         let source =
-            |stratum| Source::of_scene_mesh(&mesh, stratum, parameters.clone(), seed, count);
+            |stratum| Source::of_stratum(stratum, Some(&mesh), parameters.clone(), seed, count);
         Ok(strata.map(source).collect())
     }
 
@@ -398,4 +378,33 @@ const MOST_DIRECTIONS: u64 = 65_536;
 /// Reads a number of rays at each edge and vertex.
 pub fn rays_at_each() -> impl TypedValueParser<Value = u64> {
     clap::value_parser!(u64).range(1..=MOST_DIRECTIONS)
+}
+
+/// The scene that a mesh is, with what words say of its rays, and the mesh, in some scalars.
+pub fn mesh_scene(
+    path: &str,
+    words: Option<&str>,
+    scalars: [bool; 2],
+    quiet: bool,
+) -> Result<(Scene, Arc<SceneMesh>), Failure> {
+    let words = words.unwrap_or("mesh");
+    // What is wrong with the words shows before a large mesh is read.
+    Scene::default().of_mesh(words).map_err(about_scene)?;
+    let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
+    let mesh = SceneMesh::new(Surface::new(family, scalars));
+    for (chosen, faces, name) in [
+        (scalars[0], mesh.face_count::<f32>(), f32::NAME),
+        (scalars[1], mesh.face_count::<f64>(), f64::NAME),
+    ] {
+        if chosen && faces == 0 {
+            let message = format!("no triangle has an area in {name}");
+            return Err(InputError::of(path, message).into());
+        }
+    }
+    let scene = mesh.scene().of_mesh(words).map_err(about_scene)?;
+    let held = [scene.check_range_in::<f32>(), scene.check_range_in::<f64>()];
+    for (held, _) in held.into_iter().zip(scalars).filter(|(_, chosen)| *chosen) {
+        held.map_err(|error| InputError::of(path, error))?;
+    }
+    Ok((scene, Arc::new(mesh)))
 }

@@ -10,18 +10,21 @@ use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
 use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
-use super::sources::note_left_out;
+use super::sources::{mesh_scene, note_left_out};
 use crate::audit::{Row, shell_word};
 use crate::case::{Case, Scene};
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
+use crate::mesh::SceneMesh;
 use crate::plugin::{OffsetCommand, Program};
 use crate::report::Format;
 use crate::spawn::{Plan, PointKind, Scheme, Sums, default_schemes, needs_t, parse, register};
 use crate::studied::Studied;
 use choice::{least_without_failure, made_for};
 use clap::Args;
+use clap::builder::ArgPredicate;
 use record::{DerivedPart, PointsPart, SCHEMA, SpawnRecord};
+use std::sync::Arc;
 
 /// The flags of `spawn`: the run, and how it is reported.
 #[derive(Args)]
@@ -37,8 +40,18 @@ pub struct SpawnArguments {
     /// or what is known of yours, as extent=1000,edge=0.01..10,distance=0..2000; center=1e5 moves it,
     /// edge=0.01..0.1..10 makes half of them smaller than 0.1, plane=axis-0 tries floors at 0 only
     /// (generic, axis, axis-near-0, axis-0, terrain, box) [without plane: all kinds, told apart]
-    #[arg(long, value_name = "SCENE", default_value = "unit")]
+    #[arg(
+        long,
+        value_name = "SCENE",
+        default_value = "unit",
+        default_value_if("mesh", ArgPredicate::IsPresent, "mesh")
+    )]
     scene: String,
+
+    /// First rays at the triangles of an OBJ, PLY, STL or glTF file instead; then --scene says how far they travel, as
+    /// mesh,distance=0..20
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<String>,
 
     /// Offset schemes, separated by commas, some with a value: normal=1e-3,waechter-binder (see `hairline
     /// list schemes`) [default: all published ones, and two that are made for the scene]
@@ -104,12 +117,10 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let rows = arguments.rows()?;
     let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
     refuse_wrong_values(&rows, scalars)?;
-    let (scene, unit) = arguments.scene(scalars)?;
-    if !arguments.output.quiet {
-        note_left_out(&scene, &arguments.scene);
-    }
+    let FirstRays { scene, unit, mesh } = arguments.first_rays(scalars)?;
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);
-    let scenes = match Scene::names_kind(&arguments.scene) {
+    // A mesh has planes of its own.
+    let scenes = match Scene::names_kind(&arguments.scene) || mesh.is_some() {
         true => vec![scene.clone()],
         false => scene.of_all_kinds(),
     };
@@ -119,7 +130,8 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     for row in &rows {
         for &kind in kinds.iter().filter(|kind| kind.is_given_by(row.entry)) {
             let in_scalar = row.entry.scalars();
-            let settings = Settings { arguments, row, scenes: &scenes, kind, wall, fold };
+            let mesh = mesh.as_ref();
+            let settings = Settings { arguments, row, scenes: &scenes, mesh, kind, wall, fold };
             if scalars[0] && in_scalar[0] && has::<f32>(&schemes) {
                 let schemes = &schemes;
                 studies.push(Box::new(move |progress| settings.study::<f32>(schemes, progress)));
@@ -147,6 +159,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let record = SpawnRecord {
         schema: SCHEMA.to_owned(),
         scene: scene.to_string(),
+        mesh: arguments.mesh.clone(),
         unit: unit.to_owned(),
         seed: arguments.seed,
         pilot_seed: pilot_seed(arguments.seed),
@@ -158,6 +171,13 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     };
     arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
+}
+
+/// Where first rays come from: a scene, with its unit of length, and the mesh that it is, if it is one.
+struct FirstRays {
+    scene: Scene,
+    unit: &'static str,
+    mesh: Option<Arc<SceneMesh>>,
 }
 
 /// A study that is still to be run.
@@ -179,6 +199,7 @@ struct Settings<'a> {
     row: &'a Row,
     /// The scene with each kind of plane; the table is about the first.
     scenes: &'a [Scene],
+    mesh: Option<&'a Arc<SceneMesh>>,
     kind: PointKind,
     wall: f64,
     fold: f64,
@@ -191,7 +212,7 @@ impl Settings<'_> {
     where
         AnyCase: From<Case<F>>,
     {
-        let Settings { arguments, row, scenes, kind, wall, fold } = *self;
+        let Settings { arguments, row, scenes, mesh, kind, wall, fold } = *self;
         let gives_t = row.entry.info.gives.t;
         let is_for = |s: &&Scheme| s.offset::<F>().is_some() && (gives_t || !needs_t(&s.name));
         let mut schemes: Vec<Scheme> = schemes.iter().filter(is_for).cloned().collect();
@@ -199,8 +220,18 @@ impl Settings<'_> {
         let [tried_on, counted_on] = [pilot_seed(arguments.seed), arguments.seed];
         let (with_least, scene, no_schemes) = (true, &scenes[0], &[]);
         let seed = tried_on;
-        let plan =
-            Plan { row, scene, kind, schemes: no_schemes, wall, fold, with_least, seed, count };
+        let plan = Plan {
+            row,
+            scene,
+            mesh,
+            kind,
+            schemes: no_schemes,
+            wall,
+            fold,
+            with_least,
+            seed,
+            count,
+        };
         let run = |plans: &[Plan<'_>]| -> Vec<Sums> {
             plans.iter().map(|plan| F::spawn(plan, progress)).collect()
         };
@@ -218,7 +249,7 @@ impl Settings<'_> {
         // How much a hit point needs is reported of the first kind of plane.
         plans[1..].iter_mut().for_each(|plan| plan.with_least = false);
         let sums = run(&plans);
-        PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &arguments.scene)
+        PointsPart::new::<F>(&plans, [&pilots, &sums], &made, derived, &arguments.place())
     }
 }
 
@@ -241,8 +272,19 @@ impl SpawnArguments {
         Ok(rows.into_iter().filter(|row| row.entry.info.name == DEFAULT_KERNEL).collect())
     }
 
-    /// The scene, which the scalars of the run can hold, and its unit of length.
-    fn scene(&self, [in_f32, in_f64]: [bool; 2]) -> Result<(Scene, &'static str), Failure> {
+    /// The flags that name the scene or the mesh.
+    fn place(&self) -> String {
+        let mesh = self.mesh.as_ref().map(|path| format!("--mesh {} ", shell_word(path)));
+        format!("{}--scene {}", mesh.unwrap_or_default(), shell_word(&self.scene))
+    }
+
+    /// The scene, which the scalars of the run can hold, its unit of length, and the mesh that it is.
+    fn first_rays(&self, scalars: [bool; 2]) -> Result<FirstRays, Failure> {
+        let [in_f32, in_f64] = scalars;
+        if let Some(path) = &self.mesh {
+            let (scene, mesh) = mesh_scene(path, Some(&self.scene), scalars, self.output.quiet)?;
+            return Ok(FirstRays { scene, unit: "", mesh: Some(mesh) });
+        }
         let wrong = |message: String| Failure::usage(format!("--scene: {message}"));
         let (scene, unit) = Scene::parse(&self.scene).map_err(wrong)?;
         if in_f32 {
@@ -251,7 +293,10 @@ impl SpawnArguments {
         if in_f64 {
             scene.check_in::<f64>().map_err(wrong)?;
         }
-        Ok((scene, unit))
+        if !self.output.quiet {
+            note_left_out(&scene, &self.scene);
+        }
+        Ok(FirstRays { scene, unit, mesh: None })
     }
 
     fn kinds(&self) -> Result<Vec<PointKind>, Failure> {

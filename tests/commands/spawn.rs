@@ -104,6 +104,60 @@ fn the_record_has_every_scheme_with_its_source_and_is_the_same_on_any_number_of_
 }
 
 #[test]
+fn first_rays_at_a_mesh_leave_its_own_triangles() {
+    let folder = scratch("spawn-mesh");
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/corpora/meshes/icosphere.obj");
+    let mine = folder.join("a.obj");
+    fs::copy(mesh, &mine).unwrap();
+    let flags = ["--mesh", "a.obj", "-n", "4000"];
+    let record = json(&folder, &[&flags[..], &["--threads", "1"]].concat());
+    assert_eq!(record, json(&folder, &[&flags[..], &["--threads", "3"]].concat()));
+    let schema: Value = serde_json::from_str(include_str!("../../docs/schema/spawn.json")).unwrap();
+    assert_eq!(crate::json_schema::errors(&schema, &record), [""; 0]);
+    assert!(record["mesh"] == "a.obj" && record["planes"].as_array().unwrap().len() == 1);
+    // The new ray's triangle is one of the file's, in every coordinate.
+    let text = fs::read_to_string(&mine).unwrap();
+    let vertices: Vec<[f32; 3]> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("v "))
+        .map(|line| {
+            let numbers: Vec<f32> = line.split(' ').map(|x| x.parse().unwrap()).collect();
+            numbers.try_into().unwrap()
+        })
+        .collect();
+    for part in record["points"].as_array().unwrap() {
+        let schemes = part["schemes"].as_array().unwrap();
+        let none = schemes.iter().find(|scheme| scheme["name"] == "none").unwrap();
+        let explain = none["first_wrong"]["explain"].as_str().unwrap();
+        let case: Value = serde_json::from_str(explain.split('\'').nth(1).unwrap()).unwrap();
+        for corner in ["a", "b", "c"] {
+            let at: Vec<f32> = case[corner]
+                .as_array()
+                .unwrap()
+                .iter()
+                .map(|x| x.as_f64().unwrap() as f32)
+                .collect();
+            assert!(vertices.iter().any(|vertex| vertex[..] == at[..]), "{case}");
+        }
+        // A first ray of the mesh is explained with the mesh.
+        let first = none["first_wrong"]["first_ray"].as_str().unwrap();
+        ends(&folder, &["explain", first, "--mesh", "a.obj", "--kernel", "cramer"], 0);
+        // No bound is claimed: triangles of a mesh may be thin.
+        assert!(part["derived"].is_null(), "{part}");
+        let command = part["best"]["command"].as_str().unwrap();
+        assert!(command.contains(" --mesh a.obj --scene mesh "), "{command}");
+        let words: Vec<&str> = command.split(' ').skip(1).chain(["-n", "500", "-q"]).collect();
+        ends(&folder, &words, 0);
+    }
+    let (screen, _) = ends(&folder, &[&["spawn"], &flags[..], &["-q"]].concat(), 0);
+    assert!(screen.starts_with("Where new rays must start in a.obj\n(extent="), "{screen}");
+    let (_, error) = ends(&folder, &["spawn", "--mesh", "a.obj", "--scene", "room", "-q"], 2);
+    assert!(error.contains("'room' is no word for the scene of a mesh"), "{error}");
+    let (_, error) = ends(&folder, &["spawn", "--mesh", "b.obj", "-q"], 74);
+    assert!(error.contains("b.obj"), "{error}");
+}
+
+#[test]
 fn the_recommended_offset_holds_on_every_kind_of_plane() {
     let folder = scratch("spawn-planes");
     let place = ["--scene", "extent=1000,edge=100..1000,distance=0..1000", "-n", "5000"];

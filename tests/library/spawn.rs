@@ -2,9 +2,10 @@
 //! against a determinant in rationals, smallest safe offsets against every float around them.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::{EpsilonChoice, Row, Unobserved};
-use hairline::internals::case::{Case, Scene};
+use hairline::internals::audit::{EpsilonChoice, Row, Source, Unobserved};
+use hairline::internals::case::{Case, Parameters, Scene};
 use hairline::internals::contract::Contract;
+use hairline::internals::family::Stratum;
 use hairline::internals::kernel::{Entry, Gives, Hit, KernelInfo, Scalar, find};
 use hairline::internals::spawn::{
     HitPoint, Plan, Plane, PointKind, Scheme, Start, Sums, Trial, Trials, all, default_schemes,
@@ -71,9 +72,25 @@ fn scene(text: &str) -> Scene {
     Scene::parse(text).unwrap().0
 }
 
+fn first_rays(scene: &Scene, seed: u64) -> Source {
+    let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
+    Source::of_stratum(Stratum::Interior, None, parameters, seed, u64::MAX)
+}
+
 fn plan<'a>(row: &'a Row, scene: &'a Scene, schemes: &'a [Scheme], count: u64) -> Plan<'a> {
     let kind = PointKind::Weights;
-    Plan { row, scene, kind, schemes, wall: 0.01, fold: 45.0, with_least: true, seed: 1, count }
+    Plan {
+        row,
+        scene,
+        mesh: None,
+        kind,
+        schemes,
+        wall: 0.01,
+        fold: 45.0,
+        with_least: true,
+        seed: 1,
+        count,
+    }
 }
 
 fn hit_at(point: [f32; 3], normal: [f32; 3]) -> HitPoint<f32> {
@@ -173,7 +190,8 @@ fn sides_are_those_of_rationals<F: Scalar>(text: &str, kernel: &str, count: u64)
         let plan = Plan { kind, ..plan(&row, &scene, &schemes, count) };
         let sums = run::<F>(&plan, &Unobserved);
         let epsilons = row.epsilons::<F>();
-        let trials = Trials::in_scene(row.entry, &epsilons, kind, &scene, 1, 0..count).trials;
+        let trials =
+            Trials::on(row.entry, &epsilons, kind, &first_rays(&scene, 1), 1, 0..count).trials;
         assert_eq!(sums.hits, trials.len() as u64);
         for (scheme, of) in schemes.iter().zip(&sums.schemes) {
             let offset = scheme.offset::<F>().unwrap();
@@ -215,7 +233,7 @@ fn sides_and_heights_are_those_of_a_determinant_in_rationals() {
 fn new_rays_leave_to_the_side_that_the_first_ray_came_from() {
     let (row, scene) = (row("moller-trumbore"), scene("room"));
     let epsilons = row.epsilons::<f32>();
-    let of = Trials::in_scene(row.entry, &epsilons, PointKind::Ray, &scene, 3, 0..2000);
+    let of = Trials::on(row.entry, &epsilons, PointKind::Ray, &first_rays(&scene, 3), 3, 0..2000);
     let family = hairline::internals::family::Stratum::Interior.family();
     let parameters =
         hairline::internals::case::Parameters { scene: Some(scene.clone()), ..Default::default() };
@@ -240,7 +258,7 @@ fn new_rays_leave_to_the_side_that_the_first_ray_came_from() {
 fn least_is_least<F: Scalar>(text: &str) {
     let (row, scene) = (row("moller-trumbore"), scene(text));
     let epsilons = row.epsilons::<F>();
-    let of = Trials::in_scene(row.entry, &epsilons, PointKind::Weights, &scene, 1, 0..60);
+    let of = Trials::on(row.entry, &epsilons, PointKind::Weights, &first_rays(&scene, 1), 1, 0..60);
     let mut needed = 0;
     for trial in &of.trials {
         let right = |origin| rise(trial, &Start::at(origin)).is_positive();
@@ -385,7 +403,7 @@ fn waechter_binder_is_wrong_on_a_large_triangle_where_pbrt_is_not() {
     // The only one of 10^7: hairline spawn --scene extent=1e3,edge=900 -n 10000000
     let (row, scene, index) = (row("moller-trumbore"), scene("extent=1e3,edge=900"), 4_467_797);
     let (kind, epsilons) = (PointKind::Weights, row.epsilons::<f32>());
-    let of = Trials::in_scene(row.entry, &epsilons, kind, &scene, 1, index..index + 1);
+    let of = Trials::on(row.entry, &epsilons, kind, &first_rays(&scene, 1), 1, index..index + 1);
     let [trial] = of.trials.as_slice() else { panic!("{of:?}") };
     let is_right = |scheme: &str| rise(trial, &start(scheme, &trial.hit)).is_positive();
     assert!(!is_right("waechter-binder") && is_right("pbrt-v3") && is_right("pbrt-v4"));

@@ -33,7 +33,11 @@ impl Paged for SpawnRecord {
             blocks.push(Block::Commands("next", commands));
         }
         let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
-        let title = format!("Where new rays must start in {}{unit}", self.scene);
+        let scene = match &self.mesh {
+            Some(path) => format!("{} ({})", path.escape_debug(), self.scene),
+            None => self.scene.clone(),
+        };
+        let title = format!("Where new rays must start in {scene}{unit}");
         Page { command: "spawn", title, blocks, ..Page::default() }
     }
 }

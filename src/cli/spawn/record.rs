@@ -2,14 +2,14 @@
 
 use super::choice::{best, derived_name, is_too_high};
 use crate::arith::three_digits;
-use crate::audit::{Trials, quoted, shell_word};
+use crate::audit::{Trials, quoted};
 use crate::case::Case;
 use crate::corpus::lines::{AnyCase, StoredCase, write_case};
 use crate::kernel::Scalar;
 use crate::report::Rate;
 use crate::spawn::{
-    Heights, Lengths, OfScheme, Plan, PointKind, ROOM, Scheme, Sums, derived_normal, first_ray_id,
-    least_weight, new_ray,
+    Heights, Lengths, OfScheme, Plan, PointKind, ROOM, Scheme, Sums, derived_normal, least_weight,
+    new_ray,
 };
 use serde::Serialize;
 
@@ -25,6 +25,8 @@ pub struct SpawnRecord {
     pub schema: String,
     /// The scene's words.
     pub scene: String,
+    /// The path of the mesh that it is, if it is one.
+    pub mesh: Option<String>,
     /// Its unit of length; empty if it has none.
     pub unit: String,
     /// The seed of the rays that are reported.
@@ -209,13 +211,13 @@ pub struct WrongPart {
 
 impl PointsPart {
     /// Plans and sums by kind of plane. `preferred` are places of schemes that come first where they are about as low
-    /// as any; `words` are the scene's as the user wrote them.
+    /// as any; `place` are the flags that name the scene or the mesh.
     pub fn new<F: Scalar>(
         plans: &[Plan<'_>],
         [pilots, runs]: [&[Sums]; 2],
         preferred: &[usize],
         derived: Option<DerivedPart>,
-        words: &str,
+        place: &str,
     ) -> PointsPart
     where
         AnyCase: From<Case<F>>,
@@ -252,18 +254,18 @@ impl PointsPart {
                 ulps: LengthsPart::new(&sums.least_in_ulps),
             },
             derived,
-            best: best.map(|place| {
-                let scheme = plan.schemes[place].name.clone();
-                let (scene, point) = (shell_word(words), plan.kind.name());
+            best: best.map(|best| {
+                let scheme = plan.schemes[best].name.clone();
                 let command = format!(
-                    "hairline spawn {flags} --scene {scene} {} --point {point} --scalar {}",
-                    plan.schemes[place].flags,
+                    "hairline spawn {flags} {place} {} --point {} --scalar {}",
+                    plan.schemes[best].flags,
+                    plan.kind.name(),
                     F::NAME
                 );
-                let sums = &sums.schemes[place];
+                let sums = &sums.schemes[best];
                 BestPart {
                     one_in: one_in(sums),
-                    is_derived: at_derived == Some(place),
+                    is_derived: at_derived == Some(best),
                     is_too_high: is_too_high(sums),
                     scheme,
                     command,
@@ -279,9 +281,11 @@ impl PointsPart {
 
 impl DerivedPart {
     /// The derived bound of a plan, rounded up; none if what the row's gates let through may have any weights, or a
-    /// pilot saw others than that. It assumes nothing of how a plane lies, so it holds on every kind of plane.
+    /// pilot saw others than that. It assumes nothing of how a plane lies, so it holds on every kind of plane; but it
+    /// assumes that triangles are not thin, and those of a mesh may be.
     pub fn of<F: Scalar>(plan: &Plan<'_>, pilots: &[Sums]) -> Option<DerivedPart> {
-        let of_weights = (plan.kind == PointKind::Weights).then(|| least_weight(plan.row))?;
+        let is_covered = plan.kind == PointKind::Weights && plan.mesh.is_none();
+        let of_weights = is_covered.then(|| least_weight(plan.row))?;
         let least_weight = of_weights?;
         let normal = three_digits(derived_normal::<F>(plan.scene, least_weight)?, true);
         let derived =
@@ -374,7 +378,7 @@ impl WrongPart {
         let case = new_ray::<F>(plan, scheme, index)?;
         let line = write_case(&StoredCase { is_secondary: true, ..StoredCase::of(case) });
         Some(WrongPart {
-            first_ray: first_ray_id::<F>(plan.scene, plan.seed, index),
+            first_ray: plan.source().id::<F>(index, None),
             explain: plan.row.explain_command(&quoted(&line)),
         })
     }

@@ -10,18 +10,14 @@ use crate::epsilon::COUNT;
 pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
     let best = &part.tried[0].epsilons;
     let of_audit = of_scene(record);
-    let of_spawn = match &record.mesh {
-        None => of_audit.clone(),
-        Some(_) => format!("--scene {}", shell_word(&stand_in(record))),
-    };
     let chosen = part.knobs.iter().zip(best).filter(|(knob, _)| knob.is_gate);
     let chosen = chosen.map(|(knob, value)| (&knob.name, value)).chain(&part.others);
     let all: Vec<String> = chosen.map(|(gate, value)| format!("{gate}={value}")).collect();
     let with = if all.is_empty() { String::new() } else { format!(" --epsilon {}", all.join(",")) };
     let seed = record.fresh_seed;
-    let command = |name: &str, scene: &str, more: &str| {
+    let command = |name: &str, more: &str| {
         let (kernel, scalar) = (&part.selector, &part.scalar);
-        format!("hairline {name} {kernel}{with} {scene} --scalar {scalar} --seed {seed}{more}")
+        format!("hairline {name} {kernel}{with} {of_audit} --scalar {scalar} --seed {seed}{more}")
     };
     // A t that keeps rays from their own surface is right where the exact answer for the rounded start is a hit.
     let guards_start = part.knobs.iter().any(|knob| knob.is_gate && knob.role == "t");
@@ -37,9 +33,8 @@ pub(super) fn commands(record: &SceneRecord, part: &SceneKernelPart) -> Vec<Stri
     let has_t = record.has_scene()
         && part.knobs.iter().any(|knob| knob.role == "t")
         && !is_coarse(record, part);
-    let note = if record.mesh.is_some() { "  # other triangles of these sizes" } else { "" };
-    let spawn = has_t.then(|| command("spawn", &of_spawn, note));
-    [command("audit", &of_audit, &same_rays)].into_iter().chain(spawn).collect()
+    let spawn = has_t.then(|| command("spawn", ""));
+    [command("audit", &same_rays)].into_iter().chain(spawn).collect()
 }
 
 /// The scene as `--scene` takes it.
@@ -86,13 +81,4 @@ pub(super) fn of_kernel(record: &SceneRecord, part: &SceneKernelPart) -> String 
         command += &format!(" -n {}", record.count);
     }
     command
-}
-
-/// A scene of triangles as large as a mesh's, within its coordinates or at least their own longest edge.
-fn stand_in(record: &SceneRecord) -> String {
-    let word = |word: &str| match word.strip_prefix("extent=").map(str::parse::<f64>) {
-        Some(Ok(extent)) => format!("extent={}", Number(extent.max(record.edge[1]))),
-        _ => word.to_owned(),
-    };
-    record.scene.split(',').map(word).collect::<Vec<_>>().join(",")
 }

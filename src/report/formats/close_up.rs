@@ -2,7 +2,6 @@
 //! hits and what most of them come from.
 
 use super::columns::{Column, far, short_percent};
-use super::details::share_cell;
 use super::disagreement::is_shared_in_scene;
 use super::group_digits;
 use super::lines::{Line, column_legend};
@@ -189,4 +188,17 @@ fn cause(results: &[&KernelResult], kind: FindingKind) -> String {
     let shares = cause_shares(of_kind(results, kind)).unwrap_or_default();
     let most = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
     most.map_or(String::new(), |(cause, share, _)| format!("{} {}", cause.name(), percent(share)))
+}
+
+/// A share and its interval in percent.
+fn share_cell(rate: &Rate) -> Cell {
+    let number = |share: f64| percent(share).trim_end_matches('%').to_owned();
+    let text = match (rate.rate, rate.interval) {
+        (None, _) => "-".to_owned(),
+        (Some(share), None) => number(share),
+        (Some(share), Some([low, high])) => {
+            format!("{} [{}, {}]", number(share), number(low), number(high))
+        }
+    };
+    Cell { text, is_broken: 0 < rate.count, share: rate.rate }
 }

@@ -169,12 +169,18 @@ fn rates(record: &Record, part: &RowPart, views: &[RowView]) -> Table {
             rows.push(Row::new(name, pools.iter().map(counts)));
         }
     }
+    if views.iter().any(|view| 0 < view.hits_on_invalid()) {
+        let hits = views.iter().map(|view| group_digits(view.hits_on_invalid()));
+        rows.push(Row::new("hits on NaN, infinities, …", hits));
+    }
     let label = format!("{} ({})", part.kernel, part.set);
     let time = |view: &RowView| {
         let times = record.provenance.kernel_nanoseconds.get(view.scalar)?;
         times.get(&label).map(|time| format!("{time:.1}"))
     };
-    rows.push(Row::new("ns a ray", views.iter().map(|view| time(view).unwrap_or("-".to_owned()))));
+    let is_emulated = part.kernel.contains('+');
+    let name = if is_emulated { "ns a ray, emulated" } else { "ns a ray" };
+    rows.push(Row::new(name, views.iter().map(|view| time(view).unwrap_or("-".to_owned()))));
     Table::new(heads.map(Head::of).collect(), rows)
 }
 

@@ -5,7 +5,6 @@
 
 mod close_up;
 mod columns;
-mod details;
 mod extremes;
 mod jsonl;
 mod junit;

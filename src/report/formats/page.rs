@@ -5,7 +5,7 @@ use super::kernel;
 use super::lines::lines;
 use super::record::*;
 use super::row_view::RowView;
-use super::{Record, Verdict, details, group_digits, number_of, questions, screen, verdict};
+use super::{Record, Verdict, group_digits, number_of, questions, screen, verdict};
 use crate::report::page::{Block, Page, Paged, Tone};
 
 /// Bytes for the first examples of all classes, beside the worst of each.
@@ -36,8 +36,6 @@ impl Paged for Record {
         let scalars = &self.result.plan.scalars;
         let all = questions::blocks(scalars, &columns, &lines);
         page.blocks.push(Block::Details("Every question".to_owned(), all));
-        let tables = scalars.iter().flat_map(|scalar| details::blocks(self, scalar)).collect();
-        page.blocks.push(Block::Details("Every row".to_owned(), tables));
         let examples = kernel::depth(self, EXAMPLES);
         let rows = &self.result.plan.rows;
         let mut views: Vec<Vec<RowView>> = rows.iter().map(|_| Vec::new()).collect();

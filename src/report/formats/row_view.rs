@@ -43,16 +43,6 @@ impl<'a> RowView<'a> {
     pub(super) fn hits_on_invalid(&self) -> u64 {
         self.results.iter().filter_map(|result| result.classes.get("invalid")).map(|c| c.hits).sum()
     }
-
-    /// The family with the largest share.
-    pub(super) fn worst_family(&self, rate: impl Fn(&KernelResult) -> &Rate) -> &str {
-        let share = |result: &KernelResult| rate(result).rate.unwrap_or(0.0);
-        self.results
-            .iter()
-            .filter(|result| rate(result).count > 0)
-            .max_by(|x, y| share(x).total_cmp(&share(y)))
-            .map_or("", |result| &result.family)
-    }
 }
 
 /// The remark on a scalar without a valid case.

@@ -7,7 +7,7 @@ use super::lines::{Line, notes};
 use super::record::*;
 use super::row_view::{ALL_INVALID, RowView, cases_in, failures, is_all_invalid};
 use super::standing::{Standing, standings};
-use super::{close_up, extremes, group_digits, next, number_of, ranking};
+use super::{close_up, extremes, next, number_of, ranking};
 use crate::case::SceneKind;
 use crate::report::elsewhere::is_worse;
 use crate::report::page::{Block, Head, Row, Table};
@@ -127,10 +127,10 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
             format!("{}: no false miss and no false hit{place}.", label(only))
         }
         [only] => format!(
-            "{} is wrong on {} % of the cases{mean}, {} times by over 1/1000 of an edge.",
+            "{} is wrong on {} % of the cases{mean}, {} by over 1/1000 of an edge.",
             label(only),
             percent(only.share.unwrap_or_default()),
-            group_digits(only.far),
+            number_of(only.far, "time", "times"),
         ),
         all => ranking::answer(all, judged(record), &place),
     };

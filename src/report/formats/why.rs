@@ -3,7 +3,6 @@
 use super::rate::percent;
 use super::record::*;
 use crate::audit::Attribution;
-use std::collections::BTreeMap;
 
 /// The findings of a kind, of any class.
 pub(super) fn of_kind<'a>(
@@ -69,19 +68,6 @@ pub(super) fn severity_text(severity: &SeverityDistribution) -> String {
     let ulps = ulps.join(", ");
     let [median, most, nearly_all] = edges;
     format!("half within {median} longest edges, 90% {most}, 99% {nearly_all} ({ulps} ulps)")
-}
-
-/// The errors of values: `t half 0.5, 99% 3, worst 1e4; u, v …; o + t d …`; none where no hit was
-/// measured.
-pub(super) fn accuracy_text(accuracy: &BTreeMap<String, Distribution>) -> Option<String> {
-    let names = [("t", "t"), ("uv", "u, v"), ("point", "o + t d")];
-    let part = |(key, name): (&str, &str)| {
-        let part = accuracy.get(key)?;
-        let [median, nearly_all, worst] = [part.median, part.percent_99, part.worst].map(short);
-        Some(format!("{name} half within {median}, 99% {nearly_all}, worst {worst}"))
-    };
-    let parts: Vec<String> = names.into_iter().filter_map(part).collect();
-    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// A number that is not negative, in few characters; none is infinite.

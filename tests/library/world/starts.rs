@@ -98,6 +98,7 @@ pub fn theirs<F: Scalar>(
     let plan = Plan {
         row,
         scene,
+        mesh: None,
         kind,
         schemes,
         wall: 0.01,

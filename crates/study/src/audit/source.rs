@@ -131,14 +131,18 @@ impl CorpusSet {
 }
 
 impl Source {
-    /// A stratum of the scene that a mesh is; the parameters get the mesh's digest.
-    pub fn of_scene_mesh(
-        mesh: &Arc<SceneMesh>,
+    /// A stratum of a scene, or of the scene that a mesh is: its parameters get the mesh's digest.
+    pub fn of_stratum(
         stratum: Stratum,
+        mesh: Option<&Arc<SceneMesh>>,
         parameters: Parameters,
         seed: u64,
         count: u64,
     ) -> Source {
+        let Some(mesh) = mesh else {
+            let family = stratum.family();
+            return Source::Family { family, parameters, seed, count, exhaustive: false };
+        };
         let digest = mesh.surface().mesh().digest.clone();
         let parameters = Parameters { mesh: Some(digest), ..parameters };
         Source::SceneMesh { mesh: mesh.clone(), stratum, parameters, seed, count }

@@ -179,16 +179,7 @@ impl<F: Scalar> Setting<'_, F> {
         let kernel = (stratum == Stratum::Shadow).then(|| self.row.entry.info.name.to_owned());
         let scene = Some(self.scene.cloned().unwrap_or_default());
         let parameters = Parameters { scene, kernel, ..Parameters::default() };
-        match self.mesh {
-            Some(mesh) => Source::of_scene_mesh(mesh, stratum, parameters, seed, count),
-            None => Source::Family {
-                family: stratum.family(),
-                parameters,
-                seed,
-                count,
-                exhaustive: false,
-            },
-        }
+        Source::of_stratum(stratum, self.mesh, parameters, seed, count)
     }
 
     /// The cases of some indices, their margins, and the trials among them.

@@ -33,4 +33,4 @@ pub use run::{Plan, new_ray, run};
 pub use safe::{Least, least};
 pub use scheme::{Scheme, all, default_schemes, describe, needs_t, parse, register};
 pub use sums::{Heights, Lengths, OfScheme, Sums};
-pub use trial::{PointKind, Trial, Trials, first_ray_id};
+pub use trial::{PointKind, Trial, Trials};

@@ -9,14 +9,17 @@ use super::scheme::Scheme;
 use super::sums::{OfScheme, Sums};
 use super::trial::{PointKind, Trial, Trials};
 use crate::arith::Float;
-use crate::audit::Row;
-use crate::case::{Case, Scene};
+use crate::audit::{Row, Source};
+use crate::case::{Case, Parameters, Scene};
 use crate::contract::Extent;
 use crate::engine::{self, Observer};
+use crate::family::Stratum;
 use crate::kernel::{Scalar, Verdict};
+use crate::mesh::SceneMesh;
 use crate::oracle::{self, Layers};
 use crate::truth::{Place, Truth};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The plan of a run.
 pub struct Plan<'a> {
@@ -24,6 +27,8 @@ pub struct Plan<'a> {
     pub row: &'a Row,
     /// Where triangles and first rays come from.
     pub scene: &'a Scene,
+    /// The mesh that the scene is, if it is one.
+    pub mesh: Option<&'a Arc<SceneMesh>>,
     /// How hit points are formed, from values that the kernel gives.
     pub kind: PointKind,
     /// The schemes, which all run in the scalar.
@@ -49,13 +54,14 @@ pub fn run<F: Scalar>(plan: &Plan<'_>, observer: &dyn Observer) -> Sums {
         let schemes = vec![OfScheme::default(); plan.schemes.len()];
         Sums { schemes, ..Sums::default() }
     };
-    let add = |sums: &mut Sums, indices| add_chunk::<F>(plan, plan.trials(indices), sums);
+    let source = plan.source();
+    let add = |sums: &mut Sums, indices| add_chunk::<F>(plan, plan.trials(&source, indices), sums);
     engine::sum(0..plan.count, CHUNK, observer, empty, add)
 }
 
 /// The new ray of a scheme that leaves the first ray of an index, with its triangle.
 pub fn new_ray<F: Scalar>(plan: &Plan<'_>, scheme: &Scheme, index: u64) -> Option<Case<F>> {
-    let trials = plan.trials::<F>(index..index + 1).trials;
+    let trials = plan.trials::<F>(&plan.source(), index..index + 1).trials;
     let (trial, offset) = (trials.first()?, scheme.offset::<F>()?);
     let Start { origin, t_min } = offset.start(&trial.hit);
     Some(trial.case(origin, t_min))
@@ -67,9 +73,16 @@ impl Plan<'_> {
         self.row.entry.info.gives.t || self.row.contract.extent != Extent::Line
     }
 
-    fn trials<F: Scalar>(&self, indices: Range<u64>) -> Trials<F> {
-        let Plan { row, scene, kind, seed, .. } = *self;
-        Trials::in_scene(row.entry, &row.epsilons::<F>(), kind, scene, seed, indices)
+    /// The first rays: towards the insides of triangles.
+    pub fn source(&self) -> Source {
+        let Plan { scene, mesh, seed, count, .. } = *self;
+        let parameters = Parameters { scene: Some(scene.clone()), ..Parameters::default() };
+        Source::of_stratum(Stratum::Interior, mesh, parameters, seed, count)
+    }
+
+    fn trials<F: Scalar>(&self, source: &Source, indices: Range<u64>) -> Trials<F> {
+        let Plan { row, kind, seed, .. } = *self;
+        Trials::on(row.entry, &row.epsilons::<F>(), kind, source, seed, indices)
     }
 }
 

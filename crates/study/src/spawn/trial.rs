@@ -2,8 +2,9 @@
 
 use super::hit::HitPoint;
 use crate::arith::{Float, Vector};
-use crate::case::{Case, Draw, Parameters, Scene};
-use crate::family::{Stratum, any_direction, combination};
+use crate::audit::Source;
+use crate::case::{Case, Draw};
+use crate::family::{any_direction, combination};
 use crate::kernel::{Entry, Scalar, Verdict};
 use crate::oracle;
 use crate::truth::{Facing, Truth};
@@ -62,30 +63,17 @@ pub struct Trials<F: Float> {
     pub not_finite: u64,
 }
 
-/// The id of a scene's first ray.
-pub fn first_ray_id<F: Float>(scene: &Scene, seed: u64, index: u64) -> String {
-    Stratum::Interior.family().id::<F>(&parameters(scene), seed, index).to_string()
-}
-
-fn parameters(scene: &Scene) -> Parameters {
-    Parameters { scene: Some(scene.clone()), ..Parameters::default() }
-}
-
 impl<F: Scalar> Trials<F> {
-    /// The trials of a kernel at some epsilons in a scene.
-    pub fn in_scene(
+    /// The trials of a kernel at some epsilons on the first rays of a source.
+    pub fn on(
         entry: &Entry,
         epsilons: &[F],
         kind: PointKind,
-        scene: &Scene,
+        source: &Source,
         seed: u64,
         indices: Range<u64>,
     ) -> Trials<F> {
-        let (family, parameters) = (Stratum::Interior.family(), parameters(scene));
-        let made = indices.map(|index| {
-            let made = family.make::<F>(&parameters, seed, index);
-            (index, made.cases()[0])
-        });
+        let made = indices.map(|index| (index, source.make::<F>(index).cases()[0]));
         Trials::of(entry, epsilons, kind, seed, &made.collect::<Vec<_>>())
     }
 
