@@ -2,6 +2,7 @@
 //! stored rays.
 
 use super::exit::{Failure, Status};
+use super::flags::chosen_scalars;
 use crate::arith::Float;
 use crate::audit::{self, CorpusSet, Plan, Row, Source};
 use crate::case::{Parameters, Scene};
@@ -22,6 +23,13 @@ pub fn scalars_in_use(rows: &[Row], chosen: [bool; 2]) -> Result<[bool; 2], Fail
     }
     rows.iter().try_for_each(|row| row.check_in(chosen))?;
     Ok(used)
+}
+
+/// The same where one scalar is run unless both are named: `f32`, or `f64` if no kernel runs in `f32`.
+pub fn one_scalar(rows: &[Row], names: &[String]) -> Result<[bool; 2], Failure> {
+    let is_in_f32 = rows.iter().any(|row| row.entry.scalars()[0]);
+    let chosen = if names.is_empty() { [is_in_f32, !is_in_f32] } else { chosen_scalars(names)? };
+    scalars_in_use(rows, chosen)
 }
 
 /// Refuses kernels whose t, u or v is wrong on plain hits: no epsilon and no offset can be right for them. They are run on

@@ -13,7 +13,7 @@ use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::corpus::InputError;
 use crate::expect::{self, BlessError, Expectations};
-use crate::report::{Conformance, JSON_SCHEMA, PartialPart, Record, Verdict, number_of};
+use crate::report::{Conformance, JSON_SCHEMA, Method, PartialPart, Record, Verdict, number_of};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
 use std::path::Path;
@@ -179,8 +179,14 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     if arguments.bless {
         let change = conformance.change;
         if known_file.is_some() && change.is_worse() && !arguments.accept_worse {
+            let instead = match conformance.method {
+                Method::CaseByCase => "",
+                Method::Intervals => {
+                    " (it is of another plan: --expectations NAME.toml keeps both)"
+                }
+            };
             eprintln!(
-                "hairline: {file} stays as it is: {change}; --accept-worse writes it all the same"
+                "hairline: {file} stays as it is: {change}; --accept-worse writes it all the same{instead}"
             );
         } else {
             expected = blessed(&record, &expected, &conformance, file)?;

@@ -1,9 +1,12 @@
 //! `hairline help`, and what a shell and `man` read: how to call the commands, and the words on their screens.
 
 use super::exit::{Failure, Status};
-use super::output::{screen_style, write_result};
-use crate::report::Format;
-use crate::report::page::{Block, Page, Paged};
+use super::output::{write_page, write_result};
+use crate::contract::NAMED;
+use crate::family;
+use crate::kernel;
+use crate::report::page::{Block, Page};
+use crate::spawn::PUBLISHED;
 use crate::suggest::did_you_mean;
 use clap::Args;
 use clap_complete::Shell;
@@ -81,7 +84,7 @@ pub fn run(arguments: &HelpArguments, mut program: clap::Command) -> Result<Stat
         "words" => all_words(),
         _ => Page { title: meaning(&asked)?, ..Page::default() },
     };
-    write_result("-", |out| (Format::TEXT.write)(&Words(page), screen_style(), out))?;
+    write_page(page)?;
     Ok(Status::Success)
 }
 
@@ -117,16 +120,7 @@ fn near<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     did_you_mean(name, names, "hairline help words")
 }
 
-/// The words of a page of the guide, with their headings: `## title` and `- **word**, **other**: meaning`.
-struct Words(Page);
-
-impl Paged for Words {
-    fn page(&self) -> Page {
-        self.0.clone()
-    }
-}
-
-/// A word's other names, and its meaning.
+/// A word's names, and its meaning, in a line `- **word**, **other**: meaning`.
 fn entry(line: &str) -> Option<(String, &str)> {
     let (names, meaning) = line.strip_prefix("- **")?.split_once("**: ")?;
     Some((names.replace("**", ""), meaning))
@@ -143,9 +137,30 @@ fn meaning(word: &str) -> Result<String, Failure> {
     };
     let found = entries.iter().find(|(names, _)| names.split(", ").any(is_asked));
     let names = || entries.iter().flat_map(|(names, _)| names.split(", "));
-    let found = found
-        .ok_or_else(|| Failure::usage(format!("unknown word '{word}'{}", near(word, names()))));
-    found.map(|(names, meaning)| format!("{names}: {}", meaning.replace('`', "'")))
+    if let Some((names, meaning)) = found {
+        return Ok(format!("{names}: {}", meaning.replace('`', "'")));
+    }
+    let unknown = || Failure::usage(format!("unknown word '{word}'{}", near(word, names())));
+    named(word).ok_or_else(unknown)
+}
+
+/// A kernel, a family, a contract or a scheme of this name.
+fn named(name: &str) -> Option<String> {
+    let kernel = kernel::find(name).map(|entry| {
+        format!("a kernel: {}; its contract: {}", entry.info.source, entry.info.contract.describe())
+    });
+    let family =
+        || family::find(name).map(|family| format!("a family of cases: {}", family.promise));
+    let contract = || {
+        let found = NAMED.iter().find(|named| named.name == name)?;
+        Some(format!("a contract: {}: {}", found.about, found.contract.describe()))
+    };
+    let scheme = || {
+        let found = PUBLISHED.iter().find(|published| published.name == name)?;
+        Some(format!("an offset of new rays: {}", found.source))
+    };
+    let about = kernel.or_else(family).or_else(contract).or_else(scheme)?;
+    Some(format!("{name}: {about}"))
 }
 
 fn all_words() -> Page {

@@ -1,14 +1,15 @@
 //! `hairline list`: the tables that the other commands take names from.
 
 use super::exit::{Failure, Status};
-use super::output::write_result;
+use super::output::{write_page, write_result};
 use super::plugins::PluginArguments;
 use crate::arith::Arithmetic;
 use crate::audit::{ASPECTS, Aspect, EpsilonText, coverage};
 use crate::contract::NAMED;
 use crate::family::{FAMILIES, Family, STRATA};
-use crate::kernel::{self, KernelInfo, PRESETS, PresetValue, Tunable};
-use crate::spawn::{PUBLISHED, describe};
+use crate::kernel::{self, KernelInfo, PRESETS, Preset, PresetValue, Tunable};
+use crate::report::page::{Block, Item, Items, Page};
+use crate::spawn::{PUBLISHED, Published, describe};
 use clap::{Args, ValueEnum};
 use std::io::{self, Write};
 
@@ -55,32 +56,36 @@ pub fn run(arguments: &ListArguments) -> Result<Status, Failure> {
             _ => Err(Failure::usage("--coverage: only families have it")),
         };
     }
-    write_result("-", |out| match arguments.what {
-        What::Kernels => kernel::all().iter().try_for_each(|entry| write_kernel(out, entry.info)),
-        What::Families => FAMILIES
-            .iter()
-            .chain(STRATA)
-            .try_for_each(|family| writeln!(out, "{:<18} {}", family.name, family.promise)),
-        What::Contracts => {
-            writeln!(out, "{:<18} each kernel by what its own source states (the default)", "own")?;
-            NAMED.iter().try_for_each(|named| {
-                writeln!(
-                    out,
-                    "{:<18} {}\n{:<18} {}",
-                    named.name,
-                    named.about,
-                    "",
-                    named.contract.describe()
-                )
-            })
+    let blocks = match arguments.what {
+        What::Kernels => all(kernel::all().iter().map(|entry| of_kernel(entry.info))),
+        What::Families => {
+            let term = |family: &Family| (family.name.to_owned(), family.promise.to_owned());
+            vec![Block::Terms(FAMILIES.iter().chain(STRATA).map(term).collect())]
         }
-        What::Presets => presets(out),
-        What::Schemes => schemes(out),
-        What::Arithmetics => Arithmetic::ALL
-            .iter()
-            .try_for_each(|a| writeln!(out, "{:<18} {}", a.name(), a.describe())),
-    })?;
+        What::Contracts => contracts(),
+        What::Presets => presets(),
+        What::Schemes => all(PUBLISHED.iter().map(of_scheme)),
+        What::Arithmetics => {
+            let term = |a: &Arithmetic| (a.name().to_owned(), a.describe().to_owned());
+            vec![Block::Terms(Arithmetic::ALL.iter().map(term).collect())]
+        }
+    };
+    write_page(Page { blocks, ..Page::default() })?;
     Ok(Status::Success)
+}
+
+/// All of some items.
+fn all(items: impl Iterator<Item = Item>) -> Vec<Block> {
+    vec![Block::Items(Items { items: items.collect(), most: usize::MAX })]
+}
+
+fn contracts() -> Vec<Block> {
+    let own =
+        ("own".to_owned(), "each kernel by what its own source states (the default)".to_owned());
+    let named = NAMED.iter().map(|named| {
+        (named.name.to_owned(), format!("{}: {}", named.about, named.contract.describe()))
+    });
+    vec![Block::Terms([own].into_iter().chain(named).collect())]
 }
 
 /// Writes the kinds of cases in each family, in tables that fit 100 columns.
@@ -139,63 +144,54 @@ fn percent_in_three(share: f64) -> String {
     }
 }
 
-fn write_kernel(out: &mut dyn Write, info: &KernelInfo) -> io::Result<()> {
-    writeln!(
-        out,
-        "{}\n    source: {}\n    contract: {}",
-        info.name,
-        info.source,
-        info.contract.describe()
-    )?;
+fn of_kernel(info: &KernelInfo) -> Item {
+    let mut notes =
+        vec![format!("source: {}", info.source), format!("contract: {}", info.contract.describe())];
     for (i, gate) in info.gates.iter().enumerate() {
         let refuses = gate.refuses;
         if gate.epsilon == Tunable::Fixed {
-            writeln!(out, "    test {}: refuses where {refuses}; takes no epsilon", gate.name)?;
+            notes.push(format!("test {}: refuses where {refuses}; takes no epsilon", gate.name));
             continue;
         }
-        let sets: Vec<String> = info
-            .epsilon_sets
-            .iter()
-            .map(|set| format!("{} ({})", set.values[i], set.name))
-            .collect();
-        writeln!(
-            out,
-            "    gate {}: refuses where {refuses}; dimension length^{} direction^{}; e = {}",
+        let sets = info.epsilon_sets.iter().map(|set| format!("{} ({})", set.values[i], set.name));
+        notes.push(format!(
+            "gate {}: refuses where {refuses}; dimension length^{} direction^{}; e = {}",
             gate.name,
             gate.dimension.length,
             gate.dimension.direction,
-            sets.join(", ")
-        )?;
+            sets.collect::<Vec<_>>().join(", ")
+        ));
     }
-    Ok(())
+    Item { text: info.name.to_owned(), notes, ..Item::default() }
 }
 
-fn schemes(out: &mut dyn Write) -> io::Result<()> {
-    for published in PUBLISHED {
-        let (name, source) = (published.name, published.source);
-        writeln!(out, "{name}{}\n    source: {source}", describe(name))?;
-        if let Some(parameter) = published.parameter {
-            writeln!(out, "    {name}=VALUE: {} [{}]", parameter.what, parameter.default)?;
-        }
-    }
-    Ok(())
+fn of_scheme(published: &Published) -> Item {
+    let (name, source) = (published.name, published.source);
+    let parameter = published
+        .parameter
+        .as_ref()
+        .map(|parameter| format!("{name}=VALUE: {} [{}]", parameter.what, parameter.default));
+    let notes = [format!("source: {source}")].into_iter().chain(parameter).collect();
+    Item { text: format!("{name}{}", describe(name)), notes, ..Item::default() }
 }
 
-fn presets(out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{:<16} as each kernel's source has them (the default)", "source")?;
-    for preset in PRESETS {
-        writeln!(out, "{:<16} {}", preset.name, preset.source)?;
-        for entry in preset.entries {
+fn presets() -> Vec<Block> {
+    let own = "as each kernel's source has them (the default)".to_owned();
+    let own = Item { text: "source".to_owned(), notes: vec![own], ..Item::default() };
+    let of_preset = |preset: &Preset| {
+        let entries = preset.entries.iter().map(|entry| {
             let value = match entry.value {
                 PresetValue::Decimal(text) => text.to_owned(),
                 PresetValue::MachineEpsilon(k) => EpsilonText::MachineEpsilon(k).to_string(),
             };
-            writeln!(
-                out,
-                "{:<16} gate {}={value}, dimension length^{} direction^{}: {}",
-                "", entry.gate, entry.dimension.length, entry.dimension.direction, entry.form
-            )?;
-        }
-    }
-    Ok(())
+            let (length, direction) = (entry.dimension.length, entry.dimension.direction);
+            format!(
+                "gate {}={value}, dimension length^{length} direction^{direction}: {}",
+                entry.gate, entry.form
+            )
+        });
+        let notes = [preset.source.to_owned()].into_iter().chain(entries).collect();
+        Item { text: preset.name.to_owned(), notes, ..Item::default() }
+    };
+    all([own].into_iter().chain(PRESETS.iter().map(of_preset)))
 }

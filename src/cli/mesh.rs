@@ -1,8 +1,7 @@
 //! `hairline mesh`: whether rays slip through a mesh, where, and how often.
 
-use super::before::{scalars_in_use, set_threads};
+use super::before::{one_scalar, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::chosen_scalars;
 use super::input::read_mesh;
 use super::output::OutputArguments;
 use super::plugins;
@@ -32,8 +31,8 @@ pub struct MeshArguments {
     #[command(flatten)]
     kernels: KernelArguments,
 
-    /// f32, f64 or both
-    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32")]
+    /// f32, f64 or both [default: f32, or f64 where no kernel runs in f32]
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR")]
     scalar: Vec<String>,
 
     /// How many rays at each edge and vertex, from 1 to 65536: exact and near, grazing and not, in turn
@@ -64,7 +63,7 @@ pub struct MeshArguments {
 pub fn run(arguments: &MeshArguments) -> Result<Status, Failure> {
     let mut outputs = arguments.output.pairs(MESH_FORMATS)?;
     let mut plan = arguments.plan()?;
-    let scalars = scalars_in_use(&plan.rows, chosen_scalars(&arguments.scalar)?)?;
+    let scalars = one_scalar(&plan.rows, &arguments.scalar)?;
     let threads = set_threads(arguments.threads)?;
     let family =
         MeshFamily::new(read_mesh(&arguments.file, arguments.output.quiet)?, &arguments.file);

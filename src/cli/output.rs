@@ -4,6 +4,7 @@ use super::exit::Failure;
 use super::flags::OUTPUT;
 use super::plugins;
 use crate::descriptors;
+use crate::report::page::Page;
 use crate::report::{Format, Style, number_of};
 use crate::suggest::nearest_name;
 use clap::{Args, ValueEnum};
@@ -90,9 +91,10 @@ impl OutputArguments {
     }
 }
 
-/// The style of standard output without flags for it.
-pub fn screen_style() -> Style {
-    Style { width: width("-", false), ..Style::default() }
+/// Writes a page to standard output, where there are no flags for how.
+pub fn write_page(page: Page) -> Result<(), Failure> {
+    let style = Style { width: width("-", false), ..Style::default() };
+    write_result("-", |out| (Format::TEXT.write)(&page, style, out))
 }
 
 /// The width of an output: of a terminal its own, within what can be read; of anything else 80,

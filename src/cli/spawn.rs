@@ -4,9 +4,9 @@ mod choice;
 mod page;
 mod record;
 
-use super::before::{refuse_wrong_values, scalars_in_use, set_threads};
+use super::before::{one_scalar, refuse_wrong_values, set_threads};
 use super::exit::{Failure, Status};
-use super::flags::{RUNNING, case_count, chosen_scalars, refuse_twice};
+use super::flags::{RUNNING, case_count, refuse_twice};
 use super::output::OutputArguments;
 use super::progress::Progress;
 use super::select::KernelArguments;
@@ -76,8 +76,8 @@ pub struct SpawnArguments {
     #[arg(long, value_name = "DEGREES", default_value = "45", allow_hyphen_values = true)]
     fold: String,
 
-    /// f32, f64 or both
-    #[arg(long, value_delimiter = ',', value_name = "SCALAR", default_value = "f32", help_heading = RUNNING)]
+    /// f32, f64 or both [default: f32, or f64 where no kernel runs in f32]
+    #[arg(long, value_delimiter = ',', value_name = "SCALAR", help_heading = RUNNING)]
     scalar: Vec<String>,
 
     /// How many first rays
@@ -115,7 +115,7 @@ pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
     let outputs = arguments.output.pairs(FORMATS)?;
     set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
-    let scalars = scalars_in_use(&rows, chosen_scalars(&arguments.scalar)?)?;
+    let scalars = one_scalar(&rows, &arguments.scalar)?;
     refuse_wrong_values(&rows, scalars)?;
     let FirstRays { scene, unit, mesh } = arguments.first_rays(scalars)?;
     let (kinds, wall, fold) = (arguments.kinds()?, arguments.wall()?, arguments.fold()?);

@@ -40,7 +40,7 @@ pub fn open<E: From<InputError>>(
         expectations.are_about(record, file)?;
         expectations.are_of_the_scene(record, file)?;
     }
-    Ok(Some(expectations))
+    Ok(Some(expectations.following(&record.result.plan)))
 }
 
 /// Where the cases of a family come from.

@@ -1,7 +1,63 @@
 //! Rows that are set to something else than what was blessed: an epsilon, the contract or its band.
 
-use super::{Settings, Target};
-use crate::report::{PlanPart, RowChange, RowPart};
+use super::{Expectations, Settings, Target};
+use crate::report::{Key, PlanPart, RowChange, RowPart};
+use std::collections::{BTreeMap, BTreeSet};
+
+impl Expectations {
+    /// The same about the rows of a plan: where a kernel has one row in both, and only the name of its epsilons differs
+    /// (`parallel=1e-6` became `parallel=1e-9`), they are about the new name, so that changes are counted and not
+    /// totals.
+    pub(super) fn following(mut self, plan: &PlanPart) -> Expectations {
+        let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for Key { kernel, set, .. } in self.entries.keys() {
+            known.entry(kernel.clone()).or_default().insert(set.clone());
+        }
+        for (kernel, sets) in known {
+            let now: Vec<&RowPart> = plan.rows.iter().filter(|row| row.kernel == kernel).collect();
+            if let (Some(was), [row]) = (sets.first().filter(|_| sets.len() == 1), &now[..])
+                && *was != row.set
+            {
+                self.rename(&kernel, was, &row.set);
+            }
+        }
+        self
+    }
+
+    fn rename(&mut self, kernel: &str, was: &str, now: &str) {
+        let name = |of: &str, set: &mut String| {
+            if of == kernel && set == was {
+                now.clone_into(set);
+            }
+        };
+        let key = |mut key: Key| {
+            name(&key.kernel, &mut key.set);
+            key
+        };
+        let entries = std::mem::take(&mut self.entries).into_iter();
+        self.entries = entries.map(|(place, entry)| (key(place), entry)).collect();
+        for target in self.lock.iter_mut().flat_map(|lock| lock.targets.values_mut()) {
+            let Target { rows, judged, cases } = std::mem::take(target);
+            *target = Target {
+                rows: rows
+                    .into_iter()
+                    .map(|([kernel, mut set], settings)| {
+                        name(&kernel, &mut set);
+                        ([kernel, set], settings)
+                    })
+                    .collect(),
+                judged: judged
+                    .into_iter()
+                    .map(|([kernel, mut set, scalar, family], counts)| {
+                        name(&kernel, &mut set);
+                        ([kernel, set, scalar, family], counts)
+                    })
+                    .collect(),
+                cases: cases.into_iter().map(|(place, cases)| (key(place), cases)).collect(),
+            };
+        }
+    }
+}
 
 /// Where the rows of a plan differ from those of the expectations, in the order of the plan.
 pub(super) fn changed_rows(plan: &PlanPart, known: &Target) -> Vec<RowChange> {

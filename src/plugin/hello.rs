@@ -343,8 +343,8 @@ mod tests {
             ("epsilon edge -1e-3 0 0 signed", "epsilon edge 0", "epsilon: 'edge 0' is not NAME"),
             (
                 "1e-6 2 1 non",
-                "1e-6f 2 1 non",
-                "epsilon parallel: '1e-6f' is no epsilon that it can take; write 1e-6, without a suffix",
+                "1e-6x 2 1 non",
+                "epsilon parallel: '1e-6x' is no epsilon that it can take; write 1e-6, without a suffix",
             ),
             ("1e-6 2 1 non", "-1e-6 2 1 non", "epsilon parallel: '-1e-6' is no epsilon"),
             ("signed\nready", "signed role=side\nready", "epsilon edge: 'role=side' is none of"),

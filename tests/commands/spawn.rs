@@ -356,9 +356,10 @@ static hairline_start hairline_start_of(const hairline_hit *hit) {
     let command = ["spawn", "--scheme-cmd", "mine=./mine", "-n", "2000", "-q", "--point", "uv"];
     let (screen, _) = ends(&folder, &command, 0);
     assert!(screen.contains("\nmine  ") && screen.contains("\nnone "), "{screen}");
-    let alone = [&command[..], &["--scheme", "mine", "--scene", "room"]].concat();
-    let (screen, _) = ends(&folder, &alone, 0);
-    assert!(screen.contains("--scheme-cmd mine=./mine --scheme mine --point uv"), "{screen}");
+    let alone = ["--scheme-cmd", "mine=./mine", "-n", "2000", "--point", "uv", "--scheme", "mine"];
+    let record = json(&folder, &alone);
+    let again = record["points"][0]["best"]["command"].as_str().unwrap();
+    assert!(again.contains("--scheme-cmd mine=./mine --scheme mine --point uv"), "{again}");
 }
 
 #[cfg(unix)]

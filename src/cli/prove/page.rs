@@ -73,7 +73,11 @@ fn of_one(report: &Report) -> Page {
         blocks.push(Block::Details(title, all.collect()));
     }
     blocks.push(Block::Details("What is supposed".to_owned(), vec![Block::text(SUPPOSED)]));
-    let line = format!("hairline epsilon --kernel {name} {}", report.rays);
+    let scalar = match &record.kernels[..] {
+        [only] => format!(" --scalar {}", only.scalar),
+        _ => String::new(),
+    };
+    let line = format!("hairline epsilon --kernel {name} {}{scalar}", report.rays);
     let command = Command { line, what: "which epsilons to use" };
     blocks.push(Block::Commands("next", vec![command]));
     let title = format!("{name}: what holds for every float");

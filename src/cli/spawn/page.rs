@@ -25,7 +25,8 @@ impl Paged for SpawnRecord {
         self.points.iter().for_each(|part| blocks.extend(of_points(self, part)));
         blocks.push(Block::Terms(words(self)));
         blocks.push(Block::Details("How to read".to_owned(), how_to_read(self)));
-        let commands = self.points.iter().filter_map(|part| part.best.as_ref()).take(1);
+        let several = self.points.iter().filter(|part| 1 < part.schemes.len());
+        let commands = several.filter_map(|part| part.best.as_ref()).take(1);
         let command =
             |best: &BestPart| Command { line: best.command.clone(), what: "this one alone" };
         let commands: Vec<Command> = commands.map(command).collect();

@@ -165,7 +165,10 @@ impl<'a> Sheet<'a> {
             sayings: Vec::new(),
         };
         report.topics.iter().for_each(|(_, counts)| report.total.add(counts));
-        let wrong = self.judged().filter(|judged| !judged.right);
+        // What only the profile demands comes first.
+        let by_profile = |judged: &&Judged| self.sayings_of(judged.test, judged.answer).is_empty();
+        let mut wrong: Vec<&Judged> = self.judged().filter(|judged| !judged.right).collect();
+        wrong.sort_by_key(by_profile);
         for Judged { test, demanded, answer, wrong_values, .. } in wrong {
             let sayings = match wrong_values {
                 None => self.sayings_of(test, *answer),
@@ -286,12 +289,16 @@ impl Paged for Judgement {
             SHOWN,
             wrong.iter().map(Wrong::item).collect(),
         ));
-        let term = |Saying { word, section, sentence }: &Saying| {
+        let saying = |Saying { word, section, sentence }: &Saying| {
             let section = section.as_ref().map_or(String::new(), |section| format!(" ({section})"));
-            (format!("'{word}'{section}"), sentence.clone())
+            format!("'{word}'{section}: {sentence}")
         };
         if !sayings.is_empty() {
-            blocks.push(Block::Terms(sayings.iter().map(term).collect()));
+            blocks.push(Block::Heading(format!(
+                "What profile {} says",
+                profile.as_deref().unwrap_or_default()
+            )));
+            blocks.push(Block::Notes(sayings.iter().map(saying).collect()));
         }
         let tone = if *count == 0 { Tone::Good } else { Tone::Bad };
         Page { command: "verify", title, tone, blocks }

@@ -34,7 +34,7 @@ pub(super) struct Answer {
     /// Limits that cost much, a sentence each.
     pub prices: Vec<String>,
     /// The subject of the commands, and the commands that show more of it.
-    pub next: (&'static str, Vec<String>),
+    pub next: Vec<String>,
 }
 
 /// A limit of a number.
@@ -78,8 +78,8 @@ pub(super) fn answer(record: &SceneRecord, part: &SceneKernelPart) -> Answer {
         prices: prices(record, part),
         // No command runs a form that is no number.
         next: match is_scale_free_better(record, part) {
-            true => ("next, with the fixed numbers", commands(record, part)),
-            false => ("next", commands(record, part)),
+            true => Vec::new(),
+            false => commands(record, part),
         },
     }
 }

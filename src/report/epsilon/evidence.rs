@@ -56,9 +56,12 @@ pub(super) fn of_kernel(
         all.push(Block::Notes(footer(record, part).into()));
         all
     }));
-    let commands =
-        answer.next.1.iter().map(|line| Command { line: line.clone(), what: "" }).collect();
-    blocks.push(Block::Commands(answer.next.0, commands));
+    let command = |line: &String| {
+        let is_spawn = line.starts_with("hairline spawn");
+        let what = if is_spawn { "an offset in place of t_min" } else { "" };
+        Command { line: line.clone(), what }
+    };
+    blocks.push(Block::Commands("next", answer.next.iter().map(command).collect()));
     blocks
 }
 

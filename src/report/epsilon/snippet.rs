@@ -38,14 +38,10 @@ pub(super) fn write(
         let tried = relative.unwrap_or(&part.tried[0]);
         for (knob, value) in part.knobs.iter().zip(&tried.epsilons) {
             let form = knob.form.as_ref().filter(|_| follows && value.parse() != Ok(0.0));
-            writeln!(out, "{}", constant(language, &part.scalar, knob, value))?;
-            if let Some(form) = form {
-                let form = form.replacen('e', &name(knob), 1);
-                writeln!(
-                    out,
-                    "//   compared as {form}  (L: the triangle's longest edge; M: the largest coordinate)"
-                )?;
-            }
+            writeln!(out, "{}", constant(language, &part.scalar, knob, value, form))?;
+        }
+        if follows {
+            writeln!(out, "// L: the triangle's longest edge; M: the largest coordinate")?;
         }
     }
     Ok(())
@@ -56,18 +52,25 @@ fn name(knob: &KnobPart) -> String {
     if knob.is_gate { format!("{name}_EPSILON") } else { name }
 }
 
-/// One number with its comparison, as the kernel's listing has it.
-fn constant(language: Language, scalar: &str, knob: &KnobPart, value: &str) -> String {
+/// One number with its comparison, as the kernel's listing has it; with what it is multiplied by, if its form says.
+fn constant(
+    language: Language,
+    scalar: &str,
+    knob: &KnobPart,
+    value: &str,
+    form: Option<&String>,
+) -> String {
     let name = name(knob);
+    let compared = form.map_or(name.clone(), |form| form.replacen('e', &name, 1));
     let comparison = match &knob.refuses {
         // `abs(det) < e (printed det > -e && det < e)`
         Some(refuses) => {
             let printed = refuses
                 .split_once("(printed ")
                 .map_or(refuses.as_str(), |(_, printed)| printed.trim_end_matches(')'));
-            format!("refuse where {}", with_name(printed, &name))
+            format!("refuse where {}", with_name(printed, &compared))
         }
-        None => format!("count a hit only where t >= {name}"),
+        None => format!("count a hit only where t >= {compared}"),
     };
     // C, GLSL and Rust all want a point or an exponent in a float.
     let is_float = value.contains(['.', 'e', 'E']);
@@ -115,7 +118,7 @@ mod tests {
             dimension: [2, 1],
             form: None,
         };
-        let of = |language, scalar| constant(language, scalar, &knob, "5e-10");
+        let of = |language, scalar| constant(language, scalar, &knob, "5e-10", None);
         let comparison = "  // refuse where det > -PARALLEL_EPSILON && det < PARALLEL_EPSILON";
         assert_eq!(
             of(Language::C, "f32"),
@@ -125,9 +128,12 @@ mod tests {
             of(Language::Rust, "f64"),
             format!("const PARALLEL_EPSILON: f64 = 5e-10;{comparison}")
         );
+        let form = "e * L^4".to_owned();
+        let text = constant(Language::C, "f32", &knob, "-2e-3", Some(&form));
+        assert!(text.ends_with("det < PARALLEL_EPSILON * L^4"), "{text}");
         let least =
             KnobPart { name: "t_min".to_owned(), is_gate: false, refuses: None, ..knob.clone() };
-        let text = constant(Language::Glsl, "f32", &least, "0");
+        let text = constant(Language::Glsl, "f32", &least, "0", None);
         assert_eq!(text, "const float T_MIN = 0.0;  // count a hit only where t >= T_MIN");
     }
 }

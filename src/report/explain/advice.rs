@@ -2,7 +2,7 @@
 //! case before it is said.
 
 use super::verdict::{Together, group_verdict, number, verdict_of};
-use crate::arith::Float;
+use crate::arith::{Float, smallest_normal};
 use crate::audit::{Attribution, Row};
 use crate::case::Case;
 use crate::contract::{Extent, Sides};
@@ -187,6 +187,11 @@ fn other_epsilons<F: Scalar>(
             (vec![least.0], least.1)
         }
     };
+    // Nobody would set such a number.
+    let is_tiny = |i: &usize| !new[*i].is_zero() && size(&new, *i) < smallest_normal::<F>();
+    if gates.iter().any(is_tiny) {
+        return None;
+    }
     let words = gates.iter().map(|i| {
         let (name, old, new) = (info.gates[*i].name, shortest(old[*i]), shortest(new[*i]));
         format!("{name} = {new} in place of {old}")

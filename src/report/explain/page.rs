@@ -76,7 +76,15 @@ impl Explanation {
         };
         let names = wrong[..wrong.len().min(MOST_NAMES)].join(", ");
         let (case, scalar) = (&self.case, self.scalar);
+        let hits = rows.iter().filter(|row| row.said == "hit").count();
         match wrong.len() {
+            0 if rows.iter().all(|row| row.asked == "nothing") => {
+                let text = format!(
+                    "No contract of the {} rows asks anything of {case} in {scalar}: {hits} of them hit.",
+                    rows.len()
+                );
+                (text, false)
+            }
             0 => {
                 (format!("All {} rows do as they should on {case} in {scalar}.", rows.len()), false)
             }
@@ -247,8 +255,7 @@ fn gates(row: &RowPart, is_first: bool) -> Table {
         }
         let is_wrong = matches!((gate.decision, gate.exactly), (Some(a), Some(b)) if a != b);
         if is_wrong {
-            decision +=
-                &format!(", WRONG: without rounding it {}", gate.exactly.unwrap_or_default());
+            decision += ", WRONG";
         }
         if gate.decides {
             decision += " <- decides";
@@ -259,8 +266,11 @@ fn gates(row: &RowPart, is_first: bool) -> Table {
         }
         cells.push(gate.epsilon.clone().unwrap_or_else(|| "fixed".to_owned()).into());
         cells.push(Cell { text: decision, is_broken: is_wrong, share: None });
-        let below =
+        let mut below =
             if is_first { vec![format!("refuses where {}", gate.refuses)] } else { Vec::new() };
+        if is_wrong {
+            below.push(format!("WRONG: without rounding it {}", gate.exactly.unwrap_or_default()));
+        }
         Row { below, ..Row::new(gate.gate, cells) }
     };
     Table::new(heads, row.gates.iter().map(table_row).collect())

@@ -2,6 +2,7 @@
 
 use crate::audit::Row;
 use crate::case::Case;
+use crate::contract::Across;
 use crate::family::Grouping;
 use crate::judge::{GroupTruth, group_obligation, may_be_elsewhere};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
@@ -86,7 +87,10 @@ pub(super) fn group_verdict<F: Scalar>(
         }
         (GroupTruth::Crossing, 0) => ("one hit is right: CRACK", true),
         (GroupTruth::Crossing, 1) => ("one hit is right", false),
-        (GroupTruth::Crossing, _) => ("one hit is right: DOUBLE", true),
+        (GroupTruth::Crossing, _) if row.contract.across == Across::ExactlyOne => {
+            ("one hit is right: DOUBLE", true)
+        }
+        (GroupTruth::Crossing, _) => ("a double, which its contract allows", false),
         (GroupTruth::Fold { odd }, hits) if (hits % 2 == 1) == odd => {
             ("at a fold: the parity is right", false)
         }

@@ -169,7 +169,7 @@ fn others(line: &Line) -> Vec<String> {
     let values = &line.values.wrong;
     if 0 < values.count {
         all.push(format!(
-            "wrong t, u or v: {} right hits, {} by over 1/1000 of an edge",
+            "wrong t, u or v in ordinary sizes: {} right hits, {} visibly",
             count_of([values.count, values.of]),
             group_digits(line.values.far),
         ));

@@ -66,7 +66,8 @@ fn facts(record: &Record, part: &RowPart, views: &[RowView]) -> Vec<(String, Str
     }
     if !part.selector.is_empty() {
         facts.push(("run again", plan_flags.command(&part.flags())));
-        if !part.epsilons.is_empty() {
+        let tells_margins = kernel::find(&part.kernel).is_some_and(|entry| entry.tells_margins());
+        if !part.epsilons.is_empty() && tells_margins {
             let command =
                 format!("hairline epsilon {} --format html -o epsilon.html", part.selector);
             facts.push(("every epsilon", command));

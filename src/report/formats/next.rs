@@ -9,7 +9,9 @@ use crate::report::page::Command;
 pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) -> Vec<Command> {
     // The product of `verify` cannot be chosen by a flag.
     let all = best.into_iter().chain(lines.iter().map(|line| line.row.part));
-    let rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
+    let mut rows: Vec<&RowPart> = all.filter(|row| !row.selector.is_empty()).collect();
+    // Those of one's own among others first.
+    rows.sort_by_key(|row| kernel::find(&row.kernel).is_some_and(|entry| entry.is_built_in()));
     let Some(first) = rows.first() else {
         return Vec::new();
     };
@@ -23,7 +25,8 @@ pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) 
     let is_alone = rows.iter().all(|row| row.selector == first.selector);
     let mut commands: Vec<Command> = Vec::new();
     if !is_alone {
-        let one = tuned.unwrap_or(first);
+        let is_own = kernel::find(&first.kernel).is_some_and(|entry| !entry.is_built_in());
+        let one = if is_own { first } else { tuned.unwrap_or(first) };
         let line = format!("hairline audit {}{sources}", one.selector);
         commands.push(Command { line, what: "one kernel" });
     }
@@ -42,7 +45,7 @@ pub(super) fn commands(record: &Record, best: Option<&RowPart>, lines: &[Line]) 
     let kernels = record.provenance.plan_flags.as_ref().map_or("", |flags| flags.kernels.as_str());
     let kernels = if kernels.is_empty() { String::new() } else { format!(" {kernels}") };
     let line = format!("hairline check{kernels}{all_sources} --bless");
-    commands.push(Command { line, what: "gate a CI" });
+    commands.push(Command { line, what: "gate a CI; writes files" });
     commands
 }
 

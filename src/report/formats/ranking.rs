@@ -134,7 +134,11 @@ pub(super) fn blocks(record: &Record, columns: &[Column], standings: &[Standing]
     let scalars = &record.result.plan.scalars;
     let mut table = Table::default();
     table.heads.push(Head::of("kernel"));
-    let leaks = Head::of("leaks").about("% of rays at shared edges and vertices that hit nothing");
+    let mut about = "% of rays at shared edges and vertices that hit nothing".to_owned();
+    if standings.iter().any(Standing::breaks_promise) {
+        about += " (!: its documentation rules that out)";
+    }
+    let leaks = Head::of("leaks").about(about);
     table.heads.extend(has_leaks.then_some(leaks));
     table.heads.push(Head::of("visible").about("answers off by over 1/1000 of an edge"));
     table.heads.push(Head::of("values").about("% of right hits with a wrong t, u or v"));

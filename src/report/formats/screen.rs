@@ -108,7 +108,7 @@ fn answer(record: &Record, columns: &[Column], standings: &[Standing]) -> (Strin
     let meant = columns.iter().filter(|column| column.is_ordinary() && !column.complete).count();
     let mean = match &special[..] {
         _ if meant <= 1 => place.clone(),
-        [] => " (the mean of the rows)".to_owned(),
+        [] => " (the mean of the table's rows)".to_owned(),
         special => format!(" in ordinary sizes (the mean without {})", special.join(" and ")),
     };
     let percent = |share: f64| short_percent([(share * 1e9) as u64, 1_000_000_000]);

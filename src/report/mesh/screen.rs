@@ -61,10 +61,12 @@ pub(super) fn verdict(result: &MeshResult) -> (Tone, String) {
         (false, 0) if !failed && is_asked => Tone::Good,
         _ => Tone::Plain,
     };
+    let rays: u64 = result.scalars.iter().flat_map(|part| part.rays).sum();
+    let of = format!("of {} aimed at its edges and vertices", group_digits(rays));
     let title = match (leaking, rows.len()) {
         _ if !is_asked => format!("Nothing to ask of {file}"),
-        (0, 1) => format!("No ray slips through {file}"),
-        (0, n) => format!("No ray slips through {file} with {n} kernel rows"),
+        (0, 1) => format!("No ray slips through {file}, {of}"),
+        (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}"),
         (1, 1) => format!("Rays slip through {file}"),
         (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
     };

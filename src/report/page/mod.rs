@@ -152,6 +152,12 @@ pub trait Paged {
     fn page(&self) -> Page;
 }
 
+impl Paged for Page {
+    fn page(&self) -> Page {
+        self.clone()
+    }
+}
+
 impl<R: Paged> Format<R> {
     /// For a terminal. The layout is not stable.
     pub const TEXT: Format<R> = Format {

@@ -49,7 +49,8 @@ pub fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
 
 /// Any line, and what is wrong with it.
 pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
-    let object = Object::parse(text, &FIELDS)?;
+    let quoted = json::with_words_quoted(text);
+    let object = Object::parse(&quoted, &FIELDS)?;
     let case = match object.is_f32()? {
         true => AnyCase::F32(parse_case(&object)?),
         false => AnyCase::F64(parse_case(&object)?),
@@ -104,7 +105,12 @@ fn parse_vector<F: Float>(
     value: &str,
     bits: Option<&str>,
 ) -> Result<[F; 3], String> {
-    let values = json::array::<3>(value, "numbers").map_err(|m| format!("{field}: {m}"))?;
+    let values = match value.starts_with('{') {
+        true => Object::parse(value, &["x", "y", "z"])
+            .and_then(|it| Ok([it.required("x")?, it.required("y")?, it.required("z")?])),
+        false => json::array::<3>(value, "numbers"),
+    };
+    let values = values.map_err(|message| format!("{field}: {message}"))?;
     let bits = bits.map(|bits| json::array::<3>(bits, "bit patterns")).transpose();
     let bits = bits.map_err(|message| format!("bits.{field}: {message}"))?;
     let mut vector = [F::zero(); 3];

@@ -69,6 +69,35 @@ impl<'a> Object<'a> {
     }
 }
 
+/// A text with every number that JSON does not know (`NaN`, `0.2f`, `.5`, `0x3e4ccccd`) as a string, where one is.
+pub fn with_words_quoted(text: &str) -> Cow<'_, str> {
+    if !text.trim_start().starts_with('{') {
+        return Cow::Borrowed(text);
+    }
+    let is_of_word = |c: char| c.is_ascii_alphanumeric() || "+-.#_()".contains(c);
+    let (mut out, mut rest, mut in_string, mut is_changed) = (String::new(), text, false, false);
+    while let Some(first) = rest.chars().next() {
+        let end = match (in_string, first) {
+            (true, '\\') => first.len_utf8() + rest[1..].chars().next().map_or(0, char::len_utf8),
+            (false, c) if is_of_word(c) => {
+                rest.find(|c: char| !is_of_word(c)).unwrap_or(rest.len())
+            }
+            _ => first.len_utf8(),
+        };
+        in_string ^= first == '"';
+        let (word, behind) = rest.split_at(end);
+        let is_word = !in_string && is_of_word(first);
+        if is_word && serde_json::from_str::<serde::de::IgnoredAny>(word).is_err() {
+            is_changed = true;
+            out.extend(['"'].into_iter().chain(word.chars()).chain(['"']));
+        } else {
+            out.push_str(word);
+        }
+        rest = behind;
+    }
+    if is_changed { Cow::Owned(out) } else { Cow::Borrowed(text) }
+}
+
 /// The fields of an object in their order, duplicates included.
 pub fn pairs(text: &str) -> Result<Vec<Field<'_>>, String> {
     if !text.trim_start().starts_with('{') {

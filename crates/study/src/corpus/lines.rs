@@ -155,7 +155,10 @@ mod tests {
                 r#"{"scalar":"f32",CASE,"bits":{"d":[]}}"#,
                 "bits: unknown field 'd', expected one of origin, direction, a, b, c, t_min, t_max",
             ),
-            (r#"{"scalar":"f32",CASE,"t_max":NaN}"#, "expected value at column 99"),
+            (
+                r#"{"scalar":"f32",CASE,"t_max":None}"#,
+                "t_max: 'None' is not a number: write a decimal (-1.5e-3), a hexadecimal float (0x1.8p-3), a bit pattern (0x3e4ccccd), inf or nan",
+            ),
             ("\u{feff}{}", "expected an object, found \\u{feff}{}"),
             (r#"["f32"]"#, "expected an object, found [\"f32\"]"),
             (r#"{"scalar":"f32",CASE} x"#, "trailing characters at column 92"),

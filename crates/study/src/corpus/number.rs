@@ -7,8 +7,9 @@ use crate::arith::Float;
 const LONGEST: usize = 4096;
 
 /// The float nearest to a text, ties to even, straight from the text (an `f32` never through
-/// `f64`): a decimal (`-1.5e-3`), a hexadecimal float with its binary exponent (`0x1.8p-3`), `inf`
-/// or `infinity` with or without a sign, or `nan`.
+/// `f64`): a decimal (`-1.5e-3`), a hexadecimal float with its binary exponent (`0x1.8p-3`), a bit pattern
+/// (`0x3e4ccccd` of an `f32`, 16 digits of an `f64`), or an infinity or a NaN as programs print it (`inf`, `-Infinity`,
+/// `NaN`, `-nan(ind)`). A decimal may end in the `f` of a C literal.
 ///
 /// A finite text that overflows is an error; one that underflows is a zero of its sign.
 pub fn parse<F: Float>(text: &str) -> Result<F, String> {
@@ -16,16 +17,17 @@ pub fn parse<F: Float>(text: &str) -> Result<F, String> {
         return Err(format!("{} has more than {LONGEST} characters", quoted(text)));
     }
     let magnitude = text.strip_prefix(['-', '+']).unwrap_or(text);
-    let value = match magnitude {
+    let value = match magnitude.to_ascii_lowercase().as_str() {
         "inf" | "infinity" => Some(F::infinity()),
-        "nan" if magnitude == text => F::parse("nan"),
+        word if word == "nan" || word.starts_with("nan(") && word.ends_with(')') => F::parse("nan"),
         _ => finite(magnitude).map_err(|wrong| format!("{} {wrong}", quoted(text)))?,
     };
     match value {
         Some(value) if text.starts_with('-') => Ok(-value),
         Some(value) => Ok(value),
         None => Err(format!(
-            "{} is not a number: write a decimal (-1.5e-3), a hexadecimal float (0x1.8p-3), inf or nan",
+            "{} is not a number: write a decimal (-1.5e-3), a hexadecimal float (0x1.8p-3), a bit pattern (0x3e4ccccd), inf \
+             or nan",
             quoted(text)
         )),
     }
@@ -53,17 +55,32 @@ pub fn write<F: Float>(value: F) -> String {
 /// An unsigned finite number; none if the text is none.
 fn finite<F: Float>(text: &str) -> Result<Option<F>, String> {
     let value = match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+        // A pattern is what it is, an infinity too.
+        Some(digits) if digits.len() == F::zero().hex().len() && is_pattern(digits) => {
+            return Ok(u64::from_str_radix(digits, 16).ok().map(F::from_bits));
+        }
         Some(digits) if !digits.is_empty() && !digits.contains(['p', 'P']) => {
-            return Err("needs a binary exponent, as 0x1.8p-3".to_owned());
+            let digits = F::zero().hex().len();
+            return Err(format!(
+                "needs a binary exponent, as 0x1.8p-3, or {digits} digits, as the bits of an {} have",
+                F::NAME
+            ));
         }
         Some(digits) => hexadecimal(digits),
-        None if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') => F::parse(text),
+        None if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
+            let decimal = text.strip_suffix(['f', 'F']).filter(|rest| !rest.ends_with(['e', 'E']));
+            F::parse(decimal.unwrap_or(text))
+        }
         None => None,
     };
     match value {
         Some(value) if !value.is_finite() => Err(format!("overflows {}", F::NAME)),
         value => Ok(value),
     }
+}
+
+fn is_pattern(digits: &str) -> bool {
+    digits.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
 
 /// `digits.digits p exponent`, after the 0x; infinity if it overflows.
@@ -157,16 +174,38 @@ mod tests {
     }
 
     #[test]
-    fn the_words_for_infinity_and_nan_are_few() {
-        for (text, bits) in
-            [("inf", 0x7f80_0000), ("+infinity", 0x7f80_0000), ("-inf", 0xff80_0000)]
-        {
+    fn infinities_and_nans_are_read_as_programs_print_them() {
+        for (text, bits) in [
+            ("inf", 0x7f80_0000),
+            ("+infinity", 0x7f80_0000),
+            ("-inf", 0xff80_0000),
+            ("-Infinity", 0xff80_0000),
+            ("INF", 0x7f80_0000),
+        ] {
             check::<f32>(text, bits);
         }
-        assert!(parse::<f32>("nan").unwrap().is_nan());
-        for text in ["-nan", "+nan", "NaN", "Inf", "INFINITY", "infinit", "--inf"] {
+        for text in ["nan", "NaN", "-nan", "+NAN", "-nan(ind)", "nan(0x400000)"] {
+            assert!(parse::<f32>(text).unwrap().is_nan(), "{text}");
+        }
+        for text in ["infinit", "--inf", "nano", "nan(", "inff"] {
             assert!(parse::<f32>(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn literals_of_c_and_bit_patterns_are_read() {
+        check::<f32>("0.2f", 0x3e4c_cccd);
+        check::<f32>("-1.0e-05F", 0xb727_c5ac);
+        check::<f32>(".2", 0x3e4c_cccd);
+        check::<f32>("1.", 0x3f80_0000);
+        check::<f32>("1.f", 0x3f80_0000);
+        check::<f32>("0x3e4ccccd", 0x3e4c_cccd);
+        check::<f32>("0xFF800000", 0xff80_0000);
+        check::<f64>("0x3fc999999999999a", 0.2f64.to_bits());
+        assert!(parse::<f32>("0x7fc00000").unwrap().is_nan());
+        let message = parse::<f64>("0x3e4ccccd").unwrap_err();
+        let expected = "'0x3e4ccccd' needs a binary exponent, as 0x1.8p-3, or 16 digits, as the bits of an f64 have";
+        assert_eq!(message, expected);
     }
 
     #[test]
@@ -265,7 +304,11 @@ mod tests {
             "1,5",
             "١",
             "0x1é1p0",
-            "1f",
+            "1ff",
+            "1ef",
+            "f",
+            ".f",
+            "1.0d",
             "one",
             "\n1",
         ] {
@@ -273,8 +316,8 @@ mod tests {
         }
         let message = parse::<f32>("1_0").unwrap_err();
         assert!(message.starts_with("'1_0' is not a number: write a decimal"), "{message}");
-        let message = parse::<f32>("0x3f800000").unwrap_err();
-        assert_eq!(message, "'0x3f800000' needs a binary exponent, as 0x1.8p-3");
+        let message = parse::<f32>("0x3f80").unwrap_err();
+        assert!(message.starts_with("'0x3f80' needs a binary exponent, as 0x1.8p-3"), "{message}");
         let message = parse::<f32>(&"1".repeat(5000)).unwrap_err();
         assert!(message.ends_with("...' has more than 4096 characters"), "{message}");
         assert!(!parse::<f32>("1\n2").unwrap_err().contains('\n'));
