@@ -73,7 +73,12 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     let file = BufReader::new(open(path)?);
     let mut beside = |name: &str, most: u64| {
         let mut bytes = Vec::new();
-        let file = File::open(Path::new(path).with_file_name(name))?;
+        let path = Path::new(path).with_file_name(name);
+        // A pipe may never have a writer.
+        if !fs::metadata(&path)?.is_file() {
+            return Err(io::Error::other("no ordinary file"));
+        }
+        let file = File::open(path)?;
         file.take(most).read_to_end(&mut bytes).map(|_| bytes)
     };
     let mesh = mesh::read(file, path, &mut beside, &mut |bytes| progress.set(bytes));

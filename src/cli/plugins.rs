@@ -3,11 +3,14 @@
 use super::exit::{Failure, Status};
 use super::flags::refuse_twice;
 use crate::audit::{quoted, shell_word};
+use crate::corpus::hex;
 use crate::kernel::{self, Entry, Scalar};
 use crate::plugin::{HOST_COMMAND, Limits, LoadError, Program, load};
 use clap::Args;
+use hmac_sha256::Hash;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -92,6 +95,19 @@ impl PluginArguments {
         let commands =
             self.kernel_cmd.iter().map(|line| format!("--kernel-cmd {}", shell_word(line)));
         libraries.chain(commands).collect()
+    }
+
+    /// The names of the libraries, and of the files that commands name, with the digests of their contents.
+    pub fn files(&self) -> BTreeMap<String, String> {
+        let words = self.kernel_cmd.iter().filter_map(|line| shlex::split(line)).flatten();
+        let paths = self.kernel_lib.iter().cloned().chain(words);
+        let digest = |path: String| {
+            let bytes = Path::new(&path).is_file().then(|| fs::read(&path))?.ok()?;
+            // Shards may have it in other folders.
+            let name = Path::new(&path).file_name()?.to_string_lossy().into_owned();
+            Some((name, hex(&Hash::hash(&bytes)[..8])))
+        };
+        paths.filter_map(digest).collect()
     }
 
     /// Starts the kernels and puts them into the table.

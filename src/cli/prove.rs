@@ -27,8 +27,8 @@ use witnesses::{KNOWN, merge, read_witnesses};
 /// The flags of `prove`: the kernels, and how to report.
 #[derive(Args)]
 #[command(mut_arg("format", |format| format.help(
-    "text, json, markdown or html, or several separated by commas; or gappa: a script for Gappa, the quantity of one \
-     --gate of one --kernel in one --scalar, its bound the goal"
+    "text, json, markdown or html, or several separated by commas; or gappa: a script that asks Gappa for a bound of one \
+     --gate of one --kernel in one --scalar"
 )))]
 pub struct ProveArguments {
     /// A kernel, or several separated by commas; NAME+fma is NAME with fused products [default: all]

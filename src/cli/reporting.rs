@@ -173,6 +173,7 @@ impl RunArguments {
         let seconds = progress.seconds();
         let mut record = build(plan, &sums, &Context { seconds, threads });
         (record.result.partial, record.shard) = (shard.map(PartialPart::from), part);
+        record.provenance.kernel_files = self.kernels.files();
         record.provenance.plan_flags =
             Some(PlanFlags { kernels: self.kernels.flags(), sources: self.source_flags() });
         if illustrate {

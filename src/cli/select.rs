@@ -10,6 +10,7 @@ use crate::epsilon::LEAST_T;
 use crate::kernel::{self, Entry};
 use clap::Args;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The flags that choose kernels, their epsilons and the contract.
 #[derive(Args, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -132,6 +133,11 @@ impl KernelArguments {
             Some((what, _)) => Err(Failure::usage(format!("{what} is not for points"))),
             None => Ok((&self.kernel, self.epsilon.as_deref())),
         }
+    }
+
+    /// The files of kernels of one's own, with the digests of their contents.
+    pub fn files(&self) -> BTreeMap<String, String> {
+        self.plugins.files()
     }
 
     /// The flags again, as a shell takes them.

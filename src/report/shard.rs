@@ -84,6 +84,13 @@ pub fn mergeable(records: Vec<Record>, allow_partial: bool) -> Result<Mergeable,
             );
             return Err(error(i, message));
         }
+        let files = &record.provenance.kernel_files;
+        if let Some((file, digest)) = files.iter().find(|(file, digest)| {
+            all.provenance[0].kernel_files.get(*file).is_some_and(|first| first != *digest)
+        }) {
+            let message = format!("of another build of {file} ({digest}) than the first");
+            return Err(error(i, message));
+        }
         if let Some(twice) = partial.present.iter().find(|k| all.partial.present.contains(k)) {
             return Err(error(i, format!("shard {twice}/{} is given twice", partial.of)));
         }
@@ -145,6 +152,7 @@ pub fn merged<E: From<String>>(
     if let Some(first) = parts.provenance.first() {
         record.provenance.plan_flags.clone_from(&first.plan_flags);
         record.provenance.target.clone_from(&first.target);
+        record.provenance.kernel_files.clone_from(&first.kernel_files);
     }
     for (kernel, notes) in parts.provenance.iter().flat_map(|part| &part.kernel_notes) {
         let known = record.provenance.kernel_notes.entry(kernel.clone()).or_default();

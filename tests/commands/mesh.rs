@@ -344,3 +344,31 @@ fn a_check_with_a_mesh_is_red_when_an_epsilon_makes_cracks() {
     let (shown, _) = ends(&folder, &words, 0);
     assert!(flat(&shown).contains("one hit is right: CRACK; right here: "), "{shown}");
 }
+
+#[test]
+fn a_scalar_that_is_too_coarse_for_the_mesh_is_said_to_be() {
+    let folder = scratch("mesh-coarse");
+    // Two triangles of 1 m, as far from the origin as a map's coordinates are.
+    let at = |x: f64| {
+        format!(
+            "v {} {x} 0\nv {} {x} 0\nv {x} {} 0\nv {} {} 0.5\nf 1 2 3\nf 2 4 3\n",
+            x,
+            x + 1.0,
+            x + 1.0,
+            x + 1.0,
+            x + 1.0
+        )
+    };
+    let screen = |x: f64, scalar: &str| {
+        fs::write(folder.join("m.obj"), at(x)).unwrap();
+        let flags = ["mesh", "m.obj", "--kernel", "moller-trumbore", "-q", "--scalar", scalar];
+        program::flat(&ends(&folder, &flags, 0).0)
+    };
+    let far = screen(2.7e6, "f32");
+    let expected = "f32 is coarse for this mesh: its numbers are 0.25 apart at the far end, 1/6 of the smallest \
+                    triangle's longest edge: use f64, or move the origin to the camera.";
+    assert!(far.contains(expected), "{far}");
+    for fine in [screen(2.7e6, "f64"), screen(0.0, "f32")] {
+        assert!(!fine.contains("coarse"), "{fine}");
+    }
+}

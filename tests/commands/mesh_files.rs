@@ -150,6 +150,18 @@ fn what_is_wrong_with_an_stl_file_is_said_with_its_place() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_buffer_that_is_a_pipe_is_refused_and_not_waited_for() {
+    let folder = scratch("mesh-fifo");
+    let pipe = folder.join("pipe.bin");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let document = serde_json::to_vec(&solid().document(Some("pipe.bin".to_owned()))).unwrap();
+    fs::write(folder.join("a.gltf"), document).unwrap();
+    let (_, error) = ends(&folder, &["mesh", "a.gltf", "-q"], 74);
+    assert!(error.contains("pipe.bin") && error.contains("no ordinary file"), "{error}");
+}
+
 #[test]
 fn names_and_comments_may_be_in_any_encoding() {
     let latin = |text: &str| text.chars().map(|c| c as u8).collect::<Vec<u8>>();

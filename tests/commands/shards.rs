@@ -246,3 +246,34 @@ fn a_run_is_cut_in_as_many_parts_as_may_be_and_at_least_in_one() {
     ends(&folder, &[&["audit", "--shard", "0/1", "-o", "part.json"], &words[..]].concat(), 0);
     merge(&folder, &["part.json"], &["-q"], 0);
 }
+
+#[test]
+fn parts_of_different_builds_of_a_kernel_are_not_one_run() {
+    let folder = scratch("shards-builds");
+    // It misses whatever comes.
+    let never = |comment: &str| {
+        let script = format!(
+            "# {comment}
+echo 'hairline-kernel 1'; echo name never; echo scalars f32 f64; echo contract closed-ray; echo ready
+while read -r word id rest; do case $word in case) echo $id miss;; end) echo end $id;; esac; done
+"
+        );
+        fs::write(folder.join("never.sh"), script).unwrap();
+    };
+    let shard = |part: &str, file: &str| {
+        let flags = ["--kernel-cmd", "sh never.sh", "--family", "interior", "-n", "60", "-q"];
+        let to = ["--shard", part, "--format", "json", "-o", file];
+        ends(&folder, &[&["audit"], &flags[..], &to].concat(), 0);
+    };
+    never("one");
+    shard("0/2", "0.json");
+    shard("1/2", "1.json");
+    let with = ["--kernel-cmd", "sh never.sh", "-q", "-o", "all.json"];
+    merge(&folder, &["0.json", "1.json"], &with, 0);
+    let all = fs::read_to_string(folder.join("all.json")).unwrap();
+    assert!(all.contains("\"kernel_files\""), "{all}");
+    never("two");
+    shard("1/2", "1.json");
+    let error = merge(&folder, &["0.json", "1.json"], &with, 65);
+    assert!(error.contains("1.json: of another build of never.sh ("), "{error}");
+}

@@ -1,10 +1,11 @@
 //! The search for witnesses.
 
 use super::witness::{Goal, Inputs, Search, Searched};
-use super::{Leaf, Source};
+use super::{Domain, Leaf, Source};
 use crate::arith::Float;
 use crate::arith::recorded::{Operation, Place};
 use crate::case::Draw;
+use glam::DVec3;
 
 /// After so many evaluations without anything better a climb starts elsewhere.
 const STALE: u64 = 20_000;
@@ -160,8 +161,43 @@ impl<F: Searched> Search<'_, F> {
         sum
     }
 
+    /// A ray that meets a triangle, as far away and as small as a scene has them, and often at a small angle: where numbers
+    /// are divided by the least determinants.
+    fn aimed(&self, draw: &mut Draw) -> Inputs<F> {
+        let Domain { edge, reach, world, direction, extent, .. } = self.domain;
+        let [edge, reach, world, length, extent] =
+            [edge, reach, world, direction, extent].map(|x| x.to_f64());
+        let any = |draw: &mut Draw| DVec3::from([0; 3].map(|_| draw.symmetric::<f64>()));
+        let power = |draw: &mut Draw, most: usize| 2f64.powi(-(draw.below(most) as i32));
+        let near_end = |draw: &mut Draw, most: f64| {
+            let x = most * (1.0 - draw.unit() * power(draw, 12));
+            if draw.coin() { x } else { -x }
+        };
+        let a = DVec3::from([0; 3].map(|_| near_end(draw, world)));
+        let size = edge * (0.5 + 0.5 * draw.unit()) * power(draw, 28);
+        let [e1, e2] = [0; 2].map(|_| any(draw) * size);
+        // In the plane, and off it by more or less.
+        let along = (e1 * draw.symmetric::<f64>() + e2 * draw.symmetric::<f64>()) / size;
+        let off = any(draw) * power(draw, 12);
+        let short = 1.0 - 4.0 * F::EPSILON.to_f64();
+        let direction = (along + off).normalize_or_zero() * length * short;
+        let (u, v) = (draw.unit(), draw.unit());
+        let target = a + e1 * (u * (1.0 - v)) + e2 * v;
+        let origin = target - direction / length * near_end(draw, reach).abs();
+        let vectors = [origin, direction, a, a + e1, a + e2].map(|v| v.to_array());
+        let mut inputs = [F::zero(); 17];
+        for (input, x) in inputs.iter_mut().zip(vectors.as_flattened()) {
+            *input = F::from_f64(*x);
+        }
+        inputs[16] = F::from_f64(extent);
+        inputs
+    }
+
     /// Inputs in the boxes, often near the corner of the bound.
     fn start(&self, goal: Goal, draw: &mut Draw) -> Inputs<F> {
+        if self.domain.measures.is_some() && goal != Goal::Zero && draw.coin() {
+            return self.aimed(draw);
+        }
         let mut inputs = [F::zero(); 17];
         let world = self.domain.world.to_f64();
         let shift = draw.below(30) as i32;

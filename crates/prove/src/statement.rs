@@ -378,7 +378,7 @@ fn short(x: f64, up: bool) -> String {
 
 /// A number of units in two decimals, not below it, or not above it.
 pub fn units(x: f64, up: bool) -> String {
-    if (0.01..1e6).contains(&x) {
+    if (0.01..1e4).contains(&x) {
         let hundreds = if up { (x * 100.0 - 1e-9).ceil() } else { (x * 100.0 + 1e-9).floor() };
         format!("{:.2}", hundreds / 100.0)
     } else {

@@ -69,9 +69,8 @@ fn scripts<F: Searched + Scalar>(
         }
         let name =
             format!("{} {} {} {number}", entry.info.name, F::NAME, entry.info.gates[gate].name);
-        let goal = quantity.bound.as_ref().ok().map(|bound| bound.error);
         let path = &proof.paths[quantity.path];
-        let script = gappa(path, quantity.place, summary.domain, summary.format, &name, goal);
+        let script = gappa(path, quantity.place, summary.domain, summary.format, &name, None);
         if let Ok(script) = script {
             text.push_str(&script);
             text.push('\n');

@@ -5,7 +5,7 @@ mod build;
 mod commands;
 mod csv;
 mod evidence;
-mod fitness;
+pub(super) mod fitness;
 mod legend;
 mod notes;
 mod page;

@@ -121,7 +121,7 @@ pub(super) fn of_line<F: Scalar>(
     (is_of_lines && is_off).then(|| {
         format!(
             "t = {} is not on the ray: this kernel answers for the whole line, and its caller must compare t",
-            number(verdict.t.to_f64())
+            number(verdict.t)
         )
     })
 }

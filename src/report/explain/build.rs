@@ -48,7 +48,7 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
 fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
     let labels = ["origin", "direction", "a", "b", "c"];
     let vector = |(label, vector): (&str, [F; 3])| {
-        let [x, y, z] = vector.map(|x| number(x.to_f64()));
+        let [x, y, z] = vector.map(number);
         [label.to_owned(), x, y, z, vector.map(F::hex).join(" ")]
     };
     let inputs = labels.into_iter().zip(case.vectors()).map(vector).collect();
@@ -69,7 +69,7 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
             None => truth.to_string(),
         },
         inputs,
-        interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t.to_f64()), t.hex()]),
+        interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t), t.hex()]),
     }
 }
 
@@ -279,10 +279,10 @@ fn add_gates<F: Scalar>(
 fn values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> String {
     let mut values = Vec::new();
     if gives.t {
-        values.push(format!("t = {}", number(verdict.t.to_f64())));
+        values.push(format!("t = {}", number(verdict.t)));
     }
     if gives.uv {
-        let [u, v] = [verdict.u, verdict.v].map(|x| number(x.to_f64()));
+        let [u, v] = [verdict.u, verdict.v].map(number);
         values.push(format!("u = {u}, v = {v}"));
     }
     if gives.facing {
@@ -329,7 +329,7 @@ fn wrong_values<F: Scalar>(
     verdict: &Verdict<F>,
     tolerance: f64,
 ) -> Vec<String> {
-    let reported = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
+    let reported = [verdict.t, verdict.u, verdict.v];
     let wrong = (0..3).filter(|which| errors.is_wrong(*which, tolerance)).map(|which| {
         let (name, times) = (["t", "u", "v"][which], errors.times[which].unwrap_or_default());
         let (reported, exact) = (reported[which], errors.exact[which]);

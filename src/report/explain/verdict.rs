@@ -1,5 +1,6 @@
 //! The verdicts of kernels on a case and on the triangles of a group, and the judgement of the latter.
 
+use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::contract::Across;
@@ -21,14 +22,15 @@ pub struct Together<'a, F: Scalar> {
     pub neighbours: Option<&'a [Case<F>]>,
 }
 
-/// A number that reads back.
-pub(super) fn number(x: f64) -> String {
+/// The fewest digits that read back as the number in its scalar.
+pub(super) fn number<F: Float>(x: F) -> String {
     plain(&format!("{x:e}"))
 }
 
 /// A size in three digits.
 pub(super) fn short(x: f64) -> String {
-    plain(&format!("{x:.2e}"))
+    let text = format!("{x:.2e}");
+    if (1e4..1e7).contains(&x.abs()) { text } else { plain(&text) }
 }
 
 /// A number as `1.5e0` writes it, to the same digits: without an exponent where it is neither large nor small.

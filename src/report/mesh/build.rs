@@ -5,6 +5,7 @@ use super::record::*;
 use crate::arith::Float;
 use crate::audit::mesh::{CLASSES, Found, Plan, RowFound, Tally};
 use crate::audit::{GroupCount, Row, Trials, quoted};
+use crate::corpus::mesh::Mesh;
 use crate::mesh::{Noted, Part, Surface, Targets, Topology};
 use crate::report::build::{kernel_notes, provenance_of, row_part};
 use crate::report::{Context, Rate};
@@ -72,10 +73,30 @@ fn add_scalar<F: Float>(surface: &Surface, plan: &Plan, found: &Found, parts: &m
     parts.scalars.push(ScalarPart {
         scalar: F::NAME,
         topology: builder.topology(topology),
+        spacing: F::from_f64(reach(surface.mesh())).ulp().to_f64(),
+        smallest: smallest(surface.mesh()),
         rays: Part::ALL.map(|part| targets.count(part) * plan.directions),
         cases: found.cases,
         results: found.rows.iter().map(|row| builder.row(&plan.rows[row.row], row)).collect(),
     });
+}
+
+/// The largest coordinate of a mesh.
+fn reach(mesh: &Mesh) -> f64 {
+    mesh.positions_f64.as_flattened().iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+}
+
+/// The longest edge of the smallest triangle that has one.
+fn smallest(mesh: &Mesh) -> f64 {
+    let longest = |triangle: usize| {
+        let [a, b, c] = mesh.vertices::<f64>(triangle);
+        let length = |p: [f64; 3], q: [f64; 3]| {
+            p.iter().zip(q).fold(0.0, |sum: f64, (p, q)| sum.hypot(p - q))
+        };
+        length(a, b).max(length(b, c)).max(length(c, a))
+    };
+    let all = (0..mesh.triangles.len()).map(longest).filter(|size| 0.0 < *size);
+    all.fold(f64::INFINITY, f64::min)
 }
 
 struct Builder<'a, F> {

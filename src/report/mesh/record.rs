@@ -66,6 +66,10 @@ pub struct ScalarPart {
     pub scalar: &'static str,
     /// The topology of the mesh in this scalar.
     pub topology: TopologyPart,
+    /// The distance of two neighbouring numbers of the scalar at the largest coordinate.
+    pub spacing: f64,
+    /// The longest edge of the smallest triangle with an area.
+    pub smallest: f64,
     /// Rays at edges and at vertices: how many of each are tested, times the directions.
     pub rays: [u64; 2],
     /// Rays with the triangles that they were put to.

@@ -1,6 +1,7 @@
 //! The record of a mesh audit as a page of text: a sentence, a table a scalar, the first places; everything else folded.
 
 use super::record::*;
+use crate::report::epsilon::fitness::Grain;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Tone};
 use crate::report::{Promised, Rate, group_digits, interval_of, number_of, percent};
 
@@ -28,7 +29,11 @@ impl Paged for MeshReport {
             result.seed,
             record.provenance.seconds
         ))];
-        result.scalars.iter().for_each(|part| blocks.extend(of_scalar(record, part)));
+        for part in &result.scalars {
+            let grain = part.grain();
+            blocks.extend((!grain.is_fine()).then(|| Block::Text(grain.sentence("mesh"))));
+            blocks.extend(of_scalar(record, part));
+        }
         #[cfg(feature = "cli")]
         blocks.extend(super::stage::block(self));
         let places = first_places(result);
@@ -44,6 +49,13 @@ impl Paged for MeshReport {
             blocks.push(Block::Details(title, everything(record, part)));
         }
         Page { command: "mesh", title, tone, blocks }
+    }
+}
+
+impl ScalarPart {
+    fn grain(&self) -> Grain<'_> {
+        let ScalarPart { scalar, spacing, smallest, .. } = *self;
+        Grain { scalar, spacing, smallest, unit: "" }
     }
 }
 

@@ -129,6 +129,10 @@ pub struct Provenance {
     /// By kernel: what should be known of its process beside the verdicts.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub kernel_notes: BTreeMap<String, Vec<String>>,
+    /// By the library, or the file that a kernel's command names: the first 16 hexadecimal digits of its SHA-256. Parts of a
+    /// run that differ here are of different kernels.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub kernel_files: BTreeMap<String, String>,
     /// The flags of `hairline audit` that make the plan again, where a command line made it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan_flags: Option<PlanFlags>,

@@ -301,6 +301,13 @@ fn gltf_files_that_are_wrong_say_where() {
             "a.glb: nodes[0].matrix: expected",
         ),
         (set("/nodes/0", json!({})), "a.glb: the file has no triangles"),
+        (
+            set(
+                "/meshes/0/primitives/0",
+                json!({ "attributes": { "POSITION": 0 }, "indices": 1, "mode": 1 }),
+            ),
+            "a.glb: the file has no triangles: primitives of lines and points skipped: 1",
+        ),
         (set("/scenes/0/nodes", json!([])), "a.glb: the file has no triangles"),
     ] {
         assert!(said.starts_with(message) && !said.contains('\n'), "{said}\n{message}");

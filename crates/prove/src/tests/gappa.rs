@@ -70,21 +70,25 @@ fn both<F: Scalar>(kernel: &str, gate: &str, wanted: fn(&Path) -> bool) -> Optio
 }
 
 #[test]
-fn gappa_proves_nearly_the_same_bounds() {
-    for (kernel, gate, most) in [
-        // Gappa's answer for cramer is 85 u in most runs, and 87 u in some.
-        ("moller-trumbore", "parallel", 1.11),
-        ("moller-trumbore", "edge", 1.11),
-        ("moller-trumbore+fma", "parallel", 1.13),
-        ("scalar-triple", "edge", 1.11),
-        ("cramer", "edge", 1.16),
-        ("woop-watertight", "edge", 1.46),
-        ("woop-watertight+fma", "edge", 1.54),
-        ("plucker", "edge", 1.51),
+fn gappa_proves_bounds_that_are_at_most_twice_as_large() {
+    for (kernel, gate) in [
+        ("moller-trumbore", "parallel"),
+        ("moller-trumbore", "edge"),
+        ("moller-trumbore+fma", "parallel"),
+        ("scalar-triple", "edge"),
+        ("half-space", "edge"),
+        ("cramer", "edge"),
+        ("woop-watertight", "edge"),
+        ("woop-watertight+fma", "edge"),
+        ("plucker", "edge"),
     ] {
         let Some([theirs, ours]) = both::<f32>(kernel, gate, |_| true) else { return };
         println!("{kernel} {gate}: gappa {theirs:.3} u, hairline {ours:.3} u");
-        assert!(theirs <= most * ours, "{kernel} {gate}: {theirs} u, {ours} u");
+        // Ours know which roundings belong together, and are never looser.
+        assert!(
+            ours <= 1.001 * theirs && theirs <= 2.1 * ours,
+            "{kernel} {gate}: {theirs}, {ours}"
+        );
     }
 }
 

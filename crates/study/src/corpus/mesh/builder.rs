@@ -117,7 +117,10 @@ impl Builder {
     /// The mesh; an error if it has no triangles.
     pub fn finish(self, name: &str, groups: usize) -> Result<Mesh, InputError> {
         if self.triangles.is_empty() {
-            return Err(InputError::of(name, format!("the file has no triangles: {FOLDED}")));
+            let notes: Vec<String> = self.notes.iter().map(Note::to_string).collect();
+            let why = if notes.is_empty() { "" } else { ": " };
+            let message = format!("the file has no triangles{why}{}", notes.join("; "));
+            return Err(InputError::of(name, message));
         }
         Ok(Mesh {
             name: name.to_owned(),

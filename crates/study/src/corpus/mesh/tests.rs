@@ -224,7 +224,7 @@ fn files_without_vertices_faces_or_triangles_are_refused() {
     assert_eq!(
         refusal(format!("{SQUARE}f 1 3 2 4\n")),
         "teapot.obj: the file has no triangles: polygons left out because their fan of triangles \
-         folds over"
+         folds over: 1 (first at line 5)"
     );
 }
 
