@@ -57,7 +57,7 @@ use std::process::ExitCode;
 
 /// Audits ray-triangle kernels and their epsilons against exact predicates.
 #[derive(Parser)]
-#[command(name = "hairline", version, about, max_term_width = 100, disable_help_subcommand = true)]
+#[command(name = "hairline", version, max_term_width = 100, disable_help_subcommand = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -65,25 +65,25 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run kernels on families of cases, a mesh or a corpus, and report where they are wrong
+    /// Run kernels on hard cases, and report where they are wrong
     Audit(Box<audit::AuditArguments>),
-    /// Recommend a kernel's epsilons, all together, for a scene, a mesh or families of cases
+    /// Recommend epsilons for a scene, a mesh or families of cases
     Epsilon(Box<epsilon::EpsilonArguments>),
-    /// Show which offset new rays, such as shadow rays, need to leave their own surface
+    /// Show which offset shadow rays need to leave their own surface
     Spawn(Box<spawn::SpawnArguments>),
-    /// Send rays at every edge and vertex of a mesh, and report where they slip through
+    /// Report where rays slip through the edges and vertices of a mesh
     Mesh(Box<mesh::MeshArguments>),
-    /// Prove what a kernel can never do wrong, whatever the floats, beside the worst known
+    /// Prove what a kernel can never do wrong, whatever the floats
     Prove(Box<prove::ProveArguments>),
-    /// Show one case: its exact truth, and what each gate of each kernel decides
+    /// Show one case: its exact truth, and why a kernel was wrong
     Explain(explain::ExplainArguments),
-    /// Draw where a kernel is wrong, one pixel one float, beside the exact truth
+    /// Draw where a kernel is wrong around a case, a pixel a float
     Map(Box<map::MapArguments>),
     /// List kernels, families, contracts, epsilon presets or arithmetics
     List(list::ListArguments),
-    /// Search for findings until stopped; keep, shrink and sort them
+    /// Search for findings until stopped
     Fuzz(Box<fuzz::FuzzArguments>),
-    /// Run the project's plan and compare with its known disagreements
+    /// Compare a run with the known disagreements
     Check(Box<check::CheckArguments>),
     /// Merge the records of all shards of a run into one
     Merge(merge::MergeArguments),
@@ -93,15 +93,15 @@ enum Command {
     Generate(Box<generate::GenerateArguments>),
     /// Print the exact truth of cases, one JSON line each
     Truth(truth::TruthArguments),
-    /// Compare the oracle with its definition and with integer arithmetic
+    /// Compare the oracle with its definition and integer arithmetic
     Selfcheck(selfcheck::SelfcheckArguments),
     /// Verify the stored cases, or write them again
     Corpus(corpus::CorpusArguments),
-    /// Write test vectors: cases with their answers, for programs that do not run hairline
+    /// Write test vectors: cases with their exact answers
     Vectors(vectors::VectorsArguments),
     /// Judge what a product answered to the test vectors
     Verify(verify::VerifyArguments),
-    /// Run orientation predicates on families of points, and report wrong signs
+    /// Report wrong signs of orientation predicates
     Orient(Box<orient::OrientArguments>),
     /// Describe a command, or say what a word on a screen means
     Help(help::HelpArguments),
@@ -293,8 +293,8 @@ mod tests {
         grouped.sort();
         assert_eq!(visible, grouped);
         let help = command.clone().render_long_help().to_string();
-        assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
-        assert!(help.contains("\nGate a CI:\n  check        Run the project's plan"), "{help}");
+        assert!(help.lines().all(|line| line.chars().count() <= 80), "{help}");
+        assert!(help.contains("\nGate a CI:\n  check        Compare a run"), "{help}");
         command.clone().debug_assert();
         // Every command has an example that it takes.
         let mut examples: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();

@@ -138,7 +138,7 @@ pub fn proofs(rows: &[Row], scalars: [bool; 2]) -> Vec<ProofPart> {
         stored: &stored,
         shared: false,
     };
-    let parts = job.run_all(&entries, scalars);
+    let parts = job.run_all(&entries, scalars, true);
     parts.into_iter().filter_map(Parts::in_short).collect()
 }
 
@@ -188,7 +188,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
     let epsilons = arguments.epsilons(&entries)?;
     let shared = arguments.update.is_some();
     let job = Job { scene, shapes, domain, parts, effort, epsilons, stored: &stored, shared };
-    let results = job.run_all(&entries, scalars);
+    let results = job.run_all(&entries, scalars, arguments.output.quiet);
     let mut record = Record {
         schema: "hairline/proof-1",
         version: env!("CARGO_PKG_VERSION"),

@@ -25,7 +25,28 @@ pub struct Profile {
     pub specification: String,
     /// Where it can be read.
     pub url: Option<String>,
+    /// Its rules for inputs. It says nothing about rays that break one.
+    #[serde(default)]
+    preconditions: Vec<Precondition>,
     answers: Answers,
+}
+
+/// A rule for inputs.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Precondition {
+    #[serde(rename = "t_min")]
+    _t_min: LeastT,
+    #[serde(rename = "section")]
+    _section: String,
+    #[serde(rename = "sentence")]
+    _sentence: String,
+}
+
+#[derive(Deserialize)]
+enum LeastT {
+    #[serde(rename = "at-least-0")]
+    AtLeastZero,
 }
 
 /// One answer for each word of `free_because`, and one for groups.
@@ -184,6 +205,10 @@ impl Profile {
 
 /// The demand of a test: a word of `result`, `odd` or `even`.
 pub fn demanded(test: &Test, profile: Option<&Profile>) -> &'static str {
+    let starts_early = || either_scalar!(&test.cases[0], case => case.ray.t_min < 0.0);
+    if profile.is_some_and(|profile| !profile.preconditions.is_empty()) && starts_early() {
+        return "free";
+    }
     match (&test.group, profile.map(|profile| profile.answers.groups.result)) {
         (None, _) => word(of_triangle(&test.triangles[0], profile)),
         (Some(group), Some(Groups::Parity)) => group.parity(),

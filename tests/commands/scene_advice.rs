@@ -229,7 +229,7 @@ fn a_kernel_without_an_epsilon_at_its_edges_hears_what_its_cracks_cost() {
     for part in [
         "of its cost of",
         "are cracks, which no number here closes: give its edge test",
-        "or use a watertight kernel (plucker, woop-watertight)",
+        "or use a kernel that hardly leaks (plucker, woop-watertight)",
         "the kernel has no epsilons, so the least t is all that there is to choose",
     ] {
         assert!(screen.contains(part), "{part}: {screen}");

@@ -3,7 +3,8 @@
 use super::record::{GatePart, KernelPart, LimitPart, WitnessPart};
 use super::witnesses::StoredWitness;
 use crate::arith::Float;
-use crate::audit::EpsilonText;
+use crate::audit::{EpsilonText, Observer};
+use crate::cli::progress::Progress;
 use crate::kernel::{Entry, PRESETS, Scalar};
 use crate::prove::{
     Domain, Effort, GOALS, GateSummary, Published, Scene, Searched, Shape, Summary, Symmetry,
@@ -83,17 +84,24 @@ impl Parts {
 
 impl Job<'_> {
     /// Proves and searches for each kernel in each chosen scalar.
-    pub fn run_all(&self, entries: &[&Entry], scalars: [bool; 2]) -> Vec<Parts> {
+    pub fn run_all(&self, entries: &[&Entry], scalars: [bool; 2], quiet: bool) -> Vec<Parts> {
         let tasks: Vec<(&Entry, bool)> = entries
             .iter()
             .flat_map(|entry| [(*entry, false), (*entry, true)])
             .filter(|(_, is_f64)| scalars[usize::from(*is_f64)])
             .collect();
-        let run = |(entry, is_f64): &(&Entry, bool)| match is_f64 {
-            false => self.run::<f32>(entry),
-            true => self.run::<f64>(entry),
+        let progress = Progress::new(tasks.len() as u64, "proofs", quiet);
+        let run = |(entry, is_f64): &(&Entry, bool)| {
+            let parts = match is_f64 {
+                false => self.run::<f32>(entry),
+                true => self.run::<f64>(entry),
+            };
+            progress.advance(1);
+            parts
         };
-        tasks.par_iter().map(run).collect()
+        let all = tasks.par_iter().map(run).collect();
+        progress.finish();
+        all
     }
 
     /// Proves and searches.

@@ -35,10 +35,9 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
         Some(false) => {
             let most = most_errors(record);
             notes.push(format!(
-                "these rays show no fixed values at which 99 % of the hits are off by at most {most}:"
+                "these rays show no fixed values at which 99 % of the hits are off by at most {most}: it takes more rays \
+                 (-n), wider numbers, another kernel or other rays"
             ));
-            let advice = "it takes more rays (-n), wider numbers, another kernel or other rays";
-            notes.push(advice.to_owned());
         }
         _ => notes.extend(accuracy(record)),
     }
@@ -198,22 +197,19 @@ fn instead(record: &SceneRecord, part: &SceneKernelPart, kind: Kind) -> String {
 }
 
 /// A note if cracks that no number closes are most of a kernel's cost, with advice.
-fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String> {
+fn cracks_of_its_own(record: &SceneRecord, part: &SceneKernelPart) -> Option<String> {
     let best = &part.tried[0];
     let cracks = part.counts.iter().zip(&best.wrong).filter(|(count, _)| count.kind == Kind::Crack);
     let weight =
         record.costs.iter().find(|cost| cost.name == Kind::Crack.name()).map_or(0.0, |c| c.number);
     let cost: f64 = cracks.map(|(_, rate)| weight * rate.rate.unwrap_or(0.0)).sum();
-    if !part.has_edge_epsilon && 0.5 * best.cost < cost {
-        return vec![
-            format!(
-                "{cost:.2} of its cost of {:.2} are cracks, which no number here closes: give its edge test",
-                best.cost
-            ),
-            "an epsilon, or use a watertight kernel (plucker, woop-watertight)".to_owned(),
-        ];
-    }
-    Vec::new()
+    (!part.has_edge_epsilon && 0.5 * best.cost < cost).then(|| {
+        format!(
+            "{cost:.2} of its cost of {:.2} are cracks, which no number here closes: give its edge test an epsilon, or use a \
+             kernel that hardly leaks (plucker, woop-watertight)",
+            best.cost
+        )
+    })
 }
 
 /// True if the recommended numbers tolerate a little beside the edges.

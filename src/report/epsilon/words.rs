@@ -137,9 +137,14 @@ pub(super) fn meaning(
         }
         ("edge", [0, 0]) => {
             let size = human(&format!("{:e}", value.abs()));
+            let most = human(&format!("{:.0e}", value.abs() * record.edge[1]));
+            let largest = match record.has_scene() {
+                true => format!("; {most}{} at the largest", spaced(&record.unit)),
+                false => String::new(),
+            };
             Some(match value < 0.0 {
                 true => format!(
-                    "rays up to {size} of a triangle's size beside it hit it (corners: twice); at edges both"
+                    "rays up to {size} of a triangle's size beside it hit it (corners: twice{largest}); at edges both"
                 ),
                 false => format!("rays up to {size} of a triangle's size inside it miss it"),
             })

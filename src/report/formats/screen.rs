@@ -223,5 +223,6 @@ fn of_elsewhere(record: &Record, columns: &[Column], lines: &[Line]) -> Vec<Bloc
         Row::new(label, [own, other, kind.to_string()])
     };
     let table = Table::new(heads, rows.iter().map(row).collect()).at_most(MOST_ELSEWHERE);
-    vec![Block::Table(table), Block::Text(names)]
+    let of = "Shares are of all verdicts that are demanded, misses and hits together.";
+    vec![Block::Table(table), Block::Text(format!("{names}. {of}"))]
 }
