@@ -224,8 +224,15 @@ fn of_row(row: &RowPart, is_first: bool) -> Vec<Block> {
         blocks.push(Block::Notes(row.advice.clone()));
     }
     blocks.extend(row.notes.iter().cloned().map(Block::Text));
-    if !row.gates.is_empty() {
+    let is_shown = |gate: &GatePart| gate.margin.is_some() || gate.decision.is_some();
+    if row.gates.iter().any(is_shown) {
         blocks.push(Block::Table(gates(row, is_first)));
+    } else if !row.gates.is_empty() {
+        let all = row.gates.iter().filter_map(|gate| {
+            gate.epsilon.as_ref().map(|epsilon| format!("{} = {epsilon}", gate.gate))
+        });
+        let all = all.collect::<Vec<_>>().join(", ");
+        blocks.push(Block::Text(format!("with {all}; it does not show what it compares")));
     }
     if let Some(verdict) = row.without_rounding {
         blocks.push(Block::Text(format!("the same formula without rounding: {verdict}")));
@@ -310,7 +317,7 @@ fn all_rows(rows: &[RowPart]) -> Table {
 
 /// The ray and the triangle, in numbers and in bits.
 fn inputs(triangle: &TrianglePart, is_first: bool) -> Table {
-    let heads = ["", "x", "y", "z"].map(Head::of);
+    let heads = ["vector", "x", "y", "z"].map(Head::of);
     let heads = heads.into_iter().chain([Head::text("bits").optional()]).collect();
     let row =
         |[label, x, y, z, bits]: &[String; 5]| Row::new(label, [x, y, z, bits].map(String::clone));

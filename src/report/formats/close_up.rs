@@ -68,7 +68,7 @@ fn gates(line: &Line) -> Vec<String> {
 /// A row of the table for each question, and a column for each scalar.
 fn table(columns: &[Column], lines: &[&Line]) -> Table {
     let scalars = || lines.iter().map(|line| line.row.scalar);
-    let mut heads = vec![Head::of(if lines.len() == 1 { lines[0].row.scalar } else { "" })];
+    let mut heads = vec![Head::of(if lines.len() == 1 { lines[0].row.scalar } else { "cases" })];
     for what in ["false misses", "false hits"] {
         match lines.len() {
             1 => heads.push(Head::of(format!("{what}, %"))),
