@@ -5,6 +5,7 @@ use super::{Test, Triangle, word};
 use crate::contract::{Boundary, Contract, Demand};
 use crate::judge::{Obligation, obligation};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The profiles by name.
@@ -25,28 +26,10 @@ pub struct Profile {
     pub specification: String,
     /// Where it can be read.
     pub url: Option<String>,
-    /// Its rules for inputs. It says nothing about rays that break one.
+    /// Its rules for inputs, each with its sentence: `t_min` may be `at-least-0`. It says nothing about rays that break one.
     #[serde(default)]
-    preconditions: Vec<Precondition>,
+    preconditions: Vec<BTreeMap<String, String>>,
     answers: Answers,
-}
-
-/// A rule for inputs.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Precondition {
-    #[serde(rename = "t_min")]
-    _t_min: LeastT,
-    #[serde(rename = "section")]
-    _section: String,
-    #[serde(rename = "sentence")]
-    _sentence: String,
-}
-
-#[derive(Deserialize)]
-enum LeastT {
-    #[serde(rename = "at-least-0")]
-    AtLeastZero,
 }
 
 /// One answer for each word of `free_because`, and one for groups.
@@ -206,7 +189,9 @@ impl Profile {
 /// The demand of a test: a word of `result`, `odd` or `even`.
 pub fn demanded(test: &Test, profile: Option<&Profile>) -> &'static str {
     let starts_early = || either_scalar!(&test.cases[0], case => case.ray.t_min < 0.0);
-    if profile.is_some_and(|profile| !profile.preconditions.is_empty()) && starts_early() {
+    let is_rule =
+        |rule: &BTreeMap<String, String>| rule.get("t_min").is_some_and(|t| t == "at-least-0");
+    if profile.is_some_and(|profile| profile.preconditions.iter().any(is_rule)) && starts_early() {
         return "free";
     }
     match (&test.group, profile.map(|profile| profile.answers.groups.result)) {
