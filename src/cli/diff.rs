@@ -3,8 +3,8 @@
 use super::exit::{Failure, Status};
 use super::input::read_record;
 use super::output::OutputArguments;
-use crate::expect::{Comparison, Trend, difference};
-use crate::report::{Format, write_json};
+use crate::expect::{Trend, difference};
+use crate::report::Format;
 use clap::Args;
 
 /// The arguments of `diff`: the records to compare, and how to report.
@@ -27,16 +27,9 @@ pub struct DiffArguments {
     output: OutputArguments,
 }
 
-const FORMATS: &[Format<Comparison>] = &[
-    Format::TEXT,
-    Format { name: "json", write: |comparison, _, out| write_json(comparison, out) },
-    Format::MARKDOWN,
-    Format::HTML,
-];
-
 /// Runs the command.
 pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
-    let pairs = arguments.output.pairs(FORMATS)?;
+    let pairs = arguments.output.pairs(Format::OF_PAGE)?;
     let (old, new) = (read_record(&arguments.old)?, read_record(&arguments.new)?);
     let comparison = difference(&old.result, &new.result);
     if comparison.common == 0 {

@@ -4,7 +4,8 @@ use super::case::CaseArguments;
 use super::exit::{Failure, Status};
 use super::output::OutputArguments;
 use super::select::KernelArguments;
-use crate::report::explain::{EXPLAIN_FORMATS, Together, explain};
+use crate::report::Format;
+use crate::report::explain::{Together, explain};
 use clap::Args;
 
 /// Which case, and which kernels.
@@ -25,7 +26,7 @@ pub struct ExplainArguments {
 
 /// Runs the command.
 pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
-    let pairs = arguments.output.pairs(EXPLAIN_FORMATS)?;
+    let pairs = arguments.output.pairs(Format::OF_PAGE)?;
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases()?;
     let name = &arguments.case.case;

@@ -13,8 +13,9 @@ use crate::orientation::{
     self, CasePart, Dimension, FAMILIES, KNOWN, Known, Plan, Points, PointsId, Record, Row, SCHEMA,
     Scalar, build, default_rows, find_family, find_known, show,
 };
+use crate::report::Format;
 use clap::Args;
-use page::{CASE_FORMATS, Cases, FORMATS};
+use page::Cases;
 
 /// The flags of `orient`: the run, and how it is reported.
 #[derive(Args)]
@@ -70,7 +71,7 @@ pub struct OrientArguments {
 
 /// Runs the command.
 pub fn run(arguments: &OrientArguments) -> Result<Status, Failure> {
-    let pairs = arguments.output.pairs(FORMATS)?;
+    let pairs = arguments.output.pairs(Format::OF_PAGE)?;
     let scalars = chosen_scalars(&arguments.scalar)?;
     let rows = arguments.rows()?;
     if arguments.known {
@@ -182,7 +183,7 @@ fn shown<F: Scalar>(id: String, points: &Points<F>, rows: &[Row]) -> Result<Case
 
 impl OrientArguments {
     fn write_cases(&self, cases: &[(CasePart, Option<&Known>)]) -> Result<Status, Failure> {
-        let pairs = self.output.pairs(CASE_FORMATS)?;
+        let pairs = self.output.pairs(Format::OF_PAGE)?;
         let notes = cases.iter().map(|(_, known)| known.map_or("", |known| known.why)).collect();
         let cases = cases.iter().map(|(case, _)| case.clone()).collect();
         self.output.write(pairs, &Cases { schema: SCHEMA, cases, notes })?;

@@ -106,13 +106,9 @@ pub struct SpawnArguments {
 /// The kernel that runs if nobody names one.
 const DEFAULT_KERNEL: &str = "moller-trumbore";
 
-/// The formats of the output.
-const FORMATS: &[Format<SpawnRecord>] =
-    &[Format::TEXT, Format::JSON, Format::MARKDOWN, Format::HTML];
-
 /// Runs the command.
 pub fn run(arguments: &SpawnArguments) -> Result<Status, Failure> {
-    let outputs = arguments.output.pairs(FORMATS)?;
+    let outputs = arguments.output.pairs(Format::OF_PAGE)?;
     set_threads(arguments.threads)?;
     let rows = arguments.rows()?;
     let scalars = one_scalar(&rows, &arguments.scalar)?;

@@ -2,25 +2,9 @@
 
 use crate::orientation::{AnswerPart, CasePart, Rate, Record, RowResult};
 use crate::report::page::{Block, Cell, Head, Item, Page, Paged, Row, Table, Tone};
-use crate::report::{Format, group_digits, percent, write_json};
+use crate::report::{group_digits, percent};
 use serde::Serialize;
 use std::collections::BTreeSet;
-
-/// One row per format.
-pub(super) const FORMATS: &[Format<Record>] = &[
-    Format::TEXT,
-    Format { name: "json", write: |record, _, out| write_json(record, out) },
-    Format::MARKDOWN,
-    Format::HTML,
-];
-
-/// The same of single cases.
-pub(super) const CASE_FORMATS: &[Format<Cases>] = &[
-    Format::TEXT,
-    Format { name: "json", write: |cases, _, out| write_json(cases, out) },
-    Format::MARKDOWN,
-    Format::HTML,
-];
 
 /// Single cases.
 #[derive(Serialize)]

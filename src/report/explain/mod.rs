@@ -10,7 +10,6 @@ mod verdict;
 pub use build::explain;
 pub use verdict::Together;
 
-use super::{Format, write_json};
 use crate::corpus::truth_json::TruthLine;
 use serde::Serialize;
 use serde_json::value::RawValue;
@@ -117,15 +116,6 @@ pub struct TogetherPart {
     /// True if it breaks what is asked of them together.
     pub is_wrong: bool,
 }
-
-/// One row per format.
-pub const EXPLAIN_FORMATS: &[Format<Explanation>] = &[
-    Format::TEXT,
-    Format { name: "json", write: |record, _, out| write_json(record, out) },
-    Format::MARKDOWN,
-    #[cfg(feature = "cli")]
-    Format::HTML,
-];
 
 impl RowPart {
     /// `kernel (epsilons)`.

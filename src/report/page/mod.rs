@@ -12,6 +12,8 @@ pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use table::{Cell, Head, Row, Table};
 
 use super::Format;
+#[cfg(feature = "cli")]
+use serde::Serialize;
 
 /// The answer of one command.
 #[derive(Clone, Debug, Default)]
@@ -173,6 +175,13 @@ impl<R: Paged> Format<R> {
     #[cfg(feature = "cli")]
     pub const HTML: Format<R> =
         Format { name: super::HTML, write: |record, _, out| html::write(&record.page(), out) };
+}
+
+#[cfg(feature = "cli")]
+impl<R: Paged + Serialize> Format<R> {
+    /// The formats of a record that is a page, and data.
+    pub const OF_PAGE: &'static [Format<R>] =
+        &[Format::TEXT, Format::JSON, Format::MARKDOWN, Format::HTML];
 }
 
 impl Block {

@@ -49,8 +49,14 @@ pub fn parse(text: &str, line: usize) -> Result<StoredCase, String> {
 
 /// Any line, and what is wrong with it.
 pub(super) fn parse_any(text: &str, line: usize) -> Result<StoredCase, String> {
-    let quoted = json::with_words_quoted(text);
-    let object = Object::parse(&quoted, &FIELDS)?;
+    let quoted;
+    let object = match Object::parse(text, &FIELDS) {
+        Ok(object) => object,
+        Err(_) => {
+            quoted = json::with_words_quoted(text);
+            Object::parse(&quoted, &FIELDS)?
+        }
+    };
     let case = match object.is_f32()? {
         true => AnyCase::F32(parse_case(&object)?),
         false => AnyCase::F64(parse_case(&object)?),
