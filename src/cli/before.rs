@@ -104,7 +104,7 @@ const LOOKED_AT: u64 = 1_000;
 pub fn note_missed_angles(scene: &Scene, mesh: Option<&SceneMesh>, scalars: [bool; 2], seed: u64) {
     fn note<F: Float>(scene: &Scene, mesh: Option<&SceneMesh>, seed: u64) {
         let missed = (0..LOOKED_AT).filter_map(|index| match mesh {
-            Some(mesh) => mesh.missed_sine::<F>(scene, seed, index),
+            Some(mesh) => missed_sine(&mesh.triangles::<F>(scene), scene, seed, index),
             None => missed_sine::<F>(scene, scene, seed, index),
         });
         let missed: Vec<f64> = missed.collect();

@@ -4,6 +4,7 @@ use super::exit::{Failure, Status};
 use super::flags::{find_family, is_f32};
 use super::input::{MANIFEST, corpus_files, open, read_corpus};
 use super::output::write_result;
+use super::progress::Progress;
 use crate::case::Parameters;
 use crate::corpus::InputError;
 use crate::corpus::lines::{StoredCase, write_case};
@@ -70,9 +71,10 @@ pub fn run(arguments: &CorpusArguments) -> Result<Status, Failure> {
             let family = find_family(name)?;
             let (seed, count) = (*seed, *count);
             is_f32(scalar, "")?;
+            let progress = Progress::of_output(count, "cases", output);
             write_result(
                 output,
-                |out| in_named_scalar!(scalar, F => write_family::<F>(out, family, seed, count)),
+                |out| in_named_scalar!(scalar, F => write_family::<F>(out, family, seed, count, &progress)),
             )?;
             Ok(Status::Success)
         }
@@ -85,9 +87,11 @@ fn write_family<F: Scalar>(
     family: &Family,
     seed: u64,
     count: u64,
+    progress: &Progress,
 ) -> io::Result<()> {
     let parameters = Parameters::default();
     for index in 0..count {
+        progress.set(index);
         let made = family.make::<F>(&parameters, seed, index);
         let several = made.cases().len() > 1;
         for (k, case) in made.cases().iter().enumerate() {

@@ -8,6 +8,7 @@ use super::exit::{Failure, Status};
 use super::flags::unknown;
 use super::orient::check_epsilon;
 use super::output::{paired_outputs, write_results};
+use super::progress::Progress;
 use super::select::KernelArguments;
 use crate::arith::Float;
 use crate::audit::Row;
@@ -185,7 +186,7 @@ impl MapArguments {
         let part = Part::ALL[self.varied(&names, 0)?];
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
         let grid = map::grid_of_case(case, part, axes, step, size)?;
-        let map = map::of_kernel(case, &row, &grid)?;
+        let map = map::of_kernel(case, &row, &grid, &self.progress(&grid))?;
         let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), &row);
         Ok(self.picture(map, &grid, &again))
     }
@@ -203,9 +204,14 @@ impl MapArguments {
         let point = self.varied(names, point)?;
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
         let grid = map::grid_of_points(points, point, axes, step, size)?;
-        let map = map::of_predicate(points, &row, &grid)?;
+        let map = map::of_predicate(points, &row, &grid, &self.progress(&grid))?;
         let again = |pixel| summary::points(&map::points_at(points, &grid, pixel), &row);
         Ok(self.picture(map, &grid, &again))
+    }
+
+    fn progress<F: Float>(&self, grid: &Grid<F>) -> Progress {
+        let [width, height] = grid.size();
+        Progress::new((width * height) as u64, "pixels", self.quiet)
     }
 
     fn picture<F: Float>(

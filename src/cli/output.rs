@@ -93,8 +93,13 @@ impl OutputArguments {
 
 /// Writes a page to standard output, where there are no flags for how.
 pub fn write_page(page: Page) -> Result<(), Failure> {
-    let style = Style { width: width("-", false), ..Style::default() };
+    let style = Style { width: screen_width(), ..Style::default() };
     write_result("-", |out| (Format::TEXT.write)(&page, style, out))
+}
+
+/// The width of what goes to standard output.
+pub fn screen_width() -> usize {
+    width("-", false)
 }
 
 /// The width of an output: of a terminal its own, within what can be read; of anything else 80,

@@ -25,6 +25,11 @@ impl Progress {
         Progress { bar, start: Instant::now() }
     }
 
+    /// For what is written to an output; hidden if that is a terminal, as the lines would mix.
+    pub fn of_output(total: u64, unit: &str, output: &str) -> Progress {
+        Progress::new(total, unit, output == "-" && std::io::stdout().is_terminal())
+    }
+
     /// For work without an end, which [`Progress::tell`] describes.
     pub fn without_end(quiet: bool) -> Progress {
         let progress = Progress::new(0, "", quiet);
@@ -68,5 +73,11 @@ impl Observer for Progress {
 
     fn now(&self) -> u64 {
         self.start.elapsed().as_nanos() as u64
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
     }
 }

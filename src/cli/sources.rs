@@ -33,11 +33,13 @@ pub struct SourceArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     family: Vec<String>,
 
-    /// How many cases of each family (40000 of each kind of ray in a scene with `epsilon`, unless given)
+    /// How many cases of each family, or of each kind of ray in a scene [default: 20000; for `epsilon` in a
+    /// scene 40000]
     #[arg(
         long,
         short = 'n',
         default_value_t = COUNT,
+        hide_default_value = true,
         value_name = "N",
         value_parser = case_count,
         allow_hyphen_values = true
@@ -69,7 +71,7 @@ pub struct SourceArguments {
     direction: Option<String>,
 
     /// Run rays in a scene instead of families: unit, room, city or cad-mm, or what is known of yours,
-    /// as extent=1000,edge=0.01..10,distance=0..2000,direction=unit; mesh is the scene that --mesh names.
+    /// as extent=1000,edge=0.01..10,distance=0..2000; mesh is the scene that --mesh names.
     /// edge=0.01..0.1..10: half are smaller than 0.1; plane=generic, axis, axis-near-0, axis-0, terrain
     /// or box: how triangles lie; toward=axis or axis-plane: where rays go [without either: all kinds, told
     /// apart]; ray=generated: aimed before the origin is rounded

@@ -2,6 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::output::{write_result, write_results};
+use super::progress::Progress;
 use crate::vectors::{Test, core, csv, digest, json, numbered};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
@@ -46,7 +47,10 @@ pub fn run(arguments: &VectorsArguments) -> Result<Status, Failure> {
         None => write_core(Path::new(&arguments.path))?,
         Some(format) => write_result(&arguments.output, |out| match arguments.count {
             None => write_tests(out, format),
-            Some(count) => write_numbered(out, format, count),
+            Some(count) => {
+                let progress = Progress::of_output(count, "tests", &arguments.output);
+                write_numbered(out, format, count, &progress)
+            }
         })?,
     }
     Ok(Status::Success)
@@ -77,13 +81,19 @@ fn write_tests(out: &mut dyn Write, format: Format) -> io::Result<()> {
     tests.try_for_each(|test| out.write_all(written(format, test).as_bytes()))
 }
 
-fn write_numbered(out: &mut dyn Write, format: Format, count: u64) -> io::Result<()> {
+fn write_numbered(
+    out: &mut dyn Write,
+    format: Format,
+    count: u64,
+    progress: &Progress,
+) -> io::Result<()> {
     out.write_all(head(format).as_bytes())?;
     for start in (0..count).step_by(CHUNK as usize) {
         let numbers = start..count.min(start + CHUNK);
         let of_number = |number| numbered(number).map(|test| written(format, &test));
         let parts: Vec<Option<String>> = numbers.into_par_iter().map(of_number).collect();
         parts.iter().flatten().try_for_each(|part| out.write_all(part.as_bytes()))?;
+        progress.set(start);
     }
     Ok(())
 }

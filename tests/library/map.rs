@@ -1,7 +1,7 @@
 //! Maps pixel by pixel against direct evaluation, published pictures, and what is drawn read back.
 
 use hairline::internals::arith::Float;
-use hairline::internals::audit::Row;
+use hairline::internals::audit::{Row, Unobserved};
 use hairline::internals::case::Case;
 use hairline::internals::judge::Finding;
 use hairline::internals::kernel::{Scalar, Verdict};
@@ -44,7 +44,7 @@ fn agrees_with_direct_evaluation<F: Scalar>(kernel: &str, spot: Spot) {
     let row = row(kernel, None, "closed-line");
     let (case, [width, height]) = (spot.case::<F>(), [23, 14]);
     let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), Some(Step::Ulps(3)), [23, 14]);
-    let map = of_kernel(&case, &row, &grid.unwrap()).unwrap();
+    let map = of_kernel(&case, &row, &grid.unwrap(), &Unobserved).unwrap();
     let pixels = rays(&map);
     assert_eq!(pixels.len(), width * height);
     for (index, pixel) in pixels.iter().enumerate() {
@@ -122,7 +122,7 @@ fn a_kernel_that_rounds_nowhere_has_no_wrong_pixel() {
     let step = Some(Step::PowerOfTwo(0));
     let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), step, [48, 48]).unwrap();
     for kernel in ["scalar-triple", "scalar-triple-two-sided", "plucker"] {
-        let map = of_kernel(&case, &row(kernel, None, "own"), &grid).unwrap();
+        let map = of_kernel(&case, &row(kernel, None, "own"), &grid, &Unobserved).unwrap();
         assert_eq!(map.wrong(), 0, "{kernel}");
         let inks: Vec<Ink> = map.exact_legend().iter().map(|(ink, ..)| *ink).collect();
         assert_eq!(inks, [Ink::Yes, Ink::No, Ink::Boundary], "{kernel}");
@@ -134,7 +134,7 @@ fn exchanged_axes_transpose_the_map() {
     let (case, row) = (Spot::Edge.case::<f32>(), row("moller-trumbore", None, "own"));
     let of = |coordinates, size| {
         let grid = grid_of_case(&case, Part::B, Some(coordinates), None, size).unwrap();
-        of_kernel(&case, &row, &grid).unwrap()
+        of_kernel(&case, &row, &grid, &Unobserved).unwrap()
     };
     let (plain, exchanged) = (of([0, 2], [20, 31]), of([2, 0], [31, 20]));
     assert!(plain.wrong() > 0);
@@ -155,7 +155,7 @@ fn a_power_of_two_on_everything_leaves_the_map_alone() {
             Spot::Edge.case::<f32>().vectors().map(|vector| vector.map(|x| x * scale));
         let case = Case::new(o, d, [a, b, c]);
         let grid = grid_of_case(&case, Part::Origin, None, None, [40, 40]).unwrap();
-        of_kernel(&case, &row, &grid).unwrap()
+        of_kernel(&case, &row, &grid, &Unobserved).unwrap()
     };
     assert_eq!(map(1.0).pixels, map(2f32.powi(12)).pixels);
     assert!(map(1.0).wrong() > 0);
@@ -197,11 +197,11 @@ fn the_ends_of_the_range_are_free_and_no_panic() {
         [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
     );
     let grid = grid_of_case(&case, Part::Origin, Some([0, 1]), None, [9, 5]).unwrap();
-    let map = of_kernel(&case, &row("moller-trumbore", None, "own"), &grid).unwrap();
+    let map = of_kernel(&case, &row("moller-trumbore", None, "own"), &grid, &Unobserved).unwrap();
     assert_eq!(map.exact_legend(), [(Ink::Free, "nothing is asked", 45)]);
     assert!(!map::svg(&map).contains("NaN,"));
     let grid = grid_of_case(&case, Part::Direction, None, Some(Step::PowerOfTwo(1100)), [9, 5]);
-    of_kernel(&case, &row("cramer", None, "own"), &grid.unwrap()).unwrap();
+    of_kernel(&case, &row("cramer", None, "own"), &grid.unwrap(), &Unobserved).unwrap();
 }
 
 #[test]
@@ -220,7 +220,9 @@ fn impossible_grids_are_refused() {
     assert!(grid_of_points(&points, 0, Some([0, 2]), None, [8, 8]).is_err());
     let row = orientation::Row { predicate: &PREDICATES[2], epsilon: Some("0".to_owned()) };
     let grid: Grid<f64> = grid_of_points(&points, 2, None, None, [8, 8]).unwrap();
-    assert!(of_predicate(&points, &row, &grid).unwrap_err().0.contains("does not run"));
+    assert!(
+        of_predicate(&points, &row, &grid, &Unobserved).unwrap_err().0.contains("does not run")
+    );
 }
 
 /// Kettner et al., figure 2 (a): p = (0.5 + x·2^-53, 0.5 + y·2^-53), q = (12, 12), r = (24, 24), x and y
@@ -235,7 +237,7 @@ fn the_published_picture_of_orient2d_comes_out() {
     let map = |name: &str| {
         let predicate = PREDICATES.iter().find(|predicate| predicate.name == name).unwrap();
         let epsilon = predicate.takes_epsilon.then(|| "0".to_owned());
-        of_predicate(&points, &orientation::Row { predicate, epsilon }, &grid).unwrap()
+        of_predicate(&points, &orientation::Row { predicate, epsilon }, &grid, &Unobserved).unwrap()
     };
     let plain = map("orient2d");
     let mut findings = [0; 3];
@@ -274,7 +276,7 @@ fn exchanged_points_exchange_the_signs_of_orient3d() {
         let predicate = &PREDICATES[predicate];
         let epsilon = predicate.takes_epsilon.then(|| "0".to_owned());
         let grid = grid_of_points(points, moved, None, None, [60, 40]).unwrap();
-        of_predicate(points, &orientation::Row { predicate, epsilon }, &grid).unwrap()
+        of_predicate(points, &orientation::Row { predicate, epsilon }, &grid, &Unobserved).unwrap()
     };
     assert!(map(&points, moved, 2).wrong() > 0);
     let [plain, swapped] = [map(&points, 0, 3), map(&points.swapped(1, 2), 0, 3)];

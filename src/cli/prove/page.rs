@@ -78,7 +78,7 @@ fn of_one(report: &Report) -> Page {
         _ => String::new(),
     };
     let line = format!("hairline epsilon --kernel {name} {}{scalar}", report.rays);
-    let command = Command { line, what: "which epsilons to use" };
+    let command = Command { line, what: "which epsilons cost least" };
     blocks.push(Block::Commands("next", vec![command]));
     let title = format!("{name}: what holds for every float");
     Page { command: "prove", title, tone: Tone::Plain, blocks }

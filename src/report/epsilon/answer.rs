@@ -7,6 +7,7 @@ use super::words::{
     bound, flag, human, interval, label, least_normal, least_t, number, of_unit, share,
     short_error, unit_of, unit_of_t, where_of,
 };
+use crate::arith::two_digits;
 use crate::report::page::Use;
 use crate::report::record::Rate;
 use crate::report::{group_digits, number_of};
@@ -159,6 +160,9 @@ pub(super) fn column(part: &SceneKernelPart, name: &str) -> String {
     .to_owned()
 }
 
+/// The row of the holes in a picture.
+pub(super) const PICTURE: &str = "of a million pixels: holes";
+
 fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
     let mut rows: Vec<(String, Vec<String>)> = Vec::new();
     for (i, count) in part.counts.iter().enumerate() {
@@ -168,6 +172,15 @@ fn rows(part: &SceneKernelPart) -> Vec<(String, Vec<String>)> {
         }
         let cells = columns(part).map(|tried| share(&tried.wrong[i])).collect();
         rows.push((label(count), cells));
+        if count.rays == Rays::Stratum(Stratum::Edges) {
+            let told = |holes: f64| match holes {
+                0.0 => "0".to_owned(),
+                ..1e-4 => "< 0.0001".to_owned(),
+                _ => human(&format!("{:e}", two_digits(holes, true))),
+            };
+            let holes = columns(part).map(|it| it.holes_per_million.map_or("-".to_owned(), told));
+            rows.push((PICTURE.to_owned(), holes.collect()));
+        }
         let several = match (count.rays, count.kind) {
             (Rays::Stratum(Stratum::Edges), _) => "at a shared edge: both hit".to_owned(),
             (Rays::Stratum(Stratum::Vertices), _) => "at a shared vertex: several hit".to_owned(),

@@ -227,6 +227,7 @@ fn tried_part<F: Float>(tried: &Tried<F>, is_limited: bool) -> TriedPart {
         epsilons: tried.epsilons.iter().map(|epsilon| shortest(*epsilon)).collect(),
         wrong: tried.wrong.iter().map(|trials| Rate::new(*trials, true)).collect(),
         cost: tried.cost,
+        holes_per_million: tried.holes.map(|share| 1e6 * share),
         doubles: tried.doubles.iter().map(|trials| Rate::new(*trials, true)).collect(),
         errors: error_parts(&tried.errors),
         exceeded: match is_limited {

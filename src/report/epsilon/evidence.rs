@@ -1,12 +1,14 @@
 //! One kernel in one scalar: what to use, what argues for it, and everything else folded.
 
-use super::answer::{Answer, LimitRow};
+use super::answer::{Answer, LimitRow, PICTURE};
 use super::legend::legend;
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneRecord};
 use super::standing::{coarse, standing, telling};
 use super::words::{label, share};
 use crate::case::{Scene, SceneKind};
+use crate::epsilon::Rays;
+use crate::family::Stratum;
 use crate::report::elsewhere::{self, Compared};
 use crate::report::page::{Block, Command, Head, Row, Table};
 
@@ -39,10 +41,14 @@ pub(super) fn of_kernel(
             rows.iter().map(|(label, cells)| Row::new(label, cells.iter().cloned())).collect();
         Block::Table(Table::new(heads(title), rows))
     };
-    let places = telling(record, part, MOST_ROWS);
-    let is_telling = |row: &&(String, Vec<String>)| {
-        places.iter().any(|place| label(&part.counts[*place]) == row.0)
-    };
+    let is_edges = |place: &usize| part.counts[*place].rays == Rays::Stratum(Stratum::Edges);
+    let mut places = telling(record, part, MOST_ROWS);
+    if places.iter().any(is_edges) {
+        places = telling(record, part, MOST_ROWS - 1);
+    }
+    let mut told: Vec<String> = places.iter().map(|place| label(&part.counts[*place])).collect();
+    told.extend(places.iter().any(is_edges).then(|| PICTURE.to_owned()));
+    let is_telling = |row: &&(String, Vec<String>)| told.contains(&row.0);
     let rows: Vec<_> = answer.rows.iter().filter(is_telling).cloned().collect();
     blocks.push(table(&title, &rows));
     blocks.extend(panels(record, part, answer).into_iter().map(Block::Picture));

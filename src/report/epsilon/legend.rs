@@ -62,6 +62,12 @@ pub(super) fn legend(record: &SceneRecord) -> Vec<String> {
         ];
         lines.extend(forms.map(str::to_owned));
     }
+    let has_picture =
+        |part: &SceneKernelPart| part.tried.iter().any(|tried| tried.holes_per_million.is_some());
+    if record.kernels.iter().any(has_picture) {
+        let picture = "holes: at shared edges, where the scene's triangles cover a picture once, side by side";
+        lines.push(picture.to_owned());
+    }
     if record.kernels.iter().any(tolerates) {
         let both = "both or several hit: costs nothing, the nearest hit is the same; wrong for counting crossings";
         lines.push(both.to_owned());

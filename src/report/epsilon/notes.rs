@@ -19,6 +19,7 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
     let pairs = part.knobs.iter().zip(&part.tried[0].epsilons);
     let meanings = pairs.filter_map(|(knob, epsilon)| meaning(record, part, knob, epsilon));
     let mut notes: Vec<String> = meanings.collect();
+    notes.extend(proofs(part));
     notes.extend(cracks_of_its_own(record, part));
     if part.knobs.iter().all(|knob| !knob.is_gate) && part.others.is_empty() {
         notes.push(
@@ -42,6 +43,22 @@ pub(super) fn notes(record: &SceneRecord, part: &SceneKernelPart) -> Vec<String>
         _ => notes.extend(accuracy(record)),
     }
     notes
+}
+
+/// The numbers beyond the recommended ones that are proved to refuse every parallel ray, with their price.
+fn proofs(part: &SceneKernelPart) -> impl Iterator<Item = String> {
+    part.proved.iter().filter(|proved| proved.is_lower).filter_map(|proved| {
+        let (name, value) = (&part.knobs[proved.knob].name, &proved.value);
+        let is_beyond =
+            part.tried[0].epsilons[proved.knob].parse::<f64>().ok()? < value.parse().ok()?;
+        let PricePart { count, wrong } = proved.price.as_ref().filter(|_| is_beyond)?;
+        let more = wrong.rate? - part.tried[0].wrong[*count].rate?;
+        let price = match more {
+            ..0.0005 => "no hits lost".to_owned(),
+            _ => format!("{:.1}% of hits lost", 100.0 * more),
+        };
+        Some(format!("proved for all parallel rays: {name} >= {value}, {price}"))
+    })
 }
 
 /// A note if there were too few rays to choose epsilons by.

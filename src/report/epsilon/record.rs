@@ -181,6 +181,10 @@ pub struct TriedPart {
     /// By count: rays at a shared edge or vertex that hit more than one triangle; they cost nothing. Of none where no
     /// crack is counted.
     pub doubles: Vec<Rate>,
+    /// Holes at shared edges in a million pixels of a picture that triangles of the scene cover once, side by side; none
+    /// where no crack at shared edges is counted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holes_per_million: Option<f64>,
     /// The errors of the hits that remain.
     pub errors: Vec<ErrorPart>,
     /// If errors are limited: by count, the hits that remain and are farther off; of none where no hit can

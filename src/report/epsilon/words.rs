@@ -97,12 +97,12 @@ pub(super) fn meaning(
     }
     match (knob.role.as_str(), knob.dimension) {
         ("t", [1, -1]) => {
-            let here = match knob.is_gate {
-                true => String::new(),
-                false => format!(" (to `hairline epsilon`: --epsilon {}={epsilon})", knob.name),
-            };
             let least = format!("{}{}", human(epsilon), unit_of_t(record));
-            Some(format!("nothing nearer than {least} is hit{here}"))
+            let instead = match record.has_scene() {
+                true => "; a moved start needs none: see spawn",
+                false => "",
+            };
+            Some(format!("nothing nearer than {least} is hit{instead}"))
         }
         ("parallel", [2, 1]) if record.unit_directions && 0.0 < value => {
             if let Some(shape) = part.least_shape {

@@ -10,7 +10,7 @@ use super::rate::percent;
 use super::record::*;
 use super::why::{cause_shares, of_kind};
 use crate::audit::Attribution;
-use crate::kernel;
+use crate::kernel::{self, Role};
 use crate::report::page::{Block, Cell, Head, Row, Table};
 
 /// Each row in all scalars.
@@ -60,7 +60,11 @@ fn gates(line: &Line) -> Vec<String> {
         let gate = gates.iter().find(|gate| gate.name == name);
         let refuses =
             gate.map_or(String::new(), |gate| format!(" refuses where {},", gate.refuses));
-        format!("gate {name}{refuses} e = {value}")
+        let is_tolerant =
+            gate.is_some_and(|gate| gate.role == Role::Edge) && value.starts_with('-');
+        let beside =
+            if is_tolerant { "; the hits beside it that this asks for count as false" } else { "" };
+        format!("gate {name}{refuses} e = {value}{beside}")
     };
     part.epsilons.iter().map(gate).collect()
 }

@@ -18,6 +18,7 @@ mod joint;
 mod knob;
 mod limits;
 mod measure;
+mod picture;
 mod prepared;
 mod proved;
 mod rays;

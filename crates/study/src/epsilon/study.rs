@@ -8,6 +8,7 @@ use super::joint::{Costs, Grid, Joint};
 use super::knob::{Knob, Margins};
 use super::limits::{Limit, all_limits, between, limits, printed};
 use super::measure::{Attempt, OfHits, Wrong, differs, measure};
+use super::picture::holes;
 use super::prepared::Store;
 use super::proved::{Proved, proved};
 use super::rays::{Count, Kind, Rays};
@@ -18,6 +19,7 @@ use crate::case::{Case, SceneKind};
 use crate::engine::Observer;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
+use std::slice;
 
 /// A study's results.
 pub struct SceneStudy<F> {
@@ -77,6 +79,8 @@ pub struct Tried<F> {
     pub exceeded: Vec<Trials>,
     /// By count: the rays at a shared edge or vertex that hit more than one triangle, which cost nothing.
     pub doubles: Vec<Trials>,
+    /// The share of a picture's pixels that are holes at shared edges, where they are counted.
+    pub holes: Option<f64>,
 }
 
 /// The seed of the fresh rays: the next one.
@@ -161,22 +165,29 @@ pub fn study_scene<F: Scalar>(
     };
     let curves = curves(setting, &best, &axes, fresh, count, observer);
     let found = found.into_iter().map(of_limit).collect();
-    let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits| {
+    let has_edges = counts.iter().any(|count| count.rays == Rays::Stratum(Stratum::Edges));
+    let pictures = |setting: &Setting<'_, F>, all: &[Vec<F>]| match has_edges {
+        true => holes(setting, all, fresh, count, observer),
+        false => vec![None; all.len()],
+    };
+    let tried = |(name, epsilons): (String, Vec<F>), wrong: Vec<Trials>, of_hits: OfHits, holes| {
         let cost = costs.of_trials(counts, &wrong);
         let OfHits { errors, exceeded, doubles } = of_hits;
-        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles }
+        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles, holes }
     };
     let of_vectors = vectors.into_iter().zip(wrong).zip(of_hits);
-    let all: Vec<Tried<F>> =
-        of_vectors.map(|((vector, wrong), of_hits)| tried(vector, wrong, of_hits)).collect();
+    let all: Vec<Tried<F>> = (of_vectors.zip(pictures(setting, &plain_ones)))
+        .map(|(((vector, wrong), of_hits), holes)| tried(vector, wrong, of_hits, holes))
+        .collect();
     let (relative, relative_limits) = match followed {
         Some((followed, found)) => {
             let attempt = [Attempt::new(followed.clone())];
             let no_run = |_: &[Case<F>], _: &[Margins<F>]| None;
             let mut sums =
                 measure(&following, &attempt, 1, max_error, fresh, count, observer, no_run);
+            let holes = pictures(&following, slice::from_ref(&followed)).remove(0);
             let vector = (SCALE_FREE.to_owned(), followed);
-            let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0));
+            let relative = tried(vector, sums.trials.remove(0), sums.of_hits.remove(0), holes);
             // Where no fixed values are accurate enough, a form that is needs no lower cost.
             let is_worth =
                 |form: &Tried<F>| !is_accurate || is_worth_saying(counts, costs, form, &all[0]);
@@ -316,7 +327,8 @@ mod tests {
         let cost = Costs::default().of_trials(&COUNTS, &wrong);
         assert_eq!(cost, 10.0 * (cracks as f64 / 1e4) + misses as f64 / 500.0);
         let (name, epsilons, errors) = (String::new(), vec![0.0f32], Vec::new());
-        Tried { name, epsilons, wrong, cost, errors, exceeded: Vec::new(), doubles: Vec::new() }
+        let (exceeded, doubles) = (Vec::new(), Vec::new());
+        Tried { name, epsilons, wrong, cost, errors, exceeded, doubles, holes: None }
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::audit::{Chunk, Row, Source, SourceSummary};
 use crate::case::{Case, Parameters, Scene};
 use crate::contract::Contract;
 use crate::engine::{self, Merge, Observer, Unobserved};
-use crate::family::{Grouping, Stratum};
+use crate::family::{Grouping, Pixel, Stratum, pixel};
 use crate::judge::{GroupTruth, Obligation};
 use crate::kernel::{Hit, Scalar, Subject};
 use crate::mesh::SceneMesh;
@@ -182,6 +182,15 @@ impl<F: Scalar> Setting<'_, F> {
         Source::of_stratum(stratum, self.mesh, parameters, seed, count)
     }
 
+    /// A ray of a picture's pixels near a shared edge.
+    pub(super) fn pixel(&self, seed: u64, index: u64) -> Pixel<F> {
+        let scene = self.scene.expect("a scene has shared edges");
+        match self.mesh {
+            Some(mesh) => pixel(&mesh.triangles::<F>(scene), scene, seed, index),
+            None => pixel(scene, scene, seed, index),
+        }
+    }
+
     /// The cases of some indices, their margins, and the trials among them.
     fn prepare(&self, source: &Source, rays: Rays, indices: Range<u64>) -> Prepared<F> {
         let mut summary = SourceSummary::new(0, F::NAME);
@@ -261,7 +270,7 @@ impl<F: Scalar> Setting<'_, F> {
 
     /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
     /// hit would report.
-    fn margins(&self, cases: &[Case<F>]) -> (Vec<Margins<F>>, Vec<Option<Hit<F>>>) {
+    pub(super) fn margins(&self, cases: &[Case<F>]) -> (Vec<Margins<F>>, Vec<Option<Hit<F>>>) {
         let info = self.row.entry.info;
         let gates = info.gates;
         let epsilons = self.row.epsilons::<F>();
@@ -291,7 +300,11 @@ impl<F: Scalar> Setting<'_, F> {
     }
 
     /// Margins as multiples of each case's own size.
-    fn relative_margins(&self, cases: &[Case<F>], margins: &[Margins<F>]) -> Vec<Margins<F>> {
+    pub(super) fn relative_margins(
+        &self,
+        cases: &[Case<F>],
+        margins: &[Margins<F>],
+    ) -> Vec<Margins<F>> {
         let mut relative = margins.to_vec();
         for (k, knob) in self.knobs.iter().enumerate() {
             let dimension = knob.dimension(self.row.entry.info.gates);

@@ -32,7 +32,7 @@ pub(crate) use scene::{
     Corners, Frame, Pair, Parallel, Ring, Triangles, along_axis, any_direction, circle, flat_along,
     in_plane, rounded, wide,
 };
-pub use scene::{STRATA, Stratum, TRIES, missed_sine};
+pub use scene::{Pixel, STRATA, Stratum, TRIES, missed_sine, pixel};
 
 use crate::arith::Float;
 use crate::arith::scale_by_power_of_two;

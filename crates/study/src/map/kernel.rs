@@ -5,6 +5,7 @@ use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
 use crate::contract::Contract;
+use crate::engine::Observer;
 use crate::judge::{Obligation, asked, judge, obligation};
 use crate::kernel::{Scalar, Subject, Verdict, verdicts_of};
 use crate::oracle::{self, Layers};
@@ -62,7 +63,12 @@ fn plane_axes<F: Float>(case: &Case<F>) -> [usize; 2] {
 
 /// Runs a row on the case of each pixel, and judges it by the row's contract. No case counts as one
 /// whose ray starts at a hit point of a kernel.
-pub fn of_kernel<F: Scalar>(case: &Case<F>, row: &Row, grid: &Grid<F>) -> Result<Map, MapError> {
+pub fn of_kernel<F: Scalar>(
+    case: &Case<F>,
+    row: &Row,
+    grid: &Grid<F>,
+    observer: &dyn Observer,
+) -> Result<Map, MapError> {
     let name = row.entry.info.name;
     let subject = F::subject(row.entry)
         .ok_or_else(|| MapError(format!("kernel '{name}' does not run in {}", F::NAME)))?;
@@ -70,7 +76,9 @@ pub fn of_kernel<F: Scalar>(case: &Case<F>, row: &Row, grid: &Grid<F>) -> Result
     let [width, height] = grid.size();
     let line = |y: usize| {
         let cases: Vec<Case<F>> = (0..width).map(|x| case_at(case, grid, [x, y])).collect();
-        pixels(&cases, row, subject, &epsilons)
+        let pixels = pixels(&cases, row, subject, &epsilons);
+        observer.advance(width as u64);
+        pixels
     };
     // From the top.
     let pixels = (0..height).into_par_iter().rev().flat_map_iter(line).collect();

@@ -2,6 +2,7 @@
 
 use super::{AxisText, Grid, Map, MapError, Pixels, SignPixel, Step};
 use crate::arith::Float;
+use crate::engine::Observer;
 use crate::orientation::{Points, Row, Scalar, ScaledPoints, judge};
 use rayon::prelude::*;
 
@@ -31,6 +32,7 @@ pub fn of_predicate<F: Scalar>(
     points: &Points<F>,
     row: &Row,
     grid: &Grid<F>,
+    observer: &dyn Observer,
 ) -> Result<Map, MapError> {
     if !row.runs::<F>(points.dimension()) {
         let (name, dimension) = (row.predicate.name, points.dimension().number());
@@ -42,6 +44,7 @@ pub fn of_predicate<F: Scalar>(
     }
     let [width, height] = grid.size();
     let pixel = |index: usize| {
+        observer.advance(1);
         let (x, y) = (index % width, height - 1 - index / width);
         let points = points_at(points, grid, [x, y]);
         let exact = ScaledPoints::new(&points).map(|points| points.determinant().sign());

@@ -4,6 +4,7 @@ use super::{Map, MapError, Part, grid_of_case, of_kernel};
 use crate::arith::Float;
 use crate::audit::Row;
 use crate::case::Case;
+use crate::engine::Unobserved;
 use crate::kernel::Scalar;
 use crate::orientation::{Dimension, Points};
 
@@ -55,7 +56,7 @@ impl Spot {
 pub fn standard<F: Scalar>(row: &Row, spot: Spot, size: [usize; 2]) -> Result<Map, MapError> {
     let case = spot.case::<F>();
     let grid = grid_of_case(&case, Part::Origin, None, None, size)?;
-    of_kernel(&case, row, &grid)
+    of_kernel(&case, row, &grid, &Unobserved)
 }
 
 /// Points of a dimension whose last or first one is at 0.5 and lies on a line or a plane with the others,

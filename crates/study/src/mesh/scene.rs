@@ -8,7 +8,7 @@ use crate::case::{DirectionLength, Draw, Parameters, Scene};
 use crate::corpus::is_without_area;
 use crate::family::{
     Corners, Frame, Made, Pair, Parallel, Ring, Stratum, Triangles, along_axis, circle, flat_along,
-    in_plane, missed_sine, rounded, wide,
+    in_plane, rounded, wide,
 };
 use crate::kernel::Scalar;
 use glam::DVec3;
@@ -101,12 +101,8 @@ impl SceneMesh {
         stratum.make_at(&self.triangles::<F>(&scene), parameters, seed, index)
     }
 
-    /// The sine that an almost parallel ray has in place of the one that was drawn.
-    pub fn missed_sine<F: Float>(&self, scene: &Scene, seed: u64, index: u64) -> Option<f64> {
-        missed_sine::<F>(&self.triangles::<F>(scene), scene, seed, index)
-    }
-
-    fn triangles<'a, F: Float>(&'a self, scene: &'a Scene) -> OfMesh<'a> {
+    /// Its triangles, for rays of a scene.
+    pub fn triangles<'a, F: Float>(&'a self, scene: &'a Scene) -> impl Triangles<F> + use<'a, F> {
         let topology = self.surface.topology::<F>().expect("a scalar of the run");
         OfMesh { mesh: self, topology, scene }
     }

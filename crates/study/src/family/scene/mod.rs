@@ -8,6 +8,7 @@
 mod aimed;
 mod draw;
 mod flat;
+mod pixel;
 mod planes;
 mod shadow;
 mod triangles;
@@ -15,6 +16,7 @@ mod triangles;
 pub(crate) use draw::{Frame, any_direction, circle, in_plane, rounded, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
+pub use pixel::{Pixel, pixel};
 pub(super) use shadow::hit_point;
 pub(crate) use triangles::{Corners, Pair, Parallel, Ring, Triangles, along_axis, flat_along};
 

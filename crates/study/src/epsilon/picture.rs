@@ -1,0 +1,160 @@
+//! A picture of a scene: how many of its pixels are holes at the edges that triangles share.
+//!
+//! The areas of the leaks over those of the triangles, as the rays see them, are the share of holes among the pixels of a
+//! picture that these triangles cover once, side by side. No numbers of the kernel are asked, only its answers, so
+//! epsilons may be as wide as they like.
+
+use super::trials::{Setting, accepts, is_unknown};
+use crate::engine::{self, Observer};
+use crate::family::{Pixel, Stratum};
+use crate::judge::{Obligation, obligation};
+use crate::kernel::Scalar;
+use crate::oracle::{self, Layers};
+
+/// Rays that are summed together.
+const CHUNK: u64 = 1024;
+
+/// The sums of some rays.
+#[derive(Clone)]
+struct Sums {
+    /// By epsilons: the area of leaks.
+    leaks: Vec<f64>,
+    triangles: f64,
+}
+
+/// The share of holes with each of some epsilons, on a seed's first rays near edges; none where no two triangles share
+/// one.
+pub fn holes<F: Scalar>(
+    setting: &Setting<'_, F>,
+    epsilons: &[Vec<F>],
+    seed: u64,
+    count: u64,
+    observer: &dyn Observer,
+) -> Vec<Option<f64>> {
+    let empty = Sums { leaks: vec![0.0; epsilons.len()], triangles: 0.0 };
+    let count = setting.source(Stratum::Edges, seed, count).count::<F>();
+    let starts: Vec<u64> = (0..count).step_by(CHUNK as usize).collect();
+    let of_chunk = |start: &u64| {
+        let mut sums = empty.clone();
+        let indices = *start..count.min(start + CHUNK);
+        observer.advance(indices.end - indices.start);
+        indices.for_each(|index| sums.add(setting, epsilons, &setting.pixel(seed, index)));
+        sums
+    };
+    // In their order: sums of floats depend on it.
+    let sums = engine::map(&starts, of_chunk).into_iter().fold(empty.clone(), |sums, part| Sums {
+        leaks: sums.leaks.iter().zip(part.leaks).map(|(sum, more)| sum + more).collect(),
+        triangles: sums.triangles + part.triangles,
+    });
+    let share = |leaks: &f64| (0.0 < sums.triangles).then(|| leaks / sums.triangles);
+    sums.leaks.iter().map(share).collect()
+}
+
+impl Sums {
+    fn add<F: Scalar>(&mut self, setting: &Setting<'_, F>, epsilons: &[Vec<F>], pixel: &Pixel<F>) {
+        let Pixel { cases, area, triangles } = pixel;
+        let (mut margins, _) = setting.margins(cases);
+        if margins.iter().any(is_unknown) {
+            return;
+        }
+        if setting.relative {
+            margins = setting.relative_margins(cases, &margins);
+        }
+        self.triangles += triangles;
+        let mut truths = Vec::with_capacity(cases.len());
+        oracle::truths(cases, &mut truths, &mut Layers::default());
+        let contract = &setting.row.contract;
+        let must_hit = |truth| obligation(truth, contract, false) == Obligation::MustHit;
+        if !truths.iter().any(must_hit) {
+            return;
+        }
+        for (leaks, epsilons) in self.leaks.iter_mut().zip(epsilons) {
+            if !margins.iter().any(|margins| accepts(margins, epsilons)) {
+                *leaks += area;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::Tuned;
+    use super::*;
+    use crate::audit::Unobserved;
+    use crate::case::Draw;
+    use crate::epsilon::Knob;
+    use crate::kernel::Role;
+    use glam::DVec3;
+    use std::slice;
+
+    /// The share of holes among rays at uniform points of both triangles, parallel to their own. Those that are nearest
+    /// to the shared edge count, for each of a triangle's three edges; and how many they are.
+    fn by_pixels(tuned: &Tuned, epsilons: &[f32], count: u64) -> (f64, u64) {
+        let setting = tuned.setting();
+        let wide = |point: [f32; 3]| DVec3::from(point.map(f64::from));
+        let (mut leaks, mut all, mut found) = (0.0, 0.0, 0);
+        for index in 0..count {
+            let Pixel { mut cases, .. } = setting.pixel(7, index);
+            let mut draw = Draw::new("uniform", 7, index);
+            let own = cases[usize::from(draw.coin())];
+            let [origin, d, a, b, c] = own.vectors().map(wide);
+            let (u, v) = (draw.unit(), draw.unit());
+            let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
+            let point = a + (b - a) * u + (c - a) * v;
+            let area = (b - a).cross(c - a).dot(d).abs() / d.length();
+            all += area;
+            let other = cases.iter().find(|case| **case != own).unwrap().vectors();
+            let is_shared = |p: DVec3| other[2..].iter().any(|q| wide(*q) == p);
+            let weights = [1.0 - u - v, u, v];
+            let opposite = [a, b, c].iter().position(|p| !is_shared(*p)).unwrap();
+            let nearest = (0..3).min_by(|i, j| weights[*i].total_cmp(&weights[*j])).unwrap();
+            if opposite != nearest {
+                continue;
+            }
+            let way = point - origin;
+            for case in &mut cases {
+                case.ray.direction = (way / way.length()).to_array().map(|x| x as f32).into();
+            }
+            let (margins, _) = setting.margins(&cases);
+            let mut truths = Vec::new();
+            oracle::truths(&cases, &mut truths, &mut Layers::default());
+            let contract = &setting.row.contract;
+            let must_hit = |truth| obligation(truth, contract, false) == Obligation::MustHit;
+            let is_hit = margins.iter().any(|margins| accepts(margins, epsilons));
+            if truths.iter().any(must_hit) && !is_hit {
+                found += 1;
+                leaks += 3.0 * area;
+            }
+        }
+        (leaks / all, found)
+    }
+
+    #[test]
+    fn holes_are_those_of_pixels_all_over_the_triangles() {
+        // Far from the origin, so that pixels meet enough holes.
+        let numbers = "extent=1e5,edge=1..4,distance=10..100,direction=unit";
+        // A gate that refuses below 0.01 makes holes that are 0.02 of a height wide: about 6 %.
+        for (kernel, at, fewest) in [
+            ("moller-trumbore", 0.01, 5_000),
+            ("half-space", 0.0, 200),
+            ("moller-trumbore", 0.0, 0),
+        ] {
+            let tuned = Tuned::new(kernel, numbers);
+            let gates = tuned.setting().row.entry.info.gates;
+            let of_knob = |knob: &Knob| match knob.role(gates) {
+                Role::Edge => at,
+                _ => 0.0,
+            };
+            let epsilons: Vec<f32> = tuned.knobs.iter().map(of_knob).collect();
+            let found = holes(&tuned.setting(), slice::from_ref(&epsilons), 7, 60_000, &Unobserved);
+            let found = found[0].unwrap();
+            let (share, pixels) = by_pixels(&tuned, &epsilons, 600_000);
+            assert!(fewest <= pixels, "{kernel} {at}: {pixels} pixels");
+            match fewest {
+                // A handful of pixels shows no more.
+                0 => assert!(0.0 < found && found < 1e-5 && share < 1e-4, "{found}, {share}"),
+                _ => assert!((found / share - 1.0).abs() < 0.2, "{kernel} {at}: {found}, {share}"),
+            }
+        }
+    }
+}
