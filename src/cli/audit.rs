@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Status};
 use super::flags::JUDGING;
-use super::reporting::{RunArguments, self_check};
+use super::reporting::{Outputs, RunArguments, self_check};
 use clap::Args;
 
 /// The flags of `audit`: the run, and how it is reported.
@@ -20,9 +20,13 @@ pub struct AuditArguments {
 /// Runs the command.
 pub fn run(arguments: &AuditArguments) -> Result<Status, Failure> {
     let outputs = arguments.run.report.outputs()?;
+    outputs.told(audited(arguments, &outputs))
+}
+
+fn audited(arguments: &AuditArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
     let plan = arguments.run.plan(arguments.attribute)?;
-    let record = arguments.run.execute(&plan, outputs.illustrate())?;
+    let mut record = arguments.run.execute(&plan, outputs.illustrate())?;
     self_check(&record)?;
-    outputs.write(&record)?;
+    outputs.write(&mut record)?;
     Ok(Status::Success)
 }

@@ -7,7 +7,7 @@ use super::input::{read_record, read_text};
 use super::output::{write_result, write_results};
 use super::plugins;
 use super::prove::demand;
-use super::reporting::{RunArguments, self_check};
+use super::reporting::{Outputs, RunArguments, self_check};
 use super::settings::{self, Given};
 use crate::audit::Plan;
 use crate::conformance::locked;
@@ -144,9 +144,18 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
         arguments.expectations = beside.display().to_string();
     }
     let outputs = arguments.run.report.outputs()?;
+    outputs.told(checked(&arguments, &given, is_default_file, &outputs))
+}
+
+fn checked(
+    arguments: &CheckFlags,
+    given: &[Given],
+    is_default_file: bool,
+    outputs: &Outputs<'_>,
+) -> Result<Status, Failure> {
     let plan = match arguments.record {
         Some(_) => None,
-        None => Some(arguments.plan().map_err(|failure| blame(failure, &given))?),
+        None => Some(arguments.plan().map_err(|failure| blame(failure, given))?),
     };
     let rows = plan.as_ref().map_or(&[][..], |plan| &plan.rows);
     let unproved = demand::unproved(&arguments.proved, rows)?;
@@ -157,7 +166,8 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     };
     self_check(&record)?;
     if let Some(partial) = &record.result.partial {
-        return part_only(&arguments, partial, || outputs.write(&record));
+        part_only(arguments, partial)?;
+        return outputs.write(&mut record).map(|()| Status::Success);
     }
     let file = &arguments.expectations;
     let is_demanded = !is_default_file && given.iter().all(|given| given.key != "expectations");
@@ -201,7 +211,7 @@ pub fn run(arguments: CheckArguments, matches: Option<&ArgMatches>) -> Result<St
     drop(lock);
     conformance.demand(unproved);
     record.conformance = Some(conformance);
-    outputs.write(&record)?;
+    outputs.write(&mut record)?;
     github::announce(&record)?;
     Ok(match record.conformance.map(|conformance| conformance.verdict) {
         Some(Verdict::Disagreements) => Status::Disagreements,
@@ -238,11 +248,7 @@ fn first_steps(file: &str, disagreements: usize, has_settings: bool) -> String {
 }
 
 /// A part of a run is written for `merge`, and says nothing about conformance.
-fn part_only(
-    arguments: &CheckFlags,
-    partial: &PartialPart,
-    write: impl FnOnce() -> Result<(), Failure>,
-) -> Result<Status, Failure> {
+fn part_only(arguments: &CheckFlags, partial: &PartialPart) -> Result<(), Failure> {
     if arguments.bless {
         return Err(Failure::usage(
             "--bless: a part of a run is not what is expected of the whole",
@@ -253,7 +259,7 @@ fn part_only(
         let message = format!("holds {present} of {of} shards, which says nothing about the whole");
         return Err(InputError::of(file, message).into());
     }
-    write().map(|()| Status::Success)
+    Ok(())
 }
 
 /// Names the setting that a plan fails for: the one that fails alone in the same way.

@@ -56,6 +56,10 @@ pub fn read_record(path: &str) -> Result<Record, Failure> {
         return Err(InputError::of(path, message).into());
     }
     let record: Record = serde_json::from_str(&text).map_err(bad)?;
+    if record.checksum.as_ref().is_some_and(|written| *written != record.checksum_now()) {
+        let message = "its result is not the one that hairline wrote: the checksum differs, so numbers were changed since";
+        return Err(InputError::of(path, message).into());
+    }
     let target = &record.provenance.target;
     if target.is_empty() || !target.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
     {

@@ -4,7 +4,7 @@ use super::exit::{Failure, Status};
 use super::input::{corpus_sets, read_mesh, read_record};
 use super::plugins::PluginArguments;
 use super::progress::Progress;
-use super::reporting::{ReportArguments, illustrated, self_check};
+use super::reporting::{Outputs, ReportArguments, illustrated, self_check};
 use crate::audit::{Plan, Source, StoredSource};
 use crate::corpus::InputError;
 use crate::family::{MeshFamily, Stratum};
@@ -36,6 +36,10 @@ pub struct MergeArguments {
 /// Runs the command.
 pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let outputs = arguments.report.outputs()?;
+    outputs.told(joined(arguments, &outputs))
+}
+
+fn joined(arguments: &MergeArguments, outputs: &Outputs<'_>) -> Result<Status, Failure> {
     let files = &arguments.records;
     let records = files.iter().map(|file| read_record(file)).collect::<Result<Vec<_>, _>>()?;
     // What they answer is looked at again, for the worst findings and their causes. They go by the words of the run.
@@ -60,11 +64,11 @@ pub fn run(arguments: &MergeArguments) -> Result<Status, Failure> {
     let quiet = arguments.report.output.quiet;
     let progress = Progress::new(0, "indices", true);
     let illustrate = |plan: &Plan| outputs.illustrate().then(|| illustrated(plan));
-    let record =
+    let mut record =
         merged(parts, illustrate, &progress, |source, scalars| open(source, scalars, quiet))
             .map_err(|Unmergeable(failure)| failure)?;
     self_check(&record)?;
-    outputs.write(&record)?;
+    outputs.write(&mut record)?;
     Ok(Status::Success)
 }
 

@@ -3,7 +3,7 @@
 use super::before::{note_secondary_rays, scalars_in_use, set_threads, total_indices};
 use super::exit::{Failure, Status};
 use super::flags::{OUTPUT, RUNNING};
-use super::output::OutputArguments;
+use super::output::{OutputArguments, write_results};
 use super::plugins;
 use super::progress::Progress;
 use super::prove;
@@ -11,8 +11,8 @@ use super::select::KernelArguments;
 use super::sources::{SourceArguments, rays_at_each};
 use crate::audit::{self, Plan, Shard, Source};
 use crate::report::{
-    Context, FORMATS, Format, HTML, Illustrations, PartialPart, PlanFlags, Record, build,
-    group_digits, illustrations, number_of, shard_part,
+    Context, FORMATS, Format, HTML, Illustrations, ON_FAILURE, PartialPart, PlanFlags, Record,
+    build, group_digits, illustrations, number_of, shard_part,
 };
 use clap::{Args, ValueEnum};
 
@@ -67,8 +67,23 @@ impl Outputs<'_> {
         self.illustrate
     }
 
-    /// Writes a record to each.
-    pub fn write(&self, record: &Record) -> Result<(), Failure> {
+    /// The outcome of a run. If it failed, the formats that a CI reads say so.
+    pub fn told(&self, outcome: Result<Status, Failure>) -> Result<Status, Failure> {
+        if let Err(Failure::Message(status, message)) = &outcome {
+            let told = self.pairs.iter().filter_map(|(format, path)| {
+                let (_, write) = ON_FAILURE.iter().find(|(name, _)| *name == format.name)?;
+                Some((write, *path))
+            });
+            // The first failure is the one to tell.
+            let _ =
+                write_results(told.collect(), |write, _, out| write(*status as u8, message, out));
+        }
+        outcome
+    }
+
+    /// Writes a record to each, with its checksum.
+    pub fn write(&self, record: &mut Record) -> Result<(), Failure> {
+        record.checksum = Some(record.checksum_now());
         self.flags.write(self.pairs.clone(), record)
     }
 }

@@ -78,7 +78,7 @@ pub fn answered(product: &Product, tests: &[AnsweredTest]) -> Record {
     let mut provenance = provenance_of(&Context { seconds: 0.0, threads: 1 });
     let notes = product.note.clone().map(|note| (product.name.to_owned(), vec![note]));
     provenance.kernel_notes = notes.into_iter().collect();
-    Record {
+    let mut record = Record {
         schema: SCHEMA.to_owned(),
         result: ResultPart {
             plan: product.plan(&sets),
@@ -87,11 +87,14 @@ pub fn answered(product: &Product, tests: &[AnsweredTest]) -> Record {
             results: sets.iter().map(|set| set.result(product)).collect(),
             totals: product.totals(&sets),
         },
+        checksum: None,
         shard: None,
         conformance: None,
         illustrations: None,
         provenance,
-    }
+    };
+    record.checksum = Some(record.checksum_now());
+    record
 }
 
 impl Product<'_> {

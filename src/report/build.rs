@@ -40,6 +40,7 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
             results,
             totals: distribution::totals(plan, audit),
         },
+        checksum: None,
         shard: None,
         conformance: None,
         illustrations: None,

@@ -39,7 +39,7 @@ pub use conformance::*;
 pub(crate) use disagreement::counts_alone;
 pub use disagreement::{ALL_CLASSES, Disagreement, Key, disagreements, rate_of};
 #[cfg(feature = "studies")]
-pub use formats::{FORMATS, Format, HTML, Style};
+pub use formats::{FORMATS, Format, HTML, ON_FAILURE, Style};
 #[cfg(feature = "cli")]
 pub use illustrate::illustrations;
 pub use illustration::{Illustrations, MapPart, ProofPart, ProvedGate};

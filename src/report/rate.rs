@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 /// A count of a number of trials, with its 95 % interval if the trials are a random sample.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, try_from = "Read")]
+#[cfg_attr(test, schemars(!try_from))]
 pub struct Rate {
     /// How many.
     pub count: u64,
@@ -20,6 +21,31 @@ pub struct Rate {
     /// has one trial.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rays: Option<RayProducts>,
+}
+
+/// A rate as it is read.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Read {
+    count: u64,
+    of: u64,
+    rate: Option<f64>,
+    interval: Option<[f64; 2]>,
+    #[serde(default)]
+    rays: Option<RayProducts>,
+}
+
+impl TryFrom<Read> for Rate {
+    type Error = String;
+
+    fn try_from(read: Read) -> Result<Rate, String> {
+        let Read { count, of, rate, interval, rays } = read;
+        let trials = Trials::independent(count, of);
+        if of < count || rate != trials.share() {
+            return Err(format!("{count} of {of} is no rate of {rate:?}"));
+        }
+        Ok(Rate { count, of, rate, interval, rays })
+    }
 }
 
 impl Rate {

@@ -12,7 +12,9 @@ use super::conformance::Conformance;
 use super::illustration::Illustrations;
 pub use super::rate::Rate;
 use crate::audit::Trials;
+use crate::corpus::hex;
 pub use finding::*;
+use hmac_sha256::Hash;
 pub use kind::{FindingKind, Promised};
 pub use part::*;
 pub use plan::*;
@@ -31,6 +33,9 @@ pub struct Record {
     pub schema: String,
     /// The findings.
     pub result: ResultPart,
+    /// SHA-256 of `result` as JSON without spaces, hexadecimal; a record that was changed since is refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checksum: Option<String>,
     /// The data that `merge` needs; only in a part of a run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<ShardPart>,
@@ -42,6 +47,15 @@ pub struct Record {
     pub illustrations: Option<Illustrations>,
     /// Where and how it was made.
     pub provenance: Provenance,
+}
+
+#[cfg(feature = "studies")]
+impl Record {
+    /// The checksum of its findings as they are now.
+    pub fn checksum_now(&self) -> String {
+        let text = serde_json::to_string(&self.result).unwrap_or_default();
+        hex(&Hash::hash(text.as_bytes()))
+    }
 }
 
 /// The findings of a run.

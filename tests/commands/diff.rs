@@ -64,9 +64,23 @@ fn one_case_more_on_the_same_cases_is_worse() {
     let kind = result["findings"][0]["finding"].as_str().unwrap().replace('-', "_");
     let field = format!("{kind}{}", if kind == "false_miss" { "es" } else { "s" });
     let count = result["findings"][0]["rate"]["count"].as_u64().unwrap() + 1;
-    result["findings"][0]["rate"]["count"] = count.into();
-    result["classes"][&class][&field]["count"] = count.into();
+    let change = |rate: &mut serde_json::Value| {
+        rate["rate"] = (count as f64 / rate["of"].as_f64().unwrap()).into();
+        rate["count"] = count.into();
+    };
+    change(&mut result["findings"][0]["rate"]);
+    change(&mut result["classes"][&class][&field]);
+    let changed = record.to_string();
+    std::fs::write(folder.join("more.json"), &changed).unwrap();
+    let (_, error) = ends(&folder, &["diff", "one.json", "more.json"], 65);
+    assert!(error.contains("more.json: its result is not the one that hairline wrote"), "{error}");
+    record.as_object_mut().unwrap().remove("checksum").unwrap();
     std::fs::write(folder.join("more.json"), record.to_string()).unwrap();
+    // A rate that its counts do not give is refused with or without a checksum.
+    let wrong = changed.replacen(&format!("\"count\":{count},"), "\"count\":987654321,", 1);
+    std::fs::write(folder.join("wrong.json"), wrong).unwrap();
+    let (_, error) = ends(&folder, &["diff", "one.json", "wrong.json"], 65);
+    assert!(error.contains("wrong.json:1: 987654321 of "), "{error}");
     let counted = |old: &str, new: &str| {
         let (json, _) = ends(&folder, &["diff", old, new, "--format", "json"], 0);
         let comparison: serde_json::Value = serde_json::from_str(&json).unwrap();

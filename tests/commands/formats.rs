@@ -145,6 +145,37 @@ fn junit_obeys_its_public_schema_and_counts_its_failures() {
     assert_eq!(check.matches("<failure ").count(), 2, "one unexpected, one stale: {check}");
 }
 
+#[test]
+fn a_run_that_fails_says_so_where_a_ci_would_read_an_older_one() {
+    let folder = scratch("formats-failure");
+    fs::write(folder.join("bad <&>.jsonl"), "{\n").unwrap();
+    let flags = ["--kernel", "cramer", "--corpus", "bad <&>.jsonl", "--format", "junit,sarif,json"];
+    let outputs = ["-o", "a.xml", "-o", "a.sarif", "-o", "a.json"];
+    let xsd = fs::read_to_string(root().join("tests/schemas/junit-10.xsd")).unwrap();
+    let xsd = XsdValidator::from_schema(&uppsala::parse(&xsd).unwrap()).unwrap();
+    let schema = read_json(root().join("tests/schemas/sarif-2.1.0.json"));
+    for command in ["audit", "check"] {
+        for file in ["a.xml", "a.sarif", "a.json"] {
+            fs::write(folder.join(file), "of an older run").unwrap();
+        }
+        let (_, error) = ends(&folder, &[&[command, "-q"], &flags[..], &outputs].concat(), 65);
+        let message = error.trim().strip_prefix("hairline: ").unwrap();
+        assert!(message.starts_with("bad <&>.jsonl:1: "), "{message}");
+        let text = fs::read_to_string(folder.join("a.xml")).unwrap();
+        let document = uppsala::parse(&text).unwrap();
+        assert_eq!(xsd.validate(&document), []);
+        assert_eq!(attributes(&document, "error", "message"), [message]);
+        assert_eq!(attributes(&document, "error", "type"), ["exit 65"]);
+        let log = read_json(folder.join("a.sarif"));
+        assert_eq!(json_schema::errors(&schema, &log), [""; 0]);
+        let invocation = &log["runs"][0]["invocations"][0];
+        assert_eq!(invocation["executionSuccessful"], false);
+        assert_eq!(invocation["toolExecutionNotifications"][0]["message"]["text"], message);
+        // There is no record.
+        assert_eq!(fs::read_to_string(folder.join("a.json")).unwrap(), "of an older run");
+    }
+}
+
 /// An attribute of each element of a name, in their order.
 fn attributes<'a>(document: &'a Document, element: &str, attribute: &str) -> Vec<&'a str> {
     let elements = document.get_elements_by_tag_name(element).into_iter();

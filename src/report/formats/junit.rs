@@ -47,6 +47,22 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
     writeln!(out, "</testsuites>")
 }
 
+/// Writes that a run ended without a record: one test with an error.
+pub(super) fn write_failure(code: u8, message: &str, out: &mut dyn Write) -> io::Result<()> {
+    let message = escaped(message);
+    writeln!(
+        out,
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>
+<testsuites name=\"hairline\" tests=\"1\" failures=\"0\" errors=\"1\">
+  <testsuite name=\"hairline\" tests=\"1\" failures=\"0\" errors=\"1\" skipped=\"0\">
+    <testcase classname=\"hairline\" name=\"run\">
+      <error type=\"exit {code}\" message=\"{message}\"/>
+    </testcase>
+  </testsuite>
+</testsuites>"
+    )
+}
+
 fn failures<'a>(cases: impl Iterator<Item = &'a Case>) -> usize {
     cases.filter(|case| !case.failures.is_empty()).count()
 }

@@ -69,6 +69,13 @@ impl<R: Serialize> Format<R> {
         Format { name: "json", write: |record, _, out| write_json(record, out) };
 }
 
+/// Writes that there is no record, with the exit code and the message.
+type WriteFailure = fn(u8, &str, &mut dyn Write) -> io::Result<()>;
+
+/// The formats that a CI reads after the run, by name: without them it would show an older run's.
+pub const ON_FAILURE: &[(&str, WriteFailure)] =
+    &[("junit", junit::write_failure), ("sarif", sarif::write_failure)];
+
 /// The format that shows pictures.
 pub const HTML: &str = "html";
 

@@ -36,6 +36,27 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
             json!([{ "level": "warning", "message": { "text": text } }]);
     }
     let version = record.provenance.tool.trim_start_matches("hairline ");
+    let properties = json!({ "plan": record.result.plan.hash, "leftOut": left_out });
+    write_log(version, invocation, results, properties, out)
+}
+
+/// Writes that a run ended without a record: no results, and a notification of the tool.
+pub(super) fn write_failure(code: u8, message: &str, out: &mut dyn Write) -> io::Result<()> {
+    let invocation = json!({
+        "executionSuccessful": false,
+        "exitCode": code,
+        "toolExecutionNotifications": [{ "level": "error", "message": { "text": message } }],
+    });
+    write_log(env!("CARGO_PKG_VERSION"), invocation, Vec::new(), json!({}), out)
+}
+
+fn write_log(
+    version: &str,
+    invocation: Value,
+    results: Vec<Value>,
+    properties: Value,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let log = json!({
         "$schema": SCHEMA,
         "version": "2.1.0",
@@ -43,7 +64,7 @@ pub(super) fn write(record: &Record, _: Style, out: &mut dyn Write) -> io::Resul
             "tool": { "driver": { "name": "hairline", "version": version, "rules": rules() } },
             "invocations": [invocation],
             "results": results,
-            "properties": { "plan": record.result.plan.hash, "leftOut": left_out },
+            "properties": properties,
         }],
     });
     write_json(&log, out)

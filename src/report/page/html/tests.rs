@@ -95,6 +95,7 @@ fn record(kernels: &[String], families: &[String], findings: &[FindingPart]) -> 
             results: results.collect(),
             totals: Vec::new(),
         },
+        checksum: None,
         shard: None,
         conformance: None,
         illustrations: None,
