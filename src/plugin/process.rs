@@ -36,6 +36,9 @@ pub struct Limits {
 /// After how many cases a process that has never answered is given up.
 const NEVER_ANSWERED: u64 = 3;
 
+/// After so many processes that ended between batches, as if all was done, the command is one that does.
+const ENDED: u64 = 3;
+
 /// Why a kernel's process cannot be used.
 #[derive(Debug)]
 pub enum LoadError {
@@ -118,6 +121,8 @@ struct State {
     timeouts: u64,
     /// The first of them.
     first: Option<String>,
+    /// Processes that ended with 0 after they had answered.
+    ended: u64,
     margins: MarginFailures,
     notes: Vec<String>,
     gave_up: Option<String>,
@@ -197,7 +202,20 @@ impl Process {
     /// Gets the verdict on one case.
     fn ask_one<F: Float>(&self, case: &Case<F>, epsilons: &[F]) -> Result<Verdict<F>, String> {
         let mut verdict = [Verdict::miss(None)];
-        match self.ask(std::slice::from_ref(case), epsilons, &mut verdict, &mut []) {
+        let mut ask = || self.ask(std::slice::from_ref(case), epsilons, &mut verdict, &mut []);
+        let mut said = ask();
+        if let Err(Lost::Failed(Failure::Exit(0))) = said {
+            // It may have ended before the case came: then a new process answers.
+            self.state().idle.clear();
+            said = ask();
+            let mut state = self.state();
+            state.ended += u64::from(said.is_ok());
+            if ENDED <= state.ended {
+                let message = "it answers a batch and ends with exit code 0: a kernel reads on until its input ends";
+                return Err(message.to_owned());
+            }
+        }
+        match said {
             Ok(_) => Ok(verdict[0]),
             Err(Lost::Garbled(message)) => Err(message),
             Err(Lost::Failed(failure)) => self.pinned(failure, case),

@@ -85,30 +85,39 @@ pub(super) fn answer<F: Float>(line: &str) -> Result<Answer<'_, F>, String> {
         _ => return Err(shape()),
     };
     words
-        .try_fold(verdict, |verdict, word| with_value(verdict, word).ok_or_else(shape))
+        .try_fold(verdict, |verdict, word| with_value(verdict, word, line)?.ok_or_else(shape))
         .map(|verdict| Answer::Verdict(first, verdict))
 }
 
-fn with_value<F: Float>(mut verdict: Verdict<F>, word: &str) -> Option<Verdict<F>> {
-    let (key, value) = word.split_once('=').filter(|_| verdict.hit)?;
-    if key == "facing" {
-        verdict.facing = match value {
-            "front" => Some(Facing::Front),
-            "back" => Some(Facing::Back),
-            "unknown" => None,
-            _ => return None,
-        };
-        return Some(verdict);
+/// A verdict with one value more; none if the word is of no value that a hit has.
+fn with_value<F: Float>(
+    mut verdict: Verdict<F>,
+    word: &str,
+    line: &str,
+) -> Result<Option<Verdict<F>>, String> {
+    let Some((key, text)) = word.split_once('=').filter(|_| verdict.hit) else { return Ok(None) };
+    let own = match (key, text) {
+        ("facing", "front" | "back" | "unknown") => {
+            verdict.facing = match text {
+                "front" => Some(Facing::Front),
+                "back" => Some(Facing::Back),
+                _ => None,
+            };
+            return Ok(Some(verdict));
+        }
+        ("t", _) => &mut verdict.t,
+        ("u", _) => &mut verdict.u,
+        ("v", _) => &mut verdict.v,
+        _ => return Ok(None),
+    };
+    if line.matches(&format!(" {key}=")).count() > 1 {
+        return Err(format!("it gives {key} twice in '{}'", shown(line)));
     }
     // A kernel that computes in f64 may give a number that the case's scalar cannot hold.
-    let value = F::from_f64(number::parse::<f64>(&value.to_ascii_lowercase()).ok()?);
-    match key {
-        "t" => verdict.t = value,
-        "u" => verdict.u = value,
-        "v" => verdict.v = value,
-        _ => return None,
-    }
-    Some(verdict)
+    let number = number::parse::<f64>(&text.to_ascii_lowercase());
+    let number = number.map_err(|error| format!("{key}={text} in '{}': {error}", shown(line)))?;
+    *own = F::from_f64(number);
+    Ok(Some(verdict))
 }
 
 #[cfg(test)]
@@ -161,8 +170,6 @@ mod tests {
             "17",
             "17 maybe",
             "17 hit 0.5",
-            "17 hit t=",
-            "17 hit t=x",
             "17 hit w=1",
             "17 hit facing=left",
             "17 miss t=1",
@@ -174,6 +181,15 @@ mod tests {
         ] {
             let error = verdict(line).unwrap_err();
             assert!(error.starts_with("expected 'ID miss', "), "{line}: {error}");
+        }
+        for (line, expected) in [
+            ("17 hit t=", "t= in '17 hit t=': '' is not a number"),
+            ("17 hit u=x", "u=x in '17 hit u=x': 'x' is not a number"),
+            ("17 hit t=1e400", "t=1e400 in '17 hit t=1e400': '1e400' overflows f64"),
+            ("17 hit t=1 t=2", "it gives t twice in '17 hit t=1 t=2'"),
+        ] {
+            let error = verdict(line).unwrap_err();
+            assert!(error.starts_with(expected), "{line}: {error}");
         }
         assert!(verdict(&"x".repeat(5000)).unwrap_err().len() < 300);
     }

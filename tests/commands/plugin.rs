@@ -702,6 +702,24 @@ fn answers_that_are_none_end_the_run_and_never_hang_it() {
 }
 
 #[test]
+fn a_command_that_ends_after_each_batch_hears_that_it_should_read_on() {
+    let once = shell(&MISSES.replace("echo end $id;;", "echo end $id; exit 0;;"));
+    let plan = ["audit", "--family", "interior", "--scalar", "f64", "-n", "3000", "--kernel-cmd"];
+    let error = refused(&[&plan[..], &[&once]].concat(), 65);
+    assert!(
+        error.contains("it answers a batch and ends with exit code 0: a kernel reads on"),
+        "{error}"
+    );
+    // Who ends on some case is no such command.
+    let dies = shell(&MISSES.replace(
+        "case) echo $id miss;;",
+        "case) case $rest in *7777*) exit 0;; esac; echo $id miss;;",
+    ));
+    let (record, _) = record(&[&plan[1..], &[&dies]].concat());
+    assert!(1 < count(&record, "crashes"), "{record}");
+}
+
+#[test]
 fn a_command_that_dies_or_is_silent_on_a_case_is_a_finding() {
     // Every case whose origin's first number has a 77 in it; the same in Rust.
     let interior = family::find("interior").unwrap();
