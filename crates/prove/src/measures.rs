@@ -27,7 +27,7 @@ pub struct Measures {
 }
 
 /// A limit of the size of a number, and where it comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Limit {
     /// The domain's limit of all divisors, or of all quotients.
     Domain(Dyadic),

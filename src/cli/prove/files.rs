@@ -4,8 +4,8 @@ use super::ProveArguments;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_result;
 use crate::kernel::{Entry, Scalar};
-use crate::prove::certificate::{self, Claim, Heading, heading, program};
-use crate::prove::{Domain, Effort, Searched, Summary, gappa};
+use crate::prove::certificate::{self, Claim, Heading, heading, program, symmetry_at};
+use crate::prove::{Domain, Effort, Quantity, Searched, Summary, gappa};
 
 /// Writes the certificate of one kernel in one scalar.
 pub fn certify(
@@ -41,12 +41,15 @@ fn certificate_of<F: Searched + Scalar>(
     let mut stated = None;
     for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
         let path = &summary.proof.paths[quantity.path];
-        let claim = Claim::new(&entry.info.gates[quantity.gate], path, quantity.place);
+        let Quantity { place, orders, also, .. } = quantity;
+        let gate = &entry.info.gates[quantity.gate];
+        let symmetry = symmetry_at(gate, path, *place);
+        let claim = Claim { gate: gate.name, place: *place, symmetry, orders, also };
         if stated != Some(quantity.domain) {
             text.push_str(&certificate::domain(&quantity.domain));
             stated = Some(quantity.domain);
         }
-        text.push_str(&program(path, &quantity.lemmas, &[claim]));
+        text.push_str(&program(path, &quantity.lemmas, &claim));
     }
     if stated.is_none() { Err("no gate has a bound in this domain".to_owned()) } else { Ok(text) }
 }
