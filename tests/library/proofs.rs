@@ -597,7 +597,9 @@ fn values_of_an_edge_that_are_no_exact_negatives_or_have_other_signs_are_refused
     // otherwise, or have the sign of nothing.
     let not_negative = refusal(&difference(true, "opposite"));
     assert!(not_negative.ends_with("its negative where the vertices are exchanged"));
-    assert!(refusal(&difference(false, "signs")).ends_with("x(p)*y(q) - x(q)*y(p) of two vertices"));
+    assert!(
+        refusal(&difference(false, "signs")).ends_with("x(p)*y(q) - x(q)*y(p) of two vertices")
+    );
     assert!(check(&difference(false, "opposite")).is_ok());
 }
 

@@ -92,7 +92,10 @@ impl<'p, 'a> Builder<'p, 'a> {
         if let Step::Neg(inner) = steps[step] {
             return self.leave_out(inner);
         }
-        given[step].iter_mut().filter(|_| rounds[step]).for_each(|bound| bound.error = Dyadic::ZERO);
+        given[step]
+            .iter_mut()
+            .filter(|_| rounds[step])
+            .for_each(|bound| bound.error = Dyadic::ZERO);
         std::mem::replace(&mut rounds[step], false)
     }
 

@@ -178,7 +178,8 @@ impl Writer<'_> {
                 Source::Quotient => "quotient".to_owned(),
             };
             let narrow = formula.narrow.iter().find(|(narrow, ..)| *narrow == v);
-            let over = narrow.map_or(String::new(), |(_, ratio, _)| format!(" over {}", self.at(*ratio)));
+            let over =
+                narrow.map_or(String::new(), |(_, ratio, _)| format!(" over {}", self.at(*ratio)));
             writeln!(text, "variable {source}{over}").expect("a string");
         }
         for (i, step) in formula.steps.iter().enumerate() {

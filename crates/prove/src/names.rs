@@ -50,10 +50,7 @@ impl Names {
         let from = |one: [u8; 3], other: [u8; 3]| {
             one.map(|name| other.iter().position(|known| *known == name).expect("all names") as u8)
         };
-        Names {
-            axes: from(self.axes, other.axes),
-            vertices: from(self.vertices, other.vertices),
-        }
+        Names { axes: from(self.axes, other.axes), vertices: from(self.vertices, other.vertices) }
     }
 }
 

@@ -74,10 +74,11 @@ fn checked(file: &str) -> Result<String, Failure> {
         }
     }
     // What divides must be there for each size of triangles for which anything is, and so must what does not.
-    let of_kind = |claims: &mut dyn Iterator<Item = &Proved>, is_limited: bool| -> BTreeSet<String> {
-        let of_kind = claims.filter(|claim| has_limits(claim) == is_limited);
-        of_kind.map(|claim| claim.programs[0].operations.clone()).collect()
-    };
+    let of_kind =
+        |claims: &mut dyn Iterator<Item = &Proved>, is_limited: bool| -> BTreeSet<String> {
+            let of_kind = claims.filter(|claim| has_limits(claim) == is_limited);
+            of_kind.map(|claim| claim.programs[0].operations.clone()).collect()
+        };
     // A claim without its domain is none.
     for (domain, claims) in &sections {
         let is_limited = claims.iter().any(|claim| has_limits(claim));
@@ -172,7 +173,9 @@ impl Recorded {
             let found = numbers.find(|((gate, operations), _)| {
                 (*gate, operations) == (&claim.gate, &program.operations)
             });
-            found.is_some_and(|(_, paths)| paths.iter().any(|path| self.follow(&program.orders, *path)))
+            found.is_some_and(|(_, paths)| {
+                paths.iter().any(|path| self.follow(&program.orders, *path))
+            })
         })
     }
 

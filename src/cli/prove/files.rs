@@ -1,18 +1,20 @@
 //! Writes certificates, and scripts for Gappa.
 
 use super::ProveArguments;
+use crate::audit::shell_word;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_result;
 use crate::kernel::{Entry, Scalar};
 use crate::prove::certificate::{self, Claim, Heading, heading, program, symmetry_at};
 use crate::prove::{Domain, Effort, Quantity, Searched, Summary, gappa};
+use crate::report::number_of;
 
 /// Writes the certificate of one kernel in one scalar.
 pub fn certify(
     entries: &[&'static Entry],
     scalars: [bool; 2],
     domains: (Domain, &[Domain]),
-    path: &str,
+    (path, quiet): (&str, bool),
 ) -> Result<Status, Failure> {
     let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
         return Err(Failure::usage("--certificate is of one --kernel in one --scalar"));
@@ -27,6 +29,12 @@ pub fn certify(
         Failure::Message(Status::NothingSelected, message)
     })?;
     write_result(path, |out| out.write_all(text.as_bytes()))?;
+    if !quiet {
+        let bounds = text.lines().filter(|line| line.starts_with("claim ")).count() as u64;
+        let bounds = number_of(bounds, "bound", "bounds");
+        let check = format!("check it: hairline prove --check {}", shell_word(path));
+        eprintln!("{path}: {bounds} of what {} compares; {check}", entry.info.name);
+    }
     Ok(Status::Success)
 }
 

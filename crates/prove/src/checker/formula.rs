@@ -155,8 +155,7 @@ impl<'a> Formula<'a> {
                 _ => return Err("variables that are, or add up to, this operation"),
             };
         } else if name == "number" {
-            let value =
-                words.first().and_then(|word| whole(word)).filter(|_| words.len() == 1);
+            let value = words.first().and_then(|word| whole(word)).filter(|_| words.len() == 1);
             let right = operation.map_or(Some(1), |o| (o.name == name).then_some(o.value));
             step.constant =
                 value.filter(|value| right == Some(*value)).ok_or("the program's number")?;

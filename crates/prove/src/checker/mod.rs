@@ -240,7 +240,8 @@ fn quotient(
     let closest = if of_divisor { floor - below_before } else { least.clone() };
     let mut error = formula.maximum(format, work, reader)?.error / closest;
     let mut before = &size + &error;
-    let left_out = u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(program, n)));
+    let left_out =
+        u8::from(of_divisor) + u8::from(n.is_some_and(|n| formula.leaves_out(program, n)));
     if left_out > 0 {
         let tiny = &format.tiny / least;
         let share = &format.unit + &tiny;

@@ -14,7 +14,8 @@ impl Names {
     pub fn parse(words: &[&str]) -> Option<Names> {
         let &[axes, vertices] = words else { return None };
         let places = |word: &str, letters: &str| {
-            let places: Option<Vec<usize>> = word.chars().map(|letter| letters.find(letter)).collect();
+            let places: Option<Vec<usize>> =
+                word.chars().map(|letter| letters.find(letter)).collect();
             let places: [usize; 3] = places?.try_into().ok()?;
             (0..3).all(|i| places.contains(&i)).then_some(places)
         };
