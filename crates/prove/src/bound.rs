@@ -105,7 +105,7 @@ pub struct Prover<'a> {
     pub(super) format: Format,
     bounds: HashMap<Place, Result<Bound, String>>,
     /// In a scene, what says which numbers it knows.
-    pub(super) samples: Option<(Samples, Measures)>,
+    pub(super) samples: Option<(Samples<'a>, Measures)>,
     /// For each number, true if its conditions count; none if all do.
     counts: Option<Vec<bool>>,
     /// The lemmas so far, each after those that it uses.

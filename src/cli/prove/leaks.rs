@@ -35,8 +35,7 @@ pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
     let unit_direction = row.contract.direction != Direction::Any;
     let parameters = Parameters { unit_direction, ..Parameters::default() };
     let (seed, count, exhaustive) = (1, TRIES, false);
-    let source =
-        Source::Family { family, parameters: parameters.clone(), seed, count, exhaustive };
+    let source = Source::Family { family, parameters: parameters.clone(), seed, count, exhaustive };
     let scalars = [F::NAME == "f32", F::NAME == "f64"];
     let (rows, sources) = (vec![row.clone()], vec![source]);
     let plan = Plan { rows, sources, scalars, examples: 64, attribute: 0 };
