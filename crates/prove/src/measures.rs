@@ -54,7 +54,7 @@ pub(super) struct Known<R> {
     pub value: R,
 }
 
-/// What a number is in a program.
+/// The use of a number in a program.
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
     Divisor,

@@ -194,7 +194,7 @@ impl Recorded {
         missing.map(|((gate, _), _)| *gate).collect()
     }
 
-    /// What was compared, where nothing is missing.
+    /// The comparison in words, where nothing is missing.
     fn all(&self, proved: &[Proved]) -> String {
         let programs: BTreeSet<&str> =
             proved.iter().map(|claim| &claim.programs[0].operations[..]).collect();
