@@ -667,8 +667,8 @@ fn the_worst_known_in_a_scene_is_as_bad_as_a_sample_finds() {
     let record = json(&hairline(&[&flags[..], &["--scene", "room"]].concat()));
     let gates = record["gates"].as_array().unwrap();
     let edge = gates.iter().find(|gate| gate["gate"] == "edge").unwrap();
-    // Three seconds of drawing plain rays in such a room found u and v that are wrong by 0.02 and more.
+    // Three seconds of drawing plain rays in such a room found a v that is wrong by 0.424.
     let known = edge["witness"]["units"].as_f64().unwrap() * 2f64.powi(-24);
     let bound = edge["bound_units"].as_f64().unwrap() * 2f64.powi(-24);
-    assert!((0.02..bound).contains(&known), "{known} of {bound}");
+    assert!((0.424..bound).contains(&known), "{known} of {bound}");
 }

@@ -9,6 +9,8 @@ use glam::DVec3;
 
 /// After so many evaluations without anything better a climb starts elsewhere.
 const STALE: u64 = 20_000;
+/// In a scene, where inputs differ by much: a climb begins at the worst of so many.
+const STARTS: u64 = 1_000;
 /// Steps to where the errors could be large.
 const ASCENT: u64 = 3_000;
 
@@ -33,11 +35,16 @@ impl<F: Searched> Search<'_, F> {
             left -= 1;
             // Starts again where nothing better came for long; sometimes from a known case.
             if current.is_none() || stale > STALE {
-                let inputs = match known {
-                    [_, ..] if draw.below(4) == 0 => draw.pick(known),
-                    _ => self.start(goal, draw),
-                };
-                current = self.score(&inputs, goal, &mut near).map(|score| (inputs, score));
+                let starts = if self.domain.measures.is_some() { left.min(STARTS) } else { 0 };
+                left -= starts;
+                let started = (0..=starts).filter_map(|_| {
+                    let inputs = match known {
+                        [_, ..] if draw.below(4) == 0 => draw.pick(known),
+                        _ => self.start(goal, draw),
+                    };
+                    self.score(&inputs, goal, &mut near).map(|score| (inputs, score))
+                });
+                current = started.max_by(|(_, a), (_, b)| a.total_cmp(b));
                 if let Some((inputs, score)) = &mut current
                     && goal != Goal::Zero
                     && draw.coin()

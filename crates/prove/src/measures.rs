@@ -170,6 +170,13 @@ const LARGER: f64 = 1.01;
 const ROOT: f64 = 1.423;
 
 impl Measures {
+    /// True of a triangle and a ray of the scene: not smaller, and at no smaller angle.
+    pub(super) fn hold(&self, Sample { direction, normal, .. }: &Sample<f64>) -> bool {
+        let [area, sine] = [self.area, self.sine].map(|x| x.to_f64());
+        let (length, volume) = (normal.dot(normal).sqrt(), normal.dot(direction));
+        area <= length && sine * length * direction.dot(direction).sqrt() <= volume.abs()
+    }
+
     /// The numbers that a scene knows, given the axes of N's largest coordinate.
     pub(super) fn known<R: Real>(
         &self,
